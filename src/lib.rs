@@ -1,0 +1,32 @@
+//! Lumen opens a blood-vessel surface, keeps its largest connected piece, smooths it, reduces it to a
+//! progressive mesh and proves the result with a virtual guidewire.
+//!
+//! A module knows only the modules below it:
+//!
+//! ```text
+//! mesh < io, phantom, pipeline, trial < engine < app < desktop, web
+//! ```
+//!
+//! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
+//! - [`io`]: bytes to mesh and back, one file a format, with a report of what was mended.
+//! - [`phantom`]: vessel trees that Lumen makes itself, cut from a voxel mask by marching cubes.
+//! - [`pipeline`]: connectivity, windowed-sinc smoothing, normals, decimation, the progressive mesh, deviation.
+//! - [`engine`]: the pipeline as work that never blocks a frame: commands in, events out.
+//! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
+//! - `app`: the window's content, the same on the desktop and in the browser (feature `gui`).
+//! - `desktop`: what the desktop gives the app: files and threads (feature `gui`).
+//! - `cli`: the subcommands.
+
+#[cfg(feature = "gui")]
+pub mod app;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod cli;
+#[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
+pub mod desktop;
+pub mod engine;
+pub mod io;
+pub mod mesh;
+pub mod phantom;
+pub mod pipeline;
+#[cfg(feature = "gui")]
+pub mod render;

@@ -1,0 +1,2 @@
+//! Lumen in a browser.
+fn main() {}

@@ -1,0 +1,59 @@
+//! The surface: a list of triangles over shared vertices, in millimetres, and what can be asked of it.
+//!
+//! [`TriMesh`] holds data and knows no algorithm; each algorithm is a file beside it.
+
+mod boundary;
+mod bounds;
+mod components;
+mod measures;
+mod topology;
+
+pub use boundary::boundary_loops;
+pub use bounds::Bounds;
+pub use components::{Components, components};
+pub use glam::Vec3;
+pub use measures::{Measures, measures, surface_area, triangle_area, volume};
+pub use topology::{EdgeCounts, EdgeUse, Topology};
+
+/// A triangle surface. Triangles wind counter-clockwise seen from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriMesh {
+    /// Vertex positions in mm.
+    pub positions: Vec<Vec3>,
+    /// Vertex indices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl TriMesh {
+    /// The axis-aligned box around all positions; empty for a mesh without vertices.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(&self.positions)
+    }
+
+    /// The corners of triangle `t`.
+    ///
+    /// # Panics
+    /// When `t` or one of its indices is out of range.
+    pub fn corners(&self, t: usize) -> [Vec3; 3] {
+        self.triangles[t].map(|v| self.positions[v as usize])
+    }
+
+    /// The sub-surface of the triangles for which `keep` is true, with unused vertices left out.
+    /// Vertices and triangles keep their order.
+    pub fn filtered(&self, mut keep: impl FnMut(usize) -> bool) -> TriMesh {
+        const UNUSED: u32 = u32::MAX;
+        let kept: Vec<[u32; 3]> = (0..self.triangles.len()).filter(|&t| keep(t)).map(|t| self.triangles[t]).collect();
+        let mut index = vec![UNUSED; self.positions.len()];
+        for &v in kept.as_flattened() {
+            index[v as usize] = 0;
+        }
+        let mut positions = Vec::new();
+        for (slot, &p) in index.iter_mut().zip(&self.positions) {
+            if *slot != UNUSED {
+                *slot = positions.len() as u32;
+                positions.push(p);
+            }
+        }
+        TriMesh { positions, triangles: kept.into_iter().map(|t| t.map(|v| index[v as usize])).collect() }
+    }
+}
