@@ -1,1 +1,7 @@
-//! The module `pipeline`.
+//! The method: connectivity, smoothing, normals, decimation to a progressive mesh, deviation.
+
+pub mod connectivity;
+pub mod filter;
+pub mod settings;
+pub mod smoothing;
+pub mod task;
