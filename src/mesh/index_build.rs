@@ -232,9 +232,8 @@ fn union(regions: impl Iterator<Item = Region>) -> Region {
 fn halves(range: &Range, items: &mut [Item], axis: usize) -> [Range; 2] {
     let middle = range.start + range.len() / 2;
     let key = |item: &Item| item.min[axis] + item.max[axis];
-    items[range.start..range.end].select_nth_unstable_by(range.len() / 2, |a, b| {
-        key(a).total_cmp(&key(b)).then(a.triangle.cmp(&b.triangle))
-    });
+    items[range.start..range.end]
+        .select_nth_unstable_by(range.len() / 2, |a, b| key(a).total_cmp(&key(b)).then(a.triangle.cmp(&b.triangle)));
     [(range.start, middle), (middle, range.end)].map(|(start, end)| {
         let part = &items[start..end];
         let bounds = union(part.iter().map(|item| Region { min: item.min.into(), max: item.max.into() }));
@@ -291,8 +290,7 @@ impl IndexBuild {
         for (offset, corners) in triangles[self.next..end].iter().enumerate() {
             let [a, b, c] = corners.map(|v| positions[v as usize]);
             if a.is_finite() && b.is_finite() && c.is_finite() {
-                let item =
-                    Item { min: a.min(b).min(c), max: a.max(b).max(c), triangle: (self.next + offset) as u32 };
+                let item = Item { min: a.min(b).min(c), max: a.max(b).max(c), triangle: (self.next + offset) as u32 };
                 let centroid = item.centroid();
                 self.all.include(centroid, centroid);
                 self.items.push(item);
@@ -315,8 +313,7 @@ impl IndexBuild {
         }
         self.nodes.push(Node::EMPTY);
         if count <= LEAF {
-            let bounds =
-                union(self.items.iter().map(|item| Region { min: item.min.into(), max: item.max.into() }));
+            let bounds = union(self.items.iter().map(|item| Region { min: item.min.into(), max: item.max.into() }));
             self.nodes[0].add(bounds.min.into(), bounds.max.into(), 0, count as u8);
             return;
         }

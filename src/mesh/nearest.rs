@@ -266,7 +266,8 @@ mod tests {
     /// Points spread over a cube around the origin by a fixed sequence.
     fn cloud(count: u32, half: f32) -> impl Iterator<Item = Vec3> {
         let part = |i: u32, step: u32| (i.wrapping_mul(step) >> 8) as f32 / (1 << 24) as f32 * 2.0 - 1.0;
-        (1..=count).map(move |i| Vec3::new(part(i, 3_518_319_155), part(i, 2_882_110_345), part(i, 2_360_945_575)) * half)
+        (1..=count)
+            .map(move |i| Vec3::new(part(i, 3_518_319_155), part(i, 2_882_110_345), part(i, 2_360_945_575)) * half)
     }
 
     #[test]

@@ -42,7 +42,8 @@ pub(crate) fn icosphere(level: u32, radius: f32, centre: Vec3) -> TriMesh {
             })
             .collect();
     }
-    let positions = positions.iter().map(|p| (p.as_dvec3().normalize() * f64::from(radius)).as_vec3() + centre).collect();
+    let positions =
+        positions.iter().map(|p| (p.as_dvec3().normalize() * f64::from(radius)).as_vec3() + centre).collect();
     TriMesh { positions, triangles }
 }
 

@@ -1,1 +1,3 @@
 //! The module `pipeline`.
+pub mod deviation;
+pub mod normals;
