@@ -35,7 +35,7 @@ impl Foot {
 
 /// Whether the triangle needs [`foot_on_sliver`].
 pub(super) fn is_sliver(corners: [Vec3; 3]) -> bool {
-    let [a, b, c] = corners.map(|p| p.as_dvec3());
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
     !is_wider(b - a, c - a, SLIVER)
 }
 
@@ -185,7 +185,7 @@ mod tests {
             let (one, other) = (foot_on_triangle(p, corners), foot_on_sliver(p, corners));
             prop_assert!((one.squared.sqrt() - other.squared.sqrt()).abs() < 1e-9);
             let (v, w) = if s + t <= 1.0 { (s, t) } else { (1.0 - s, 1.0 - t) };
-            let [a, b, c] = corners.map(|q| q.as_dvec3());
+            let [a, b, c] = corners.map(Vec3::as_dvec3);
             let elsewhere = p.as_dvec3().distance(a + (b - a) * v + (c - a) * w);
             prop_assert!(one.squared.sqrt() <= elsewhere + 1e-9);
         }

@@ -209,12 +209,12 @@ impl Split {
         }
         let (mut region, mut count) = (Region::default(), 0);
         let mut best = (f32::INFINITY, None);
-        for plane in 1..BINS {
-            region.include(self.bins[plane - 1].bounds.min, self.bins[plane - 1].bounds.max);
-            count += self.bins[plane - 1].count;
-            let cost = region.half_area() * count as f32 + right_costs[plane];
+        for (below, (bin, right_cost)) in self.bins.iter().zip(&right_costs[1..]).enumerate() {
+            region.include(bin.bounds.min, bin.bounds.max);
+            count += bin.count;
+            let cost = region.half_area() * count as f32 + right_cost;
             if count > 0 && cost < best.0 {
-                best = (cost, Some(plane));
+                best = (cost, Some(below + 1));
             }
         }
         best.1

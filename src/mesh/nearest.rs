@@ -150,7 +150,7 @@ impl SurfaceIndex {
 
     /// The nearest point of the surface to `p`; `None` for an empty surface or a query that is not finite.
     pub fn nearest(&self, p: Vec3) -> Option<Nearest> {
-        self.answer(p, self.search(p, Best::within(f64::INFINITY), -1.0))
+        self.answer(self.search(p, Best::within(f64::INFINITY), -1.0))
     }
 
     /// The same answer as [`Self::nearest`], found sooner when `p` is near an earlier query whose answer was `last`.
@@ -160,13 +160,13 @@ impl SurfaceIndex {
         if let Some(leaf) = self.leaves.get(last.slot as usize) {
             best.offer(leaf.foot(p), leaf.triangle, last.slot);
         }
-        self.answer(p, self.search(p, best, -1.0))
+        self.answer(self.search(p, best, -1.0))
     }
 
     /// The nearest point of the surface to `p` if it is at most `distance` mm away: for an upper bound that is known,
     /// or where what is farther does not matter.
     pub fn nearest_within(&self, p: Vec3, distance: f32) -> Option<Nearest> {
-        self.answer(p, self.search(p, bounded(distance)?, -1.0))
+        self.answer(self.search(p, bounded(distance)?, -1.0))
     }
 
     /// Whether some point of the surface is at most `distance` mm from `p`. Ends at the first one found.
@@ -219,12 +219,11 @@ impl SurfaceIndex {
         best
     }
 
-    fn answer(&self, p: Vec3, best: Best) -> Option<Nearest> {
+    fn answer(&self, best: Best) -> Option<Nearest> {
         let leaf = self.leaves.get(best.slot as usize)?;
-        let [a, b, c] = leaf.corners.map(|q| q.as_dvec3());
+        let [a, b, c] = leaf.corners.map(Vec3::as_dvec3);
         let Foot { squared, v, w } = best.foot;
         let u = (1.0 - v - w).max(0.0);
-        debug_assert!(p.is_finite());
         Some(Nearest {
             triangle: leaf.triangle,
             point: (a + (b - a) * v + (c - a) * w).as_vec3(),

@@ -248,13 +248,13 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
         let Side { mesh, used, .. } = &self.sides[side];
         let Some(other) = &self.sides[1 - side].index else { return };
         let mut last = None;
-        for v in self.next..end {
-            let p = mesh.positions[v];
+        let piece = self.next..end;
+        for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
             if side == 0 {
-                let distance = if used[v] { distance(other, p, &mut last) } else { 0.0 };
+                let distance = if used { distance(other, p, &mut last) } else { 0.0 };
                 self.farthest = self.farthest.max(distance);
                 self.per_vertex.push(distance);
-            } else if used[v] && !other.is_within(p, self.farthest) {
+            } else if used && !other.is_within(p, self.farthest) {
                 self.farthest = self.farthest.max(distance(other, p, &mut last));
             }
         }
@@ -335,7 +335,7 @@ impl<M: Deref<Target = TriMesh>> Sampler<'_, M> {
             while t + 1 < areas.len() && areas[t] <= target {
                 t += 1;
             }
-            let [a, b, c] = self.side.mesh.corners(t.min(areas.len() - 1)).map(|p| p.as_dvec3());
+            let [a, b, c] = self.side.mesh.corners(t.min(areas.len() - 1)).map(Vec3::as_dvec3);
             // The square root makes the density even (Osada, Funkhouser, Chazelle and Dobkin 2002, section 3.2).
             let (root, along) = (unit(self.stream, i, 1).sqrt(), unit(self.stream, i, 2));
             (a * (1.0 - root) + b * (root * (1.0 - along)) + c * (root * along)).as_vec3()
