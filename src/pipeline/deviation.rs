@@ -13,12 +13,11 @@ use std::mem;
 use std::ops::Deref;
 use std::sync::Arc;
 use std::task::Poll;
-use std::time::Duration;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
-use web_time::Instant;
 
+use super::task::{Budget, Progress, Task};
 use crate::mesh::{IndexBuild, Nearest, SurfaceIndex, TriMesh, triangle_area};
 
 /// Samples of each surface for a report.
@@ -144,35 +143,8 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
         self.sides[1].index.as_ref()
     }
 
-    /// Works for about `budget` and says whether it is finished. The clock is read every fraction of a millisecond;
-    /// the summary at the end takes up to 15 ns a sample in one piece.
-    ///
-    /// # Panics
-    /// When an index of a triangle is out of range.
-    pub fn advance(&mut self, budget: Duration) -> Poll<()> {
-        let start = Instant::now();
-        while self.stage < STAGES.len() {
-            self.step();
-            if start.elapsed() >= budget && self.stage < STAGES.len() {
-                return Poll::Pending;
-            }
-        }
-        Poll::Ready(())
-    }
-
-    /// Runs to the end. `None` where one of the surfaces has no area.
-    ///
-    /// # Panics
-    /// When an index of a triangle is out of range.
-    pub fn finish(mut self) -> Option<Comparison> {
-        while self.stage < STAGES.len() {
-            self.step();
-        }
-        self.result
-    }
-
     /// The part that is done, 0-1, by estimated time.
-    pub fn fraction(&self) -> f32 {
+    fn fraction(&self) -> f32 {
         let cost = |stage: &Stage| self.cost(*stage) as f32;
         let done: f32 = STAGES[..self.stage].iter().map(cost).sum();
         let all: f32 = STAGES.iter().map(cost).sum();
@@ -269,6 +241,23 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
             self.farthest = self.farthest.max(distance);
             self.distances.push(distance);
         }
+    }
+}
+
+impl<M: Deref<Target = TriMesh>> Task for DeviationTask<M> {
+    /// `None` where one of the surfaces has no area.
+    type Output = Option<Comparison>;
+
+    /// The clock is read every fraction of a millisecond; the summary at the end takes up to 15 ns a sample in one
+    /// piece.
+    fn advance(&mut self, budget: Budget) -> Progress<Option<Comparison>> {
+        while self.stage < STAGES.len() {
+            self.step();
+            if self.stage < STAGES.len() && budget.is_spent() {
+                return Progress::Working(self.fraction());
+            }
+        }
+        Progress::Done(self.result.take())
     }
 }
 
@@ -375,6 +364,8 @@ fn summary(distances: &mut [f32], farthest: f32) -> Deviation {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
     use crate::mesh::shapes::{icosphere, sagitta, square};
 
@@ -461,12 +452,17 @@ mod tests {
         let whole = DeviationTask::new(a.clone(), b.clone(), 5000).finish().unwrap();
         let mut task = DeviationTask::new(a.clone(), b.clone(), 5000);
         let mut fraction = 0.0;
-        while task.advance(Duration::ZERO).is_pending() {
-            assert!((fraction..=1.0).contains(&task.fraction()), "{fraction} then {}", task.fraction());
-            fraction = task.fraction();
-        }
+        let sliced = loop {
+            match task.advance(Budget::new(Duration::ZERO)) {
+                Progress::Working(now) => {
+                    assert!((fraction..=1.0).contains(&now), "{fraction} then {now}");
+                    fraction = now;
+                }
+                Progress::Done(result) => break result.unwrap(),
+            }
+        };
         let index = task.index_of_b().unwrap().clone();
-        assert_eq!(task.finish().unwrap(), whole);
+        assert_eq!(sliced, whole);
         assert_eq!(DeviationTask::new(a, b, 5000).with_index_of_b(index).finish().unwrap(), whole);
     }
 

@@ -9,6 +9,7 @@ pub mod deviation;
 pub mod filter;
 pub mod normals;
 pub mod progressive;
+pub mod report;
 pub mod run;
 pub mod settings;
 pub mod smoothing;
