@@ -9,7 +9,7 @@ use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
 use super::weld::weld;
 use super::{Unit, winding};
-use crate::mesh::{Bounds, Topology, TriMesh, Vec3, components, measures};
+use crate::mesh::{Topology, TriMesh, Vec3, components, measures};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 const FARTHEST_MM: f64 = 1e9;

@@ -87,9 +87,35 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
     let header = header(bytes)?;
     let body = &bytes[header.body..];
     match header.encoding {
-        Encoding::Ascii => read_body(&header, AsciiNumbers { words: Words::new(body, header.body_line) }),
-        Encoding::Little => read_body(&header, BinaryNumbers::<false> { bytes: body }),
-        Encoding::Big => read_body(&header, BinaryNumbers::<true> { bytes: body }),
+        Encoding::Ascii => read_ascii(&header, body),
+        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false> { bytes: body }),
+        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true> { bytes: body }),
+    }
+}
+
+/// Reads a body of text. White space is white space to the format; but where the numbers do not come out even, a
+/// header has left out some that stand at the ends of lines (MeshLab once wrote colours so), and taking every row to
+/// be a line gets over them.
+fn read_ascii(header: &Header, body: &[u8]) -> Result<RawSurface, ReadError> {
+    let attempt = |row_is_line| {
+        let mut numbers = AsciiNumbers { words: Words::new(body, header.body_line), row_is_line };
+        let result = read_body(header, &mut numbers);
+        let even = result.is_ok() && numbers.words.next().is_none();
+        (result, even)
+    };
+    let (result, even) = attempt(false);
+    if even {
+        return result;
+    }
+    match attempt(true) {
+        (Ok(mut raw), true) => {
+            raw.warnings.push("Numbers that the file's header does not announce were left out.".to_owned());
+            Ok(raw)
+        }
+        _ => result.map(|mut raw| {
+            raw.warnings.push("Numbers after the last element were left out.".to_owned());
+            raw
+        }),
     }
 }
 
@@ -170,12 +196,17 @@ trait Numbers {
         Ok(self.number(kind)?.map(|x| x as f32))
     }
 
+    /// A row of an element ends here.
+    fn end_row(&mut self) {}
+
     /// Bytes left.
     fn remaining(&self) -> usize;
 }
 
 struct AsciiNumbers<'a> {
     words: Words<'a>,
+    /// Whether what is left of a line after a row is passed over.
+    row_is_line: bool,
 }
 
 impl AsciiNumbers<'_> {
@@ -196,6 +227,12 @@ impl Numbers for AsciiNumbers<'_> {
 
     fn coordinate(&mut self, _: Scalar) -> Result<Option<f32>, ReadError> {
         self.parse()
+    }
+
+    fn end_row(&mut self) {
+        if self.row_is_line {
+            self.words.skip_line();
+        }
     }
 
     fn remaining(&self) -> usize {
@@ -268,7 +305,7 @@ fn meaning(element: &Element) -> Result<Meaning, ReadError> {
     })
 }
 
-fn read_body(header: &Header, mut numbers: impl Numbers) -> Result<RawSurface, ReadError> {
+fn read_body(header: &Header, numbers: &mut impl Numbers) -> Result<RawSurface, ReadError> {
     let mut positions: Vec<Vec3> = Vec::new();
     let mut faces = Faces::default();
     // An index beyond this can stand for no vertex, and may be too large to be kept as one.
@@ -290,7 +327,7 @@ fn read_body(header: &Header, mut numbers: impl Numbers) -> Result<RawSurface, R
                 Meaning::Faces(list) | Meaning::Strips(list) => Some(list),
                 Meaning::Vertices(_) | Meaning::Other => None,
             };
-            let whole = row.read(&element.properties, wanted, &mut numbers)?;
+            let whole = row.read(&element.properties, wanted, numbers)?;
             if !whole {
                 let what = format!("rows of \"{}\"", element.name);
                 let format = header.encoding.label();
@@ -379,6 +416,7 @@ impl Row {
                 }
             }
         }
+        numbers.end_row();
         Ok(true)
     }
 }
@@ -422,6 +460,13 @@ mod tests {
         assert_eq!(raw.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
         assert_eq!((raw.triangles.len(), raw.polygons, raw.skipped.short_faces), (2, 1, 1));
         assert_eq!(read(SQUARE.replace('\n', "\r\n").as_bytes()).unwrap().triangles, raw.triangles);
+    }
+
+    #[test]
+    fn numbers_that_the_header_forgets_are_passed_over() {
+        let text = SQUARE.replace("property int part\n", "");
+        let raw = read(text.as_bytes()).unwrap();
+        assert_eq!((raw.triangles.len(), raw.warnings.len()), (2, 1));
     }
 
     #[test]

@@ -3,11 +3,11 @@
 //! Agreement goes breadth-first over the edges of two triangles; within a patch reached so, the winding that most of
 //! its triangles have is kept. A component is left as it is where one of its patches cannot be oriented (a Möbius
 //! band). Facing is then decided for a component as a whole, by the sign of the volume it encloses with each open
-//! end capped by a fan.
+//! end capped by a fan to its middle.
 
 use glam::{DVec3, Vec3};
 
-use crate::mesh::{Components, Topology, TriMesh, boundary_loops};
+use crate::mesh::{Components, EdgeUse, Topology, TriMesh, components};
 
 /// The result of [`make_consistent`].
 pub(super) struct Consistency {
@@ -18,8 +18,8 @@ pub(super) struct Consistency {
 }
 
 /// Reverses triangles so that neighbours agree, in every component where that is possible.
-pub(super) fn make_consistent(triangles: &mut [[u32; 3]], topology: &Topology, components: &Components) -> Consistency {
-    let mut orientable = vec![true; components.count()];
+pub(super) fn make_consistent(triangles: &mut [[u32; 3]], topology: &Topology, pieces: &Components) -> Consistency {
+    let mut orientable = vec![true; pieces.count()];
     // Whether a triangle differs from the first of its patch.
     let mut differs = vec![false; triangles.len()];
     let mut seen = vec![false; triangles.len()];
@@ -49,7 +49,7 @@ pub(super) fn make_consistent(triangles: &mut [[u32; 3]], topology: &Topology, c
                     differs[other] = expected;
                     order.push(other);
                 } else if differs[other] != expected {
-                    orientable[components.of_triangle[t] as usize] = false;
+                    orientable[pieces.of_triangle[t] as usize] = false;
                 }
             }
         }
@@ -58,7 +58,7 @@ pub(super) fn make_consistent(triangles: &mut [[u32; 3]], topology: &Topology, c
     let mut reversed = 0;
     for (start, end) in patches {
         let patch = &order[start..end];
-        if !orientable[components.of_triangle[patch[0]] as usize] {
+        if !orientable[pieces.of_triangle[patch[0]] as usize] {
             continue;
         }
         let differing = patch.iter().filter(|&&t| differs[t]).count();
@@ -90,18 +90,13 @@ fn across(triangles: &[[u32; 3]], topology: &Topology, t: usize, from: u32, to: 
 
 /// Turns each orientable component that faces inwards; returns how many. Volumes too small to tell which way a
 /// component faces, as that of a flat piece, turn nothing.
-pub(super) fn turn_outward(
-    mesh: &mut TriMesh,
-    topology: &Topology,
-    components: &Components,
-    orientable: &[bool],
-) -> usize {
-    let inward: Vec<bool> = facing(mesh, topology, components)
+pub(super) fn turn_outward(mesh: &mut TriMesh, topology: &Topology, pieces: &Components, orientable: &[bool]) -> usize {
+    let inward: Vec<bool> = facing(mesh, topology, pieces)
         .iter()
         .zip(orientable)
         .map(|(&(volume, area), &orientable)| orientable && volume < -1e-6 * area * area.sqrt())
         .collect();
-    for (t, &component) in mesh.triangles.iter_mut().zip(&components.of_triangle) {
+    for (t, &component) in mesh.triangles.iter_mut().zip(&pieces.of_triangle) {
         if inward[component as usize] {
             t.swap(1, 2);
         }
@@ -111,31 +106,38 @@ pub(super) fn turn_outward(
 
 /// Signed capped volume and area of each component, about its own first corner: one that is not closed has a volume
 /// that depends on where it is taken from.
-fn facing(mesh: &TriMesh, topology: &Topology, components: &Components) -> Vec<(f64, f64)> {
+fn facing(mesh: &TriMesh, topology: &Topology, pieces: &Components) -> Vec<(f64, f64)> {
     let mut component_of = vec![0u32; mesh.positions.len()];
-    let mut origins = vec![None; components.count()];
-    for (t, &component) in mesh.triangles.iter().zip(&components.of_triangle) {
+    let mut origins = vec![None; pieces.count()];
+    for (t, &component) in mesh.triangles.iter().zip(&pieces.of_triangle) {
         origins[component as usize].get_or_insert(mesh.positions[t[0] as usize]);
         for &v in t {
             component_of[v as usize] = component;
         }
     }
     let origins: Vec<DVec3> = origins.into_iter().map(|p: Option<Vec3>| p.unwrap_or_default().as_dvec3()).collect();
-    let mut sums = vec![(0.0, 0.0); components.count()];
-    for (t, &component) in components.of_triangle.iter().enumerate() {
+    let mut sums = vec![(0.0, 0.0); pieces.count()];
+    for (t, &component) in pieces.of_triangle.iter().enumerate() {
         let [a, b, c] = mesh.corners(t).map(|p| p.as_dvec3() - origins[component as usize]);
         let sum = &mut sums[component as usize];
         sum.0 += a.dot(b.cross(c)) / 6.0;
         sum.1 += (b - a).cross(c - a).length() / 2.0;
     }
-    for chain in boundary_loops(topology) {
-        let component = component_of[chain[0] as usize] as usize;
-        let at = |v: u32| mesh.positions[v as usize].as_dvec3() - origins[component];
-        let middle = chain.iter().map(|&v| at(v)).sum::<DVec3>() / chain.len() as f64;
-        for (i, &from) in chain.iter().enumerate() {
-            let to = chain[(i + 1) % chain.len()];
-            sums[component].0 += at(to).dot(at(from).cross(middle)) / 6.0;
-        }
+    // The rims: directed edges that no other triangle runs back along, in connected groups. Taken so, and not as
+    // loops, they close the surface even where more than two triangles meet, and turning it changes the sign alone.
+    let surplus = |edge: EdgeUse| i32::from(edge.forward) - i32::from(edge.backward);
+    let edges: Vec<(u32, u32, i32)> =
+        topology.edges().map(|(a, b, edge)| (a, b, surplus(edge))).filter(|&(_, _, surplus)| surplus != 0).collect();
+    let pairs: Vec<[u32; 3]> = edges.iter().map(|&(a, b, _)| [a, b, b]).collect();
+    let rims = components(mesh.positions.len(), &pairs);
+    let at = |v: u32| mesh.positions[v as usize].as_dvec3() - origins[component_of[v as usize] as usize];
+    let mut middles = vec![DVec3::ZERO; rims.count()];
+    for (&(a, b, _), &rim) in edges.iter().zip(&rims.of_triangle) {
+        middles[rim as usize] += (at(a) + at(b)) / (2.0 * f64::from(rims.triangle_counts[rim as usize]));
+    }
+    for (&(a, b, surplus), &rim) in edges.iter().zip(&rims.of_triangle) {
+        let cap = at(b).dot(at(a).cross(middles[rim as usize])) / 6.0;
+        sums[component_of[a as usize] as usize].0 += f64::from(surplus) * cap;
     }
     sums
 }
@@ -143,7 +145,6 @@ fn facing(mesh: &TriMesh, topology: &Topology, components: &Components) -> Vec<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::components;
 
     fn consistent(triangles: &mut [[u32; 3]], vertices: usize) -> Consistency {
         let topology = Topology::new(vertices, triangles);
