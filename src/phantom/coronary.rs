@@ -27,7 +27,7 @@ const RCA: &str = "right coronary artery";
 /// Middle of the base of the heart.
 const BASE: DVec3 = DVec3::new(0.0, 6.0, -20.0);
 /// From the base to the apex in mm.
-const HEART_LENGTH: f64 = 88.0;
+const HEART_LENGTH: f64 = 92.0;
 /// Radius of the base in mm, towards the interventricular grooves and towards the margins.
 const HEART_RADII: [f64; 2] = [38.0, 44.0];
 
@@ -59,20 +59,20 @@ fn aorta(tree: &mut Tree) {
         AORTA,
         Open,
         &[
-            [5.5, 4.0, -14.0, 23.0],
-            [2.0, 1.5, -6.0, 23.6],
+            [3.6, 2.6, -10.0, 23.4],
+            [1.9, 1.4, -5.5, 23.8],
             [0.0, 0.0, 0.0, 24.5],
             [-2.6, -1.8, 8.6, 29.0],
             [-5.6, -3.8, 19.0, 28.2],
-            [-10.5, -6.0, 36.0, 30.5],
-            [-14.0, -4.5, 55.0, 30.8],
-            [-12.5, 2.5, 73.0, 29.6],
-            [-5.0, 15.0, 85.0, 28.2],
-            [6.0, 30.0, 87.0, 26.6],
-            [15.5, 43.5, 78.0, 25.4],
-            [20.5, 52.0, 61.0, 24.8],
-            [22.0, 55.0, 40.0, 24.4],
-            [21.5, 56.0, 20.0, 24.0],
+            [-10.0, -6.0, 34.0, 30.5],
+            [-13.2, -4.5, 50.0, 30.8],
+            [-12.0, 2.5, 65.0, 29.6],
+            [-5.0, 14.5, 75.5, 28.2],
+            [6.0, 29.0, 77.5, 26.6],
+            [15.5, 42.0, 70.0, 25.4],
+            [20.0, 50.5, 55.0, 24.8],
+            [21.5, 53.5, 41.0, 24.4],
+            [21.5, 54.5, 30.0, 24.2],
         ],
     );
     tree.branch(
@@ -80,28 +80,28 @@ fn aorta(tree: &mut Tree) {
         AORTA,
         Open,
         &[
-            [-8.5, 9.5, 80.5, 12.8],
-            [-11.5, 7.5, 97.0, 12.4],
-            [-16.0, 5.0, 111.0, 12.1],
-            [-22.0, 3.5, 124.0, 12.0],
+            [-8.5, 9.5, 71.5, 12.8],
+            [-11.5, 7.5, 88.0, 12.4],
+            [-15.5, 5.0, 99.0, 12.1],
+            [-20.5, 3.5, 109.0, 12.0],
         ],
     );
     tree.branch(
         "left common carotid artery",
         AORTA,
         Open,
-        &[[-0.5, 21.0, 87.0, 7.8], [-0.5, 18.5, 102.0, 7.3], [1.5, 15.5, 117.0, 7.1], [4.5, 12.5, 133.0, 7.0]],
+        &[[-0.5, 20.5, 77.0, 7.8], [-0.5, 18.5, 92.0, 7.3], [1.5, 15.5, 106.0, 7.1], [4.5, 12.5, 119.0, 7.0]],
     );
     tree.branch(
         "left subclavian artery",
         AORTA,
         Open,
         &[
-            [7.5, 32.0, 86.5, 9.8],
-            [9.5, 33.0, 102.0, 9.3],
-            [14.0, 32.0, 117.0, 9.0],
-            [22.5, 29.0, 130.0, 8.8],
-            [34.0, 25.0, 137.0, 8.6],
+            [7.5, 31.0, 77.0, 9.8],
+            [9.5, 32.0, 92.0, 9.3],
+            [14.0, 31.5, 106.0, 9.0],
+            [22.0, 29.0, 117.0, 8.8],
+            [31.5, 26.0, 123.0, 8.6],
         ],
     );
 }
@@ -133,8 +133,10 @@ fn left(tree: &mut Tree, heart: &Heart) {
             [0.58, 2.0, 1.5, 2.5],
             [0.70, 1.0, 1.5, 2.2],
             [0.81, 5.0, 1.5, 1.9],
-            [0.91, 4.0, 1.5, 1.7],
-            [0.985, 20.0, 1.5, 1.5],
+            [0.91, 4.0, 1.5, 1.75],
+            [0.98, 16.0, 1.5, 1.65],
+            [1.005, 90.0, 1.5, 1.6],
+            [0.975, 165.0, 1.5, 1.5],
         ],
     );
     heart.branch(
@@ -301,8 +303,8 @@ fn right(tree: &mut Tree, heart: &Heart) {
             [0.26, 176.0, 1.5, 2.15],
             [0.39, 180.0, 1.5, 2.0],
             [0.53, 178.0, 1.5, 1.8],
-            [0.66, 182.0, 1.5, 1.65],
-            [0.78, 179.0, 1.5, 1.5],
+            [0.65, 182.0, 1.5, 1.65],
+            [0.75, 179.0, 1.5, 1.5],
         ],
     );
 }
@@ -319,16 +321,15 @@ struct Heart {
 
 impl Heart {
     fn new() -> Self {
-        let apex = unit(DVec3::new(0.62, -0.50, -0.60));
-        let groove = across(DVec3::new(0.25, -0.60, 0.76), apex);
+        let apex = unit(DVec3::new(0.60, -0.44, -0.67));
+        let groove = across(DVec3::new(0.28, -0.66, 0.70), apex);
         Self { apex, groove, margin: apex.cross(groove) }
     }
 
     /// The place `way` from base (0) to apex (1), `degrees` around the axis, `height` mm over the surface.
     fn at(&self, way: f64, degrees: f64, height: f64) -> DVec3 {
         let (sin, cos) = libm::sincos(degrees * std::f64::consts::PI / 180.0);
-        // Blunter than an ellipsoid: ventricles are full nearly to the apex.
-        let width = (1.0 - way * way * way.abs().sqrt()).max(0.0).sqrt();
+        let width = (1.0 - way * way).max(0.0).sqrt();
         let around = self.groove * (cos * (HEART_RADII[0] * width + height))
             + self.margin * (sin * (HEART_RADII[1] * width + height));
         BASE + self.apex * (HEART_LENGTH * way) + around

@@ -25,9 +25,9 @@ pub(super) fn scatter(field: &mut Field, vessels: &[Vessel], spacing: DVec3, see
         }
         let vessel = &vessels[random.below(vessels.len())];
         let station = vessel.stations[random.below(vessel.stations.len())];
-        // From one voxel across to about six; small ones are the more frequent.
+        // Two voxels across to about six; small ones are the more frequent.
         let size = random.unit();
-        let radius = voxel * (0.9 + 2.1 * size * size);
+        let radius = voxel * (1.2 + 2.0 * size * size);
         let gap = radius + 3.0 * voxel + 6.0 * random.unit();
         let centre = station.position + random.direction() * (station.diameter / 2.0 + gap);
         let clearance = radius + 2.5 * voxel;

@@ -23,7 +23,7 @@ pub struct Vessel {
     pub name: &'static str,
     /// The vessel it branches from, by its place in the list (always an earlier one); `None` for the trunk.
     pub parent: Option<usize>,
-    /// The centreline, at steps between 0.3 mm and 1.5 mm. That of a branch begins on its parent's centreline.
+    /// The centreline, at steps of at most 3 mm. That of a branch begins on its parent's centreline.
     pub stations: Vec<Station>,
     /// The first station outside the parent's lumen: the branch's ostium is there. 0 for the trunk.
     pub ostium: usize,
@@ -124,7 +124,7 @@ fn course(control: &[DVec4]) -> Vec<Station> {
     for span in 1..n {
         let points = [at(span - 1), at(span), at(span + 1), at(span + 2)];
         let chord = points[1].xyz().distance(points[2].xyz());
-        let step = (points[1].w.min(points[2].w) / 4.0).clamp(0.4, 1.5);
+        let step = (points[1].w.min(points[2].w) / 4.0).clamp(0.4, 2.5);
         let steps = libm::ceil(chord / step).max(1.0) as usize;
         stations.extend((0..steps).map(|s| spline(points, s as f64 / steps as f64)).map(station));
     }
