@@ -43,11 +43,11 @@ pub fn pick(ray: &Ray, positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<Hit
             continue;
         }
         let q = ab.cross(a);
-        let v = -direction.dot(q) * sign;
+        let v = direction.dot(q) * sign;
         if !(v >= 0.0 && u + v <= size) {
             continue;
         }
-        let distance = -ac.dot(q) / determinant;
+        let distance = ac.dot(q) / determinant;
         if distance >= 0.0 && nearest.is_none_or(|(_, least)| distance < least) {
             nearest = Some((t, distance));
         }

@@ -138,7 +138,7 @@ impl SceneLayout {
         Self { scene, drawn, pipeline, map: map_texture(device, queue) }
     }
 
-    /// A shader with `scene.wgsl` in front of it: `source` is made by `scene_shader!`.
+    /// A pipeline over these layouts, into a [`ViewTarget`]; its module is made by `scene_shader!`.
     pub(super) fn pipeline(&self, device: &wgpu::Device, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
         let attributes: Vec<[wgpu::VertexAttribute; 1]> = (0..)
             .zip(parts.attributes)

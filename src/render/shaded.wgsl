@@ -2,11 +2,11 @@
 
 // Towards the key light: over the left shoulder.
 const KEY: vec3<f32> = vec3(-0.42, 0.56, 0.71);
-const KEY_LIGHT: vec3<f32> = vec3(0.70, 0.68, 0.66);
-const SKY: vec3<f32> = vec3(0.46, 0.48, 0.51);
-const GROUND: vec3<f32> = vec3(0.21, 0.185, 0.17);
+const KEY_LIGHT: vec3<f32> = vec3(0.82, 0.80, 0.77);
+const SKY: vec3<f32> = vec3(0.42, 0.44, 0.48);
+const GROUND: vec3<f32> = vec3(0.15, 0.13, 0.12);
 // How much of the rim's colour shows where the surface is seen edge-on.
-const RIM: f32 = 0.75;
+const RIM: f32 = 0.8;
 
 struct Fragment {
     @builtin(position) clip: vec4<f32>,

@@ -3,7 +3,7 @@
 // How far lines come towards the eye, in pixels' sizes.
 const PULL: f32 = 1.0;
 // Opacity of hidden lines.
-const HIDDEN: f32 = 0.22;
+const HIDDEN: f32 = 0.32;
 
 struct Fragment {
     @builtin(position) clip: vec4<f32>,

@@ -124,9 +124,8 @@ fn hidden_lines_are_hidden() {
     let (near, far) = (square(40.0, -10.0), square(20.0, 30.0));
     let both = together(&near, &far);
     let camera = in_front_of(&both, 1.0);
-    let picture = |mesh: &TriMesh, look| {
-        stage().picture(size, &camera, &[shown(&stage().surface(mesh), look)], &plain(WHITE))
-    };
+    let picture =
+        |mesh: &TriMesh, look| stage().picture(size, &camera, &[shown(&stage().surface(mesh), look)], &plain(WHITE));
     assert!(!drawn_pixels(&picture(&far, Look::Wireframe), WHITE).is_empty());
     let alone = picture(&near, Look::Wireframe);
     assert_eq!(differing_pixels(&picture(&both, Look::Wireframe), &alone), 0);
@@ -146,10 +145,8 @@ fn a_surface_does_not_hide_its_own_lines() {
     let mesh = sphere(20.0, 14);
     let camera = in_front_of(&mesh, 1.0);
     let surface = stage().surface(&mesh);
-    let drawn = drawn_pixels(
-        &stage().picture(size, &camera, &[shown(&surface, Look::Wireframe)], &plain(WHITE)),
-        WHITE,
-    );
+    let drawn =
+        drawn_pixels(&stage().picture(size, &camera, &[shown(&surface, Look::Wireframe)], &plain(WHITE)), WHITE);
     let (mut seen, mut gaps) = (0, 0);
     for [a, b] in lumen::render::unique_edges(&mesh.triangles, mesh.positions.len()) {
         let [a, b] = [a, b].map(|v| mesh.positions[v as usize]);

@@ -6,7 +6,7 @@ use glam::Vec3;
 use lumen::mesh::TriMesh;
 
 /// A sphere of `radius` about the origin, of `2 * n` by `n` quadrilaterals.
-pub fn sphere(radius: f32, n: u32) -> TriMesh {
+pub(crate) fn sphere(radius: f32, n: u32) -> TriMesh {
     grid(2 * n, n, |u, v| {
         let (polar, azimuth) = (PI * v, TAU * u);
         radius * Vec3::new(polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), -polar.cos())
@@ -14,11 +14,11 @@ pub fn sphere(radius: f32, n: u32) -> TriMesh {
 }
 
 /// A tube of varying width, bent like an aortic arch, open at both ends; its long leg hangs down.
-pub fn arch(around: u32, along: u32) -> TriMesh {
+pub(crate) fn arch(around: u32, along: u32) -> TriMesh {
     grid(around, along, |u, v| {
         let (centre, along) = arch_line(v);
         let across = Vec3::Y;
-        let out = across.cross(along);
+        let out = along.cross(across);
         let radius = 13.0 - 5.0 * v + 1.6 * (9.0 * v).sin() + 4.0 * (-((v - 0.78) / 0.06).powi(2)).exp();
         centre + radius * ((TAU * u).cos() * across + (TAU * u).sin() * out)
     })
@@ -40,14 +40,14 @@ fn arch_line(v: f32) -> (Vec3, Vec3) {
 }
 
 /// A quadrilateral of two triangles, facing the front (-y), `size` wide and high, at depth `y`.
-pub fn square(size: f32, y: f32) -> TriMesh {
+pub(crate) fn square(size: f32, y: f32) -> TriMesh {
     let half = size / 2.0;
     let positions = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, z)| Vec3::new(x, y, z));
     TriMesh { positions: positions.to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] }
 }
 
 /// Both meshes in one.
-pub fn together(a: &TriMesh, b: &TriMesh) -> TriMesh {
+pub(crate) fn together(a: &TriMesh, b: &TriMesh) -> TriMesh {
     let shift = a.positions.len() as u32;
     let moved = b.triangles.iter().map(|triangle| triangle.map(|v| v + shift));
     TriMesh {

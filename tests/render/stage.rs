@@ -9,14 +9,14 @@ use lumen::render::{
 };
 
 /// A device with nothing but what WebGL2 has, and the renderer on it.
-pub struct Stage {
-    pub device: wgpu::Device,
-    pub queue: wgpu::Queue,
-    pub renderer: Renderer,
+pub(crate) struct Stage {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) renderer: Renderer,
 }
 
 /// The stage that all tests share.
-pub fn stage() -> &'static Stage {
+pub(crate) fn stage() -> &'static Stage {
     static STAGE: OnceLock<Stage> = OnceLock::new();
     STAGE.get_or_init(|| pollster::block_on(open()))
 }
@@ -36,20 +36,26 @@ async fn open() -> Stage {
 
 impl Stage {
     /// `mesh` with its own triangles as the level.
-    pub fn surface(&self, mesh: &TriMesh) -> GpuSurface {
+    pub(crate) fn surface(&self, mesh: &TriMesh) -> GpuSurface {
         let mut surface = GpuSurface::new(&self.device, &self.queue, &mesh.positions).unwrap();
         self.set_level(&mut surface, mesh, &mesh.triangles);
         surface
     }
 
     /// Shows `triangles` over the vertices of `mesh`.
-    pub fn set_level(&self, surface: &mut GpuSurface, mesh: &TriMesh, triangles: &[[u32; 3]]) {
+    pub(crate) fn set_level(&self, surface: &mut GpuSurface, mesh: &TriMesh, triangles: &[[u32; 3]]) {
         let edges = unique_edges(triangles, mesh.positions.len());
         surface.set_level(&self.device, &self.queue, triangles, &edges, &normals(mesh)).unwrap();
     }
 
     /// A picture of `width` by `height` pixels.
-    pub fn picture(&self, size: [u32; 2], camera: &Camera, drawables: &[Drawable<'_>], style: &Style) -> Picture {
+    pub(crate) fn picture(
+        &self,
+        size: [u32; 2],
+        camera: &Camera,
+        drawables: &[Drawable<'_>],
+        style: &Style,
+    ) -> Picture {
         let target = ViewTarget::new(&self.device, size[0], size[1]);
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.renderer.draw(&self.device, &mut encoder, &target, camera, drawables, style);
@@ -59,12 +65,12 @@ impl Stage {
 }
 
 /// `surface` in one look, untinted.
-pub fn shown(surface: &GpuSurface, look: Look) -> Drawable<'_> {
+pub(crate) fn shown(surface: &GpuSurface, look: Look) -> Drawable<'_> {
     Drawable { surface, look, tint: None }
 }
 
 /// A camera in front of `mesh`, which fills the view.
-pub fn in_front_of(mesh: &TriMesh, aspect: f32) -> Camera {
+pub(crate) fn in_front_of(mesh: &TriMesh, aspect: f32) -> Camera {
     let mut camera = Camera::default();
     camera.standard_view(StandardView::Anterior);
     camera.fit(&Bounds::of(&mesh.positions), aspect);
@@ -72,7 +78,7 @@ pub fn in_front_of(mesh: &TriMesh, aspect: f32) -> Camera {
 }
 
 /// The light theme on an even background.
-pub fn plain(background: Colour) -> Style {
+pub(crate) fn plain(background: Colour) -> Style {
     Style { background_top: background, background_bottom: background, ..Style::LIGHT }
 }
 
