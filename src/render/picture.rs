@@ -1,7 +1,5 @@
 //! Reading a finished view back from the GPU: for files, figures and tests.
 
-use std::sync::mpsc;
-
 use super::ViewTarget;
 
 /// Pixels of a view: gamma-encoded sRGB and alpha (opaque), row by row from the top left.
@@ -21,9 +19,9 @@ pub enum PictureError {
     /// The GPU did not hand over the memory.
     #[error("the GPU did not hand over the picture: {0}")]
     Map(String),
-    /// The picture is not there yet: a browser delivers it only after this call returns.
-    #[error("the picture is not there yet")]
-    NotReady,
+    /// The device went away first.
+    #[error("the GPU went away before the picture was read")]
+    Lost,
 }
 
 impl Picture {
@@ -74,16 +72,17 @@ impl Picture {
         });
     }
 
-    /// As [`Self::read`], waiting for it.
+    /// As [`Self::read`], waiting for it: not in a browser, which cannot wait.
     ///
     /// # Errors
-    /// When the GPU does not hand over the memory, and always in a browser ([`PictureError::NotReady`]), which cannot
-    /// wait.
+    /// When the GPU does not hand over the memory.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn read_now(target: &ViewTarget, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, PictureError> {
-        let (sender, receiver) = mpsc::channel();
+        let (sender, receiver) = std::sync::mpsc::channel();
         // The receiver outlives the call, or nobody waits any more.
         Self::read(target, device, queue, move |result| drop(sender.send(result)));
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
-        receiver.try_recv().map_err(|_| PictureError::NotReady)?
+        // Another thread that polls the same device may be the one to deliver the picture, a moment after this poll.
+        receiver.recv().map_err(|_| PictureError::Lost)?
     }
 }
