@@ -48,7 +48,10 @@ pub fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Op
             ui.label(RichText::new("Lumen").heading().strong());
             ui.add_space(8.0);
         }
-        ask(ui.button("Open...").on_hover_text("STL, PLY, OBJ, GLB, glTF (Ctrl+O); or drop a file").clicked(), Action::Open);
+        ask(
+            ui.button("Open...").on_hover_text("STL, PLY, OBJ, GLB, glTF (Ctrl+O); or drop a file").clicked(),
+            Action::Open,
+        );
         ui.menu_button("Sample", |ui| {
             for sample in Sample::ALL {
                 ask(ui.button(sample.label()).clicked(), Action::Sample(sample));
@@ -87,7 +90,8 @@ fn theme_icon(ui: &Ui) -> &'static str {
 }
 
 fn icon(ui: &mut Ui, enabled: bool, text: &str, label: &str, help: &str) -> bool {
-    let response = ui.add_enabled(enabled, Button::new(RichText::new(text).size(16.0)).frame(false)).on_hover_text(help);
+    let response =
+        ui.add_enabled(enabled, Button::new(RichText::new(text).size(16.0)).frame(false)).on_hover_text(help);
     name(&response, WidgetType::Button, label);
     response.clicked()
 }

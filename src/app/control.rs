@@ -61,10 +61,8 @@ impl Setting<'_> {
     fn reset(&self, ui: &mut Ui, value: &mut f64) {
         let is_default = (*value - self.default).abs() < 1e-9;
         let button = egui::Button::new(RichText::new("⟲")).frame(false);
-        let response = ui.add_enabled(!is_default, button).on_hover_text(format!(
-            "Back to {}{}",
-            self.default, self.unit
-        ));
+        let response =
+            ui.add_enabled(!is_default, button).on_hover_text(format!("Back to {}{}", self.default, self.unit));
         name(&response, WidgetType::Button, &format!("Reset {}", self.name.to_lowercase()));
         if response.clicked() {
             *value = self.default;
@@ -109,8 +107,9 @@ pub fn grouped(n: usize) -> String {
 mod tests {
     #[test]
     fn numbers_are_grouped_in_threes() {
-        assert_eq!([0, 12, 743, 7_430, 74_307, 1_000_000].map(super::grouped), [
-            "0", "12", "743", "7,430", "74,307", "1,000,000"
-        ]);
+        assert_eq!(
+            [0, 12, 743, 7_430, 74_307, 1_000_000].map(super::grouped),
+            ["0", "12", "743", "7,430", "74,307", "1,000,000"]
+        );
     }
 }

@@ -218,7 +218,8 @@ fn result(ui: &mut Ui, state: &State) {
     let Some(measured) = &document.measured else { return };
     let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
     let report = &measured.report;
-    let percent = |change: Option<f64>| change.filter(|_| is_current).map_or("–".to_owned(), |c| format!("{c:+.2} %"));
+    let percent =
+        |change: Option<f64>| change.filter(|_| is_current).map_or("–".to_owned(), |c| format!("{c:+.2} %"));
     let distance = |pick: fn(&crate::pipeline::deviation::Deviation) -> f64| {
         let found = report.deviation_mm.as_ref().filter(|_| is_current);
         found.map_or("–".to_owned(), |d| format!("{:.3} mm", pick(d)))

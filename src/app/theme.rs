@@ -63,9 +63,12 @@ pub fn apply(ctx: &egui::Context) {
             spacing.slider_rail_height = 4.0;
             spacing.menu_margin = egui::Margin::same(GRID as i8 / 2);
             spacing.tooltip_width = 280.0;
-            for (text_style, size) in
-                [(TextStyle::Heading, 16.0), (TextStyle::Body, 14.0), (TextStyle::Button, 14.0), (TextStyle::Small, 12.0)]
-            {
+            for (text_style, size) in [
+                (TextStyle::Heading, 16.0),
+                (TextStyle::Body, 14.0),
+                (TextStyle::Button, 14.0),
+                (TextStyle::Small, 12.0),
+            ] {
                 style.text_styles.insert(text_style, FontId::proportional(size));
             }
             style.interaction.selectable_labels = false;
