@@ -1,6 +1,6 @@
 //! The bars: files and help above, what is going on below.
 
-use egui::{Button, ProgressBar, RichText, Ui, WidgetType};
+use egui::{Button, ProgressBar, RichText, Role, Ui};
 
 use super::control::{grouped, name};
 use super::state::State;
@@ -92,7 +92,7 @@ fn theme_icon(ui: &Ui) -> &'static str {
 fn icon(ui: &mut Ui, enabled: bool, text: &str, label: &str, help: &str) -> bool {
     let response =
         ui.add_enabled(enabled, Button::new(RichText::new(text).size(16.0)).frame(false)).on_hover_text(help);
-    name(&response, WidgetType::Button, label);
+    name(&response, Role::Button, label);
     response.clicked()
 }
 
@@ -134,7 +134,7 @@ pub fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: bool) ->
             let width = if is_narrow { 96.0 } else { 160.0 };
             let bar = ProgressBar::new(fraction).desired_width(width).desired_height(8.0);
             let response = ui.add(bar);
-            name(&response, WidgetType::ProgressIndicator, "Progress");
+            name(&response, Role::ProgressIndicator, "Progress");
             ui.label(format!("{} {:.0} %", work.label(), fraction * 100.0));
             if ui.button("Cancel").on_hover_text("Esc").clicked() {
                 action = Some(Action::Cancel);
@@ -143,7 +143,7 @@ pub fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: bool) ->
             let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
             let text = RichText::new(&notice.text).color(colour);
             let response = ui.add(egui::Label::new(text).truncate()).on_hover_text(&notice.text);
-            name(&response, WidgetType::Label, &notice.text);
+            name(&response, Role::Label, &notice.text);
         } else if let Some(document) = &state.document {
             ui.label(RichText::new(&document.name).weak());
         }

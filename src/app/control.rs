@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, Response, RichText, Slider, Ui, WidgetInfo, WidgetType};
+use egui::{DragValue, Response, RichText, Role, Slider, Ui, WidgetInfo};
 
 /// A number that can be set.
 pub struct Setting<'a> {
@@ -41,7 +41,7 @@ impl Setting<'_> {
             .smart_aim(false)
             .step_by(step);
         let response = ui.add(slider).on_hover_text(self.help);
-        describe(&response, WidgetType::Slider, self.name, *value);
+        describe(&response, Role::Slider, self.name, *value);
         *value = self.rounded(*value);
         before.to_bits() != value.to_bits()
     }
@@ -55,7 +55,7 @@ impl Setting<'_> {
             .suffix(self.unit)
             .update_while_editing(false);
         let response = ui.add(field).on_hover_text("Drag, or click to type");
-        describe(&response, WidgetType::DragValue, &format!("{} value", self.name), *value);
+        describe(&response, Role::SpinButton, &format!("{} value", self.name), *value);
     }
 
     fn reset(&self, ui: &mut Ui, value: &mut f64) {
@@ -63,7 +63,7 @@ impl Setting<'_> {
         let button = egui::Button::new(RichText::new("⟲")).frame(false);
         let response =
             ui.add_enabled(!is_default, button).on_hover_text(format!("Back to {}{}", self.default, self.unit));
-        name(&response, WidgetType::Button, &format!("Reset {}", self.name.to_lowercase()));
+        name(&response, Role::Button, &format!("Reset {}", self.name.to_lowercase()));
         if response.clicked() {
             *value = self.default;
         }
@@ -77,7 +77,7 @@ impl Setting<'_> {
 }
 
 /// Tells assistive tools what a control is called and where it stands.
-fn describe(response: &Response, kind: WidgetType, label: &str, value: f64) {
+fn describe(response: &Response, kind: Role, label: &str, value: f64) {
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(kind, response.enabled(), label);
         info.value = Some(value);
@@ -86,7 +86,7 @@ fn describe(response: &Response, kind: WidgetType, label: &str, value: f64) {
 }
 
 /// Tells assistive tools what a control is called.
-pub fn name(response: &Response, kind: WidgetType, label: &str) {
+pub fn name(response: &Response, kind: Role, label: &str) {
     response.widget_info(|| WidgetInfo::labeled(kind, response.enabled(), label));
 }
 

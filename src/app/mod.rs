@@ -90,7 +90,8 @@ impl LumenApp {
     }
 
     fn act(&mut self, action: Action, ctx: &egui::Context) {
-        let (state, keep) = (&mut self.state, self.state.settings.keep);
+        let keep = self.state.settings.keep;
+        let state = &mut self.state;
         match action {
             Action::Open => self.platform.choose_file(ctx),
             Action::Sample(sample) => state.open_sample(sample, self.platform.link()),
@@ -113,10 +114,10 @@ impl LumenApp {
         let is_narrow = ui.available_width() < NARROW;
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
         let mut action = None;
-        Panel::top("top").frame(bar).exact_size(48.0).show_inside(ui, |ui| {
+        Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
             action = bar::top(ui, &self.state, &mut self.views, is_narrow);
         });
-        Panel::bottom("status").frame(bar).exact_size(40.0).show_inside(ui, |ui| {
+        Panel::bottom("status").frame(bar).exact_size(40.0).show(ui, |ui| {
             action = action.or(bar::status(ui, &mut self.state, &self.views, is_narrow));
         });
         let panel = if is_narrow {
@@ -126,7 +127,7 @@ impl LumenApp {
             Panel::left("panel").resizable(true).default_size(296.0).size_range(256.0..=440.0)
         };
         let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
-        panel.frame(margin).show_inside(ui, |ui| {
+        panel.frame(margin).show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Room for the scroll bar beside what stands at the right.
                 ui.set_max_width(ui.available_width() - 8.0);
@@ -136,7 +137,7 @@ impl LumenApp {
         let keep = self.state.settings.keep;
         let clicked = CentralPanel::default()
             .frame(Frame::new().fill(ui.visuals().widgets.noninteractive.bg_stroke.color))
-            .show_inside(ui, |ui| {
+            .show(ui, |ui| {
                 let document = self.state.document.as_ref();
                 if self.fit_next && document.is_some_and(|document| !document.pieces.list.is_empty()) {
                     self.views.fit(document, keep);

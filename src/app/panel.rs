@@ -1,7 +1,7 @@
 //! The panel: the method from top to bottom, each step with its few controls, its result in numbers, and one line
 //! that says what it does.
 
-use egui::{ComboBox, RichText, ScrollArea, Ui, WidgetType};
+use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
 
 use super::control::{Setting, grouped, name};
 use super::document::Document;
@@ -106,7 +106,7 @@ fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
             }
         });
     });
-    name(&response.response, WidgetType::ComboBox, "Piece");
+    name(&response.response, Role::ComboBox, "Piece");
 }
 
 fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
@@ -145,7 +145,7 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
                     ui.selectable_value(&mut smoothing.window, window, window.name());
                 }
             });
-            name(&response.response, WidgetType::ComboBox, "Window");
+            name(&response.response, Role::ComboBox, "Window");
         });
     });
     if report.is_some_and(|report| report.pass_band_missed && report.settings.smoothing == *smoothing) {
@@ -177,7 +177,7 @@ fn reduce(ui: &mut Ui, state: &mut State) {
                 let mut typed = wanted;
                 let field = egui::DragValue::new(&mut typed).range(1..=entering).speed(entering as f64 / 500.0);
                 let response = ui.add(field.update_while_editing(false));
-                name(&response, WidgetType::DragValue, "Triangles wanted");
+                name(&response, Role::SpinButton, "Triangles wanted");
                 if typed != wanted {
                     state.settings.target = Target::Triangles(typed as u32);
                 }

@@ -1,6 +1,6 @@
 //! The two 3-D views: one camera, moved by mouse, trackpad, touch or keys, and what is written over the pictures.
 
-use egui::{Color32, PointerButton, Pos2, Rect, Sense, Ui, WidgetType, pos2, vec2};
+use egui::{Color32, PointerButton, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
 use glam::Vec2;
 
 use super::control::name;
@@ -116,7 +116,7 @@ impl Views {
         keep: Keep,
     ) -> Option<u32> {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
-        name(&response, WidgetType::Image, title);
+        name(&response, Role::Image, title);
         self.steer(ui, &response, document, keep);
         let pixels = rect.size() * ui.ctx().pixels_per_point();
         let mut style = theme::style(ui.visuals());
