@@ -2,10 +2,15 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, Response, RichText, Role, Slider, Ui, WidgetInfo};
+use egui::{DragValue, Response, Role, Slider, Ui, WidgetInfo};
+
+use super::icon::{self, Icon};
+
+/// Height of a row, in points.
+const ROW: f32 = 22.0;
 
 /// A number that can be set.
-pub struct Setting<'a> {
+pub(super) struct Setting<'a> {
     /// Its name, also for assistive tools.
     pub name: &'a str,
     /// What it does, in a sentence or two.
@@ -24,8 +29,9 @@ pub struct Setting<'a> {
 
 impl Setting<'_> {
     /// Shows the rows; says whether the value was changed.
-    pub fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
+    pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
         let before = *value;
+        ui.spacing_mut().interact_size.y = ROW;
         ui.horizontal(|ui| {
             ui.label(self.name).on_hover_text(self.help);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -60,10 +66,9 @@ impl Setting<'_> {
 
     fn reset(&self, ui: &mut Ui, value: &mut f64) {
         let is_default = (*value - self.default).abs() < 1e-9;
-        let button = egui::Button::new(RichText::new("⟲")).frame(false);
-        let response =
-            ui.add_enabled(!is_default, button).on_hover_text(format!("Back to {}{}", self.default, self.unit));
-        name(&response, Role::Button, &format!("Reset {}", self.name.to_lowercase()));
+        let help = format!("Back to {}{}", self.default, self.unit);
+        let label = format!("Reset {}", self.name.to_lowercase());
+        let response = icon::button(ui, Icon::Reset, !is_default, &label, &help);
         if response.clicked() {
             *value = self.default;
         }
@@ -86,12 +91,12 @@ fn describe(response: &Response, kind: Role, label: &str, value: f64) {
 }
 
 /// Tells assistive tools what a control is called.
-pub fn name(response: &Response, kind: Role, label: &str) {
+pub(super) fn name(response: &Response, kind: Role, label: &str) {
     response.widget_info(|| WidgetInfo::labeled(kind, response.enabled(), label));
 }
 
 /// A whole number in groups of three: 74,307.
-pub fn grouped(n: usize) -> String {
+pub(super) fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (i, digit) in digits.chars().enumerate() {

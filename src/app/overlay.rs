@@ -6,7 +6,7 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2}
 use crate::render::{Camera, ColourMap, viridis};
 
 /// What to write.
-pub struct Writing<'a> {
+pub(super) struct Writing<'a> {
     /// What the view shows.
     pub title: &'a str,
     /// The surface's name.
@@ -20,7 +20,7 @@ pub struct Writing<'a> {
 const MARGIN: f32 = 12.0;
 
 /// Writes over the view in `rect`.
-pub fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
+pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     let painter = ui.painter_at(rect);
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
     let inner = rect.shrink(MARGIN);

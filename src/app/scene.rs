@@ -15,11 +15,11 @@ use crate::render::{
 };
 
 /// The two views, side by side.
-pub const VIEWS: usize = 2;
+pub(super) const VIEWS: usize = 2;
 
 /// What one view shows.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub(super) struct Picture {
     /// From where.
     pub camera: Camera,
     /// Width and height in pixels.
@@ -35,7 +35,7 @@ pub struct Picture {
 }
 
 /// GPU memory and what stands in it.
-pub struct Scene {
+pub(super) struct Scene {
     device: wgpu::Device,
     queue: wgpu::Queue,
     window: Arc<RwLock<egui_wgpu::Renderer>>,
@@ -196,11 +196,6 @@ impl Scene {
         Ok(view.texture)
     }
 
-    /// Edges that the wireframe has.
-    pub fn edge_count(&self) -> u32 {
-        self.level.edge_count()
-    }
-
     /// Whether the level has scalars for a colour map.
     pub fn has_scalars(&self) -> bool {
         self.has_scalars
@@ -208,7 +203,7 @@ impl Scene {
 }
 
 /// A colour map over the deviation of a level: from nothing to the 95th percentile.
-pub fn deviation_map(document: &Document) -> Option<ColourMap> {
+pub(super) fn deviation_map(document: &Document) -> Option<ColourMap> {
     let deviation = document.measured.as_ref()?.report.deviation_mm?;
     Some(ColourMap { range_mm: (0.0, (deviation.p95 as f32).max(1e-6)) })
 }
