@@ -63,7 +63,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the device does not allow a buffer.
-    pub fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
+    pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
         let (device, queue) = (state.device.clone(), state.queue.clone());
         let surface = || GpuSurface::new(&device, &queue, &[]);
         let view = || {
@@ -93,7 +93,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the surface does not fit into the memory that the device allows.
-    pub fn follow(&mut self, document: &Document, with_deviation: bool) -> Result<(), SurfaceError> {
+    pub(super) fn follow(&mut self, document: &Document, with_deviation: bool) -> Result<(), SurfaceError> {
         let (old, new) = (self.revision, document.revision);
         let is_other = old.document != new.document;
         let Some((_, levels)) = &document.levels else {
@@ -153,7 +153,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the surface does not fit into the memory that the device allows.
-    pub fn draw(
+    pub(super) fn draw(
         &mut self,
         index: usize,
         picture: &Picture,
@@ -197,7 +197,7 @@ impl Scene {
     }
 
     /// Whether the level has scalars for a colour map.
-    pub fn has_scalars(&self) -> bool {
+    pub(super) fn has_scalars(&self) -> bool {
         self.has_scalars
     }
 }
