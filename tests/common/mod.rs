@@ -6,7 +6,7 @@ use libtest_mimic::{Arguments, Trial};
 
 /// The folder of the test meshes: where `LUMEN_DATA` says, else `../shared/data` beside the checkout. They are not
 /// part of the repository; `None` where there are none.
-pub fn data() -> Option<PathBuf> {
+pub(crate) fn data() -> Option<PathBuf> {
     let folder = std::env::var_os("LUMEN_DATA")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
     folder.join("INDEX.md").exists().then_some(folder)
@@ -14,7 +14,7 @@ pub fn data() -> Option<PathBuf> {
 
 /// Runs the trials that `trials` makes of the data folder. Without one, a single trial is reported as ignored, not
 /// as passed.
-pub fn run(what: &str, trials: impl FnOnce(&Path) -> Vec<Trial>) -> ! {
+pub(crate) fn run(what: &str, trials: impl FnOnce(&Path) -> Vec<Trial>) -> ! {
     let arguments = Arguments::from_args();
     let trials = match data() {
         Some(folder) => trials(&folder),

@@ -43,11 +43,13 @@ struct Strictness {
     quality: f64,
 }
 
-/// Tried in turn, each until no vertex is left that passes.
-const STRICTNESS: [Strictness; 3] = [
+/// Tried in turn, each until no vertex is left that passes. The last lets a triangle swing round as the end of a branch
+/// does that is drawn in, but not fold over.
+const STRICTNESS: [Strictness; 4] = [
     Strictness { turn: 0.5, quality: 0.15 },
     Strictness { turn: 0.2, quality: 0.03 },
-    Strictness { turn: 0.0, quality: 1e-4 },
+    Strictness { turn: 0.0, quality: 1e-3 },
+    Strictness { turn: -0.8, quality: 1e-4 },
 ];
 
 /// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
@@ -242,9 +244,13 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
                 return false;
             }
         }
-        // The last triangle of a piece stays.
-        if self.ring.spokes.len() == 1 && self.surface.fan(target).len() == 1 {
-            return false;
+        // An ear goes only from an edge that has one more triangle: a piece of one triangle stays, and so does an
+        // edge of three.
+        if let [ear] = self.ring.spokes[..] {
+            let beside = self.surface.fan(ear.a).iter().filter(|&&t| self.surface.triangles[t as usize].contains(&ear.b));
+            if beside.count() != 2 {
+                return false;
+            }
         }
         // An edge between two boundaries may not become a vertex: only boundary edges of boundary vertices collapse.
         common == opposite && (opposite == 2 || (opposite == 1 && !self.ring.closed))
