@@ -33,6 +33,9 @@ const SMOOTHING: [(f64, u32); 6] = [(0.1, 30), (0.1, 60), (0.1, 100), (0.01, 30)
 /// Table II of the paper, in tenths of a percent.
 const RATES: [u32; 5] = [100, 500, 750, 900, 990];
 
+/// Targets below this may be out of reach: a circle of Willis (genus 4) has no triangulation of fewer than 34.
+const FEWEST: usize = 64;
+
 fn main() {
     common::run("the pipeline on real vessels", |data| {
         let trial = |file: &str| {
@@ -117,10 +120,8 @@ fn check_level(pipeline: &Pipeline, target: Target) -> Result<(), String> {
     match &reduced.level.shortfall {
         None if count <= wanted && count + 2 > wanted => Ok(()),
         None => Err(format!("{count} triangles, {wanted} wanted, and no word on why")),
-        Some(shortfall) if before.non_manifold > 0 && count > wanted => {
-            println!("{shortfall}");
-            Ok(())
-        }
+        Some(_) if count <= wanted => Err(format!("{count} triangles are as few as were wanted, yet short")),
+        Some(_) if before.non_manifold > 0 || wanted < FEWEST => Ok(()),
         Some(shortfall) => Err(format!("a manifold surface falls short: {shortfall}")),
     }
 }

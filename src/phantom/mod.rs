@@ -46,7 +46,7 @@ const GRID_SHIFTS: [f64; 3] = [0.819_172_5, 0.671_043_6, 0.549_700_5];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sample {
-    /// Abdominal aorta with visceral, renal and iliac arteries.
+    /// Abdominal aorta with renal and common iliac arteries.
     Aorta,
     /// Aortic root and arch with the coronary arteries.
     Coronary,
@@ -84,7 +84,7 @@ impl Sample {
     /// Distance in mm between points in a slice that gives [`Self::default_triangles`] to the triangle.
     fn default_spacing(self) -> f64 {
         match self {
-            Self::Aorta => 0.897_356,
+            Self::Aorta => 0.593_508,
             Self::Coronary => 0.398_353,
         }
     }
@@ -155,7 +155,7 @@ pub fn vessels(sample: Sample) -> Vec<Vessel> {
 
 /// Makes a sample whose largest component has `triangles` triangles to within 1 % (exactly, for
 /// [`Sample::default_triangles`]). `triangles` is in [`MIN_TRIANGLES`]`..=`[`MAX_TRIANGLES`]. On coarse grids thin
-/// branches are widened to what the grid can show; below about 5,000 triangles for the aorta and 10,000 for the
+/// branches are widened to what the grid can show; below about 10,000 triangles for the
 /// coronary arteries they so come to touch their neighbours.
 ///
 /// # Errors

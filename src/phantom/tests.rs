@@ -110,7 +110,7 @@ fn the_aorta_is_what_the_paper_counts_and_anatomy_says() {
     assert_eq!(largest(&mesh).triangles.len(), 74_307);
     assert_is_a_tree(Sample::Aorta, &mesh);
     assert_is_a_clean_surface_with_islands(&mesh);
-    assert_lumens_have_their_diameters(Sample::Aorta, &mesh, &["coeliac trunk"]);
+    assert_lumens_have_their_diameters(Sample::Aorta, &mesh, &[]);
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn coronary_ostia_are_3_to_4_mm_wide_and_in_the_sinuses() {
 #[test]
 fn other_counts_are_hit_to_one_per_cent() {
     // With the counts from which on the grid is fine enough for the whole tree.
-    let samples = [(Sample::Aorta, 5_000), (Sample::Coronary, 10_000)];
+    let samples = [(Sample::Aorta, 2_000), (Sample::Coronary, 10_000)];
     for (sample, whole_from) in samples {
         for wanted in [2_000, 5_000, 10_000, 20_000, 100_000, 300_000, 1_000_000] {
             let mesh = generate(sample, wanted).unwrap_or_else(|e| panic!("{sample}: {e}"));
