@@ -28,15 +28,15 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// Shows the rows; says whether the value was changed.
+    /// Shows the rows; says whether the user changed the value, which then has as many digits as are shown.
     pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
-        let before = *value;
+        let mut changed = false;
         ui.spacing_mut().interact_size.y = ROW;
         ui.horizontal(|ui| {
             ui.label(self.name).on_hover_text(self.help);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                self.reset(ui, value);
-                self.typed(ui, value);
+                changed |= self.reset(ui, value);
+                changed |= self.typed(ui, value);
             });
         });
         ui.spacing_mut().slider_width = ui.available_width();
@@ -48,33 +48,36 @@ impl Setting<'_> {
             .step_by(step);
         let response = ui.add(slider).on_hover_text(self.help);
         describe(&response, Role::Slider, self.name, *value);
-        *value = self.rounded(*value);
-        before.to_bits() != value.to_bits()
+        changed |= response.changed();
+        if changed {
+            *value = self.rounded(*value);
+        }
+        changed
     }
 
-    fn typed(&self, ui: &mut Ui, value: &mut f64) {
-        let digits = self.decimals;
+    fn typed(&self, ui: &mut Ui, value: &mut f64) -> bool {
         let field = DragValue::new(value)
             .range(self.range.clone())
             .speed((self.range.end() - self.range.start()) / 1000.0)
-            .max_decimals(digits)
+            .max_decimals(self.decimals)
             .suffix(self.unit)
             .update_while_editing(false);
         let response = ui.add(field).on_hover_text("Drag, or click to type");
         describe(&response, Role::SpinButton, &format!("{} value", self.name), *value);
+        response.changed()
     }
 
-    fn reset(&self, ui: &mut Ui, value: &mut f64) {
+    fn reset(&self, ui: &mut Ui, value: &mut f64) -> bool {
         let is_default = (*value - self.default).abs() < 1e-9;
         let help = format!("Back to {}{}", self.default, self.unit);
         let label = format!("Reset {}", self.name.to_lowercase());
-        let response = icon::button(ui, Icon::Reset, !is_default, &label, &help);
-        if response.clicked() {
+        let is_clicked = icon::button(ui, Icon::Reset, !is_default, &label, &help).clicked();
+        if is_clicked {
             *value = self.default;
         }
+        is_clicked
     }
 
-    /// The value with as many digits as are shown, so that what is shown is what is computed with.
     fn rounded(&self, value: f64) -> f64 {
         let scale = libm::pow(10.0, self.decimals as f64);
         ((value * scale).round() / scale).clamp(*self.range.start(), *self.range.end())

@@ -82,6 +82,9 @@ fn orientation(painter: &Painter, inner: Rect, camera: &Camera, colour: Color32)
         let strength = 0.55 + 0.45 * (axis.z + 1.0) / 2.0;
         let colour = colour.gamma_multiply(strength);
         painter.line_segment([middle, end], Stroke::new(1.5, colour));
+        if axis.truncate().length() < 0.35 {
+            continue;
+        }
         let at: Pos2 = middle + vec2(axis.x, -axis.y) * (SIZE + 8.0);
         painter.text(at, Align2::CENTER_CENTER, letter, FontId::proportional(11.0), colour);
     }
