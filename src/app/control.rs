@@ -30,13 +30,24 @@ pub(super) struct Setting<'a> {
 impl Setting<'_> {
     /// Shows the rows; says whether the user changed the value, which then has as many digits as are shown.
     pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
-        let mut changed = false;
+        // The controls work on what is shown: one that is left alone changes no digit that is not.
+        let before = self.rounded(*value);
+        let mut shown = before;
+        self.rows(ui, &mut shown);
+        let changed = self.rounded(shown).to_bits() != before.to_bits();
+        if changed {
+            *value = self.rounded(shown);
+        }
+        changed
+    }
+
+    fn rows(&self, ui: &mut Ui, value: &mut f64) {
         ui.spacing_mut().interact_size.y = ROW;
         ui.horizontal(|ui| {
             ui.label(self.name).on_hover_text(self.help);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                changed |= self.reset(ui, value);
-                changed |= self.typed(ui, value);
+                self.reset(ui, value);
+                self.typed(ui, value);
             });
         });
         ui.spacing_mut().slider_width = ui.available_width();
@@ -48,14 +59,9 @@ impl Setting<'_> {
             .step_by(step);
         let response = ui.add(slider).on_hover_text(self.help);
         describe(&response, Role::Slider, self.name, *value);
-        changed |= response.changed();
-        if changed {
-            *value = self.rounded(*value);
-        }
-        changed
     }
 
-    fn typed(&self, ui: &mut Ui, value: &mut f64) -> bool {
+    fn typed(&self, ui: &mut Ui, value: &mut f64) {
         let field = DragValue::new(value)
             .range(self.range.clone())
             .speed((self.range.end() - self.range.start()) / 1000.0)
@@ -64,18 +70,15 @@ impl Setting<'_> {
             .update_while_editing(false);
         let response = ui.add(field).on_hover_text("Drag, or click to type");
         describe(&response, Role::SpinButton, &format!("{} value", self.name), *value);
-        response.changed()
     }
 
-    fn reset(&self, ui: &mut Ui, value: &mut f64) -> bool {
+    fn reset(&self, ui: &mut Ui, value: &mut f64) {
         let is_default = (*value - self.default).abs() < 1e-9;
         let help = format!("Back to {}{}", self.default, self.unit);
         let label = format!("Reset {}", self.name.to_lowercase());
-        let is_clicked = icon::button(ui, Icon::Reset, !is_default, &label, &help).clicked();
-        if is_clicked {
+        if icon::button(ui, Icon::Reset, !is_default, &label, &help).clicked() {
             *value = self.default;
         }
-        is_clicked
     }
 
     fn rounded(&self, value: f64) -> f64 {
