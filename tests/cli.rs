@@ -1,0 +1,170 @@
+//! The subcommands as a script sees them: files, tables, reports, exit statuses.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// A folder of its own for each test, gone when it ends.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cli-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> String {
+        self.0.join(name).to_string_lossy().into_owned()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        std::fs::remove_dir_all(&self.0).unwrap();
+    }
+}
+
+fn lumen(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lumen")).args(arguments).output().unwrap()
+}
+
+fn succeed(arguments: &[&str]) -> String {
+    let output = lumen(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(path: &str) -> Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+#[test]
+fn inspect_prints_every_promised_field_of_the_sample() {
+    let report: Value = serde_json::from_str(&succeed(&["inspect", "sample:aorta", "--json"])).unwrap();
+    assert_eq!(report["largest_component_triangles"], 74_307);
+    for field in [
+        "format",
+        "vertices",
+        "triangles",
+        "components",
+        "boundary_edges",
+        "non_manifold_edges",
+        "degenerate_triangles",
+        "area_mm2",
+        "volume_mm3",
+        "bounds_mm",
+        "warnings",
+    ] {
+        assert!(!report[field].is_null(), "{field} of {report}");
+    }
+    assert_eq!((&report["non_manifold_edges"], &report["degenerate_triangles"]), (&0.into(), &0.into()));
+}
+
+#[test]
+fn optimise_writes_table_two_of_the_paper_and_a_whole_report() {
+    let folder = Folder::new("optimise");
+    for (rate, printed) in [("10", 66_875), ("50%", 37_153), ("75", 18_576), ("90 %", 7_430), ("99", 743)] {
+        let (out, report) = (folder.file("out.ply"), folder.file("report.json"));
+        let table = succeed(&["optimise", "sample:aorta", "-o", &out, "--reduction", rate, "--report", &report]);
+        assert!(table.contains("Not for clinical decisions."));
+        let report = json(&report);
+        let count = report["output"]["triangles"].as_i64().unwrap();
+        assert!((count - printed).abs() <= 2, "{rate}: {count} beside the paper's {printed}");
+        let read: Value = serde_json::from_str(&succeed(&["inspect", &out, "--json"])).unwrap();
+        assert_eq!((&read["triangles"], &read["components"]), (&count.into(), &1.into()));
+        assert_eq!(report["after_connectivity"]["triangles"], 74_307);
+        assert_eq!(report["after_connectivity"]["components"], 1);
+        assert_eq!(report["input"], "sample:aorta");
+        for stage in ["read", "connectivity", "smoothing", "decimation", "level", "normals", "deviation", "write"] {
+            assert!(report["stages_ms"][stage].as_f64().is_some_and(|ms| ms >= 0.0), "{stage}");
+        }
+        for deviation in ["deviation_mm", "deviation_from_original_mm"] {
+            let of = |what: &str| report[deviation][what].as_f64().unwrap();
+            assert!(of("mean") <= of("rms") && of("rms") <= of("max") && of("p95") <= of("max"), "{report}");
+        }
+        assert!(report["volume_change_percent"].as_f64().is_some_and(|change| change.abs() < 10.0));
+        assert!(report["area_change_percent"].is_number() && report["shortfall"].is_null());
+    }
+}
+
+#[test]
+fn a_count_can_be_asked_for_and_every_piece_kept() {
+    let folder = Folder::new("count");
+    let (out, report) = (folder.file("out.glb"), folder.file("report.json"));
+    let arguments = ["optimise", "sample:aorta", "-o", &out, "--triangles", "5000", "--iterations", "0"];
+    succeed(&[&arguments[..], &["--keep-all-components", "--report", &report]].concat());
+    let report = json(&report);
+    assert!((4_999..=5_000).contains(&report["output"]["triangles"].as_i64().unwrap()));
+    assert_eq!(report["opened"]["components"], report["output"]["components"]);
+    assert_eq!(report["stages_ms"]["smoothing"].as_f64().unwrap().round(), 0.0);
+}
+
+#[test]
+fn the_same_input_and_settings_give_the_same_bytes() {
+    let folder = Folder::new("same");
+    let files = ["a.stl", "b.stl"].map(|name| folder.file(name));
+    for file in &files {
+        succeed(&["optimise", "sample:aorta", "-o", file, "--reduction", "95", "--window", "nuttall"]);
+    }
+    let [a, b] = files.map(|file| std::fs::read(file).unwrap());
+    assert_eq!(a, b);
+}
+
+#[test]
+fn phantoms_have_the_size_that_is_asked_for() {
+    let folder = Folder::new("phantom");
+    let out = folder.file("coronary.stl");
+    succeed(&["phantom", "coronary", "--triangles", "60000", "-o", &out]);
+    let report: Value = serde_json::from_str(&succeed(&["inspect", &out, "--json"])).unwrap();
+    let largest = report["largest_component_triangles"].as_i64().unwrap();
+    assert!((largest - 60_000).abs() <= 600, "{largest}");
+}
+
+#[test]
+fn what_cannot_be_done_ends_with_one_and_a_sentence_and_leaves_the_output_alone() {
+    let folder = Folder::new("failures");
+    let (out, bad) = (folder.file("out.stl"), folder.file("bad.stl"));
+    std::fs::write(&out, "precious").unwrap();
+    std::fs::write(&bad, "this is no mesh").unwrap();
+    let cases: [&[&str]; 4] = [
+        &["optimise", "no-such-file.stl", "-o", &out],
+        &["optimise", &bad, "-o", &out],
+        &["optimise", "sample:aorta", "-o", &folder.file("out.docx")],
+        &["inspect", "sample:kidney"],
+    ];
+    for arguments in cases {
+        let output = lumen(arguments);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {error}");
+        assert!(error.starts_with("lumen: ") && error.lines().count() == 1, "{error}");
+    }
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), "precious");
+}
+
+#[test]
+fn a_command_line_without_sense_ends_with_two() {
+    for arguments in [
+        &["optimise", "sample:aorta"][..],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--reduction", "100"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--pass-band", "NaN"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--iterations", "201"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--feature-angle", "181"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--triangles", "0"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--window", "boxcar"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--unit", "inch"],
+    ] {
+        let output = lumen(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[test]
+fn a_rate_between_nought_and_one_draws_a_warning() {
+    let folder = Folder::new("warning");
+    let out = folder.file("out.stl");
+    let output = lumen(&["optimise", "sample:aorta", "-o", &out, "--reduction", "0.9", "--iterations", "0"]);
+    assert!(output.status.success());
+    assert!(String::from_utf8(output.stderr).unwrap().contains("warning: --reduction 0.9"));
+}
