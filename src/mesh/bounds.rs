@@ -26,6 +26,14 @@ impl Bounds {
         Self { min: min.into(), max: max.into() }
     }
 
+    /// The smallest box around this one and `other`.
+    pub fn joined(&self, other: &Self) -> Self {
+        Self {
+            min: Vec3::from(self.min).min(other.min.into()).into(),
+            max: Vec3::from(self.max).max(other.max.into()).into(),
+        }
+    }
+
     /// Whether the box holds no point.
     pub fn is_empty(&self) -> bool {
         (0..3).any(|i| self.min[i] > self.max[i])

@@ -1,0 +1,244 @@
+//! The progressive mesh: every reduction rate of one decimation run at once.
+//!
+//! Hoppe, "Progressive meshes" (1996), kept as a merge forest (the vertex hierarchy of Xia and Varshney 1996): step
+//! `s` of the run ends some nodes and some triangles. A half-edge collapse ends one node, whose parent is the
+//! survivor; a method that places a new vertex ends two, whose parent is a new node. Nodes and triangles are stored
+//! in the order in which they end, the last first, so that the level after `s` steps is
+//!
+//! - the triangles that end later: a prefix;
+//! - with each corner replaced by its first ancestor that ends later, found for all nodes in one pass, because a
+//!   parent ends later than its children and so stands before them.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::settings::Target;
+use crate::mesh::TriMesh;
+
+/// The step at which a node or triangle ends that is never removed.
+pub const NEVER: u32 = u32::MAX;
+
+/// Every level of a surface between the one that entered decimation and the coarsest that was reached.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ProgressiveMesh {
+    /// Positions of all nodes in mm, by end, the last first.
+    pub positions: Vec<Vec3>,
+    /// The node that takes over when a node ends; itself where it never ends.
+    pub parents: Vec<u32>,
+    /// The step that ends each node, descending; [`NEVER`] first.
+    pub node_ends: Vec<u32>,
+    /// Corners of each triangle (nodes of the finest level), by end, the last first.
+    pub triangles: Vec<[u32; 3]>,
+    /// The step that ends each triangle, descending.
+    pub triangle_ends: Vec<u32>,
+    /// The error of each step in mm, as the method measures it, made non-decreasing.
+    pub errors: Vec<f32>,
+    /// Why the run ended where it did.
+    pub limit: Limit,
+}
+
+/// Why a decimation run went no further.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Limit {
+    /// Vertices that could go no further because the surface's topology would change (a tube pinched shut, an open
+    /// end with three edges, two pieces joined).
+    pub topology: u32,
+    /// Vertices that could not go because a triangle would fold over or become a sliver.
+    pub geometry: u32,
+    /// Vertices that stay by rule: on non-manifold edges, or where several open ends meet.
+    pub complex: u32,
+}
+
+/// Why a target was not met.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shortfall {
+    /// Triangles asked for.
+    pub wanted: u32,
+    /// Triangles of the coarsest level there is.
+    pub reached: u32,
+    /// What stopped the run.
+    pub limit: Limit,
+}
+
+impl std::fmt::Display for Shortfall {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { wanted, reached, limit } = self;
+        write!(f, "{reached} triangles is as far as this surface goes ({wanted} were asked for): ")?;
+        let Limit { topology, geometry, complex } = *limit;
+        let reason = match (topology >= geometry && topology >= complex, geometry >= complex) {
+            (true, _) => "removing more would close an open end or pinch a vessel",
+            (false, true) => "removing more would fold the surface over itself",
+            (false, false) => "the rest lies on edges of more than two triangles, which are kept as they are",
+        };
+        f.write_str(reason)
+    }
+}
+
+/// One level of a progressive mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Level {
+    /// Steps taken from the finest level.
+    pub steps: u32,
+    /// Triangles over the nodes of the progressive mesh.
+    pub triangles: Vec<[u32; 3]>,
+    /// Why the level is finer than was asked for, if it is.
+    pub shortfall: Option<Shortfall>,
+}
+
+impl ProgressiveMesh {
+    /// Orders the outcome of a run of half-edge collapses on `mesh`.
+    ///
+    /// `collapses` has, for each step, the vertex that goes and the one that takes over; `triangle_ends` the step
+    /// that ends each triangle of `mesh`, or [`NEVER`].
+    ///
+    /// # Panics
+    /// When the lengths do not fit, or a vertex is removed twice (debug builds).
+    pub fn from_collapses(
+        mesh: &TriMesh,
+        collapses: &[[u32; 2]],
+        triangle_ends: &[u32],
+        mut errors: Vec<f32>,
+        limit: Limit,
+    ) -> Self {
+        assert_eq!(mesh.triangles.len(), triangle_ends.len());
+        assert_eq!(collapses.len(), errors.len());
+        let count = mesh.positions.len();
+        let survivors = count - collapses.len();
+        let mut node_of = vec![NEVER; count];
+        for (step, &[gone, _]) in collapses.iter().enumerate() {
+            debug_assert_eq!(node_of[gone as usize], NEVER, "a vertex goes once");
+            node_of[gone as usize] = (count - 1 - step) as u32;
+        }
+        for (next, node) in node_of.iter_mut().filter(|node| **node == NEVER).enumerate() {
+            *node = next as u32;
+        }
+        let mut positions = vec![Vec3::ZERO; count];
+        for (v, &node) in node_of.iter().enumerate() {
+            positions[node as usize] = mesh.positions[v];
+        }
+        let mut parents: Vec<u32> = (0..count as u32).collect();
+        for &[gone, kept] in collapses {
+            parents[node_of[gone as usize] as usize] = node_of[kept as usize];
+        }
+        let node_end = |node: usize| if node < survivors { NEVER } else { (count - 1 - node) as u32 };
+        // A counting sort by end, the last first, keeps the order of triangles that end together.
+        let slot = |end: u32| if end == NEVER { 0 } else { collapses.len() - end as usize };
+        let mut starts = vec![0u32; collapses.len() + 2];
+        triangle_ends.iter().for_each(|&end| starts[slot(end) + 1] += 1);
+        (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
+        let mut triangles = vec![[0; 3]; mesh.triangles.len()];
+        let mut ends = vec![0; mesh.triangles.len()];
+        for (corners, &end) in mesh.triangles.iter().zip(triangle_ends) {
+            let place = &mut starts[slot(end)];
+            triangles[*place as usize] = corners.map(|v| node_of[v as usize]);
+            ends[*place as usize] = end;
+            *place += 1;
+        }
+        (1..errors.len()).for_each(|i| errors[i] = errors[i].max(errors[i - 1]));
+        Self {
+            positions,
+            parents,
+            node_ends: (0..count).map(node_end).collect(),
+            triangles,
+            triangle_ends: ends,
+            errors,
+            limit,
+        }
+    }
+
+    /// Triangles of the level after `steps` steps.
+    pub fn triangles_after(&self, steps: u32) -> usize {
+        self.triangle_ends.partition_point(|&end| end >= steps)
+    }
+
+    /// The fewest steps after which there are at most `wanted` triangles; all steps if there are always more.
+    pub fn steps_to(&self, wanted: usize) -> u32 {
+        // The triangle at index `wanted` is the first that must be gone.
+        match self.triangle_ends.get(wanted) {
+            None => 0,
+            Some(&NEVER) => self.errors.len() as u32,
+            Some(&end) => end + 1,
+        }
+    }
+
+    /// The level that meets `target`, or the coarsest there is together with why.
+    pub fn level(&self, target: Target) -> Level {
+        let wanted = target.triangles(self.triangles.len());
+        let steps = self.steps_to(wanted);
+        let triangles = self.triangles_at(steps);
+        let reached = triangles.len();
+        let shortfall = (reached > wanted).then(|| Shortfall {
+            wanted: wanted as u32,
+            reached: reached as u32,
+            limit: self.limit,
+        });
+        Level { steps, triangles, shortfall }
+    }
+
+    /// The triangles after `steps` steps, over the nodes. Linear in nodes and triangles of the level.
+    pub fn triangles_at(&self, steps: u32) -> Vec<[u32; 3]> {
+        let alive = self.node_ends.partition_point(|&end| end >= steps) as u32;
+        let mut heir: Vec<u32> = Vec::with_capacity(self.parents.len());
+        for (node, &parent) in (0..).zip(&self.parents) {
+            heir.push(if node < alive { node } else { heir[parent as usize] });
+        }
+        let level = &self.triangles[..self.triangles_after(steps)];
+        level.iter().map(|corners| corners.map(|v| heir[v as usize])).collect()
+    }
+
+    /// A surface of its own of a level's triangles: nodes in use, in their order.
+    pub fn extract(&self, triangles: &[[u32; 3]]) -> TriMesh {
+        TriMesh { positions: self.positions.clone(), triangles: triangles.to_vec() }.filtered(|_| true)
+    }
+
+    /// Checks every promise of the structure; for tests.
+    ///
+    /// # Panics
+    /// When a promise is broken.
+    pub fn assert_well_formed(&self) {
+        let (nodes, steps) = (self.positions.len(), self.errors.len() as u32);
+        assert_eq!((self.parents.len(), self.node_ends.len()), (nodes, nodes));
+        assert_eq!(self.triangles.len(), self.triangle_ends.len());
+        assert!(self.node_ends.is_sorted_by(|a, b| a >= b) && self.triangle_ends.is_sorted_by(|a, b| a >= b));
+        assert!(self.errors.is_sorted() && self.errors.iter().all(|e| e.is_finite()));
+        for (node, (&parent, &end)) in self.parents.iter().zip(&self.node_ends).enumerate() {
+            assert!(if end == NEVER { parent as usize == node } else { (parent as usize) < node && end < steps });
+        }
+        assert!(self.triangle_ends.iter().all(|&end| end == NEVER || end < steps));
+        assert!(self.triangles.as_flattened().iter().all(|&v| (v as usize) < nodes));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A fan of four triangles around vertex 4; 4 goes to 0, then 1 goes to 0.
+    fn fan() -> ProgressiveMesh {
+        let positions = (0..5).map(|i| Vec3::splat(i as f32)).collect();
+        let mesh = TriMesh { positions, triangles: vec![[4, 0, 1], [4, 1, 2], [4, 2, 3], [4, 3, 0]] };
+        ProgressiveMesh::from_collapses(&mesh, &[[4, 0], [1, 0]], &[0, 1, NEVER, 0], vec![0.5, 0.25], Limit::default())
+    }
+
+    #[test]
+    fn levels_are_prefixes_with_ancestors() {
+        let mesh = fan();
+        mesh.assert_well_formed();
+        assert_eq!(mesh.positions.iter().map(|p| p.x).collect::<Vec<_>>(), [0.0, 2.0, 3.0, 1.0, 4.0]);
+        assert_eq!(mesh.triangles_at(0), [[4, 1, 2], [4, 3, 1], [4, 0, 3], [4, 2, 0]]);
+        assert_eq!(mesh.triangles_at(1), [[0, 1, 2], [0, 3, 1]]);
+        assert_eq!(mesh.triangles_at(2), [[0, 1, 2]]);
+        assert_eq!(mesh.errors, [0.5, 0.5]);
+        assert_eq!(mesh.extract(&mesh.triangles_at(2)).positions.len(), 3);
+    }
+
+    #[test]
+    fn targets_are_met_from_below_and_shortfalls_say_why() {
+        let mesh = fan();
+        assert_eq!([4, 3, 2, 1, 0].map(|n| mesh.level(Target::Triangles(n)).triangles.len()), [4, 2, 2, 1, 1]);
+        assert_eq!(mesh.level(Target::Triangles(1)).shortfall, None);
+        let shortfall = mesh.level(Target::Reduction(999)).shortfall.unwrap();
+        assert_eq!((shortfall.wanted, shortfall.reached), (0, 1));
+        assert_eq!(ProgressiveMesh::default().level(Target::Reduction(900)), Level::default());
+    }
+}

@@ -1,0 +1,223 @@
+//! What a user can set: the whole of it, small and serialisable. A result is a function of (file, settings).
+
+use serde::{Deserialize, Serialize};
+
+/// Settings of all stages, in the order of the method.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Which connected pieces go on.
+    pub keep: Keep,
+    /// The windowed-sinc filter.
+    pub smoothing: Smoothing,
+    /// How the reduction is made.
+    pub decimation: Decimation,
+    /// How far it goes.
+    pub target: Target,
+}
+
+/// Which connected pieces of the surface are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Keep {
+    /// The piece with the most triangles.
+    #[default]
+    Largest,
+    /// The piece with this number (pieces are numbered by their first triangle).
+    Component(u32),
+    /// Every piece.
+    All,
+}
+
+/// Settings of the windowed-sinc filter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Smoothing {
+    /// The window that tapers the Chebyshev coefficients.
+    pub window: Window,
+    /// Pass band: eigenvalues k of the Laplacian below this pass; `0 < pass_band <= 2`, without unit.
+    pub pass_band: f64,
+    /// Degree of the polynomial; `0` skips smoothing.
+    pub iterations: u32,
+    /// What happens at open ends.
+    pub boundary: Boundary,
+}
+
+impl Smoothing {
+    /// The range of the pass band.
+    pub const PASS_BAND: std::ops::RangeInclusive<f64> = 0.001..=2.0;
+    /// The largest number of iterations.
+    pub const MAX_ITERATIONS: u32 = 200;
+}
+
+impl Default for Smoothing {
+    /// The setting that the paper chose: Hamming window, pass band 0.01, 100 iterations.
+    fn default() -> Self {
+        Self { window: Window::Hamming, pass_band: 0.01, iterations: 100, boundary: Boundary::Loop }
+    }
+}
+
+/// The window of the windowed-sinc filter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Window {
+    /// 0.54 + 0.46 cos t: the paper's.
+    #[default]
+    Hamming,
+    /// 0.5 + 0.5 cos t.
+    Hanning,
+    /// 0.42 + 0.5 cos t + 0.08 cos 2t.
+    Blackman,
+    /// Four terms, the lowest side lobes.
+    Nuttall,
+}
+
+impl Window {
+    /// All windows, the default first.
+    pub const ALL: [Self; 4] = [Self::Hamming, Self::Hanning, Self::Blackman, Self::Nuttall];
+
+    /// The window's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hamming => "Hamming",
+            Self::Hanning => "Hanning",
+            Self::Blackman => "Blackman",
+            Self::Nuttall => "Nuttall",
+        }
+    }
+}
+
+/// What the filter does at the boundary of an open surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Boundary {
+    /// A boundary vertex is smoothed along its loop: its neighbours are the two on the boundary.
+    #[default]
+    Loop,
+    /// VTK's rule, for comparison: as `Loop`, but a vertex where the boundary turns by more than 15 degrees stays.
+    Vtk15,
+}
+
+/// Settings of the decimation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Decimation {
+    /// An edge whose two triangles' normals differ by more than this is a feature edge; degrees, 0 to 180.
+    pub feature_angle: f64,
+}
+
+impl Default for Decimation {
+    /// 60 degrees: above the 35 to 55 degrees of a marching-cubes stair-step, which is no feature of a vessel.
+    fn default() -> Self {
+        Self { feature_angle: 60.0 }
+    }
+}
+
+/// How many triangles are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Target {
+    /// The part removed of the triangles that enter the stage, in tenths of a percent: 900 is 90 %.
+    Reduction(u32),
+    /// A number of triangles.
+    Triangles(u32),
+}
+
+impl Default for Target {
+    fn default() -> Self {
+        Self::Reduction(900)
+    }
+}
+
+impl Target {
+    /// The largest reduction rate that can be asked for: 99.9 %.
+    pub const MAX_PER_MILLE: u32 = 999;
+
+    /// The number of triangles wanted of `n`: `n (1000 - r) / 1000` in integers.
+    pub fn triangles(self, n: usize) -> usize {
+        match self {
+            Self::Reduction(per_mille) => n * (1000 - per_mille.min(1000) as usize) / 1000,
+            Self::Triangles(count) => n.min(count as usize),
+        }
+    }
+
+    /// The reduction rate in percent, of `n` triangles.
+    pub fn percent(self, n: usize) -> f64 {
+        match self {
+            Self::Reduction(per_mille) => f64::from(per_mille) / 10.0,
+            Self::Triangles(count) => reduction_percent(n, n.min(count as usize)),
+        }
+    }
+}
+
+/// Equation (7) of the paper: the part of `before` triangles that is gone when `after` are left, in percent.
+pub fn reduction_percent(before: usize, after: usize) -> f64 {
+    if before == 0 { 0.0 } else { (before - after.min(before)) as f64 / before as f64 * 100.0 }
+}
+
+/// A setting that no stage can work with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SettingsError {
+    /// The pass band is not a number in `(0, 2]`.
+    #[error("the pass band must lie between 0.001 and 2, not {0}")]
+    PassBand(f64),
+    /// Too many iterations.
+    #[error("the number of iterations must lie between 0 and 200, not {0}")]
+    Iterations(u32),
+    /// The feature angle is not a number in `[0, 180]`.
+    #[error("the feature angle must lie between 0 and 180 degrees, not {0}")]
+    FeatureAngle(f64),
+    /// The reduction rate is above 99.9 %.
+    #[error("the reduction rate must lie between 0 and 99.9 %, not {0} %")]
+    Reduction(f64),
+    /// There is no such component.
+    #[error("there is no component {wanted}: the surface has {count}")]
+    Component {
+        /// The number asked for, from 0.
+        wanted: u32,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+impl Settings {
+    /// Checks every range; NaN is refused.
+    ///
+    /// # Errors
+    /// The first setting that is out of range.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        if !Smoothing::PASS_BAND.contains(&self.smoothing.pass_band) {
+            return Err(SettingsError::PassBand(self.smoothing.pass_band));
+        }
+        if self.smoothing.iterations > Smoothing::MAX_ITERATIONS {
+            return Err(SettingsError::Iterations(self.smoothing.iterations));
+        }
+        if !(0.0..=180.0).contains(&self.decimation.feature_angle) {
+            return Err(SettingsError::FeatureAngle(self.decimation.feature_angle));
+        }
+        match self.target {
+            Target::Reduction(r) if r > Target::MAX_PER_MILLE => Err(SettingsError::Reduction(f64::from(r) / 10.0)),
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_two_of_the_paper() {
+        // The paper prints 37,153 for 50 %: 74,307 / 2 = 37,153.5.
+        let rates = [(100, 66_875), (500, 37_153), (750, 18_576), (900, 7_430), (990, 743)];
+        for (rate, printed) in rates {
+            let target = Target::Reduction(rate).triangles(74_307);
+            assert!(target.abs_diff(printed) <= 1, "{rate}: {target} beside the paper's {printed}");
+        }
+    }
+
+    #[test]
+    fn settings_that_are_no_numbers_are_refused() {
+        let mut settings = Settings::default();
+        assert_eq!(settings.check(), Ok(()));
+        settings.smoothing.pass_band = f64::NAN;
+        assert!(matches!(settings.check(), Err(SettingsError::PassBand(_))));
+        settings = Settings { target: Target::Reduction(1000), ..Settings::default() };
+        assert!(matches!(settings.check(), Err(SettingsError::Reduction(_))));
+        settings = Settings { decimation: Decimation { feature_angle: -1.0 }, ..Settings::default() };
+        assert!(matches!(settings.check(), Err(SettingsError::FeatureAngle(_))));
+    }
+}
