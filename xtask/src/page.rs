@@ -23,12 +23,16 @@ pub(crate) fn stamp(dist: &Path, module: &Path) -> Result<()> {
     }
     let version = format!("{:016x}", hasher.finish());
     let facts = format!(
-        "<meta name=\"lumen-module-bytes\" content=\"{}\">\n    <meta name=\"lumen-version\" content=\"{version}\">\n  </head>",
+        "    <meta name=\"lumen-module-bytes\" content=\"{}\">\n    <meta name=\"lumen-version\" content=\"{version}\">\n  </head>",
         bytes.len()
     );
-    let page = page
-        .replacen("</head>", &facts, 1)
+    // Trunk leaves its own links, or blanks where they were.
+    let lines = page.lines().filter(|line| !line.trim().is_empty() && !line.contains("data-trunk"));
+    let page = lines
+        .collect::<Vec<_>>()
+        .join("\n")
+        .replacen("  </head>", &facts, 1)
         .replace("\"boot.js\"", &format!("\"boot.js?v={version}\""))
         .replace("\"style.css\"", &format!("\"style.css?v={version}\""));
-    std::fs::write(&file, page).context("dist/index.html cannot be written")
+    std::fs::write(&file, page + "\n").context("dist/index.html cannot be written")
 }
