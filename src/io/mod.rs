@@ -1,1 +1,78 @@
-//! The module `io`.
+//! Bytes to mesh and back, one file a format, with a report of what was found and what was mended.
+//!
+//! Reading is two steps. A format's file (`stl`, `ply`, `obj`, `gltf`) turns bytes into the polygons that stand in
+//! them and judges nothing but its own syntax; the import stage (`import`) then welds, triangulates, cleans and
+//! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
+//! the content first and by the extension only where the content does not say (`detect`).
+//!
+//! Numbers in a file are millimetres unless [`ImportOptions::unit`] says otherwise; glTF is metres, as its
+//! specification has it. Nothing is rescaled silently: a size that no vessel has draws a warning.
+//!
+//! No memory is allocated because a header claims it: every count is checked against the bytes that are there.
+
+mod detect;
+mod error;
+mod format;
+mod gltf;
+mod import;
+mod obj;
+mod ply;
+mod polygons;
+mod report;
+mod stl;
+mod text;
+mod weld;
+mod winding;
+
+pub use error::{ReadError, WriteError};
+pub use format::{Format, Unit, UnknownUnit};
+pub use import::import_mesh;
+pub use report::{ImportReport, Imported, Skipped};
+
+use crate::mesh::{TriMesh, Vec3};
+use detect::Content;
+
+/// What the user says about a file that the file does not say itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ImportOptions {
+    /// The unit of the file's numbers; `None` takes millimetres, and metres for glTF.
+    pub unit: Option<Unit>,
+}
+
+/// Reads the surface in `bytes`. `name` is the file's name: it matters only where the content alone does not tell
+/// the format, as with OBJ.
+///
+/// # Errors
+/// [`ReadError`], each in one plain sentence: the file is empty, of another kind, cut short or broken, or holds no
+/// triangle that has an area.
+pub fn read(bytes: &[u8], name: &str, options: &ImportOptions) -> Result<Imported, ReadError> {
+    let content = detect::detect(bytes, name)?;
+    let unit = options.unit.unwrap_or(match content {
+        Content::Glb | Content::Gltf => Unit::Metre,
+        Content::Stl | Content::Ply | Content::Obj => Unit::Millimetre,
+    });
+    let raw = match content {
+        Content::Stl => stl::read(bytes)?,
+        Content::Ply => ply::read(bytes)?,
+        Content::Obj => obj::read(bytes)?,
+        Content::Glb => gltf::read_binary(bytes, unit)?,
+        Content::Gltf => gltf::read_text(bytes, unit)?,
+    };
+    import::import(raw, unit)
+}
+
+/// The bytes of `mesh` in `format`, in mm (GLB: in mm under a node scale of 0.001, since glTF is metres).
+/// `normals` are unit vectors, one a vertex; STL has no place for them and writes each facet's own.
+/// The same mesh gives the same bytes everywhere.
+///
+/// # Errors
+/// [`WriteError`] when the mesh is empty or not well formed, or too large for the format.
+pub fn write(mesh: &TriMesh, normals: Option<&[Vec3]>, format: Format) -> Result<Vec<u8>, WriteError> {
+    error::check_writable(mesh, normals)?;
+    match format {
+        Format::Stl => stl::write(mesh),
+        Format::Ply => Ok(ply::write(mesh, normals)),
+        Format::Obj => Ok(obj::write(mesh, normals)),
+        Format::Glb => gltf::write(mesh, normals),
+    }
+}

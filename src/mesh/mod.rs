@@ -4,15 +4,22 @@
 
 mod boundary;
 mod bounds;
+mod closest_point;
 mod components;
+mod index_build;
 mod measures;
+mod nearest;
+#[cfg(test)]
+pub(crate) mod shapes;
 mod topology;
 
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
 pub use components::{Components, components};
 pub use glam::Vec3;
+pub use index_build::IndexBuild;
 pub use measures::{Measures, measures, surface_area, triangle_area, volume};
+pub use nearest::{Nearest, SurfaceIndex};
 pub use topology::{EdgeCounts, EdgeUse, Topology};
 
 /// A triangle surface. Triangles wind counter-clockwise seen from outside.

@@ -1,1 +1,224 @@
-//! The module `phantom`.
+//! Vessel trees that Lumen makes itself, to try everything on without a file.
+//!
+//! A sample is made the way a segmented scan is: vessels with published dimensions ([`vessels`]) are sampled as a
+//! binary mask on an anisotropic, CT-like grid, and the mask is cut by marching cubes. So the surface has the
+//! stair-steps of a segmentation, open ends where vessels leave the volume, and a few detached specks of noise.
+//! Coordinates are LPS millimetres: x to the patient's left, y to the back, z up.
+//!
+//! The same sample and count give the same bytes on every platform.
+
+mod aorta;
+mod coronary;
+mod cube_cases;
+mod field;
+mod islands;
+mod marching_cubes;
+mod vessel;
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::str::FromStr;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::mesh::{TriMesh, components};
+use field::Field;
+pub use vessel::{Station, Vessel};
+
+/// The fewest triangles [`generate`] makes.
+pub const MIN_TRIANGLES: usize = 2_000;
+/// The most triangles [`generate`] makes.
+pub const MAX_TRIANGLES: usize = 5_000_000;
+
+/// Distance between slices over distance between points in a slice: 0.5 mm slices at 0.4 mm in plane.
+const SLICE_RATIO: f64 = 1.25;
+/// Grids tried before giving up on a count. The first two or three are enough unless the grid is so coarse that
+/// branches fall off and join again from one to the next.
+const ATTEMPTS: usize = 60;
+
+/// A vessel tree that Lumen can make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sample {
+    /// Abdominal aorta with visceral, renal and iliac arteries.
+    Aorta,
+    /// Aortic root and arch with the coronary arteries.
+    Coronary,
+}
+
+impl Sample {
+    /// Every sample, in the order of menus.
+    pub const ALL: [Self; 2] = [Self::Aorta, Self::Coronary];
+
+    /// The name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Aorta => "aorta",
+            Self::Coronary => "coronary",
+        }
+    }
+
+    /// The name in menus.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Aorta => "Abdominal aorta",
+            Self::Coronary => "Coronary arteries",
+        }
+    }
+
+    /// Triangles of the largest component at the usual resolution, made in a single pass. The aorta has as many as
+    /// the paper's aorta.
+    pub fn default_triangles(self) -> usize {
+        match self {
+            Self::Aorta => 74_307,
+            Self::Coronary => 320_000,
+        }
+    }
+
+    /// Distance in mm between points in a slice that gives [`Self::default_triangles`] to the triangle.
+    fn default_spacing(self) -> f64 {
+        match self {
+            Self::Aorta => 0.8,
+            Self::Coronary => 0.4,
+        }
+    }
+
+    /// The lumen, with islands, for a grid of the given spacing.
+    fn field(self, spacing: DVec3) -> Field {
+        let (vessels, bulges, seed) = match self {
+            Self::Aorta => (aorta::vessels(), Vec::new(), 1),
+            Self::Coronary => (coronary::vessels(), coronary::sinuses(), 2),
+        };
+        let mut field = Field::new(&vessels, &bulges, spacing);
+        islands::scatter(&mut field, &vessels, spacing, seed);
+        field
+    }
+}
+
+impl fmt::Display for Sample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// There is no sample of this name.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("there is no sample {name:?}; there are \"aorta\" and \"coronary\"")]
+pub struct UnknownSample {
+    /// The name that was asked for.
+    pub name: String,
+}
+
+impl FromStr for Sample {
+    type Err = UnknownSample;
+
+    fn from_str(name: &str) -> Result<Self, UnknownSample> {
+        Self::ALL.into_iter().find(|s| s.name() == name).ok_or_else(|| UnknownSample { name: name.to_owned() })
+    }
+}
+
+/// Why a sample could not be made.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum PhantomError {
+    /// The count is out of range.
+    #[error("{asked} triangles are outside the range of {MIN_TRIANGLES} to {MAX_TRIANGLES}")]
+    TrianglesOutOfRange {
+        /// The count that was asked for.
+        asked: usize,
+    },
+    /// No grid that was tried comes within 1 % of the count.
+    #[error("no grid gives {asked} triangles to within 1 %; the nearest gives {nearest}")]
+    NotReached {
+        /// The count that was asked for.
+        asked: usize,
+        /// The nearest count found.
+        nearest: usize,
+    },
+    /// The caller broke off.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// The vessels of a sample, parents before branches, in mm.
+pub fn vessels(sample: Sample) -> Vec<Vessel> {
+    match sample {
+        Sample::Aorta => aorta::vessels(),
+        Sample::Coronary => coronary::vessels(),
+    }
+}
+
+/// Makes a sample whose largest component has `triangles` triangles to within 1 % (exactly, for
+/// [`Sample::default_triangles`]). `triangles` is in [`MIN_TRIANGLES`]`..=`[`MAX_TRIANGLES`]; below about 10,000 for
+/// the aorta and 60,000 for the coronary arteries the grid is coarser than the finest branches, which then break
+/// off or vanish, as they do in a coarse scan.
+///
+/// # Errors
+/// [`PhantomError::TrianglesOutOfRange`] and [`PhantomError::NotReached`].
+pub fn generate(sample: Sample, triangles: usize) -> Result<TriMesh, PhantomError> {
+    generate_with(sample, triangles, &mut |_| ControlFlow::Continue(()))
+}
+
+/// [`generate`], telling `progress` the fraction done (0 to 1, never falling) after every slice of the grid.
+///
+/// # Errors
+/// As [`generate`], and [`PhantomError::Cancelled`] when `progress` breaks off.
+pub fn generate_with(
+    sample: Sample,
+    triangles: usize,
+    progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
+) -> Result<TriMesh, PhantomError> {
+    if !(MIN_TRIANGLES..=MAX_TRIANGLES).contains(&triangles) {
+        return Err(PhantomError::TrianglesOutOfRange { asked: triangles });
+    }
+    let default = sample.default_triangles();
+    // A surface sampled s times as finely has s^2 times as many triangles.
+    let mut spacing = sample.default_spacing() * (default as f64 / triangles as f64).sqrt();
+    let (mut nearest, mut nearest_spacing) = (0usize, spacing);
+    // How far the bar is, and how far it will be after this grid: half of what is left, for others may follow.
+    let (mut done, mut share) = (0.0, if triangles == default { 1.0 } else { 0.6 });
+    for attempt in 1..=ATTEMPTS {
+        let mesh = sampled(sample, spacing, &mut |fraction| progress(done + share * fraction))?;
+        let found = largest_component(&mesh);
+        if found.abs_diff(triangles) * 100 <= triangles {
+            return match progress(1.0) {
+                ControlFlow::Continue(()) => Ok(mesh),
+                ControlFlow::Break(()) => Err(PhantomError::Cancelled),
+            };
+        }
+        if found.abs_diff(triangles) < nearest.abs_diff(triangles) {
+            (nearest, nearest_spacing) = (found, spacing);
+        }
+        spacing = if attempt < 6 && found > 0 {
+            spacing * (found as f64 / triangles as f64).sqrt()
+        } else {
+            // The count jumps here: look around the best, ever farther, on both sides in turn.
+            let step = 0.002 * (attempt / 2) as f64;
+            nearest_spacing * if attempt % 2 == 0 { 1.0 + step } else { 1.0 - step }
+        };
+        done += share;
+        share = (1.0 - done) / 2.0;
+    }
+    Err(PhantomError::NotReached { asked: triangles, nearest })
+}
+
+/// The surface of a sample on a grid of `spacing` mm in plane.
+fn sampled(
+    sample: Sample,
+    spacing: f64,
+    progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
+) -> Result<TriMesh, PhantomError> {
+    let field = sample.field(DVec3::new(spacing, spacing, spacing * SLICE_RATIO));
+    let grid = field.grid();
+    marching_cubes::marching_cubes(&grid, &mut field.mask(&grid), progress).ok_or(PhantomError::Cancelled)
+}
+
+/// Triangles of the largest component.
+fn largest_component(mesh: &TriMesh) -> usize {
+    let found = components(mesh.positions.len(), &mesh.triangles);
+    found.triangle_counts.iter().max().map_or(0, |&count| count as usize)
+}
+
+#[cfg(test)]
+mod tests;

@@ -77,6 +77,9 @@ mod tests {
         assert_eq!((small.positions.len(), small.triangles), (3, vec![[0, 1, 2]]));
         assert_eq!(found.kept(&mesh, Keep::All).unwrap(), mesh);
         assert!(found.kept(&mesh, Keep::Component(2)).is_err());
-        assert_eq!(Connectivity::of(&TriMesh::default()).kept(&TriMesh::default(), Keep::Largest).unwrap(), TriMesh::default());
+        assert_eq!(
+            Connectivity::of(&TriMesh::default()).kept(&TriMesh::default(), Keep::Largest).unwrap(),
+            TriMesh::default()
+        );
     }
 }

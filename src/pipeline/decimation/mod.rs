@@ -22,12 +22,13 @@ mod vertex;
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::Deref;
 
 use glam::DVec3;
 
 use self::surface::{Ring, Surface};
-use self::vertex::Judged;
 pub use self::vertex::Class;
+use self::vertex::Judged;
 use super::progressive::{Limit, NEVER, ProgressiveMesh};
 use super::settings::Decimation;
 use super::task::{Budget, Progress, Task};
@@ -63,9 +64,9 @@ enum Stuck {
     Complex,
 }
 
-/// A decimation run in slices.
-pub struct DecimationTask<'a> {
-    mesh: &'a TriMesh,
+/// A decimation run in slices; `M` is any pointer to a mesh.
+pub struct DecimationTask<M> {
+    mesh: M,
     surface: Surface,
     /// Vertices by distance, the smallest first, then by index; entries of vertices that changed are judged again
     /// when they come up.
@@ -98,12 +99,14 @@ enum State {
     Gone,
 }
 
-impl<'a> DecimationTask<'a> {
+impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     /// Starts decimating `mesh`, whose topology is `topology`.
-    pub fn new(mesh: &'a TriMesh, topology: &Topology, settings: &Decimation) -> Self {
-        let surface = Surface::new(mesh, topology, settings.feature_angle);
+    pub fn new(mesh: M, topology: &Topology, settings: &Decimation) -> Self {
+        let surface = Surface::new(&mesh, topology, settings.feature_angle);
         let count = mesh.positions.len();
         Self {
+            triangle_ends: vec![NEVER; mesh.triangles.len()],
+            alive: mesh.triangles.len(),
             mesh,
             surface,
             queue: BinaryHeap::with_capacity(count),
@@ -113,8 +116,6 @@ impl<'a> DecimationTask<'a> {
             begun: 0,
             collapses: Vec::with_capacity(count),
             errors: Vec::with_capacity(count),
-            triangle_ends: vec![NEVER; mesh.triangles.len()],
-            alive: mesh.triangles.len(),
             ring: Ring::default(),
             ended: Vec::new(),
             marks: vec![0; count],
@@ -241,6 +242,10 @@ impl<'a> DecimationTask<'a> {
                 return false;
             }
         }
+        // The last triangle of a piece stays.
+        if self.ring.spokes.len() == 1 && self.surface.fan(target).len() == 1 {
+            return false;
+        }
         // An edge between two boundaries may not become a vertex: only boundary edges of boundary vertices collapse.
         common == opposite && (opposite == 2 || (opposite == 1 && !self.ring.closed))
     }
@@ -302,11 +307,11 @@ impl<'a> DecimationTask<'a> {
             }
         }
         let errors = std::mem::take(&mut self.errors);
-        ProgressiveMesh::from_collapses(self.mesh, &self.collapses, &self.triangle_ends, errors, limit)
+        ProgressiveMesh::from_collapses(&self.mesh, &self.collapses, &self.triangle_ends, errors, limit)
     }
 }
 
-impl Task for DecimationTask<'_> {
+impl<M: Deref<Target = TriMesh>> Task for DecimationTask<M> {
     type Output = ProgressiveMesh;
 
     fn advance(&mut self, budget: Budget) -> Progress<ProgressiveMesh> {

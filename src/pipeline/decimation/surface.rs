@@ -23,7 +23,6 @@ pub(super) struct Surface {
 /// A triangle `(v, a, b)` seen from `v`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spoke {
-    pub(super) triangle: u32,
     pub(super) a: u32,
     pub(super) b: u32,
     /// Whether the edges v-a and v-b are feature edges.
@@ -113,7 +112,6 @@ impl Surface {
         let i = corner_of(corners, v);
         let bits = self.creases[t as usize];
         Spoke {
-            triangle: t,
             a: corners[(i + 1) % 3],
             b: corners[(i + 2) % 3],
             crease_a: bits & EDGE_BITS[i] != 0,

@@ -1,0 +1,303 @@
+//! The import stage: what every surface goes through, whichever format it came in.
+//!
+//! In this order: coordinates are checked, coincident vertices welded, triangles that repeat a vertex dropped, unused
+//! vertices left out, numbers turned into mm, windings made to agree, inward components turned. Welding comes before
+//! the change of unit, because rounding to f32 after a multiplication can make two places one.
+
+use super::error::ReadError;
+use super::polygons::Faces;
+use super::report::{ImportReport, Imported, Skipped};
+use super::weld::weld;
+use super::{Unit, winding};
+use crate::mesh::{Topology, TriMesh, Vec3, components, measures};
+
+/// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
+const FARTHEST_MM: f64 = 1e9;
+
+/// Diagonals, in mm, that draw no warning.
+const USUAL_DIAGONAL_MM: std::ops::RangeInclusive<f64> = 20.0..=2000.0;
+
+/// What a format's file hands over: the triangles as they stand there.
+pub(super) struct RawSurface {
+    /// What the file is, in full: "STL binary".
+    pub(super) label: &'static str,
+    /// Positions, in the file's unit unless `in_mm`.
+    pub(super) positions: Vec<Vec3>,
+    /// Vertices of each triangle; all in range.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Whether the positions are in mm already, as those of a glTF scene, whose transforms take the unit with them.
+    pub(super) in_mm: bool,
+    pub(super) polygons: usize,
+    pub(super) skipped: Skipped,
+    pub(super) warnings: Vec<String>,
+}
+
+impl RawSurface {
+    /// A surface of triangles alone.
+    pub(super) fn new(label: &'static str, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
+        let (skipped, warnings) = (Skipped::default(), Vec::new());
+        Self { label, positions, triangles, in_mm: false, polygons: 0, skipped, warnings }
+    }
+
+    /// A surface of polygons, whose corners must be in range.
+    pub(super) fn of_faces(label: &'static str, positions: Vec<Vec3>, faces: &Faces) -> Self {
+        let cut = faces.triangulate(&positions);
+        let mut raw = Self::new(label, positions, cut.triangles);
+        raw.polygons = cut.polygons;
+        raw.skipped.short_faces = faces.short;
+        if cut.fanned > 0 {
+            raw.warnings.push(format!(
+                "{} could not be cut into triangles without folding, having no area or crossing itself.",
+                count(cut.fanned, "polygon", "polygons")
+            ));
+        }
+        raw
+    }
+}
+
+/// Takes a surface from a file through the stage.
+pub(super) fn import(raw: RawSurface, unit: Unit) -> Result<Imported, ReadError> {
+    let format = raw.label;
+    if raw.triangles.is_empty() {
+        return Err(ReadError::NoTriangles { format, vertices: raw.positions.len() });
+    }
+    let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
+    for &v in raw.triangles.as_flattened() {
+        for x in raw.positions[v as usize].to_array() {
+            let value = f64::from(x) * scale;
+            // NaN is in no range.
+            if !(-FARTHEST_MM..=FARTHEST_MM).contains(&value) {
+                return Err(ReadError::Coordinate { vertex: v as usize + 1, value });
+            }
+        }
+    }
+    let imported = assemble(raw, unit);
+    if imported.mesh.triangles.is_empty() {
+        return Err(ReadError::AllDegenerate { format, triangles: imported.report.triangles });
+    }
+    Ok(imported)
+}
+
+/// Takes a surface that was made, not read, through the same stage; its positions are in mm.
+///
+/// # Panics
+/// When an index of `mesh` is out of range.
+pub fn import_mesh(mesh: TriMesh, format_label: &str) -> Imported {
+    let mut imported = assemble(RawSurface::new("", mesh.positions, mesh.triangles), Unit::Millimetre);
+    imported.report.format = format_label.to_owned();
+    imported
+}
+
+/// The stage itself.
+fn assemble(raw: RawSurface, unit: Unit) -> Imported {
+    let triangles = raw.triangles.len();
+    let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
+    let mut mesh = welded(raw.positions, raw.triangles);
+    let degenerate_triangles = triangles - mesh.triangles.len();
+    if scale != 1.0 {
+        for p in &mut mesh.positions {
+            *p = (p.as_dvec3() * scale).as_vec3();
+        }
+    }
+    let mut topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let pieces = components(mesh.positions.len(), &mesh.triangles);
+    let edges = topology.edge_counts();
+    let duplicate_triangles = duplicates(&mesh.triangles, &topology);
+
+    // Without a flip there is nothing to reverse: every pair of neighbours agrees.
+    let (mut orientable, mut reoriented_triangles) = (vec![true; pieces.count()], 0);
+    if edges.flipped > 0 {
+        let result = winding::make_consistent(&mut mesh.triangles, &topology, &pieces);
+        (orientable, reoriented_triangles) = (result.orientable, result.reversed);
+        topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    }
+    let components_turned = winding::turn_outward(&mut mesh, &topology, &pieces, &orientable);
+    if components_turned > 0 {
+        topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    }
+
+    let measured = measures(&mesh, &topology);
+    let largest = pieces.largest().map_or(0, |piece| pieces.triangle_counts[piece as usize] as usize);
+    let mut report = ImportReport {
+        format: raw.label.to_owned(),
+        unit,
+        scale_to_mm: unit.to_mm(),
+        triangles,
+        vertices: mesh.positions.len(),
+        polygons_triangulated: raw.polygons,
+        degenerate_triangles,
+        duplicate_triangles,
+        components: pieces.count(),
+        largest_component_triangles: largest,
+        boundary_edges: edges.boundary,
+        non_manifold_edges: edges.non_manifold,
+        winding_flips: edges.flipped,
+        reoriented_triangles,
+        components_turned,
+        orientable: orientable.iter().all(|&orientable| orientable),
+        area_mm2: measured.area_mm2,
+        volume_mm3: measured.volume_mm3,
+        bounds_mm: mesh.bounds(),
+        skipped: raw.skipped,
+        warnings: raw.warnings,
+    };
+    warn(&mut report);
+    Imported { mesh, report }
+}
+
+/// The surface with coincident vertices welded, and without degenerate triangles and unused vertices.
+fn welded(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriMesh {
+    let welded = weld(&positions);
+    drop(positions);
+    let mut kept = triangles;
+    for t in &mut kept {
+        *t = t.map(|v| welded.index[v as usize]);
+    }
+    kept.retain(|&[a, b, c]| a != b && b != c && c != a);
+    TriMesh { positions: welded.positions, triangles: kept }.filtered(|_| true)
+}
+
+/// Triangles over the same three vertices as an earlier one.
+fn duplicates(triangles: &[[u32; 3]], topology: &Topology) -> usize {
+    let mut found = 0;
+    let mut others: Vec<(u32, u32)> = Vec::new();
+    for v in 0..topology.vertex_count() as u32 {
+        others.clear();
+        for &t in topology.triangles(v) {
+            let [a, b, c] = triangles[t as usize];
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            // Each triangle is looked at from its lowest vertex alone.
+            if low == v {
+                others.push((a ^ b ^ c ^ low ^ high, high));
+            }
+        }
+        others.sort_unstable();
+        found += others.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    }
+    found
+}
+
+/// Puts into sentences what a user should hear about.
+fn warn(report: &mut ImportReport) {
+    let mut sentences = Vec::new();
+    let diagonal = f64::from(report.bounds_mm.diagonal());
+    if report.vertices > 0 && !USUAL_DIAGONAL_MM.contains(&diagonal) {
+        sentences.push(size_warning(diagonal, report.unit));
+    }
+    let skipped = report.skipped;
+    let mut tell = |n: usize, one: &str, many: &str, rest: &str| {
+        if n > 0 {
+            sentences.push(format!("{} {rest}", count(n, one, many)));
+        }
+    };
+    tell(report.degenerate_triangles, "triangle", "triangles", "with a repeated vertex dropped.");
+    tell(report.duplicate_triangles, "triangle", "triangles", "present twice; kept.");
+    tell(skipped.short_faces, "face", "faces", "of fewer than three corners left out.");
+    tell(skipped.lines, "line", "lines", "left out: Lumen shows surfaces.");
+    tell(skipped.points, "point", "points", "left out: Lumen shows surfaces.");
+    tell(report.reoriented_triangles, "triangle", "triangles", "turned over to agree with the neighbours.");
+    tell(report.components_turned, "piece", "pieces", "turned inside out to face outwards.");
+    tell(report.non_manifold_edges, "edge", "edges", "where more than two triangles meet; left as in the file.");
+    if !report.orientable {
+        sentences.push("The surface has no inside and outside (its triangles cannot be made to agree).".to_owned());
+    }
+    report.warnings.append(&mut sentences);
+}
+
+/// What to say about an unusual size, with the units that would make it a usual one.
+fn size_warning(diagonal: f64, unit: Unit) -> String {
+    let in_unit = |other: Unit| diagonal / unit.to_mm() * other.to_mm();
+    let fitting: Vec<String> = Unit::ALL
+        .into_iter()
+        .filter(|&other| other != unit && USUAL_DIAGONAL_MM.contains(&in_unit(other)))
+        .map(|other| format!("{other} ({} mm)", length(in_unit(other))))
+        .collect();
+    let advice = if fitting.is_empty() {
+        "check its unit of length".to_owned()
+    } else {
+        format!("its numbers may be in {}", fitting.join(" or in "))
+    };
+    format!("The surface is {} mm across, which is unusual for vessels: {advice}.", length(diagonal))
+}
+
+/// A length in mm to three digits or to the mm, whichever is more.
+fn length(mm: f64) -> String {
+    match mm.abs() {
+        x if x >= 100.0 || x == 0.0 => format!("{mm:.0}"),
+        x if x >= 10.0 => format!("{mm:.1}"),
+        x if x >= 0.01 => format!("{mm:.3}"),
+        _ => format!("{mm:.2e}"),
+    }
+}
+
+fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten triangle corners of a tetrahedron of the given size, not welded, one triangle turned over, with a
+    /// duplicate, a degenerate triangle and a vertex that nothing uses.
+    fn soup(size: f32) -> RawSurface {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+        let order = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 2, 3, 0, 0, 1];
+        let mut positions: Vec<Vec3> = order.iter().map(|&v| corners[v] * size).collect();
+        positions.push(Vec3::splat(-7.0 * size));
+        RawSurface::new("soup", positions, (0..5).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect())
+    }
+
+    #[test]
+    fn a_soup_becomes_an_oriented_surface_with_its_faults_counted() {
+        let Imported { mesh, report } = import(soup(4.0), Unit::Centimetre).unwrap();
+        assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::Y * 40.0, Vec3::X * 40.0, Vec3::Z * 40.0]);
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [2, 1, 3], [0, 3, 1]]);
+        assert_eq!((report.triangles, report.degenerate_triangles, report.winding_flips), (5, 1, 3));
+        assert_eq!((report.reoriented_triangles, report.components_turned, report.orientable), (1, 0, true));
+        assert!((report.volume_mm3.unwrap() - 64000.0 / 6.0).abs() < 1e-9);
+        assert_eq!(report.bounds_mm.max, [40.0; 3]);
+        assert_eq!(
+            report.warnings,
+            ["1 triangle with a repeated vertex dropped.", "1 triangle turned over to agree with the neighbours."]
+        );
+    }
+
+    #[test]
+    fn duplicates_are_counted_whatever_their_winding_and_kept() {
+        let mesh =
+            TriMesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2], [1, 0, 2], [2, 0, 1]] };
+        let imported = import_mesh(mesh.clone(), "made");
+        assert_eq!(imported.report.duplicate_triangles, 2);
+        assert_eq!((imported.mesh, imported.report.format.as_str()), (mesh, "made"));
+    }
+
+    #[test]
+    fn an_unusual_size_is_told_with_the_units_that_would_fit() {
+        let warnings = |size, unit| import(soup(size), unit).unwrap().report.warnings;
+        assert_eq!(
+            warnings(0.2, Unit::Millimetre)[0],
+            "The surface is 0.346 mm across, which is unusual for vessels: its numbers may be in m (346 mm)."
+        );
+        assert!(warnings(3e-7, Unit::Millimetre)[0].ends_with("check its unit of length."));
+        assert!(warnings(30.0, Unit::Metre)[0].contains("mm (52.0 mm) or in cm (520 mm)"));
+    }
+
+    #[test]
+    fn numbers_that_are_no_places_are_refused() {
+        for bad in [f32::NAN, f32::INFINITY, -1e30] {
+            let mut raw = soup(40.0);
+            raw.positions[4].y = bad;
+            let error = import(raw, Unit::Millimetre).unwrap_err();
+            assert!(matches!(error, ReadError::Coordinate { vertex: 5, .. }), "{error}");
+        }
+    }
+
+    #[test]
+    fn nothing_to_show_is_said_so() {
+        let points = RawSurface::new("soup", vec![Vec3::X; 3], Vec::new());
+        assert_eq!(import(points, Unit::Metre), Err(ReadError::NoTriangles { format: "soup", vertices: 3 }));
+        let flat = RawSurface::new("soup", vec![Vec3::X; 3], vec![[0, 1, 2]]);
+        assert_eq!(import(flat, Unit::Metre), Err(ReadError::AllDegenerate { format: "soup", triangles: 1 }));
+    }
+}

@@ -1,0 +1,514 @@
+//! PLY, the Stanford polygon file (Turk 1994): text, and binary of either byte order.
+//!
+//! A header describes elements with typed properties; of these the `x y z` of `vertex`, the `vertex_indices` of
+//! `face` and those of `tristrips` are read, and everything else is stepped over. The crate `ply-rs-bw` is not used:
+//! it wants a structure a row filled property by property, names included, which is slow at a million faces.
+
+use super::error::ReadError;
+use super::import::RawSurface;
+use super::polygons::Faces;
+use super::text::{self, Words};
+use crate::mesh::{TriMesh, Vec3};
+
+/// The type of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Scalar {
+    /// The type that a header calls `name`.
+    fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
+        })
+    }
+}
+
+#[derive(Debug, PartialEq)]
+struct Property {
+    name: String,
+    kind: Scalar,
+    /// The type of the length, if this is a list.
+    length: Option<Scalar>,
+}
+
+#[derive(Debug, PartialEq)]
+struct Element {
+    name: String,
+    /// As the header claims it: nothing is allocated for it before the bytes are seen.
+    count: u64,
+    properties: Vec<Property>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Encoding {
+    Ascii,
+    Little,
+    Big,
+}
+
+impl Encoding {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Ascii => "PLY ascii",
+            Self::Little => "PLY binary little-endian",
+            Self::Big => "PLY binary big-endian",
+        }
+    }
+}
+
+struct Header {
+    encoding: Encoding,
+    elements: Vec<Element>,
+    /// Where the numbers begin, in bytes and in lines.
+    body: usize,
+    body_line: usize,
+}
+
+/// Reads a PLY file.
+pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+    let bytes = text::without_mark(bytes).trim_ascii_start();
+    let header = header(bytes)?;
+    let body = &bytes[header.body..];
+    match header.encoding {
+        Encoding::Ascii => read_ascii(&header, body),
+        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false> { bytes: body }),
+        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true> { bytes: body }),
+    }
+}
+
+/// Reads a body of text. White space is white space to the format; but where the numbers do not come out even, a
+/// header has left out some that stand at the ends of lines (MeshLab once wrote colours so), and taking every row to
+/// be a line gets over them.
+fn read_ascii(header: &Header, body: &[u8]) -> Result<RawSurface, ReadError> {
+    let attempt = |row_is_line| {
+        let mut numbers = AsciiNumbers { words: Words::new(body, header.body_line), row_is_line };
+        let result = read_body(header, &mut numbers);
+        let even = result.is_ok() && numbers.words.next().is_none();
+        (result, even)
+    };
+    let (result, even) = attempt(false);
+    if even {
+        return result;
+    }
+    match attempt(true) {
+        (Ok(mut raw), true) => {
+            raw.warnings.push("Numbers that the file's header does not announce were left out.".to_owned());
+            Ok(raw)
+        }
+        _ => result.map(|mut raw| {
+            raw.warnings.push("Numbers after the last element were left out.".to_owned());
+            raw
+        }),
+    }
+}
+
+fn malformed(problem: impl Into<String>) -> ReadError {
+    ReadError::Malformed { format: "PLY", problem: problem.into() }
+}
+
+/// Reads the header, which is text in every encoding.
+fn header(bytes: &[u8]) -> Result<Header, ReadError> {
+    if !bytes.get(..3).is_some_and(|magic| magic.eq_ignore_ascii_case(b"ply")) {
+        return Err(malformed("it does not begin with the word \"ply\""));
+    }
+    // Old Macintosh files end lines with a carriage return alone; then a line feed after it is a number's byte.
+    let ending: &[u8] = match bytes.get(3..5) {
+        Some(b"\r\n") => b"\r\n",
+        Some([b'\r', _]) => b"\r",
+        _ => b"\n",
+    };
+    let mut encoding = None;
+    let mut elements: Vec<Element> = Vec::new();
+    let (mut at, mut line) = (0, 0);
+    loop {
+        let rest = &bytes[at..];
+        let Some(length) = rest.windows(ending.len()).position(|part| part == ending) else {
+            return Err(malformed("its header has no \"end_header\""));
+        };
+        at += length + ending.len();
+        line += 1;
+        let syntax = |problem: String| ReadError::Syntax { format: "PLY", line, problem };
+        let row = String::from_utf8_lossy(&rest[..length]);
+        let words: Vec<&str> = row.split_ascii_whitespace().collect();
+        let property = |name: &str, kind: &str, length: Option<&str>| {
+            let scalar = |kind: &str| {
+                let unknown = || syntax(format!("{} is no type of number", text::quoted(kind.as_bytes())));
+                Scalar::named(kind).ok_or_else(unknown)
+            };
+            Ok(Property { name: name.to_owned(), kind: scalar(kind)?, length: length.map(scalar).transpose()? })
+        };
+        match words[..] {
+            ["end_header"] => break,
+            ["format", kind, _version] => {
+                encoding = Some(match kind {
+                    "ascii" => Encoding::Ascii,
+                    "binary_little_endian" => Encoding::Little,
+                    "binary_big_endian" => Encoding::Big,
+                    _ => return Err(syntax(format!("the encoding {} is not known", text::quoted(kind.as_bytes())))),
+                });
+            }
+            ["element", name, count] => {
+                let count =
+                    count.parse().map_err(|_| syntax(format!("{} is no count", text::quoted(count.as_bytes()))))?;
+                elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
+            }
+            ["property", ref rest @ ..] => {
+                let element =
+                    elements.last_mut().ok_or_else(|| syntax("a property stands before any element".to_owned()))?;
+                element.properties.push(match *rest {
+                    ["list", length, kind, name] => property(name, kind, Some(length))?,
+                    [kind, name] => property(name, kind, None)?,
+                    _ => return Err(syntax("a property needs a type and a name".to_owned())),
+                });
+            }
+            // Comments, obj_info and what later versions may add.
+            _ => {}
+        }
+    }
+    let encoding = encoding.ok_or_else(|| malformed("its header does not say which encoding it has"))?;
+    Ok(Header { encoding, elements, body: at, body_line: line + 1 })
+}
+
+/// The numbers of a body, one after another. `None` is the end of the file.
+trait Numbers {
+    /// The next number, of any type: `f64` holds them all.
+    fn number(&mut self, kind: Scalar) -> Result<Option<f64>, ReadError>;
+
+    /// The next number, rounded once to `f32`.
+    fn coordinate(&mut self, kind: Scalar) -> Result<Option<f32>, ReadError> {
+        Ok(self.number(kind)?.map(|x| x as f32))
+    }
+
+    /// A row of an element ends here.
+    fn end_row(&mut self) {}
+
+    /// Bytes left.
+    fn remaining(&self) -> usize;
+}
+
+struct AsciiNumbers<'a> {
+    words: Words<'a>,
+    /// Whether what is left of a line after a row is passed over.
+    row_is_line: bool,
+}
+
+impl AsciiNumbers<'_> {
+    fn parse<T: std::str::FromStr>(&mut self) -> Result<Option<T>, ReadError> {
+        let Some(word) = self.words.next() else {
+            return Ok(None);
+        };
+        let problem = || format!("{} stands where a number should", text::quoted(word));
+        let broken = || ReadError::Syntax { format: "PLY", line: self.words.line(), problem: problem() };
+        text::number(word).map(Some).ok_or_else(broken)
+    }
+}
+
+impl Numbers for AsciiNumbers<'_> {
+    fn number(&mut self, _: Scalar) -> Result<Option<f64>, ReadError> {
+        self.parse()
+    }
+
+    fn coordinate(&mut self, _: Scalar) -> Result<Option<f32>, ReadError> {
+        self.parse()
+    }
+
+    fn end_row(&mut self) {
+        if self.row_is_line {
+            self.words.skip_line();
+        }
+    }
+
+    fn remaining(&self) -> usize {
+        self.words.remaining()
+    }
+}
+
+struct BinaryNumbers<'a, const BIG: bool> {
+    bytes: &'a [u8],
+}
+
+impl<const BIG: bool> BinaryNumbers<'_, BIG> {
+    /// The next `N` bytes in little-endian order.
+    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (&first, rest) = self.bytes.split_first_chunk::<N>()?;
+        self.bytes = rest;
+        let mut value = first;
+        if BIG {
+            value.reverse();
+        }
+        Some(value)
+    }
+}
+
+impl<const BIG: bool> Numbers for BinaryNumbers<'_, BIG> {
+    #[inline]
+    fn number(&mut self, kind: Scalar) -> Result<Option<f64>, ReadError> {
+        Ok(match kind {
+            Scalar::I8 => self.take().map(|b| f64::from(i8::from_le_bytes(b))),
+            Scalar::U8 => self.take().map(|b| f64::from(u8::from_le_bytes(b))),
+            Scalar::I16 => self.take().map(|b| f64::from(i16::from_le_bytes(b))),
+            Scalar::U16 => self.take().map(|b| f64::from(u16::from_le_bytes(b))),
+            Scalar::I32 => self.take().map(|b| f64::from(i32::from_le_bytes(b))),
+            Scalar::U32 => self.take().map(|b| f64::from(u32::from_le_bytes(b))),
+            Scalar::F32 => self.take().map(|b| f64::from(f32::from_le_bytes(b))),
+            Scalar::F64 => self.take().map(f64::from_le_bytes),
+        })
+    }
+
+    fn remaining(&self) -> usize {
+        self.bytes.len()
+    }
+}
+
+/// What an element means to Lumen, with the place of the property that matters.
+enum Meaning {
+    /// Vertices, with the places of x, y and z.
+    Vertices([usize; 3]),
+    /// Faces, one list of vertices each.
+    Faces(usize),
+    /// Triangle strips in one list, -1 between them.
+    Strips(usize),
+    Other,
+}
+
+fn meaning(element: &Element) -> Result<Meaning, ReadError> {
+    let scalar = |name: &str| element.properties.iter().position(|p| p.name == name && p.length.is_none());
+    let indices = || {
+        let named = |p: &Property| p.name == "vertex_indices" || p.name == "vertex_index";
+        element.properties.iter().position(|p| named(p) && p.length.is_some())
+    };
+    Ok(match element.name.as_str() {
+        "vertex" => match (scalar("x"), scalar("y"), scalar("z")) {
+            (Some(x), Some(y), Some(z)) => Meaning::Vertices([x, y, z]),
+            _ => return Err(malformed("its vertices have no x, y and z")),
+        },
+        "face" => indices().map_or(Meaning::Other, Meaning::Faces),
+        "tristrips" => indices().map_or(Meaning::Other, Meaning::Strips),
+        _ => Meaning::Other,
+    })
+}
+
+fn read_body(header: &Header, numbers: &mut impl Numbers) -> Result<RawSurface, ReadError> {
+    let mut positions: Vec<Vec3> = Vec::new();
+    let mut faces = Faces::default();
+    // An index beyond this can stand for no vertex, and may be too large to be kept as one.
+    let claimed: u64 =
+        header.elements.iter().filter(|e| e.name == "vertex").map(|e| e.count).fold(0, u64::saturating_add);
+    let mut row = Row::default();
+    for element in &header.elements {
+        let meaning = meaning(element)?;
+        if element.properties.is_empty() {
+            continue;
+        }
+        if let Meaning::Vertices(_) = meaning {
+            // Every number takes a byte at least.
+            let most = numbers.remaining() / element.properties.len();
+            positions.reserve(usize::try_from(element.count).unwrap_or(most).min(most));
+        }
+        for n in 0..element.count {
+            let wanted = match meaning {
+                Meaning::Faces(list) | Meaning::Strips(list) => Some(list),
+                Meaning::Vertices(_) | Meaning::Other => None,
+            };
+            let whole = row.read(&element.properties, wanted, numbers)?;
+            if !whole {
+                let what = format!("rows of \"{}\"", element.name);
+                let format = header.encoding.label();
+                return Err(ReadError::CutShort { format, what, announced: element.count, found: n });
+            }
+            let index = |value: f64| {
+                // The comparison is false for NaN; fractions are no indices.
+                if value >= 0.0 && value < claimed.min(u64::from(u32::MAX)) as f64 && value.fract() == 0.0 {
+                    return Ok(value as u32);
+                }
+                Err(ReadError::IndexOutOfRange {
+                    format: "PLY",
+                    face: n as usize + 1,
+                    index: value as i64,
+                    vertices: usize::try_from(claimed).unwrap_or(usize::MAX),
+                })
+            };
+            match meaning {
+                Meaning::Vertices(places) => positions.push(Vec3::from(places.map(|place| row.scalars[place]))),
+                Meaning::Faces(_) => {
+                    for &value in &row.list {
+                        faces.push_corner(index(value)?);
+                    }
+                    faces.finish_face();
+                }
+                Meaning::Strips(_) => {
+                    for strip in row.list.split(|&value| value == -1.0) {
+                        for (i, three) in strip.windows(3).enumerate() {
+                            let [a, b, c] = [index(three[0])?, index(three[1])?, index(three[2])?];
+                            faces.push(&if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
+                        }
+                    }
+                }
+                Meaning::Other => {}
+            }
+        }
+    }
+    let mut raw = RawSurface::of_faces(header.encoding.label(), positions, &faces);
+    if header.encoding != Encoding::Ascii && numbers.remaining() > 0 {
+        raw.warnings.push(format!("{} bytes after the last element left out.", numbers.remaining()));
+    }
+    Ok(raw)
+}
+
+/// One row of an element.
+#[derive(Default)]
+struct Row {
+    /// The value of each property; 0 for a list.
+    scalars: Vec<f32>,
+    /// The values of the one list that is wanted.
+    list: Vec<f64>,
+}
+
+impl Row {
+    /// Reads a row; false where the file ends before it is whole.
+    fn read(
+        &mut self,
+        properties: &[Property],
+        wanted: Option<usize>,
+        numbers: &mut impl Numbers,
+    ) -> Result<bool, ReadError> {
+        self.scalars.clear();
+        self.list.clear();
+        for (place, property) in properties.iter().enumerate() {
+            let Some(length) = property.length else {
+                let Some(value) = numbers.coordinate(property.kind)? else {
+                    return Ok(false);
+                };
+                self.scalars.push(value);
+                continue;
+            };
+            self.scalars.push(0.0);
+            let Some(length) = numbers.number(length)? else {
+                return Ok(false);
+            };
+            if !(length >= 0.0 && length.fract() == 0.0) {
+                return Err(malformed(format!("a list has the length {length}")));
+            }
+            // A length that is a lie ends with the file.
+            for _ in 0..length as u64 {
+                let Some(value) = numbers.number(property.kind)? else {
+                    return Ok(false);
+                };
+                if wanted == Some(place) {
+                    self.list.push(value);
+                }
+            }
+        }
+        numbers.end_row();
+        Ok(true)
+    }
+}
+
+/// The little-endian binary form.
+pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Vec<u8> {
+    let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
+    let xyz = |names: [&str; 3]| names.map(|name| format!("property float {name}\n")).concat();
+    let header = format!(
+        "ply\nformat binary_little_endian 1.0\ncomment Surface written by Lumen; millimetres\n\
+         element vertex {vertices}\n{}{}element face {triangles}\nproperty list uchar int vertex_indices\nend_header\n",
+        xyz(["x", "y", "z"]),
+        normals.map_or(String::new(), |_| xyz(["nx", "ny", "nz"])),
+    );
+    let mut out = header.into_bytes();
+    out.reserve(vertices * if normals.is_some() { 24 } else { 12 } + triangles * 13);
+    for (v, position) in mesh.positions.iter().enumerate() {
+        for p in [Some(position), normals.map(|normals| &normals[v])].into_iter().flatten() {
+            out.extend_from_slice(bytemuck::cast_slice(&p.to_array().map(f32::to_le_bytes)));
+        }
+    }
+    for corners in &mesh.triangles {
+        out.push(3);
+        out.extend_from_slice(bytemuck::cast_slice(&corners.map(u32::to_le_bytes)));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement camera 1\nproperty list uchar float view\n\
+        element vertex 4\nproperty uchar red\nproperty double x\nproperty float y\nproperty float z\n\
+        element face 2\nproperty list uchar int vertex_index\nproperty list uchar float texcoord\nproperty int part\n\
+        end_header\n2 0.5 0.5\n255 0 0 0\n255 1 0 0\n0 1 1 0\n0 0 1 0\n4 0 1 2 3 2 .5 .5 7\n2 0 1 0 7\n";
+
+    #[test]
+    fn properties_of_no_interest_are_stepped_over() {
+        let raw = read(SQUARE.as_bytes()).unwrap();
+        assert_eq!(raw.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
+        assert_eq!((raw.triangles.len(), raw.polygons, raw.skipped.short_faces), (2, 1, 1));
+        assert_eq!(read(SQUARE.replace('\n', "\r\n").as_bytes()).unwrap().triangles, raw.triangles);
+    }
+
+    #[test]
+    fn numbers_that_the_header_forgets_are_passed_over() {
+        let text = SQUARE.replace("property int part\n", "");
+        let raw = read(text.as_bytes()).unwrap();
+        assert_eq!((raw.triangles.len(), raw.warnings.len()), (2, 1));
+    }
+
+    #[test]
+    fn strips_turn_every_second_triangle() {
+        let text = "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\n\
+            element vertex 5\nproperty float x\nproperty float y\nproperty float z\nend_header\n8 0 1 2 3 -1 2 3 4\n\
+            0 0 0 1 0 0 0 1 0 1 1 0 9 9 9\n";
+        assert_eq!(read(text.as_bytes()).unwrap().triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
+    }
+
+    #[test]
+    fn both_byte_orders_are_read() {
+        let mut bytes = b"ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty double x\nproperty short y\n\
+            property float z\nelement face 1\nproperty list uint ushort vertex_indices\nend_header\n"
+            .to_vec();
+        for i in 0..3i16 {
+            bytes.extend_from_slice(&f64::from(i).to_be_bytes());
+            bytes.extend_from_slice(&(-i).to_be_bytes());
+            bytes.extend_from_slice(&0.5f32.to_be_bytes());
+        }
+        bytes.extend_from_slice(&3u32.to_be_bytes());
+        bytes.extend([0u16, 1, 2].iter().flat_map(|v| v.to_be_bytes()));
+        let raw = read(&bytes).unwrap();
+        assert_eq!((raw.label, raw.positions[2]), ("PLY binary big-endian", Vec3::new(2.0, -2.0, 0.5)));
+        assert_eq!(raw.triangles, [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn lies_are_refused_in_a_sentence() {
+        let problem = |from: &str, to: &str| read(SQUARE.replace(from, to).as_bytes()).err().unwrap().to_string();
+        assert_eq!(
+            problem("vertex 4", "vertex 3000000000"),
+            "The PLY ascii file is cut short: it announces 3000000000 rows of \"vertex\" and holds 7."
+        );
+        assert_eq!(
+            problem("4 0 1 2 3", "4 0 1 2 -9"),
+            "Face 1 of the PLY file refers to vertex -9, but the file has 4 vertices."
+        );
+        assert!(problem("end_header", "the_end").ends_with("has no \"end_header\"."));
+        assert!(problem("float z", "float w").ends_with("its vertices have no x, y and z."));
+        assert!(problem("255 1 0 0", "255 one 0 0").contains("line 18: \"one\" stands where a number should"));
+        assert!(problem("int vertex_index", "long vertex_index").contains("\"long\" is no type of number"));
+        assert!(problem("2 0.5 0.5", "-2 0.5 0.5").contains("a list has the length -2"));
+    }
+}

@@ -1,0 +1,198 @@
+//! STL, text and binary (3D Systems 1988): triangles without shared vertices.
+//!
+//! Binary is recognised by its length, `84 + 50 n` bytes for n triangles, before anything else: many writers begin
+//! the free text of a binary header with "solid", which the crate `stl_io` takes for text; that is why the format is
+//! read here. Facet normals are not used: they are often wrong, and the winding says the same.
+
+use super::error::{ReadError, WriteError};
+use super::import::RawSurface;
+use super::polygons::Faces;
+use super::text::{self, Words};
+use crate::mesh::{TriMesh, Vec3};
+
+const HEADER: usize = 80;
+const FACET: usize = 50;
+const BINARY: &str = "STL binary";
+const ASCII: &str = "STL ascii";
+
+/// Whether `bytes` are exactly as long as the binary file that their header announces.
+pub(super) fn has_binary_length(bytes: &[u8]) -> bool {
+    announced(bytes).is_some_and(|facets| binary_length(facets) == bytes.len() as u64)
+}
+
+/// The number of facets that a binary header announces.
+fn announced(bytes: &[u8]) -> Option<u32> {
+    Some(u32::from_le_bytes(*bytes.get(HEADER..)?.first_chunk()?))
+}
+
+fn binary_length(facets: u32) -> u64 {
+    (HEADER + 4) as u64 + FACET as u64 * u64::from(facets)
+}
+
+/// Reads either kind.
+pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+    if !has_binary_length(bytes) && text::is_text(bytes) { read_ascii(bytes) } else { read_binary(bytes) }
+}
+
+fn read_binary(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+    let cut_short = |what: &str, announced: u64, found: usize| ReadError::CutShort {
+        format: BINARY,
+        what: what.to_owned(),
+        announced,
+        found: found as u64,
+    };
+    let facets = announced(bytes).ok_or_else(|| cut_short("bytes of header", 84, bytes.len()))?;
+    let body = &bytes[HEADER + 4..];
+    if binary_length(facets) > bytes.len() as u64 {
+        return Err(cut_short("triangles", u64::from(facets), body.len() / FACET));
+    }
+    check_corners(3 * u64::from(facets))?;
+    let (body, trailing) = body.split_at(FACET * facets as usize);
+    let mut positions = Vec::with_capacity(3 * facets as usize);
+    for facet in body.as_chunks::<FACET>().0 {
+        // A facet is its normal, its corners and two bytes of its own.
+        for corner in facet[12..48].as_chunks::<12>().0 {
+            let [x, y, z] =
+                [0, 4, 8].map(|i| f32::from_le_bytes([corner[i], corner[i + 1], corner[i + 2], corner[i + 3]]));
+            positions.push(Vec3::new(x, y, z));
+        }
+    }
+    let mut raw = RawSurface::new(BINARY, positions, (0..facets).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect());
+    if !trailing.is_empty() {
+        raw.warnings.push(format!("{} bytes after the last triangle left out.", trailing.len()));
+    }
+    Ok(raw)
+}
+
+fn check_corners(corners: u64) -> Result<(), ReadError> {
+    let limit = u64::from(u32::MAX);
+    if corners > limit { Err(ReadError::TooLarge { corners, limit }) } else { Ok(()) }
+}
+
+/// Reads the text form word by word: `solid`, `facet`, `outer loop`, `vertex`, in any case and with any indenting,
+/// any number of solids. Words that are none of these, such as colours, are passed over.
+fn read_ascii(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+    let mut words = Words::new(text::without_mark(bytes), 1);
+    let mut positions: Vec<Vec3> = Vec::new();
+    let mut faces = Faces::default();
+    let (mut in_loop, mut in_solid, mut known) = (false, false, false);
+    while let Some(word) = words.next() {
+        let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
+        if is(b"vertex") {
+            check_corners(positions.len() as u64 + 1)?;
+            faces.push_corner(positions.len() as u32);
+            positions.push(vertex(&mut words)?);
+            in_loop = true;
+        } else if is(b"endloop") || is(b"endfacet") {
+            // Some writers leave out one of the two.
+            if in_loop {
+                faces.finish_face();
+            }
+            in_loop = false;
+        } else if is(b"solid") || is(b"endsolid") {
+            // What follows is a name, and a name may be any word.
+            words.skip_line();
+            in_solid = is(b"solid");
+        } else if is(b"facet") {
+            in_solid = true;
+        } else {
+            continue;
+        }
+        known = true;
+    }
+    if !known {
+        let problem = "it is a text without a single \"facet\"".to_owned();
+        return Err(ReadError::Malformed { format: "STL", problem });
+    }
+    if in_loop {
+        let problem = "the file ends in the middle of a triangle".to_owned();
+        return Err(ReadError::Syntax { format: ASCII, line: words.line(), problem });
+    }
+    let mut raw = RawSurface::of_faces(ASCII, positions, &faces);
+    if in_solid {
+        raw.warnings.push("The file may be cut short: its last solid has no end.".to_owned());
+    }
+    Ok(raw)
+}
+
+/// The three coordinates after the word `vertex`.
+fn vertex(words: &mut Words) -> Result<Vec3, ReadError> {
+    let mut coordinates = [0.0; 3];
+    for coordinate in &mut coordinates {
+        let word = words.next();
+        *coordinate = word.and_then(text::number).ok_or_else(|| ReadError::Syntax {
+            format: ASCII,
+            line: words.line(),
+            problem: match word {
+                Some(word) => format!("{} stands where a coordinate should", text::quoted(word)),
+                None => "the file ends in the middle of a triangle".to_owned(),
+            },
+        })?;
+    }
+    Ok(Vec3::from(coordinates))
+}
+
+/// The binary form, with each facet's own normal (zero where it has no area).
+pub(super) fn write(mesh: &TriMesh) -> Result<Vec<u8>, WriteError> {
+    let bytes = (HEADER + 4) as u64 + FACET as u64 * mesh.triangles.len() as u64;
+    let facets = u32::try_from(mesh.triangles.len()).map_err(|_| WriteError::TooLarge { format: "STL", bytes })?;
+    let mut out = Vec::with_capacity(bytes as usize);
+    out.extend_from_slice(b"Surface written by Lumen; binary STL; millimetres");
+    out.resize(HEADER, b' ');
+    out.extend_from_slice(&facets.to_le_bytes());
+    for t in 0..mesh.triangles.len() {
+        let corners = mesh.corners(t);
+        let [a, b, c] = corners.map(|p| p.as_dvec3());
+        let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
+        for p in [normal].iter().chain(&corners) {
+            out.extend_from_slice(bytemuck::cast_slice(&p.to_array().map(f32::to_le_bytes)));
+        }
+        out.extend_from_slice(&[0, 0]);
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TWO: &str = "SOLID vertex of facets\n Facet Normal 0 0 1\n outer loop\nVERTEX 0 0 0\nvertex 1 0 0\n\
+        vertex 0 1e0 0\n endloop endfacet\nendsolid vertex\nsolid\nfacet normal 0 0 0 outer loop\n\
+        vertex 5 0 0 vertex 6 0 0 vertex 6 1 0 vertex 5 1 0 endloop endfacet endsolid";
+
+    #[test]
+    fn text_of_several_solids_in_any_case_is_read() {
+        let raw = read(TWO.as_bytes()).unwrap();
+        assert_eq!((raw.positions.len(), raw.triangles.len(), raw.polygons), (7, 3, 1));
+        assert_eq!(raw.positions[2], Vec3::Y);
+        assert!(raw.warnings.is_empty());
+    }
+
+    #[test]
+    fn broken_text_is_refused_with_its_line() {
+        let problem = |text: &str| read(text.as_bytes()).err().unwrap().to_string();
+        assert_eq!(
+            problem(&TWO.replace("1e0", "1,0")),
+            "The STL ascii file is broken at line 6: \"1,0\" stands where a coordinate should."
+        );
+        assert!(problem(TWO.split(" endloop").next().unwrap()).contains("ends in the middle of a triangle"));
+        assert!(problem("Dear colleague, please find enclosed").contains("without a single \"facet\""));
+    }
+
+    #[test]
+    fn a_binary_that_begins_with_solid_trails_or_ends_early_is_told_apart() {
+        let mesh = TriMesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]] };
+        let mut bytes = write(&mesh).unwrap();
+        bytes[..5].copy_from_slice(b"solid");
+        assert!(has_binary_length(&bytes));
+        assert_eq!(read(&bytes).unwrap().positions, mesh.positions);
+        assert_eq!(f32::from_le_bytes(*bytes[92..].first_chunk().unwrap()), 1.0, "the normal is +z");
+        bytes.extend_from_slice(b"etc");
+        assert_eq!(read(&bytes).unwrap().warnings, ["3 bytes after the last triangle left out."]);
+        bytes[80..84].copy_from_slice(&60_000_000u32.to_le_bytes());
+        assert_eq!(
+            read(&bytes[..100]).err().unwrap().to_string(),
+            "The STL binary file is cut short: it announces 60000000 triangles and holds 0."
+        );
+    }
+}

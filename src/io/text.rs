@@ -1,0 +1,91 @@
+//! Words and numbers of a text file, with the line they stand in.
+//!
+//! Works on bytes: names in any encoding pass through, and only what is used is looked at.
+
+/// The words of a text, one after another, separated by white space.
+pub(super) struct Words<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+}
+
+impl<'a> Words<'a> {
+    /// Starts at the beginning of `bytes`, in line `line`.
+    pub(super) fn new(bytes: &'a [u8], line: usize) -> Self {
+        Self { bytes, at: 0, line }
+    }
+
+    /// The line of the last word, from 1.
+    pub(super) fn line(&self) -> usize {
+        self.line
+    }
+
+    /// Bytes not yet read.
+    pub(super) fn remaining(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    /// The next word, or `None` at the end.
+    pub(super) fn next(&mut self) -> Option<&'a [u8]> {
+        while let Some(byte) = self.bytes.get(self.at).filter(|byte| byte.is_ascii_whitespace()) {
+            self.line += usize::from(*byte == b'\n');
+            self.at += 1;
+        }
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        self.at += length;
+        (length > 0).then(|| &rest[..length])
+    }
+
+    /// Moves to the end of the current line.
+    pub(super) fn skip_line(&mut self) {
+        let rest = &self.bytes[self.at..];
+        self.at += rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len());
+    }
+}
+
+/// The number that `word` is, rounded once to `f32`; "nan" and "inf" are numbers here.
+pub(super) fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+/// `word` for a message: at most 20 characters, whatever bytes it has.
+pub(super) fn quoted(word: &[u8]) -> String {
+    let text: String = String::from_utf8_lossy(word).chars().filter(|c| !c.is_control()).take(21).collect();
+    match text.char_indices().nth(20) {
+        Some((end, _)) => format!("\"{}...\"", &text[..end]),
+        None => format!("\"{text}\""),
+    }
+}
+
+/// `bytes` without the byte-order mark that some editors put before a text.
+pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
+/// Whether the beginning of `bytes` looks like text: no control characters but white space.
+pub(super) fn is_text(bytes: &[u8]) -> bool {
+    bytes.iter().take(512).all(|&byte| byte >= 0x20 || byte.is_ascii_whitespace() || byte == 0x0b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_know_their_lines() {
+        let mut words = Words::new(b" solid  a b\r\n 1e-3\n", 1);
+        assert_eq!((words.next(), words.line()), (Some(&b"solid"[..]), 1));
+        words.skip_line();
+        assert_eq!((words.next(), words.line()), (Some(&b"1e-3"[..]), 2));
+        assert_eq!(words.next(), None);
+    }
+
+    #[test]
+    fn quotes_are_short_and_printable() {
+        assert_eq!(quoted(b"ab\x00\xff"), "\"ab\u{fffd}\"");
+        assert_eq!(quoted(&[b'x'; 99]), format!("\"{}...\"", "x".repeat(20)));
+        assert_eq!(number::<f32>(b"1.5"), Some(1.5));
+        assert_eq!(number::<f32>(b"1,5"), None);
+    }
+}

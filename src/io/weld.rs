@@ -1,0 +1,77 @@
+//! Welding: vertices with exactly the same coordinates become one.
+//!
+//! Exact bits, no tolerance: a tolerance would have to be guessed, and could close a thin gap between two vessels.
+//! Minus zero is zero. New vertices are numbered in the order of their first occurrence, so the result does not
+//! depend on how the table hashes.
+
+use hashbrown::hash_table::{Entry, HashTable};
+
+use crate::mesh::Vec3;
+
+/// The distinct positions of a list, and which of them each entry became.
+pub(super) struct Welded {
+    /// Each position once, in the order of first occurrence.
+    pub(super) positions: Vec<Vec3>,
+    /// For each entry of the list, its place in `positions`.
+    pub(super) index: Vec<u32>,
+}
+
+/// Welds `positions`; minus zeros become zeros. There may be at most `u32::MAX` of them.
+pub(super) fn weld(positions: &[Vec3]) -> Welded {
+    // A closed surface written triangle by triangle has six entries a vertex, an indexed one has one.
+    let mut table: HashTable<u32> = HashTable::with_capacity(positions.len() / 4);
+    let mut distinct: Vec<Vec3> = Vec::with_capacity(positions.len() / 4);
+    let mut index = Vec::with_capacity(positions.len());
+    for &position in positions {
+        let position = position + Vec3::ZERO;
+        let key = bits(position);
+        let found =
+            table.entry(hash(key), |&v| bits(distinct[v as usize]) == key, |&v| hash(bits(distinct[v as usize])));
+        index.push(match found {
+            Entry::Occupied(entry) => *entry.get(),
+            Entry::Vacant(entry) => {
+                let v = distinct.len() as u32;
+                entry.insert(v);
+                distinct.push(position);
+                v
+            }
+        });
+    }
+    Welded { positions: distinct, index }
+}
+
+fn bits(p: Vec3) -> [u32; 3] {
+    p.to_array().map(f32::to_bits)
+}
+
+/// Spreads 96 bits over 64: coordinates cut from a grid share most of their bits, so both halves must be well
+/// mixed. The constants are those of MurmurHash3's finaliser (Appleby 2011).
+fn hash([x, y, z]: [u32; 3]) -> u64 {
+    let mut h = (u64::from(x) | u64::from(y) << 32).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    h ^= h >> 32;
+    h = (h ^ u64::from(z)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    h ^= h >> 29;
+    h.wrapping_mul(0xff51_afd7_ed55_8ccd)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_positions_become_one_in_the_order_they_come() {
+        let p = |x: f32| Vec3::new(x, 0.0, 1.0);
+        let welded = weld(&[p(2.0), p(0.0), p(2.0), p(-0.0), p(f32::MIN_POSITIVE), p(2.0)]);
+        assert_eq!(welded.index, [0, 1, 0, 1, 2, 0]);
+        assert_eq!(welded.positions, [p(2.0), p(0.0), p(f32::MIN_POSITIVE)]);
+        assert!(welded.positions[1].x.is_sign_positive());
+    }
+
+    #[test]
+    fn a_grid_of_positions_stays_apart() {
+        let grid: Vec<Vec3> =
+            (0..40 * 40 * 40).map(|i| Vec3::new((i % 40) as f32, (i / 40 % 40) as f32, (i / 1600) as f32)).collect();
+        let welded = weld(&grid);
+        assert_eq!(welded.positions, grid);
+    }
+}

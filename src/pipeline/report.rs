@@ -1,0 +1,116 @@
+//! What a run came to, as numbers. The names of the fields are public and stay.
+
+use serde::{Deserialize, Serialize};
+
+use super::deviation::Deviation;
+use super::progressive::Shortfall;
+use super::run::{Pipeline, StageTimes};
+use super::settings::{Settings, reduction_percent};
+use crate::mesh::{Measures, TriMesh, components};
+
+/// What stands in every report.
+pub const DISCLAIMER: &str = "Not for clinical decisions.";
+
+/// Size of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Vertices in use.
+    pub vertices: usize,
+    /// Triangles.
+    pub triangles: usize,
+    /// Connected pieces.
+    pub components: usize,
+}
+
+impl Counts {
+    /// Counts `mesh`, all of whose vertices are in use.
+    pub fn of(mesh: &TriMesh) -> Self {
+        let components = components(mesh.positions.len(), &mesh.triangles).count();
+        Self { vertices: mesh.positions.len(), triangles: mesh.triangles.len(), components }
+    }
+}
+
+/// What the pipeline made of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// "Not for clinical decisions."
+    pub disclaimer: String,
+    /// The version of Lumen.
+    pub lumen: String,
+    /// The name of the file or sample.
+    pub input: String,
+    /// The surface as opened: all pieces.
+    pub opened: Counts,
+    /// What connectivity kept.
+    pub after_connectivity: Counts,
+    /// What was written or is shown.
+    pub output: Counts,
+    /// The settings that were used.
+    pub settings: Settings,
+    /// The part of the triangles after connectivity that is gone, in percent.
+    pub reduction_percent: f64,
+    /// Why the target was not met; null where it was.
+    pub shortfall: Option<String>,
+    /// The response at the pass band could not be brought to within 1e-3 of 1 with so few iterations.
+    pub pass_band_missed: bool,
+    /// Milliseconds a stage.
+    pub stages_ms: StageTimes,
+    /// Two-sided distance between output and smoothed surface; null where one has no area.
+    pub deviation_mm: Option<Deviation>,
+    /// Two-sided distance between output and the surface after connectivity.
+    pub deviation_from_original_mm: Option<Deviation>,
+    /// Change of volume from the surface after connectivity to the output, open ends capped by a fan to each loop's
+    /// centroid; null where a surface cannot be oriented.
+    pub volume_change_percent: Option<f64>,
+    /// Change of area from the surface after connectivity to the output.
+    pub area_change_percent: Option<f64>,
+    /// As `volume_change_percent`, from the smoothed surface.
+    pub volume_change_from_smoothed_percent: Option<f64>,
+    /// As `area_change_percent`, from the smoothed surface.
+    pub area_change_from_smoothed_percent: Option<f64>,
+}
+
+impl Report {
+    /// Sums up a pipeline; `None` until there is a level. Deviations are null until they are there.
+    pub fn new(input: &str, pipeline: &Pipeline) -> Option<Self> {
+        let (kept, smoothed, reduced) = (pipeline.kept()?, pipeline.smoothed()?, pipeline.reduced()?);
+        let comparison = |first: bool| {
+            let found = pipeline.deviations()?;
+            let one = if first { &found.from_smoothed } else { &found.from_original };
+            Some(one.as_ref()?.deviation)
+        };
+        let (from_kept, from_smoothed) =
+            (change(&kept.measures, &reduced.measures), change(&smoothed.measures, &reduced.measures));
+        let opened = pipeline.opened();
+        Some(Self {
+            disclaimer: DISCLAIMER.to_owned(),
+            lumen: env!("CARGO_PKG_VERSION").to_owned(),
+            input: input.to_owned(),
+            opened: Counts {
+                vertices: opened.positions.len(),
+                triangles: opened.triangles.len(),
+                components: pipeline.connectivity()?.components.len(),
+            },
+            after_connectivity: Counts::of(&kept.mesh),
+            output: Counts::of(&reduced.mesh),
+            settings: pipeline.settings().clone(),
+            reduction_percent: reduction_percent(kept.mesh.triangles.len(), reduced.mesh.triangles.len()),
+            shortfall: reduced.level.shortfall.as_ref().map(Shortfall::to_string),
+            pass_band_missed: smoothed.filter.as_ref().is_some_and(|filter| !filter.reaches_pass_band),
+            stages_ms: pipeline.times(),
+            deviation_mm: comparison(true),
+            deviation_from_original_mm: comparison(false),
+            volume_change_percent: from_kept.0,
+            area_change_percent: from_kept.1,
+            volume_change_from_smoothed_percent: from_smoothed.0,
+            area_change_from_smoothed_percent: from_smoothed.1,
+        })
+    }
+}
+
+/// Change of volume and area in percent of `before`; `None` where there is nothing to compare with.
+fn change(before: &Measures, after: &Measures) -> (Option<f64>, Option<f64>) {
+    let percent = |before: f64, after: f64| (before != 0.0).then(|| (after / before - 1.0) * 100.0);
+    let volume = before.volume_mm3.zip(after.volume_mm3).and_then(|(b, a)| percent(b, a));
+    (volume, percent(before.area_mm2, after.area_mm2))
+}

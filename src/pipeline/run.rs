@@ -1,0 +1,458 @@
+//! The stages in order, each remembered with the settings that made it.
+//!
+//! ```text
+//! opened --connectivity--> kept --smoothing--> smoothed --decimation--> progressive --level--> Level --> Deviations
+//! ```
+//!
+//! [`Pipeline::set`] drops what a change of settings makes stale, from the first stage that it touches;
+//! [`Pipeline::advance`] works on the first stage that is missing. A change of the reduction rate alone costs a
+//! level and its deviation.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+use web_time::Instant;
+
+use super::connectivity::Connectivity;
+use super::decimation::DecimationTask;
+use super::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
+use super::filter::Filter;
+use super::normals::{Weighting, vertex_normals};
+use super::progressive::{Level, ProgressiveMesh};
+use super::settings::{Settings, SettingsError, Smoothing};
+use super::smoothing::SmoothingTask;
+use super::task::{Budget, Progress, Task};
+use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh, measures};
+
+/// A stage of the pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Stage {
+    /// Which pieces there are, and the ones that go on.
+    Connectivity,
+    /// The windowed-sinc filter.
+    Smoothing,
+    /// The run that makes the progressive mesh.
+    Decimation,
+    /// One level of it.
+    Level,
+    /// Its normals.
+    Normals,
+    /// How far it is from the smoothed surface and from the one that was opened.
+    Deviation,
+}
+
+impl Stage {
+    /// What the stage is called while it runs.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Connectivity => "Finding pieces",
+            Self::Smoothing => "Smoothing",
+            Self::Decimation => "Reducing",
+            Self::Level => "Taking the level",
+            Self::Normals => "Computing normals",
+            Self::Deviation => "Measuring deviation",
+        }
+    }
+}
+
+/// Milliseconds that each stage took when it last ran.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StageTimes {
+    /// File to surface; set by whoever reads it.
+    pub read: f64,
+    /// Pieces and their measures.
+    pub connectivity: f64,
+    /// Windowed sinc.
+    pub smoothing: f64,
+    /// All levels.
+    pub decimation: f64,
+    /// One level.
+    pub level: f64,
+    /// Vertex normals of the level.
+    pub normals: f64,
+    /// Both deviations.
+    pub deviation: f64,
+    /// Surface to file; set by whoever writes it.
+    pub write: f64,
+}
+
+impl StageTimes {
+    fn of(&mut self, stage: Stage) -> &mut f64 {
+        match stage {
+            Stage::Connectivity => &mut self.connectivity,
+            Stage::Smoothing => &mut self.smoothing,
+            Stage::Decimation => &mut self.decimation,
+            Stage::Level => &mut self.level,
+            Stage::Normals => &mut self.normals,
+            Stage::Deviation => &mut self.deviation,
+        }
+    }
+}
+
+/// A surface on its way, with its topology and measures.
+#[derive(Debug)]
+pub struct Surface {
+    /// The surface.
+    pub mesh: Arc<TriMesh>,
+    /// Adjacency of its triangles.
+    pub topology: Topology,
+    /// Its area and volume.
+    pub measures: Measures,
+}
+
+/// The smoothed surface: the triangles of the kept one.
+#[derive(Debug)]
+pub struct Smoothed {
+    /// The surface.
+    pub mesh: Arc<TriMesh>,
+    /// The filter that made it; `None` where smoothing was skipped.
+    pub filter: Option<Filter>,
+    /// Its area and volume.
+    pub measures: Measures,
+}
+
+/// A level as a surface of its own.
+#[derive(Debug)]
+pub struct Reduced {
+    /// The level over the nodes of the progressive mesh.
+    pub level: Level,
+    /// The level over its own vertices.
+    pub mesh: Arc<TriMesh>,
+    /// Vertex normals, weighted by area.
+    pub normals: Vec<Vec3>,
+    /// Its area and volume.
+    pub measures: Measures,
+}
+
+/// How far a level is from where it came from.
+#[derive(Debug)]
+pub struct Deviations {
+    /// From the smoothed surface; `None` where one of the two has no area.
+    pub from_smoothed: Option<Comparison>,
+    /// From the surface as it was opened.
+    pub from_original: Option<Comparison>,
+}
+
+/// What [`Pipeline::advance`] did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Advance {
+    /// The stage goes on; the fraction of it that is done.
+    Working(Stage, f32),
+    /// The stage has a result.
+    Finished(Stage),
+    /// Nothing is left to do.
+    Idle,
+}
+
+enum Running {
+    Smoothing(SmoothingTask, Filter),
+    Decimation(DecimationTask<Arc<TriMesh>>),
+    Deviation(Box<DeviationRun>),
+}
+
+struct DeviationRun {
+    from_smoothed: DeviationTask<Arc<TriMesh>>,
+    from_original: DeviationTask<Arc<TriMesh>>,
+    first: Option<Option<Comparison>>,
+}
+
+/// What the stages made, each from the one before; shared, so that a copy costs nothing.
+#[derive(Clone, Default)]
+struct Results {
+    settings: Settings,
+    kept: Option<Arc<Surface>>,
+    smoothed: Option<Arc<Smoothed>>,
+    progressive: Option<Arc<ProgressiveMesh>>,
+    reduced: Option<Arc<Reduced>>,
+    deviations: Option<Arc<Deviations>>,
+    /// Of the smoothed and the kept surface, for the next level.
+    indices: [Option<Arc<SurfaceIndex>>; 2],
+    times: StageTimes,
+}
+
+/// One opened surface and what the stages made of it so far.
+pub struct Pipeline {
+    opened: Arc<TriMesh>,
+    samples: usize,
+    connectivity: Option<Connectivity>,
+    now: Results,
+    /// The last results that reached a level, for when the next are cancelled.
+    last: Option<Results>,
+    running: Option<Running>,
+}
+
+impl Pipeline {
+    /// A pipeline for an opened surface. Triangles must not repeat a vertex (`io` sees to that).
+    pub fn new(opened: Arc<TriMesh>, settings: Settings) -> Self {
+        let now = Results { settings, ..Results::default() };
+        Self { opened, samples: INTERACTIVE_SAMPLES, connectivity: None, now, last: None, running: None }
+    }
+
+    /// Sets the number of samples of each surface that the deviation takes.
+    #[must_use]
+    pub fn with_samples(mut self, samples: usize) -> Self {
+        self.samples = samples;
+        self
+    }
+
+    /// Changes the settings; what they made stale is dropped.
+    ///
+    /// # Errors
+    /// When a setting is out of range; nothing changes then.
+    pub fn set(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check()?;
+        if let (super::settings::Keep::Component(wanted), Some(found)) = (settings.keep, &self.connectivity)
+            && wanted as usize >= found.components.len()
+        {
+            return Err(SettingsError::Component { wanted, count: found.components.len() });
+        }
+        if self.now.reduced.is_some() {
+            self.last = Some(self.now.clone());
+        }
+        let old = std::mem::replace(&mut self.now.settings, settings);
+        let new = &self.now.settings;
+        let keep = old.keep != new.keep;
+        let smoothing = keep || !same_filter(&old.smoothing, &new.smoothing);
+        let decimation = smoothing || old.decimation != new.decimation;
+        let level = decimation || old.target != new.target;
+        if keep {
+            self.now.kept = None;
+            self.now.indices[1] = None;
+        }
+        if smoothing {
+            self.now.smoothed = None;
+            self.now.indices[0] = None;
+        }
+        if decimation {
+            self.now.progressive = None;
+        }
+        if level {
+            self.now.reduced = None;
+            self.now.deviations = None;
+        }
+        let stale = match &self.running {
+            Some(Running::Smoothing(..)) => smoothing,
+            Some(Running::Decimation(_)) => decimation,
+            Some(Running::Deviation(_)) => level,
+            None => false,
+        };
+        if stale {
+            self.running = None;
+        }
+        Ok(())
+    }
+
+    /// Stops what is under way and goes back to the last settings that reached a level, with their results.
+    pub fn cancel(&mut self) {
+        self.running = None;
+        if let (None, Some(last)) = (&self.now.reduced, self.last.take()) {
+            self.now = last;
+        }
+    }
+
+    /// Works until `budget` is spent or a stage is finished.
+    ///
+    /// # Errors
+    /// When the settings name a component that the surface does not have.
+    pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
+        let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
+        let start = Instant::now();
+        if self.running.is_none() {
+            *self.now.times.of(stage) = 0.0;
+        }
+        let result = self.work(stage, budget)?;
+        *self.now.times.of(stage) += start.elapsed().as_secs_f64() * 1e3;
+        Ok(result)
+    }
+
+    /// Runs all stages to the end.
+    ///
+    /// # Errors
+    /// When the settings name a component that the surface does not have.
+    pub fn finish(&mut self) -> Result<(), SettingsError> {
+        while self.advance(Budget::UNLIMITED)? != Advance::Idle {}
+        Ok(())
+    }
+
+    /// The first stage that has no result.
+    pub fn next_stage(&self) -> Option<Stage> {
+        if self.now.kept.is_none() {
+            Some(Stage::Connectivity)
+        } else if self.now.smoothed.is_none() {
+            Some(Stage::Smoothing)
+        } else if self.now.progressive.is_none() {
+            Some(Stage::Decimation)
+        } else if self.now.reduced.is_none() {
+            Some(Stage::Level)
+        } else if self.now.deviations.is_none() {
+            Some(Stage::Deviation)
+        } else {
+            None
+        }
+    }
+
+    fn work(&mut self, stage: Stage, budget: Budget) -> Result<Advance, SettingsError> {
+        match stage {
+            Stage::Connectivity => self.connect()?,
+            Stage::Level | Stage::Normals => self.take_level(),
+            Stage::Smoothing if self.now.settings.smoothing.iterations == 0 => self.skip_smoothing(),
+            Stage::Smoothing | Stage::Decimation | Stage::Deviation => {
+                if self.running.is_none() {
+                    self.running = self.start(stage);
+                }
+                if let Some(fraction) = self.run(budget) {
+                    return Ok(Advance::Working(stage, fraction));
+                }
+            }
+        }
+        Ok(Advance::Finished(stage))
+    }
+
+    fn connect(&mut self) -> Result<(), SettingsError> {
+        let opened = &self.opened;
+        let found = self.connectivity.get_or_insert_with(|| Connectivity::of(opened));
+        let mesh = Arc::new(found.kept(opened, self.now.settings.keep)?);
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let measures = measures(&mesh, &topology);
+        self.now.kept = Some(Arc::new(Surface { mesh, topology, measures }));
+        Ok(())
+    }
+
+    fn skip_smoothing(&mut self) {
+        self.now.smoothed =
+            self.now.kept.as_ref().map(|kept| Smoothed { mesh: kept.mesh.clone(), filter: None, measures: kept.measures });
+    }
+
+    fn take_level(&mut self) {
+        let Some(progressive) = &self.now.progressive else { return };
+        let start = Instant::now();
+        let level = progressive.level(self.now.settings.target);
+        let mesh = Arc::new(progressive.extract(&level.triangles));
+        let taken = start.elapsed();
+        let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
+        self.now.times.normals = (start.elapsed() - taken).as_secs_f64() * 1e3;
+        let measures = measures(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+        self.now.reduced = Some(Arc::new(Reduced { level, mesh, normals, measures }));
+        // `advance` adds the whole of this to the level's time: what is not the level's is taken off again.
+        self.now.times.level -= (start.elapsed() - taken).as_secs_f64() * 1e3;
+    }
+
+    fn start(&self, stage: Stage) -> Option<Running> {
+        let kept = self.now.kept.as_ref()?;
+        Some(match stage {
+            Stage::Smoothing => {
+                let filter = Filter::new(&self.now.settings.smoothing);
+                let boundary = self.now.settings.smoothing.boundary;
+                let task = SmoothingTask::new(&kept.mesh.positions, &kept.topology, boundary, &filter);
+                Running::Smoothing(task, filter)
+            }
+            Stage::Decimation => {
+                let smoothed = self.now.smoothed.as_ref()?;
+                let task = DecimationTask::new(smoothed.mesh.clone(), &kept.topology, &self.now.settings.decimation);
+                Running::Decimation(task)
+            }
+            _ => {
+                let (smoothed, reduced) = (self.now.smoothed.as_ref()?, self.now.reduced.as_ref()?);
+                let task = |mesh: &Arc<TriMesh>, index: &Option<Arc<SurfaceIndex>>| {
+                    let task = DeviationTask::new(reduced.mesh.clone(), mesh.clone(), self.samples);
+                    match index {
+                        Some(index) => task.with_index_of_b(index.clone()),
+                        None => task,
+                    }
+                };
+                let [of_smoothed, of_original] = &self.now.indices;
+                let (from_smoothed, from_original) = (task(&smoothed.mesh, of_smoothed), task(&kept.mesh, of_original));
+                Running::Deviation(Box::new(DeviationRun { from_smoothed, from_original, first: None }))
+            }
+        })
+    }
+
+    /// Advances what is running; the fraction that is done, or `None` when all of it is and its result is stored.
+    fn run(&mut self, budget: Budget) -> Option<f32> {
+        match self.running.as_mut()? {
+            Running::Smoothing(task, filter) => match task.advance(budget) {
+                Progress::Working(fraction) => return Some(fraction),
+                Progress::Done(positions) => {
+                    let kept = self.now.kept.as_ref()?;
+                    let mesh = TriMesh { positions, triangles: kept.mesh.triangles.clone() };
+                    let measures = measures(&mesh, &kept.topology);
+                    let smoothed = Smoothed { mesh: Arc::new(mesh), filter: Some(filter.clone()), measures };
+                    self.now.smoothed = Some(Arc::new(smoothed));
+                }
+            },
+            Running::Decimation(task) => match task.advance(budget) {
+                Progress::Working(fraction) => return Some(fraction),
+                Progress::Done(progressive) => self.now.progressive = Some(Arc::new(progressive)),
+            },
+            Running::Deviation(run) => {
+                if run.first.is_none() {
+                    match run.from_smoothed.advance(budget) {
+                        Progress::Working(fraction) => return Some(fraction / 2.0),
+                        Progress::Done(found) => run.first = Some(found),
+                    }
+                }
+                match run.from_original.advance(budget) {
+                    Progress::Working(fraction) => return Some(0.5 + fraction / 2.0),
+                    Progress::Done(from_original) => {
+                        self.now.indices = [&run.from_smoothed, &run.from_original].map(|task| task.index_of_b().cloned());
+                        let from_smoothed = run.first.take().flatten();
+                        self.now.deviations = Some(Arc::new(Deviations { from_smoothed, from_original }));
+                    }
+                }
+            }
+        }
+        self.running = None;
+        None
+    }
+
+    /// The surface as it was opened.
+    pub fn opened(&self) -> &Arc<TriMesh> {
+        &self.opened
+    }
+
+    /// The settings in force.
+    pub fn settings(&self) -> &Settings {
+        &self.now.settings
+    }
+
+    /// The pieces that were found.
+    pub fn connectivity(&self) -> Option<&Connectivity> {
+        self.connectivity.as_ref()
+    }
+
+    /// The part of the surface that goes on.
+    pub fn kept(&self) -> Option<&Arc<Surface>> {
+        self.now.kept.as_ref()
+    }
+
+    /// The smoothed surface.
+    pub fn smoothed(&self) -> Option<&Arc<Smoothed>> {
+        self.now.smoothed.as_ref()
+    }
+
+    /// Every level.
+    pub fn progressive(&self) -> Option<&Arc<ProgressiveMesh>> {
+        self.now.progressive.as_ref()
+    }
+
+    /// The level that the settings ask for.
+    pub fn reduced(&self) -> Option<&Arc<Reduced>> {
+        self.now.reduced.as_ref()
+    }
+
+    /// How far that level is from where it came from.
+    pub fn deviations(&self) -> Option<&Arc<Deviations>> {
+        self.now.deviations.as_ref()
+    }
+
+    /// What each stage took.
+    pub fn times(&self) -> StageTimes {
+        self.now.times
+    }
+}
+
+/// Whether two settings make the same surface: without iterations, the rest does not matter.
+fn same_filter(a: &Smoothing, b: &Smoothing) -> bool {
+    a == b || (a.iterations == 0 && b.iterations == 0)
+}
