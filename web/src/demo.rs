@@ -38,7 +38,11 @@ impl eframe::App for Demo {
         {
             self.status = match heard {
                 Heard::Message(message) => {
-                    format!("Echo: {} with {} bytes", message.header, message.buffers.iter().map(Vec::len).sum::<usize>())
+                    format!(
+                        "Echo: {} with {} bytes",
+                        message.header,
+                        message.buffers.iter().map(Vec::len).sum::<usize>()
+                    )
                 }
                 Heard::Died(why) => {
                     line.restart().ok();

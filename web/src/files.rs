@@ -70,7 +70,9 @@ async fn read(file: &File) -> Result<Vec<u8>, String> {
     }
     match JsFuture::from(file.array_buffer()).await {
         Ok(buffer) => Ok(Uint8Array::new(&buffer).to_vec()),
-        Err(_) => Err(format!("The browser could not read {name}; it may have been moved or changed since it was chosen.")),
+        Err(_) => {
+            Err(format!("The browser could not read {name}; it may have been moved or changed since it was chosen."))
+        }
     }
 }
 

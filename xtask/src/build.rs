@@ -63,7 +63,10 @@ fn trunk(bin: &Path) -> Result<()> {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths(std::iter::once(bin.to_owned()).chain(std::env::split_paths(&path)))?;
     // Some machines set NO_COLOR to 1, which this Trunk takes for a malformed option.
-    run(Command::new(bin.join("trunk")).args(["build", "--release", "--log=warn"]).env("PATH", path).env_remove("NO_COLOR"))
+    run(Command::new(bin.join("trunk"))
+        .args(["build", "--release", "--log=warn"])
+        .env("PATH", path)
+        .env_remove("NO_COLOR"))
 }
 
 /// Optimises for speed: the pipeline runs in here.

@@ -41,7 +41,8 @@ fn answer(request: Request, dist: &Path, compressed: &mut BTreeMap<PathBuf, Vec<
         return Ok(request.respond(Response::from_string("not found").with_status_code(404))?);
     };
     let takes_gzip = request.headers().iter().any(|header| {
-        header.field.equiv("Accept-Encoding") && header.value.as_str().split(',').any(|it| it.trim().starts_with("gzip"))
+        header.field.equiv("Accept-Encoding")
+            && header.value.as_str().split(',').any(|it| it.trim().starts_with("gzip"))
     });
     let mut headers = vec![
         ("Content-Type", media_type(&file)),

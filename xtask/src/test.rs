@@ -101,7 +101,10 @@ fn browser() -> Result<(Counts, bool)> {
         .env("CHROMIUM", chromium)
         .env("LUMEN_DIST", dist)
         .env("LUMEN_NPM", npm)
-        .env("LUMEN_PROGRAM", crate::step::target().join("release").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)));
+        .env(
+            "LUMEN_PROGRAM",
+            crate::step::target().join("release").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
+        );
     step("Run the browser tests", || count(&mut command, node_counts))
 }
 
@@ -144,7 +147,10 @@ mod tests {
     #[test]
     fn summaries_are_read() {
         let mut counts = Counts::default();
-        cargo_counts("test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.1s", &mut counts);
+        cargo_counts(
+            "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.1s",
+            &mut counts,
+        );
         cargo_counts("test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out", &mut counts);
         node_counts("ℹ pass 5", &mut counts);
         node_counts("ℹ fail 1", &mut counts);

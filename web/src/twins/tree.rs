@@ -184,7 +184,8 @@ fn values(node: &Node, role: &str, is_field: bool) -> impl Iterator<Item = (&'st
         ("aria-valuemin", node.min_numeric_value()),
         ("aria-valuemax", node.max_numeric_value()),
     ];
-    let numbers = numbers.into_iter().filter_map(move |(key, value)| value.filter(|_| ranged).map(|v| (key, v.to_string())));
+    let numbers =
+        numbers.into_iter().filter_map(move |(key, value)| value.filter(|_| ranged).map(|v| (key, v.to_string())));
     let text = node.value().filter(|_| ranged && !is_field).map(|text| ("aria-valuetext", text.to_owned()));
     numbers.chain(text)
 }
