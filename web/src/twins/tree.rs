@@ -241,7 +241,9 @@ mod tests {
         if let Some(viewport) = input.viewports.get_mut(&egui::ViewportId::ROOT) {
             viewport.native_pixels_per_point = Some(scale);
         }
-        let output = ctx.run_ui(input, |ui| content(ui));
+        let mut output = ctx.run_ui(input, |ui| content(ui));
+        // Nothing is drawn here.
+        output.textures_delta.clear();
         twins(&output.platform_output.accesskit_update.expect("AccessKit is enabled"), f64::from(scale))
     }
 
