@@ -1,1 +1,216 @@
-//! The module `engine`.
+//! The work that must not block a frame: commands in, events out.
+//!
+//! [`Engine`] holds one opened surface and its [`Pipeline`]. Whoever runs it (a thread on the desktop, a dedicated
+//! Worker in the browser) hands it each [`Command`] as it comes, calls [`Engine::advance`] with slices of about
+//! 10 ms while there is work, and passes on the [`Event`]s. [`Link`] is the app's end of that line, [`wire`] how both
+//! look as a line of JSON and plain buffers.
+//!
+//! The newest settings win. Those that arrive while older ones are being worked on wait until that result is out,
+//! so that a slider being dragged shows one result after another; but no longer than [`PATIENCE`], after which the
+//! older work is dropped.
+
+mod message;
+pub mod wire;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::Duration;
+
+use web_time::Instant;
+
+pub use self::message::{Command, Event, Link, Opened, Reduced, Source, Work};
+use crate::io::{self, Imported};
+use crate::mesh::Vec3;
+use crate::phantom;
+use crate::pipeline::normals::{Weighting, vertex_normals};
+use crate::pipeline::report::Report;
+use crate::pipeline::run::{Advance, Pipeline, Stage};
+use crate::pipeline::settings::Settings;
+use crate::pipeline::task::Budget;
+
+/// How long work on older settings may hold up newer ones.
+pub const PATIENCE: Duration = Duration::from_millis(400);
+
+/// How long a slice of work should be, so that a command is heard in time.
+pub const SLICE: Duration = Duration::from_millis(8);
+
+/// The pipeline as a machine of commands and events.
+#[derive(Default)]
+pub struct Engine {
+    /// A file to be opened, with the settings to begin with.
+    opening: Option<(u64, Source, Settings)>,
+    current: Option<Current>,
+    writing: Vec<(String, io::Format, crate::mesh::TriMesh)>,
+    events: VecDeque<Event>,
+}
+
+struct Current {
+    name: String,
+    pipeline: Pipeline,
+    read_ms: f64,
+    /// The number of the settings that are worked on.
+    generation: u64,
+    /// Newer settings, with their number.
+    waiting: Option<(u64, Settings)>,
+    /// When work on the present settings began.
+    since: Instant,
+}
+
+impl Engine {
+    /// An engine with nothing open.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes a command. Nothing long happens here.
+    pub fn handle(&mut self, command: Command) {
+        match command {
+            Command::Open { id, source, settings } => self.opening = Some((id, source, settings)),
+            Command::Set { generation, settings } => {
+                if let Some(current) = &mut self.current {
+                    current.waiting = Some((generation, settings));
+                }
+            }
+            Command::Cancel => self.cancel(),
+            Command::Write { name, format, mesh } => self.writing.push((name, format, mesh)),
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.opening = None;
+        if let Some(current) = &mut self.current {
+            current.waiting = None;
+            current.pipeline.cancel();
+            let settings = current.pipeline.settings().clone();
+            self.events.push_back(Event::Cancelled { settings });
+        }
+    }
+
+    /// Works for about `slice` and says whether there is more to do. Reading a file is one piece and may take
+    /// longer; everything else keeps to the slice.
+    pub fn advance(&mut self, slice: Duration) -> bool {
+        let budget = Budget::new(slice);
+        if let Some((name, format, mesh)) = self.writing.pop() {
+            self.write(name, format, &mesh);
+        } else if let Some((id, source, settings)) = self.opening.take() {
+            self.open(id, source, settings);
+        } else if let Some(current) = &mut self.current {
+            loop {
+                match current.advance(budget, &mut self.events) {
+                    Ok(true) if !budget.is_spent() => {}
+                    Ok(more) => return more || !self.writing.is_empty(),
+                    Err(message) => {
+                        current.pipeline.cancel();
+                        self.events.push_back(Event::Failed { message });
+                        return false;
+                    }
+                }
+            }
+        }
+        self.opening.is_some() || self.current.is_some() || !self.writing.is_empty()
+    }
+
+    /// The next event.
+    pub fn poll(&mut self) -> Option<Event> {
+        self.events.pop_front()
+    }
+
+    fn write(&mut self, name: String, format: io::Format, mesh: &crate::mesh::TriMesh) {
+        let normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
+        self.events.push_back(match io::write(mesh, Some(&normals), format) {
+            Ok(bytes) => Event::Written { name, bytes },
+            Err(error) => Event::Failed { message: format!("{name} could not be written: {error}.") },
+        });
+    }
+
+    /// Reads a source. What was open stays open if that fails.
+    fn open(&mut self, id: u64, source: Source, settings: Settings) {
+        let start = Instant::now();
+        let name = source.name().to_owned();
+        match read(source) {
+            Ok(Imported { mesh, report }) => {
+                let mesh = Arc::new(mesh);
+                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default());
+                if let Err(error) = pipeline.set(settings) {
+                    self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
+                    return;
+                }
+                let read_ms = start.elapsed().as_secs_f64() * 1e3;
+                let since = Instant::now();
+                self.current =
+                    Some(Current { name: name.clone(), pipeline, read_ms, generation: 0, waiting: None, since });
+                self.events.push_back(Event::Opened(Box::new(Opened { id, name, report, mesh })));
+            }
+            Err(message) => self.events.push_back(Event::OpenFailed { id, name, message }),
+        }
+    }
+}
+
+fn read(source: Source) -> Result<Imported, String> {
+    match source {
+        Source::File { name, bytes, options } => io::read(&bytes, &name, &options).map_err(|error| error.to_string()),
+        Source::Sample { sample, triangles } => {
+            let mesh = phantom::generate(sample, triangles as usize).map_err(|error| error.to_string())?;
+            Ok(io::import_mesh(mesh, "sample"))
+        }
+    }
+}
+
+impl Current {
+    /// One step; whether there is more to do.
+    fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> Result<bool, String> {
+        self.take_waiting().map_err(|error| error.to_string())?;
+        let generation = self.generation;
+        match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
+            Advance::Idle => return Ok(false),
+            Advance::Working(stage, fraction) => {
+                let event = Event::Progress { work: Work::Stage(stage), fraction };
+                match events.back_mut() {
+                    Some(last @ Event::Progress { .. }) => *last = event,
+                    _ => events.push_back(event),
+                }
+            }
+            Advance::Finished(Stage::Decimation) => {
+                if let Some(mesh) = self.pipeline.progressive() {
+                    let keep = self.pipeline.settings().keep;
+                    let reduced = Reduced { generation, keep, mesh: mesh.clone() };
+                    events.push_back(Event::Reduced(Box::new(reduced)));
+                }
+            }
+            Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {
+                if let Some(mut report) = Report::new(&self.name, &self.pipeline) {
+                    report.stages_ms.read = self.read_ms;
+                    let found = self.pipeline.deviations().and_then(|found| found.from_smoothed.as_ref());
+                    let deviation = found.map_or_else(Vec::new, |found| found.per_vertex.clone());
+                    let complete = stage == Stage::Deviation;
+                    events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
+                }
+            }
+            Advance::Finished(Stage::Connectivity) => {
+                let pieces = self.pipeline.connectivity();
+                if let Some(found) = pieces {
+                    let labels = found.labels.of_triangle.clone();
+                    events.push_back(Event::Pieces { labels, components: found.components.clone() });
+                }
+            }
+            Advance::Finished(_) => {}
+        }
+        Ok(self.pipeline.next_stage().is_some() || self.waiting.is_some())
+    }
+
+    /// Goes over to newer settings, unless a result of the present ones is near.
+    fn take_waiting(&mut self) -> Result<(), crate::pipeline::settings::SettingsError> {
+        let result_is_near = self.pipeline.reduced().is_none()
+            && self.pipeline.next_stage() > Some(Stage::Connectivity)
+            && self.since.elapsed() < PATIENCE;
+        if result_is_near {
+            return Ok(());
+        }
+        if let Some((generation, settings)) = self.waiting.take() {
+            self.generation = generation;
+            self.since = Instant::now();
+            self.pipeline.set(settings)?;
+        }
+        Ok(())
+    }
+}

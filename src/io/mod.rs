@@ -31,9 +31,10 @@ pub use report::{ImportReport, Imported, Skipped};
 
 use crate::mesh::{TriMesh, Vec3};
 use detect::Content;
+use serde::{Deserialize, Serialize};
 
 /// What the user says about a file that the file does not say itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImportOptions {
     /// The unit of the file's numbers; `None` takes millimetres, and metres for glTF.
     pub unit: Option<Unit>,

@@ -25,7 +25,7 @@ pub fn measures(mesh: &TriMesh, topology: &Topology) -> Measures {
 
 /// Area of a triangle in mm2.
 pub fn triangle_area(corners: [Vec3; 3]) -> f64 {
-    let [a, b, c] = corners.map(|p| p.as_dvec3());
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
     (b - a).cross(c - a).length() / 2.0
 }
 

@@ -140,10 +140,7 @@ pub(super) fn marching_cubes(
             for span in &spans {
                 let column = |i: usize| {
                     let at = j * nx + i;
-                    lower.points[at]
-                        | lower.points[at + nx] << 2
-                        | upper.points[at] << 4
-                        | upper.points[at + nx] << 6
+                    lower.points[at] | lower.points[at + nx] << 2 | upper.points[at] << 4 | upper.points[at + nx] << 6
                 };
                 let mut left = column(span.start);
                 for i in span.clone() {
@@ -285,7 +282,13 @@ mod tests {
             let around = topology.triangles(v);
             let links = around.iter().map(|&t| {
                 let [a, b, c] = mesh.triangles[t as usize];
-                if a == v { (b, c) } else if b == v { (c, a) } else { (a, b) }
+                if a == v {
+                    (b, c)
+                } else if b == v {
+                    (c, a)
+                } else {
+                    (a, b)
+                }
             });
             let links: Vec<(u32, u32)> = links.collect();
             let starts = links.iter().filter(|(a, _)| !links.iter().any(|(_, b)| a == b)).count();

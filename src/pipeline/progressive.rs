@@ -167,8 +167,11 @@ impl ProgressiveMesh {
         let steps = self.steps_to(wanted);
         let triangles = self.triangles_at(steps);
         let reached = triangles.len();
-        let shortfall =
-            (reached > wanted).then(|| Shortfall { wanted: wanted as u32, reached: reached as u32, limit: self.limit });
+        let shortfall = (reached > wanted).then_some(Shortfall {
+            wanted: wanted as u32,
+            reached: reached as u32,
+            limit: self.limit,
+        });
         Level { steps, triangles, shortfall }
     }
 

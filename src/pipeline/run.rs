@@ -25,8 +25,8 @@ use super::smoothing::SmoothingTask;
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh, measures};
 
-/// A stage of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// A stage of the pipeline, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Stage {
     /// Which pieces there are, and the ones that go on.
     Connectivity,
@@ -320,8 +320,9 @@ impl Pipeline {
     }
 
     fn skip_smoothing(&mut self) {
-        self.now.smoothed =
-            self.now.kept.as_ref().map(|kept| Smoothed { mesh: kept.mesh.clone(), filter: None, measures: kept.measures });
+        let unchanged =
+            |kept: &Arc<Surface>| Smoothed { mesh: kept.mesh.clone(), filter: None, measures: kept.measures };
+        self.now.smoothed = self.now.kept.as_ref().map(unchanged).map(Arc::new);
     }
 
     fn take_level(&mut self) {
@@ -395,7 +396,8 @@ impl Pipeline {
                 match run.from_original.advance(budget) {
                     Progress::Working(fraction) => return Some(0.5 + fraction / 2.0),
                     Progress::Done(from_original) => {
-                        self.now.indices = [&run.from_smoothed, &run.from_original].map(|task| task.index_of_b().cloned());
+                        self.now.indices =
+                            [&run.from_smoothed, &run.from_original].map(|task| task.index_of_b().cloned());
                         let from_smoothed = run.first.take().flatten();
                         self.now.deviations = Some(Arc::new(Deviations { from_smoothed, from_original }));
                     }

@@ -1,0 +1,201 @@
+//! What passes between the app and the engine.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::io::{Format, ImportOptions, ImportReport};
+use crate::mesh::TriMesh;
+use crate::phantom::Sample;
+use crate::pipeline::connectivity::Component;
+use crate::pipeline::progressive::ProgressiveMesh;
+use crate::pipeline::report::Report;
+use crate::pipeline::run::Stage;
+use crate::pipeline::settings::{Keep, Settings};
+
+/// Where a surface comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// A file that was chosen or dropped.
+    File {
+        /// Its name, with extension.
+        name: String,
+        /// Its bytes.
+        bytes: Arc<[u8]>,
+        /// How to read it.
+        options: ImportOptions,
+    },
+    /// A vessel tree that Lumen makes.
+    Sample {
+        /// Which.
+        sample: Sample,
+        /// Triangles of its largest piece.
+        triangles: u32,
+    },
+}
+
+impl Source {
+    /// The sample at its default size.
+    pub fn sample(sample: Sample) -> Self {
+        Self::Sample { sample, triangles: sample.default_triangles() as u32 }
+    }
+
+    /// What the surface is called.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::File { name, .. } => name,
+            Self::Sample { sample, .. } => sample.label(),
+        }
+    }
+}
+
+/// What the engine is asked to do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Read a surface and run the pipeline on it.
+    Open {
+        /// Comes back with the answer.
+        id: u64,
+        /// Where from.
+        source: Source,
+        /// The settings to begin with.
+        settings: Settings,
+    },
+    /// Change the settings.
+    Set {
+        /// Comes back with the results; each command's is larger than the one before.
+        generation: u64,
+        /// All of them.
+        settings: Settings,
+    },
+    /// Stop, and go back to the last result.
+    Cancel,
+    /// Turn a surface into a file.
+    Write {
+        /// The name of the file, with extension.
+        name: String,
+        /// Its format.
+        format: Format,
+        /// The surface.
+        mesh: TriMesh,
+    },
+}
+
+/// What the engine is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Work {
+    /// Reading a file or making a sample.
+    Reading,
+    /// A stage of the pipeline.
+    Stage(Stage),
+}
+
+impl Work {
+    /// What the work is called while it goes on.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Reading => "Reading",
+            Self::Stage(stage) => stage.label(),
+        }
+    }
+}
+
+/// A surface that was opened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opened {
+    /// That of the command.
+    pub id: u64,
+    /// The surface's name.
+    pub name: String,
+    /// What was found and mended.
+    pub report: ImportReport,
+    /// All of it.
+    pub mesh: Arc<TriMesh>,
+}
+
+/// Every level of the surface under some settings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reduced {
+    /// That of the settings.
+    pub generation: u64,
+    /// The pieces it is made from.
+    pub keep: Keep,
+    /// The levels.
+    pub mesh: Arc<ProgressiveMesh>,
+}
+
+/// What the engine has to say.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// A surface is open; its pieces and results follow.
+    Opened(Box<Opened>),
+    /// A surface could not be read; what was open still is.
+    OpenFailed {
+        /// That of the command.
+        id: u64,
+        /// The surface's name.
+        name: String,
+        /// One plain sentence.
+        message: String,
+    },
+    /// The pieces of the open surface.
+    Pieces {
+        /// The piece of each triangle.
+        labels: Vec<u32>,
+        /// The pieces.
+        components: Vec<Component>,
+    },
+    /// How far the work is.
+    Progress {
+        /// What is being done.
+        work: Work,
+        /// The part of it that is done, 0 to 1.
+        fraction: f32,
+    },
+    /// New levels.
+    Reduced(Box<Reduced>),
+    /// The numbers of the level that the settings ask for.
+    Measured {
+        /// That of the settings.
+        generation: u64,
+        /// Whether the deviation is among them.
+        complete: bool,
+        /// The numbers.
+        report: Box<Report>,
+        /// Distance in mm of each vertex of the level (nodes in use, ascending) from the smoothed surface; empty
+        /// until `complete`.
+        deviation: Vec<f32>,
+    },
+    /// The work was stopped; these settings, and their results, are in force.
+    Cancelled {
+        /// All of them.
+        settings: Settings,
+    },
+    /// A file is ready.
+    Written {
+        /// Its name.
+        name: String,
+        /// Its bytes.
+        bytes: Vec<u8>,
+    },
+    /// Something could not be done; what was there before still is.
+    Failed {
+        /// One plain sentence.
+        message: String,
+    },
+}
+
+/// The app's end of the line to an engine.
+pub trait Link {
+    /// Sends a command.
+    fn send(&mut self, command: Command);
+
+    /// The next event that has arrived.
+    fn poll(&mut self) -> Option<Event>;
+
+    /// Gives up the engine, whatever it does, and starts another with nothing open.
+    fn restart(&mut self);
+
+    /// One plain sentence on why the engine stopped by itself, once; whoever asks should [`Self::restart`].
+    fn failure(&mut self) -> Option<String>;
+}
