@@ -1,54 +1,55 @@
-//! A stand-in for the app while it is being written: each kind of control, a file in and out, an echo from a Worker.
+//! A stand-in for the app while it is being written: each kind of control, a file in and out, the engine's answers.
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use lumen::engine::{Command, Event, Link as _, Source};
+use lumen::io::ImportOptions;
+use lumen::pipeline::settings::Settings;
+
 use crate::files;
-use crate::worker::{Heard, Message, WorkerLine};
+use crate::link::WorkerLink;
 
 pub(crate) struct Demo {
     reduction: f64,
     status: String,
-    line: Option<WorkerLine>,
+    link: WorkerLink,
     chosen: Rc<RefCell<Option<files::Chosen>>>,
     bytes: Vec<u8>,
 }
 
 impl Demo {
     pub(crate) fn new(cc: &eframe::CreationContext<'_>) -> Self {
-        let ctx = cc.egui_ctx.clone();
-        let line = WorkerLine::start("echo", move || ctx.request_repaint()).ok();
-        Self { reduction: 50.0, status: "Ready".to_owned(), line, chosen: Rc::default(), bytes: Vec::new() }
+        let link = WorkerLink::new(cc.egui_ctx.clone());
+        Self { reduction: 50.0, status: "Ready".to_owned(), link, chosen: Rc::default(), bytes: Vec::new() }
     }
 }
 
 impl eframe::App for Demo {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         if let Some((name, bytes)) = self.chosen.take() {
-            self.status = match bytes {
+            match bytes {
                 Ok(bytes) => {
-                    self.bytes = bytes;
-                    format!("{name}: {} bytes", self.bytes.len())
+                    self.bytes.clone_from(&bytes);
+                    let source = Source::File { name, bytes: bytes.into(), options: ImportOptions::default() };
+                    self.link.send(Command::Open { id: 1, source, settings: Settings::default() });
                 }
-                Err(sentence) => sentence,
-            };
+                Err(sentence) => self.status = sentence,
+            }
         }
-        if let Some(line) = &mut self.line
-            && let Some(heard) = line.poll()
-        {
-            self.status = match heard {
-                Heard::Message(message) => {
-                    format!(
-                        "Echo: {} with {} bytes",
-                        message.header,
-                        message.buffers.iter().map(Vec::len).sum::<usize>()
-                    )
+        while let Some(event) = self.link.poll() {
+            match event {
+                Event::Opened(opened) => self.status = format!("Opened {} triangles", opened.mesh.triangles.len()),
+                Event::OpenFailed { message, .. } => self.status = message,
+                Event::Measured { complete: true, report, .. } => {
+                    self.status = format!("Result: {} triangles", report.output.triangles);
                 }
-                Heard::Died(why) => {
-                    line.restart().ok();
-                    format!("Died: {why}")
-                }
-            };
+                _ => {}
+            }
+        }
+        if let Some(why) = self.link.failure() {
+            self.status = why;
+            self.link.restart();
         }
         ui.heading("Lumen");
         ui.add(egui::Slider::new(&mut self.reduction, 0.0..=99.9).text("Reduction").suffix(" %"));
@@ -64,11 +65,6 @@ impl eframe::App for Demo {
         }
         if ui.button("Save...").clicked() {
             files::save("demo.stl", &self.bytes).ok();
-        }
-        if ui.button("Echo").clicked()
-            && let Some(line) = &self.line
-        {
-            line.send(&Message { header: "{\"a\":1}".to_owned(), buffers: vec![vec![7; 1000], vec![1; 24]] }).ok();
         }
         ui.label(&self.status);
     }

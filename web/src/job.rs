@@ -1,10 +1,19 @@
-//! The Worker's end of the line: hears messages, works in slices, and answers.
+//! The Worker's end of the line: hears commands, works on them in slices, and sends events.
+//!
+//! Between two slices the Worker goes back to the browser, so that a command is heard within a slice's time. A message
+//! to itself brings it back at once; a timer would make it wait for 4 ms each time.
 
-use js_sys::global;
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use lumen::engine::{Engine, SLICE, wire};
 use wasm_bindgen::prelude::*;
-use web_sys::{DedicatedWorkerGlobalScope, MessageEvent};
+use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent, MessagePort};
 
-use crate::worker::Message;
+use crate::worker::{Received, pack};
+
+/// The job of the Worker that runs the pipeline.
+pub(crate) const PIPELINE: &str = "pipeline";
 
 /// Begins the Worker's job; called once by `www/worker.js`, before the first message is handed on.
 ///
@@ -16,27 +25,61 @@ use crate::worker::Message;
 pub fn worker_main(job: &str) -> Result<(), JsValue> {
     crate::page::report_panics();
     match job {
-        "echo" => echo(),
+        PIPELINE => run_engine(),
         _ => Err(format!("there is no job named {job}").into()),
     }
 }
 
-/// The Worker's global scope.
-fn scope() -> Result<DedicatedWorkerGlobalScope, JsValue> {
-    global().dyn_into().map_err(|_| "this is no Worker".into())
-}
+fn run_engine() -> Result<(), JsValue> {
+    let scope: DedicatedWorkerGlobalScope = js_sys::global().dyn_into().map_err(|_| "this is no Worker")?;
+    let engine = Rc::new(RefCell::new(Engine::new()));
+    let again = Again::new()?;
 
-fn echo() -> Result<(), JsValue> {
-    let scope = scope()?;
-    let answer = Closure::<dyn Fn(MessageEvent)>::new({
-        let scope = scope.clone();
+    let hear = Closure::<dyn Fn(MessageEvent) -> Result<(), JsValue>>::new({
+        let (engine, again) = (Rc::clone(&engine), again.clone());
         move |event: MessageEvent| {
-            let Some(message) = Message::unpack(&event.data()) else { panic!("a message that is none") };
-            let (values, transfer) = message.pack();
-            scope.post_message_with_transfer(&values, &transfer).expect("an echo fits");
+            let message = Received::unpack(&event.data()).ok_or("a message that is none")?;
+            let command = wire::decode_command(&message.header, &message).map_err(|error| error.to_string())?;
+            engine.borrow_mut().handle(command);
+            again.soon()
         }
     });
-    scope.set_onmessage(Some(answer.as_ref().unchecked_ref()));
-    answer.forget();
+    let work = Closure::<dyn Fn() -> Result<(), JsValue>>::new({
+        let (scope, again) = (scope.clone(), again.clone());
+        move || {
+            again.waiting.set(false);
+            let mut engine = engine.borrow_mut();
+            let more = engine.advance(SLICE);
+            while let Some(event) = engine.poll() {
+                let (values, transfer) = pack(&wire::encode_event(&event));
+                scope.post_message_with_transfer(&values, &transfer)?;
+            }
+            if more { again.soon() } else { Ok(()) }
+        }
+    });
+    again.to.set_onmessage(Some(work.as_ref().unchecked_ref()));
+    scope.set_onmessage(Some(hear.as_ref().unchecked_ref()));
+    // Both live as long as the Worker.
+    work.forget();
+    hear.forget();
     Ok(())
+}
+
+/// A message from the Worker to itself, at most one at a time.
+#[derive(Clone)]
+struct Again {
+    from: MessagePort,
+    to: MessagePort,
+    waiting: Rc<Cell<bool>>,
+}
+
+impl Again {
+    fn new() -> Result<Self, JsValue> {
+        let channel = MessageChannel::new()?;
+        Ok(Self { from: channel.port1(), to: channel.port2(), waiting: Rc::default() })
+    }
+
+    fn soon(&self) -> Result<(), JsValue> {
+        if self.waiting.replace(true) { Ok(()) } else { self.from.post_message(&JsValue::NULL) }
+    }
 }

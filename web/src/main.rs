@@ -4,6 +4,7 @@
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
 //! - [`files`]: the file dialog and downloads.
 //! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker.
+//! - [`link`]: that line as the app's line to the engine.
 //!
 //! The page itself is in `www/`; `cargo xtask build` puts both together.
 
@@ -13,6 +14,8 @@ mod demo;
 mod files;
 #[cfg(target_arch = "wasm32")]
 mod job;
+#[cfg(target_arch = "wasm32")]
+mod link;
 #[cfg(target_arch = "wasm32")]
 mod page;
 mod twins;

@@ -12,37 +12,47 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 use js_sys::{Array, Object, Reflect, Uint8Array};
+use lumen::engine::wire::{Buffers, Encoded};
 use wasm_bindgen::prelude::*;
 use web_sys::{ErrorEvent, MessageEvent, Worker, WorkerOptions, WorkerType};
 
-/// What goes between the page and a Worker.
-#[derive(Debug, Default)]
-pub(crate) struct Message {
-    /// What it is, as JSON.
-    pub(crate) header: String,
-    /// The bulk: positions, triangles, files.
-    pub(crate) buffers: Vec<Vec<u8>>,
+/// A message as a script value, and the list of what is to be transferred rather than copied again.
+pub(crate) fn pack((header, buffers): &Encoded<'_>) -> (Array, Array) {
+    let values = Array::of1(&JsValue::from_str(header));
+    let transfer = Array::new();
+    for buffer in buffers {
+        let buffer = Uint8Array::from(*buffer).buffer();
+        values.push(&buffer);
+        transfer.push(&buffer);
+    }
+    (values, transfer)
 }
 
-impl Message {
-    /// The message as a script value, and the list of what is to be transferred rather than copied.
-    pub(crate) fn pack(&self) -> (Array, Array) {
-        let values = Array::of1(&JsValue::from_str(&self.header));
-        let transfer = Array::new();
-        for buffer in &self.buffers {
-            let buffer = Uint8Array::from(buffer.as_slice()).buffer();
-            values.push(&buffer);
-            transfer.push(&buffer);
-        }
-        (values, transfer)
-    }
+/// A message that has arrived; its buffers are still outside this instance's memory.
+#[derive(Debug)]
+pub(crate) struct Received {
+    /// What it is, as a line of JSON.
+    pub(crate) header: String,
+    buffers: Vec<Uint8Array>,
+}
 
-    /// The reverse of [`pack`](Self::pack); `None` for anything else.
+impl Received {
+    /// The reverse of [`pack`]; `None` for anything else.
     pub(crate) fn unpack(value: &JsValue) -> Option<Self> {
         let values: &Array = value.dyn_ref()?;
         let header = values.get(0).as_string()?;
-        let buffers = values.iter().skip(1).map(|buffer| Uint8Array::new(&buffer).to_vec()).collect();
+        let buffers = values.iter().skip(1).map(|buffer| Uint8Array::new(&buffer)).collect();
         Some(Self { header, buffers })
+    }
+}
+
+impl Buffers for Received {
+    fn len(&self, index: usize) -> Option<usize> {
+        self.buffers.get(index).map(|buffer| buffer.length() as usize)
+    }
+
+    fn copy(&self, index: usize, target: &mut [u8]) {
+        self.buffers[index].copy_to(target);
     }
 }
 
@@ -50,7 +60,7 @@ impl Message {
 #[derive(Debug)]
 pub(crate) enum Heard {
     /// It answers.
-    Message(Message),
+    Message(Received),
     /// It has died, and why, as far as the browser tells; nothing more comes until a restart.
     Died(String),
 }
@@ -75,13 +85,13 @@ impl WorkerLine {
         Ok(Self { job, inbox, worker, _listeners: listeners })
     }
 
-    /// Sends a message; its buffers are gone from this side once they are copied.
+    /// Sends a message.
     ///
     /// # Errors
     ///
     /// What the browser answers when there is no memory left for the copies.
-    pub(crate) fn send(&self, message: &Message) -> Result<(), JsValue> {
-        let (values, transfer) = message.pack();
+    pub(crate) fn send(&self, message: &Encoded<'_>) -> Result<(), JsValue> {
+        let (values, transfer) = pack(message);
         self.worker.post_message_with_transfer(&values, &transfer)
     }
 
@@ -141,7 +151,7 @@ fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
         let dead = Rc::clone(&dead);
         move |event: MessageEvent| {
             if !dead.get() {
-                inbox.put(match Message::unpack(&event.data()) {
+                inbox.put(match Received::unpack(&event.data()) {
                     Some(message) => Heard::Message(message),
                     None => Heard::Died("The message could not be read.".to_owned()),
                 });
