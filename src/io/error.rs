@@ -98,9 +98,9 @@ pub enum ReadError {
         feature: String,
     },
     /// More corners than 32-bit indices can number.
-    #[error("The surface is too large: it has {corners} triangle corners, and Lumen can take {limit}.")]
+    #[error("The surface is too large: it has {corners} vertices or corners, and Lumen can take {limit}.")]
     TooLarge {
-        /// Corners announced or found.
+        /// Vertices or corners of triangles, whichever are more.
         corners: u64,
         /// The most that can be taken.
         limit: u64,

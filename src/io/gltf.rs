@@ -86,8 +86,9 @@ fn read_scene(
     unit: Unit,
     file_length: usize,
 ) -> Result<RawSurface, ReadError> {
-    let root: Root =
-        deserialize::from_slice(json).map_err(|error| malformed(format!("its JSON reads wrong ({error})")))?;
+    let root: Root = deserialize::from_slice(json).map_err(|error| {
+        malformed(format!("its JSON is wrong or incomplete at line {}, column {}", error.line(), error.column()))
+    })?;
     let compressions = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
     if let Some(feature) = root.extensions_required.iter().find(|name| compressions.contains(&name.as_str())) {
         return Err(ReadError::Unsupported { format: FORMAT, feature: feature.clone() });
@@ -445,20 +446,9 @@ mod tests {
         );
         assert!(problem("{\"mesh\":0}", "{\"mesh\":0,\"children\":[0]}").contains("node 0 hangs from two others"));
         assert!(problem("\"mesh\":0", "\"mesh\":7").contains("mesh 7 is missing"));
-        assert!(problem("\"asset\"", "asset").contains("its JSON reads wrong"));
-        assert_eq!(
-            problem("data:application/octet-stream;base64,", "square.bin?"),
-            format!(
-                "The glTF file keeps its data in another file ({}): save it as one GLB file and open that.",
-                good.replace("data:application/octet-stream;base64,", "square.bin?")
-                    .split("\"uri\":\"")
-                    .nth(1)
-                    .unwrap()[..80]
-                    .split('"')
-                    .next()
-                    .unwrap()
-            )
-        );
+        assert!(problem("\"asset\"", "asset").contains("its JSON is wrong"));
+        let other = problem("data:application/octet-stream;base64,", "square.bin?");
+        assert!(other.starts_with("The glTF file keeps its data in another file (square.bin?AAAA"), "{other}");
     }
 
     #[test]

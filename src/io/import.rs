@@ -55,12 +55,20 @@ impl RawSurface {
     }
 }
 
+/// Refuses more vertices or triangle corners than 32 bits can number.
+pub(super) fn check_size(vertices: usize, triangles: usize) -> Result<(), ReadError> {
+    let limit = u64::from(u32::MAX);
+    let corners = (vertices as u64).max(3 * triangles as u64);
+    if corners > limit { Err(ReadError::TooLarge { corners, limit }) } else { Ok(()) }
+}
+
 /// Takes a surface from a file through the stage.
 pub(super) fn import(raw: RawSurface, unit: Unit) -> Result<Imported, ReadError> {
     let format = raw.label;
     if raw.triangles.is_empty() {
         return Err(ReadError::NoTriangles { format, vertices: raw.positions.len() });
     }
+    check_size(raw.positions.len(), raw.triangles.len())?;
     let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
     for &v in raw.triangles.as_flattened() {
         for x in raw.positions[v as usize].to_array() {

@@ -29,6 +29,8 @@ pub use format::{Format, Unit, UnknownUnit};
 pub use import::import_mesh;
 pub use report::{ImportReport, Imported, Skipped};
 
+use serde::{Deserialize, Serialize};
+
 use crate::mesh::{TriMesh, Vec3};
 use detect::Content;
 use serde::{Deserialize, Serialize};

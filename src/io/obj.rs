@@ -32,6 +32,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
     let mut positions: Vec<Vec3> = Vec::new();
     let mut faces = Faces::default();
     let (mut lines, mut points, mut faces_read) = (0, 0, 0);
+    // The farthest vertex that a face names, and that face.
+    let mut farthest = (0, 0);
     for (line, row) in logical_lines(text::without_mark(bytes)) {
         let mut words = row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let syntax = |problem: String| ReadError::Syntax { format: "OBJ", line, problem };
@@ -42,10 +44,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
                     let word = words.next().ok_or_else(|| syntax("a vertex needs three coordinates".to_owned()))?;
                     let broken = || syntax(format!("{} stands where a coordinate should", text::quoted(word)));
                     *coordinate = text::number(word).ok_or_else(broken)?;
-                }
-                if positions.len() == u32::MAX as usize {
-                    let limit = u64::from(u32::MAX);
-                    return Err(ReadError::TooLarge { corners: limit + 1, limit });
                 }
                 positions.push(Vec3::from(coordinates));
             }
@@ -66,6 +64,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
                             index,
                             vertices: positions.len(),
                         })?;
+                    farthest = farthest.max((corner, faces_read));
                     faces.push_corner(corner);
                 }
                 faces.finish_face();
@@ -75,9 +74,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
             _ => {}
         }
     }
-    if let Some((face, corner)) = faces.out_of_range(positions.len()) {
+    let (corner, face) = farthest;
+    if face > 0 && corner as usize >= positions.len() {
         let (index, vertices) = (i64::from(corner) + 1, positions.len());
-        return Err(ReadError::IndexOutOfRange { format: "OBJ", face: face + 1, index, vertices });
+        return Err(ReadError::IndexOutOfRange { format: "OBJ", face, index, vertices });
     }
     let mut raw = RawSurface::of_faces("OBJ", positions, &faces);
     raw.skipped.lines = lines;

@@ -56,6 +56,18 @@ struct Element {
     properties: Vec<Property>,
 }
 
+impl Element {
+    /// What to call many of it.
+    fn plural(&self) -> String {
+        match self.name.as_str() {
+            "vertex" => "vertices".to_owned(),
+            "face" => "faces".to_owned(),
+            "tristrips" => "triangle strips".to_owned(),
+            name => format!("rows of {}", text::quoted(name.as_bytes())),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Encoding {
     Ascii,
@@ -98,7 +110,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
 /// be a line gets over them.
 fn read_ascii(header: &Header, body: &[u8]) -> Result<RawSurface, ReadError> {
     let attempt = |row_is_line| {
-        let mut numbers = AsciiNumbers { words: Words::new(body, header.body_line), row_is_line };
+        let mut numbers = AsciiNumbers { words: Words::new(body, header.body_line), row_is_line, fault: None };
         let result = read_body(header, &mut numbers);
         let even = result.is_ok() && numbers.words.next().is_none();
         (result, even)
@@ -186,14 +198,20 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     Ok(Header { encoding, elements, body: at, body_line: line + 1 })
 }
 
-/// The numbers of a body, one after another. `None` is the end of the file.
+/// The numbers of a body, one after another. `None` is the end of the file, or a [`Numbers::fault`]: these calls
+/// are the inner loop, so they return what fits into registers.
 trait Numbers {
     /// The next number, of any type: `f64` holds them all.
-    fn number(&mut self, kind: Scalar) -> Result<Option<f64>, ReadError>;
+    fn number(&mut self, kind: Scalar) -> Option<f64>;
 
     /// The next number, rounded once to `f32`.
-    fn coordinate(&mut self, kind: Scalar) -> Result<Option<f32>, ReadError> {
-        Ok(self.number(kind)?.map(|x| x as f32))
+    fn coordinate(&mut self, kind: Scalar) -> Option<f32> {
+        self.number(kind).map(|x| x as f32)
+    }
+
+    /// What is wrong in the place where the last `None` came from, if it was not the end of the file.
+    fn fault(&mut self) -> Option<ReadError> {
+        None
     }
 
     /// A row of an element ends here.
@@ -207,26 +225,32 @@ struct AsciiNumbers<'a> {
     words: Words<'a>,
     /// Whether what is left of a line after a row is passed over.
     row_is_line: bool,
+    fault: Option<ReadError>,
 }
 
 impl AsciiNumbers<'_> {
-    fn parse<T: std::str::FromStr>(&mut self) -> Result<Option<T>, ReadError> {
-        let Some(word) = self.words.next() else {
-            return Ok(None);
-        };
-        let problem = || format!("{} stands where a number should", text::quoted(word));
-        let broken = || ReadError::Syntax { format: "PLY", line: self.words.line(), problem: problem() };
-        text::number(word).map(Some).ok_or_else(broken)
+    fn parse<T: std::str::FromStr>(&mut self) -> Option<T> {
+        let word = self.words.next()?;
+        let value = text::number(word);
+        if value.is_none() {
+            let problem = format!("{} stands where a number should", text::quoted(word));
+            self.fault = Some(ReadError::Syntax { format: "PLY", line: self.words.line(), problem });
+        }
+        value
     }
 }
 
 impl Numbers for AsciiNumbers<'_> {
-    fn number(&mut self, _: Scalar) -> Result<Option<f64>, ReadError> {
+    fn number(&mut self, _: Scalar) -> Option<f64> {
         self.parse()
     }
 
-    fn coordinate(&mut self, _: Scalar) -> Result<Option<f32>, ReadError> {
+    fn coordinate(&mut self, _: Scalar) -> Option<f32> {
         self.parse()
+    }
+
+    fn fault(&mut self) -> Option<ReadError> {
+        self.fault.take()
     }
 
     fn end_row(&mut self) {
@@ -259,8 +283,8 @@ impl<const BIG: bool> BinaryNumbers<'_, BIG> {
 
 impl<const BIG: bool> Numbers for BinaryNumbers<'_, BIG> {
     #[inline]
-    fn number(&mut self, kind: Scalar) -> Result<Option<f64>, ReadError> {
-        Ok(match kind {
+    fn number(&mut self, kind: Scalar) -> Option<f64> {
+        match kind {
             Scalar::I8 => self.take().map(|b| f64::from(i8::from_le_bytes(b))),
             Scalar::U8 => self.take().map(|b| f64::from(u8::from_le_bytes(b))),
             Scalar::I16 => self.take().map(|b| f64::from(i16::from_le_bytes(b))),
@@ -269,7 +293,7 @@ impl<const BIG: bool> Numbers for BinaryNumbers<'_, BIG> {
             Scalar::U32 => self.take().map(|b| f64::from(u32::from_le_bytes(b))),
             Scalar::F32 => self.take().map(|b| f64::from(f32::from_le_bytes(b))),
             Scalar::F64 => self.take().map(f64::from_le_bytes),
-        })
+        }
     }
 
     fn remaining(&self) -> usize {
@@ -327,11 +351,13 @@ fn read_body(header: &Header, numbers: &mut impl Numbers) -> Result<RawSurface, 
                 Meaning::Faces(list) | Meaning::Strips(list) => Some(list),
                 Meaning::Vertices(_) | Meaning::Other => None,
             };
-            let whole = row.read(&element.properties, wanted, numbers)?;
-            if !whole {
-                let what = format!("rows of \"{}\"", element.name);
-                let format = header.encoding.label();
-                return Err(ReadError::CutShort { format, what, announced: element.count, found: n });
+            if row.read(&element.properties, wanted, numbers).is_none() {
+                let (format, what) = (header.encoding.label(), element.plural());
+                return Err(match (row.bad_length, numbers.fault()) {
+                    (Some(length), _) => malformed(format!("a list has the length {length}")),
+                    (None, Some(fault)) => fault,
+                    (None, None) => ReadError::CutShort { format, what, announced: element.count, found: n },
+                });
             }
             let index = |value: f64| {
                 // The comparison is false for NaN; fractions are no indices.
@@ -379,45 +405,37 @@ struct Row {
     scalars: Vec<f32>,
     /// The values of the one list that is wanted.
     list: Vec<f64>,
+    /// A length that no list can have, where one stopped the row.
+    bad_length: Option<f64>,
 }
 
 impl Row {
-    /// Reads a row; false where the file ends before it is whole.
-    fn read(
-        &mut self,
-        properties: &[Property],
-        wanted: Option<usize>,
-        numbers: &mut impl Numbers,
-    ) -> Result<bool, ReadError> {
+    /// Reads a row; `None` where the file ends, or has a fault, before it is whole.
+    fn read(&mut self, properties: &[Property], wanted: Option<usize>, numbers: &mut impl Numbers) -> Option<()> {
         self.scalars.clear();
         self.list.clear();
+        self.bad_length = None;
         for (place, property) in properties.iter().enumerate() {
             let Some(length) = property.length else {
-                let Some(value) = numbers.coordinate(property.kind)? else {
-                    return Ok(false);
-                };
-                self.scalars.push(value);
+                self.scalars.push(numbers.coordinate(property.kind)?);
                 continue;
             };
             self.scalars.push(0.0);
-            let Some(length) = numbers.number(length)? else {
-                return Ok(false);
-            };
+            let length = numbers.number(length)?;
             if !(length >= 0.0 && length.fract() == 0.0) {
-                return Err(malformed(format!("a list has the length {length}")));
+                self.bad_length = Some(length);
+                return None;
             }
             // A length that is a lie ends with the file.
             for _ in 0..length as u64 {
-                let Some(value) = numbers.number(property.kind)? else {
-                    return Ok(false);
-                };
+                let value = numbers.number(property.kind)?;
                 if wanted == Some(place) {
                     self.list.push(value);
                 }
             }
         }
         numbers.end_row();
-        Ok(true)
+        Some(())
     }
 }
 
@@ -499,7 +517,7 @@ mod tests {
         let problem = |from: &str, to: &str| read(SQUARE.replace(from, to).as_bytes()).err().unwrap().to_string();
         assert_eq!(
             problem("vertex 4", "vertex 3000000000"),
-            "The PLY ascii file is cut short: it announces 3000000000 rows of \"vertex\" and holds 7."
+            "The PLY ascii file is cut short: it announces 3000000000 vertices and holds 7."
         );
         assert_eq!(
             problem("4 0 1 2 3", "4 0 1 2 -9"),

@@ -51,12 +51,6 @@ impl Faces {
         self.finish_face();
     }
 
-    /// The first corner that is not below `vertices`, as (face, corner), faces counted from 0.
-    pub(super) fn out_of_range(&self, vertices: usize) -> Option<(usize, u32)> {
-        let at = self.corners.iter().position(|&v| v as usize >= vertices)?;
-        Some((self.ends.partition_point(|&end| end <= at), self.corners[at]))
-    }
-
     /// Cuts all faces; corners must be in range of `positions`.
     pub(super) fn triangulate(&self, positions: &[Vec3]) -> Triangulated {
         let mut result = Triangulated {
@@ -220,7 +214,6 @@ mod tests {
         faces.push(&[0, 1]);
         let result = faces.triangulate(&[Vec3::ZERO, Vec3::X, Vec3::X * 2.0, Vec3::X * 3.0]);
         assert_eq!((result.triangles.len(), result.fanned, faces.short), (2, 1, 1));
-        assert_eq!(faces.out_of_range(3), Some((0, 3)));
     }
 
     #[test]

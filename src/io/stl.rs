@@ -5,7 +5,7 @@
 //! read here. Facet normals are not used: they are often wrong, and the winding says the same.
 
 use super::error::{ReadError, WriteError};
-use super::import::RawSurface;
+use super::import::{RawSurface, check_size};
 use super::polygons::Faces;
 use super::text::{self, Words};
 use crate::mesh::{TriMesh, Vec3};
@@ -46,7 +46,7 @@ fn read_binary(bytes: &[u8]) -> Result<RawSurface, ReadError> {
     if binary_length(facets) > bytes.len() as u64 {
         return Err(cut_short("triangles", u64::from(facets), body.len() / FACET));
     }
-    check_corners(3 * u64::from(facets))?;
+    check_size(0, facets as usize)?;
     let (body, trailing) = body.split_at(FACET * facets as usize);
     let mut positions = Vec::with_capacity(3 * facets as usize);
     for facet in body.as_chunks::<FACET>().0 {
@@ -64,11 +64,6 @@ fn read_binary(bytes: &[u8]) -> Result<RawSurface, ReadError> {
     Ok(raw)
 }
 
-fn check_corners(corners: u64) -> Result<(), ReadError> {
-    let limit = u64::from(u32::MAX);
-    if corners > limit { Err(ReadError::TooLarge { corners, limit }) } else { Ok(()) }
-}
-
 /// Reads the text form word by word: `solid`, `facet`, `outer loop`, `vertex`, in any case and with any indenting,
 /// any number of solids. Words that are none of these, such as colours, are passed over.
 fn read_ascii(bytes: &[u8]) -> Result<RawSurface, ReadError> {
@@ -79,7 +74,6 @@ fn read_ascii(bytes: &[u8]) -> Result<RawSurface, ReadError> {
     while let Some(word) = words.next() {
         let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
         if is(b"vertex") {
-            check_corners(positions.len() as u64 + 1)?;
             faces.push_corner(positions.len() as u32);
             positions.push(vertex(&mut words)?);
             in_loop = true;
@@ -142,7 +136,7 @@ pub(super) fn write(mesh: &TriMesh) -> Result<Vec<u8>, WriteError> {
     out.extend_from_slice(&facets.to_le_bytes());
     for t in 0..mesh.triangles.len() {
         let corners = mesh.corners(t);
-        let [a, b, c] = corners.map(|p| p.as_dvec3());
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
         let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
         for p in [normal].iter().chain(&corners) {
             out.extend_from_slice(bytemuck::cast_slice(&p.to_array().map(f32::to_le_bytes)));

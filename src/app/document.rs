@@ -1,0 +1,174 @@
+//! The surface that is open, as the app sees it: its pieces, its levels, the numbers.
+
+use std::sync::Arc;
+
+use crate::engine::{Opened, Reduced, Source};
+use crate::io::ImportReport;
+use crate::mesh::{Bounds, TriMesh};
+use crate::pipeline::connectivity::Component;
+use crate::pipeline::progressive::{Level, ProgressiveMesh};
+use crate::pipeline::report::Report;
+use crate::pipeline::settings::{Keep, Target};
+
+/// The pieces of the surface.
+#[derive(Clone, Debug, Default)]
+pub struct Pieces {
+    /// The piece of each triangle of the opened surface.
+    pub labels: Vec<u32>,
+    /// The pieces, numbered by their first triangle.
+    pub list: Vec<Component>,
+    /// Their numbers, the largest first.
+    pub by_size: Vec<u32>,
+}
+
+impl Pieces {
+    /// The piece that `keep` names; `None` for all of them.
+    pub fn kept(&self, keep: Keep) -> Option<u32> {
+        match keep {
+            Keep::All => None,
+            Keep::Largest => self.by_size.first().copied(),
+            Keep::Component(piece) => Some(piece),
+        }
+    }
+}
+
+/// The level that is shown.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// Its triangles, over the nodes of the progressive mesh.
+    pub level: Level,
+    /// Vertices in use.
+    pub vertices: usize,
+}
+
+/// The numbers of a level.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// The settings they belong to.
+    pub generation: u64,
+    /// All numbers.
+    pub report: Report,
+    /// Distance in mm of each node in use, ascending, from the smoothed surface; empty until it is known.
+    pub deviation: Vec<f32>,
+}
+
+/// An open surface.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// Where it comes from, for when the engine has to be started again.
+    pub source: Source,
+    /// What it is called.
+    pub name: String,
+    /// What was found and mended when it was opened.
+    pub import: ImportReport,
+    /// All of it.
+    pub opened: Arc<TriMesh>,
+    /// Its pieces.
+    pub pieces: Pieces,
+    /// All levels, once they are there, and the pieces they are made from.
+    pub levels: Option<(Keep, Arc<ProgressiveMesh>)>,
+    /// The level that is shown.
+    pub shown: Option<Shown>,
+    /// The newest numbers.
+    pub measured: Option<Measured>,
+    /// Counts up whenever the opened surface, the levels, the shown level and the numbers change: what is drawn
+    /// compares them with those it was drawn from.
+    pub revision: Revision,
+}
+
+/// How often each part of a document has changed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Revision {
+    /// The opened surface and its pieces.
+    pub opened: u64,
+    /// All levels.
+    pub levels: u64,
+    /// The level that is shown.
+    pub shown: u64,
+    /// The numbers.
+    pub measured: u64,
+}
+
+impl Document {
+    /// A surface that was just opened.
+    pub fn new(source: Source, opened: Opened) -> Self {
+        let Opened { name, report, mesh, .. } = opened;
+        Self {
+            source,
+            name,
+            import: report,
+            opened: mesh,
+            pieces: Pieces::default(),
+            levels: None,
+            shown: None,
+            measured: None,
+            revision: Revision::default(),
+        }
+    }
+
+    /// Takes the pieces.
+    pub fn set_pieces(&mut self, labels: Vec<u32>, list: Vec<Component>) {
+        let mut by_size: Vec<u32> = (0..list.len() as u32).collect();
+        by_size.sort_by_key(|&piece| (std::cmp::Reverse(list[piece as usize].triangles), piece));
+        self.pieces = Pieces { labels, list, by_size };
+        self.revision.opened += 1;
+    }
+
+    /// Takes new levels and shows the one that `target` asks for.
+    pub fn set_levels(&mut self, reduced: Reduced, target: Target) {
+        self.levels = Some((reduced.keep, reduced.mesh));
+        self.revision.levels += 1;
+        self.show(target);
+    }
+
+    /// Shows the level that `target` asks for. Takes a millisecond or so.
+    pub fn show(&mut self, target: Target) {
+        let Some((_, levels)) = &self.levels else { return };
+        let level = levels.level(target);
+        if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
+            let vertices = nodes_in_use(&level.triangles, levels.positions.len()).count();
+            self.shown = Some(Shown { level, vertices });
+            self.revision.shown += 1;
+        }
+    }
+
+    /// Takes numbers.
+    pub fn set_measured(&mut self, measured: Measured) {
+        self.measured = Some(measured);
+        self.revision.measured += 1;
+    }
+
+    /// The shown level as a surface of its own.
+    pub fn shown_mesh(&self) -> Option<TriMesh> {
+        let (levels, shown) = (&self.levels.as_ref()?.1, self.shown.as_ref()?);
+        Some(levels.extract(&shown.level.triangles))
+    }
+
+    /// The box around the pieces that `keep` names.
+    pub fn bounds(&self, keep: Keep) -> Bounds {
+        match self.pieces.kept(keep).and_then(|piece| self.pieces.list.get(piece as usize)) {
+            Some(piece) => piece.bounds,
+            None => self.opened.bounds(),
+        }
+    }
+
+    /// The distance of each node from the smoothed surface, in mm, if it is known for the level that is shown.
+    pub fn deviation_by_node(&self) -> Option<Vec<f32>> {
+        let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
+        if measured.deviation.len() != shown.vertices || measured.report.output.triangles != shown.level.triangles.len()
+        {
+            return None;
+        }
+        let mut by_node = vec![0.0; levels.positions.len()];
+        let nodes = nodes_in_use(&shown.level.triangles, by_node.len());
+        nodes.zip(&measured.deviation).for_each(|(node, &distance)| by_node[node] = distance);
+        Some(by_node)
+    }
+}
+
+/// The nodes that `triangles` use, ascending.
+fn nodes_in_use(triangles: &[[u32; 3]], nodes: usize) -> impl Iterator<Item = usize> {
+    let mut used = vec![false; nodes];
+    triangles.as_flattened().iter().for_each(|&node| used[node as usize] = true);
+    used.into_iter().enumerate().filter(|(_, used)| *used).map(|(node, _)| node)
+}

@@ -1,0 +1,80 @@
+//! Undo and redo.
+
+/// Values in the order in which they were left, and a way back and forth. A drag is one step: values are recorded
+/// when the hand comes off.
+#[derive(Clone, Debug)]
+pub struct History<T> {
+    undo: Vec<T>,
+    redo: Vec<T>,
+    /// The value that stands.
+    present: T,
+}
+
+/// Steps that are remembered.
+const DEPTH: usize = 200;
+
+impl<T: Clone + PartialEq> History<T> {
+    /// A history that begins with `present`.
+    pub fn new(present: T) -> Self {
+        Self { undo: Vec::new(), redo: Vec::new(), present }
+    }
+
+    /// Makes `value` the present one; the one before can be had back. Nothing happens where they are the same.
+    pub fn record(&mut self, value: &T) {
+        if *value != self.present {
+            self.undo.push(std::mem::replace(&mut self.present, value.clone()));
+            self.redo.clear();
+            if self.undo.len() > DEPTH {
+                self.undo.remove(0);
+            }
+        }
+    }
+
+    /// Puts `value` in place of the present one, without a step.
+    pub fn replace(&mut self, value: &T) {
+        self.present = value.clone();
+    }
+
+    /// Goes one step back: the value that stands then.
+    pub fn undo(&mut self) -> Option<&T> {
+        let before = self.undo.pop()?;
+        self.redo.push(std::mem::replace(&mut self.present, before));
+        Some(&self.present)
+    }
+
+    /// Takes one step back again: the value that stands then.
+    pub fn redo(&mut self) -> Option<&T> {
+        let after = self.redo.pop()?;
+        self.undo.push(std::mem::replace(&mut self.present, after));
+        Some(&self.present)
+    }
+
+    /// Whether there is a step to undo.
+    pub fn can_undo(&self) -> bool {
+        !self.undo.is_empty()
+    }
+
+    /// Whether there is a step to redo.
+    pub fn can_redo(&self) -> bool {
+        !self.redo.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_go_back_and_forth_and_a_new_value_ends_the_future() {
+        let mut history = History::new(1);
+        history.record(&1);
+        assert!(!history.can_undo());
+        history.record(&2);
+        history.record(&3);
+        assert_eq!((history.undo().copied(), history.undo().copied(), history.undo().copied()), (Some(2), Some(1), None));
+        assert_eq!(history.redo().copied(), Some(2));
+        history.record(&9);
+        assert!(!history.can_redo());
+        assert_eq!(history.undo().copied(), Some(2));
+    }
+}
