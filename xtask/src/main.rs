@@ -10,7 +10,8 @@ mod step;
 mod test;
 mod tools;
 
-use anyhow::Result;
+use std::process::ExitCode;
+
 use clap::{Parser, Subcommand};
 
 /// Lumen's developer commands.
@@ -42,13 +43,15 @@ enum Command {
     },
 }
 
-fn main() -> Result<()> {
-    match Arguments::parse().command {
-        Command::Serve { port, open } => {
-            let dist = build::build()?;
-            serve::serve(&dist, port, open)
-        }
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Serve { port, open } => build::build().and_then(|dist| serve::serve(&dist, port, open)),
         Command::Build => build::build().map(|_| ()),
         Command::Test { only } => test::test(&only),
+    };
+    if let Err(error) = done {
+        eprintln!("error: {error:#}");
+        return ExitCode::FAILURE;
     }
+    ExitCode::SUCCESS
 }
