@@ -59,7 +59,7 @@ pub(crate) fn open(accept: &str, chosen: impl FnOnce(Chosen) + 'static) -> Resul
 }
 
 /// The bytes of a file, or one sentence on why not.
-async fn read(file: &File) -> Result<Vec<u8>, String> {
+pub(crate) async fn read(file: &File) -> Result<Vec<u8>, String> {
     let name = file.name();
     if file.size() > LARGEST {
         return Err(format!(

@@ -31,7 +31,7 @@ impl Link for WorkerLink {
     fn send(&mut self, command: Command) {
         let Some(line) = &self.line else { return };
         if let Err(error) = line.send(&wire::encode_command(&command)) {
-            self.fail(format!("The surface could not be handed to the engine: {}", told(&error)));
+            self.fail(format!("a command could not be sent: {}", told(&error)));
         }
     }
 
@@ -39,9 +39,9 @@ impl Link for WorkerLink {
         match self.line.as_ref()?.poll()? {
             Heard::Message(message) => match wire::decode_event(&message.header, &message) {
                 Ok(event) => return Some(event),
-                Err(error) => self.fail(format!("The engine's answer could not be read: {error}")),
+                Err(error) => self.fail(format!("an answer could not be read: {error}")),
             },
-            Heard::Died(why) => self.fail(format!("The engine was stopped by an error: {why}")),
+            Heard::Died(why) => self.fail(why),
         }
         None
     }
@@ -56,7 +56,7 @@ impl Link for WorkerLink {
             }
         };
         if let Err(error) = started {
-            self.fail(format!("The engine could not be started: {}", told(&error)));
+            self.fail(format!("no Worker could be started: {}", told(&error)));
         }
     }
 
