@@ -1,2 +1,4 @@
-//! Lumen in a browser.
-fn main() {}
+//! The desktop program.
+fn main() {
+    lumen::desktop::run(None).unwrap()
+}

@@ -79,6 +79,8 @@ pub struct Document {
 /// How often each part of a document has changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Revision {
+    /// The document itself.
+    pub document: u64,
     /// The opened surface and its pieces.
     pub opened: u64,
     /// All levels.
@@ -92,7 +94,7 @@ pub struct Revision {
 impl Document {
     /// A surface that was just opened.
     pub fn new(source: Source, opened: Opened) -> Self {
-        let Opened { name, report, mesh, .. } = opened;
+        let Opened { id, name, report, mesh } = opened;
         Self {
             source,
             name,
@@ -102,7 +104,7 @@ impl Document {
             levels: None,
             shown: None,
             measured: None,
-            revision: Revision::default(),
+            revision: Revision { document: id, ..Revision::default() },
         }
     }
 

@@ -71,7 +71,10 @@ mod tests {
         assert!(!history.can_undo());
         history.record(&2);
         history.record(&3);
-        assert_eq!((history.undo().copied(), history.undo().copied(), history.undo().copied()), (Some(2), Some(1), None));
+        assert_eq!(
+            (history.undo().copied(), history.undo().copied(), history.undo().copied()),
+            (Some(2), Some(1), None)
+        );
         assert_eq!(history.redo().copied(), Some(2));
         history.record(&9);
         assert!(!history.can_redo());

@@ -33,7 +33,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::mesh::{TriMesh, Vec3};
 use detect::Content;
-use serde::{Deserialize, Serialize};
 
 /// What the user says about a file that the file does not say itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

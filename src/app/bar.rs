@@ -1,0 +1,165 @@
+//! The bars: files and help above, what is going on below.
+
+use egui::{Button, ProgressBar, RichText, Role, Ui};
+
+use super::control::{grouped, name};
+use super::state::State;
+use super::views::Views;
+use crate::io::Format;
+use crate::phantom::Sample;
+
+/// What the user asked for in a bar or by a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Choose a file to open.
+    Open,
+    /// Open a sample.
+    Sample(Sample),
+    /// Save the shown level.
+    Save(Format),
+    /// One step back.
+    Undo,
+    /// One step forth.
+    Redo,
+    /// Stop what is going on.
+    Cancel,
+    /// Fit the surface into the views.
+    Fit,
+    /// Look from a side.
+    View(crate::render::StandardView),
+    /// The other theme.
+    Theme,
+    /// Show or hide the keys.
+    Help,
+    /// Show or hide what Lumen is.
+    About,
+}
+
+/// The bar above. `is_narrow`: on a phone, where only what is needed most has a button of its own.
+pub fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Option<Action> {
+    let mut action = None;
+    let mut ask = |wanted: bool, what: Action| {
+        if wanted {
+            action = Some(what);
+        }
+    };
+    ui.horizontal_centered(|ui| {
+        if !is_narrow {
+            ui.label(RichText::new("Lumen").heading().strong());
+            ui.add_space(8.0);
+        }
+        ask(
+            ui.button("Open...").on_hover_text("STL, PLY, OBJ, GLB, glTF (Ctrl+O); or drop a file").clicked(),
+            Action::Open,
+        );
+        ui.menu_button("Sample", |ui| {
+            for sample in Sample::ALL {
+                ask(ui.button(sample.label()).clicked(), Action::Sample(sample));
+            }
+        });
+        let has_result = state.document.as_ref().is_some_and(|document| document.shown.is_some());
+        ui.add_enabled_ui(has_result, |ui| {
+            ui.menu_button("Save", |ui| {
+                for format in Format::ALL {
+                    let text = format!("{}...", format.label());
+                    ask(ui.button(text).clicked(), Action::Save(format));
+                }
+            });
+        });
+        if is_narrow {
+            ui.menu_button("☰", |ui| more(ui, state, views, &mut ask));
+        } else {
+            ui.separator();
+            ask(icon(ui, state.history.can_undo(), "↶", "Undo", "Undo (Ctrl+Z)"), Action::Undo);
+            ask(icon(ui, state.history.can_redo(), "↷", "Redo", "Redo (Ctrl+Shift+Z)"), Action::Redo);
+            ui.separator();
+            before_button(ui, views);
+            ui.menu_button("View", |ui| view_menu(ui, views, &mut ask));
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ask(ui.button("About").clicked(), Action::About);
+                ask(ui.button("Help").on_hover_text("Keys and gestures (F1)").clicked(), Action::Help);
+                ask(icon(ui, true, theme_icon(ui), "Theme", "Light or dark"), Action::Theme);
+            });
+        }
+    });
+    action
+}
+
+fn theme_icon(ui: &Ui) -> &'static str {
+    if ui.visuals().dark_mode { "☀" } else { "🌙" }
+}
+
+fn icon(ui: &mut Ui, enabled: bool, text: &str, label: &str, help: &str) -> bool {
+    let response =
+        ui.add_enabled(enabled, Button::new(RichText::new(text).size(16.0)).frame(false)).on_hover_text(help);
+    name(&response, Role::Button, label);
+    response.clicked()
+}
+
+/// Shows the surface as it was opened for as long as it is held.
+fn before_button(ui: &mut Ui, views: &mut Views) {
+    let response = ui.add(Button::new("Before").sense(egui::Sense::click_and_drag()).selected(views.show_before));
+    let response = response.on_hover_text("Hold to see the surface as it was opened (or hold B)");
+    views.before_is_held = response.is_pointer_button_down_on();
+}
+
+fn view_menu(ui: &mut Ui, views: &mut Views, ask: &mut impl FnMut(bool, Action)) {
+    ask(ui.button("Fit").clicked(), Action::Fit);
+    ui.separator();
+    for view in crate::render::StandardView::ALL {
+        ask(ui.button(format!("{view:?}")).clicked(), Action::View(view));
+    }
+    ui.separator();
+    ui.checkbox(&mut views.flat, "Flat triangles").on_hover_text("Each triangle with its own normal");
+    ui.checkbox(&mut views.see_through, "See-through wireframe").on_hover_text("Shows hidden lines, faintly");
+    ui.checkbox(&mut views.show_deviation, "Colour by deviation")
+        .on_hover_text("Distance from the smoothed surface, in mm");
+}
+
+fn more(ui: &mut Ui, state: &State, views: &mut Views, ask: &mut impl FnMut(bool, Action)) {
+    ask(ui.add_enabled(state.history.can_undo(), Button::new("Undo")).clicked(), Action::Undo);
+    ask(ui.add_enabled(state.history.can_redo(), Button::new("Redo")).clicked(), Action::Redo);
+    ui.checkbox(&mut views.before_is_on, "Show before");
+    ui.menu_button("View", |ui| view_menu(ui, views, ask));
+    ask(ui.button("Theme").clicked(), Action::Theme);
+    ask(ui.button("Help").clicked(), Action::Help);
+    ask(ui.button("About").clicked(), Action::About);
+}
+
+/// The bar below.
+pub fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: bool) -> Option<Action> {
+    let mut action = None;
+    ui.horizontal_centered(|ui| {
+        if let Some((work, fraction)) = state.work {
+            let width = if is_narrow { 96.0 } else { 160.0 };
+            let bar = ProgressBar::new(fraction).desired_width(width).desired_height(8.0);
+            let response = ui.add(bar);
+            name(&response, Role::ProgressIndicator, "Progress");
+            ui.label(format!("{} {:.0} %", work.label(), fraction * 100.0));
+            if ui.button("Cancel").on_hover_text("Esc").clicked() {
+                action = Some(Action::Cancel);
+            }
+        } else if let Some(notice) = &state.notice {
+            let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+            let text = RichText::new(&notice.text).color(colour);
+            let response = ui.add(egui::Label::new(text).truncate()).on_hover_text(&notice.text);
+            name(&response, Role::Label, &notice.text);
+        } else if let Some(document) = &state.document {
+            ui.label(RichText::new(&document.name).weak());
+        }
+        if !is_narrow || state.work.is_none() && state.notice.is_none() {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.label(RichText::new("Not for clinical decisions").small().weak());
+                if let Some(shown) = state.document.as_ref().and_then(|document| document.shown.as_ref()) {
+                    if !is_narrow {
+                        ui.separator();
+                        ui.label(RichText::new(views.rate()).weak());
+                    }
+                    ui.separator();
+                    ui.label(format!("{} triangles", grouped(shown.level.triangles.len())));
+                }
+            });
+        }
+    });
+    action
+}

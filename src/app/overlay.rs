@@ -1,0 +1,118 @@
+//! What is written over a view: its title, the surface's name, a scale bar, which way is up, a legend, and that it is
+//! not for clinical decisions.
+
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
+
+use crate::render::{Camera, ColourMap, viridis};
+
+/// What to write.
+pub struct Writing<'a> {
+    /// What the view shows.
+    pub title: &'a str,
+    /// The surface's name.
+    pub name: Option<&'a str>,
+    /// From where the view looks.
+    pub camera: &'a Camera,
+    /// The colour map in use.
+    pub map: Option<ColourMap>,
+}
+
+const MARGIN: f32 = 12.0;
+
+/// Writes over the view in `rect`.
+pub fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
+    let painter = ui.painter_at(rect);
+    let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let inner = rect.shrink(MARGIN);
+    painter.text(inner.left_top(), Align2::LEFT_TOP, writing.title, FontId::proportional(14.0), text);
+    let small = FontId::proportional(12.0);
+    if let Some(name) = writing.name {
+        let galley = painter.layout(name.to_owned(), small.clone(), weak, inner.width() * 0.6);
+        painter.galley(inner.left_top() + vec2(0.0, 20.0), galley, weak);
+        scale_bar(&painter, inner, rect.height(), writing.camera, text);
+        orientation(&painter, inner, writing.camera, text);
+    }
+    painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, "Not for clinical decisions", small, weak);
+    if let Some(map) = writing.map {
+        legend(&painter, inner, map, text);
+    }
+}
+
+/// A bar of a round number of millimetres, about a fifth of the view long.
+fn scale_bar(painter: &Painter, inner: Rect, height: f32, camera: &Camera, colour: Color32) {
+    let mm_per_point = camera.mm_per_pixel(height.max(1.0));
+    let mm = round_length(mm_per_point * inner.width() / 5.0);
+    let length = mm / mm_per_point;
+    let (left, y) = (inner.left(), inner.bottom() - 4.0);
+    let stroke = Stroke::new(1.5, colour);
+    painter.line_segment([pos2(left, y), pos2(left + length, y)], stroke);
+    for x in [left, left + length] {
+        painter.line_segment([pos2(x, y - 4.0), pos2(x, y + 4.0)], stroke);
+    }
+    let label = if mm >= 1.0 { format!("{mm:.0} mm") } else { format!("{mm} mm") };
+    let at = pos2(left + length / 2.0, y - 6.0);
+    painter.text(at, Align2::CENTER_BOTTOM, label, FontId::proportional(12.0), colour);
+}
+
+/// The largest of 1, 2, 5, 10, 20, ... that is not above `mm`.
+fn round_length(mm: f32) -> f32 {
+    if !(mm.is_finite() && mm > 0.0) {
+        return 1.0;
+    }
+    let power = 10f32.powf(mm.log10().floor());
+    let lead = mm / power;
+    let step = if lead >= 5.0 {
+        5.0
+    } else if lead >= 2.0 {
+        2.0
+    } else {
+        1.0
+    };
+    step * power
+}
+
+/// The patient's axes, turned as the view is: left, posterior, head (the axes of DICOM).
+fn orientation(painter: &Painter, inner: Rect, camera: &Camera, colour: Color32) {
+    const SIZE: f32 = 24.0;
+    let middle = pos2(inner.right() - SIZE - 8.0, inner.top() + SIZE + 8.0);
+    let mut axes: Vec<_> = camera.axes().into_iter().zip(["L", "P", "H"]).collect();
+    axes.sort_by(|(a, _), (b, _)| a.z.total_cmp(&b.z));
+    for (axis, letter) in axes {
+        let end = middle + vec2(axis.x, -axis.y) * SIZE;
+        let strength = 0.55 + 0.45 * (axis.z + 1.0) / 2.0;
+        let colour = colour.gamma_multiply(strength);
+        painter.line_segment([middle, end], Stroke::new(1.5, colour));
+        let at: Pos2 = middle + vec2(axis.x, -axis.y) * (SIZE + 8.0);
+        painter.text(at, Align2::CENTER_CENTER, letter, FontId::proportional(11.0), colour);
+    }
+}
+
+fn legend(painter: &Painter, inner: Rect, map: ColourMap, colour: Color32) {
+    const STEPS: usize = 64;
+    let bar = Rect::from_min_size(pos2(inner.right() - 12.0, inner.center().y - 80.0), vec2(12.0, 160.0));
+    for i in 0..STEPS {
+        let t = i as f32 / STEPS as f32;
+        let [r, g, b] = viridis(t).0;
+        let top = bar.bottom() - bar.height() * (t + 1.0 / STEPS as f32);
+        let piece = Rect::from_min_size(pos2(bar.left(), top), vec2(bar.width(), bar.height() / STEPS as f32 + 0.5));
+        painter.rect_filled(piece, 0.0, Color32::from_rgb(r, g, b));
+    }
+    let (low, high) = map.range_mm;
+    let font = FontId::proportional(12.0);
+    for (y, value) in [(bar.bottom(), low), (bar.top(), high)] {
+        let at = pos2(bar.left() - 6.0, y);
+        painter.text(at, Align2::RIGHT_CENTER, format!("{value:.3} mm"), font.clone(), colour);
+    }
+    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, "Deviation", font, colour);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::round_length;
+
+    #[test]
+    fn scale_bars_have_round_lengths() {
+        assert_eq!([0.7, 1.0, 1.9, 2.1, 7.0, 49.0, 51.0].map(round_length), [0.5, 1.0, 1.0, 2.0, 5.0, 20.0, 50.0]);
+        assert_eq!(round_length(f32::NAN), 1.0);
+    }
+}

@@ -1,0 +1,253 @@
+//! The panel: the method from top to bottom, each step with its few controls, its result in numbers, and one line
+//! that says what it does.
+
+use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
+
+use super::control::{Setting, grouped, name};
+use super::document::Document;
+use super::state::State;
+use super::views::Views;
+use crate::pipeline::report::Report;
+use crate::pipeline::settings::{Keep, Settings, Smoothing, Target, Window, reduction_percent};
+
+/// Shows the panel.
+pub fn show(ui: &mut Ui, state: &mut State, views: &mut Views) {
+    ui.spacing_mut().item_spacing.y = 4.0;
+    surface(ui, state, views);
+    smooth(ui, &mut state.settings, measured(state.document.as_ref()));
+    reduce(ui, state);
+    result(ui, state);
+}
+
+fn measured(document: Option<&Document>) -> Option<&Report> {
+    Some(&document?.measured.as_ref()?.report)
+}
+
+fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
+    if number > 1 {
+        ui.add_space(8.0);
+        ui.separator();
+    }
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(number.to_string()).heading().color(ui.visuals().hyperlink_color));
+        ui.label(RichText::new(title).heading());
+    });
+    ui.add(egui::Label::new(RichText::new(what).small().weak()).wrap());
+    ui.add_space(4.0);
+}
+
+/// A line of the numbers: what it is on the left, how much on the right.
+fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
+    let row = ui.horizontal(|ui| {
+        ui.label(RichText::new(what).weak());
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(how_much));
+    });
+    if !help.is_empty() {
+        row.response.on_hover_text(help);
+    }
+}
+
+fn surface(ui: &mut Ui, state: &mut State, views: &mut Views) {
+    step(ui, 1, "Surface", "Keeps the largest connected piece; choose another from the list or in the view.");
+    let Some(document) = &state.document else {
+        ui.label("Open a surface, or drop a file here.");
+        return;
+    };
+    let pieces = &document.pieces;
+    number(ui, "Triangles in file", &grouped(document.import.triangles), "As the file holds them, polygons split");
+    let Some(kept) = pieces.kept(state.settings.keep).or(pieces.by_size.first().copied()) else { return };
+    let kept_count = match state.settings.keep {
+        Keep::All => document.opened.triangles.len(),
+        _ => pieces.list[kept as usize].triangles as usize,
+    };
+    number(ui, "Kept", &format!("{} triangles", grouped(kept_count)), "");
+    let left_out = document.opened.triangles.len() - kept_count;
+    let others = pieces.list.len().saturating_sub(1);
+    if others > 0 && state.settings.keep != Keep::All {
+        let text = format!("{} in {} pieces", grouped(left_out), grouped(others));
+        number(ui, "Left out", &text, "Pieces that share no vertex with the one that is kept");
+    }
+    if pieces.list.len() > 1 {
+        let mut keep = state.settings.keep;
+        piece_list(ui, document, &mut keep);
+        state.settings.keep = keep;
+        let shown = ui.checkbox(&mut views.show_left_out, "Show what is left out");
+        shown.on_hover_text("Click a piece in the view to keep that one");
+    }
+}
+
+/// Size of a piece in words.
+fn piece_label(document: &Document, piece: u32) -> String {
+    let Some(found) = document.pieces.list.get(piece as usize) else { return String::new() };
+    let size = found.bounds.size().max_element();
+    format!("{} triangles, {size:.1} mm", grouped(found.triangles as usize))
+}
+
+fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
+    let pieces = &document.pieces;
+    let selected = match *keep {
+        Keep::All => "All pieces".to_owned(),
+        keep => pieces.kept(keep).map(|piece| piece_label(document, piece)).unwrap_or_default(),
+    };
+    let list = ComboBox::from_id_salt("pieces").width(ui.available_width() - 16.0).selected_text(selected);
+    let response = list.show_ui(ui, |ui| {
+        ui.selectable_value(keep, Keep::All, "All pieces");
+        let row = ui.spacing().interact_size.y;
+        ScrollArea::vertical().max_height(240.0).show_rows(ui, row, pieces.by_size.len(), |ui, rows| {
+            for i in rows {
+                let piece = pieces.by_size[i];
+                let value = if i == 0 { Keep::Largest } else { Keep::Component(piece) };
+                let is_kept = *keep != Keep::All && pieces.kept(*keep) == Some(piece);
+                if ui.selectable_label(is_kept, piece_label(document, piece)).clicked() {
+                    *keep = value;
+                    ui.close();
+                }
+            }
+        });
+    });
+    name(&response.response, Role::ComboBox, "Piece");
+}
+
+fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
+    step(ui, 2, "Smooth", "A low-pass filter that takes off the stair-steps of the scan and keeps the size.");
+    let default = Smoothing::default();
+    let smoothing = &mut settings.smoothing;
+    let pass_band = Setting {
+        name: "Pass band",
+        help: "What passes the filter: 0.001 leaves the broad form alone, 2 leaves everything. Without unit.",
+        unit: "",
+        range: Smoothing::PASS_BAND,
+        default: default.pass_band,
+        decimals: 4,
+        logarithmic: true,
+    };
+    pass_band.show(ui, &mut smoothing.pass_band);
+    let iterations = Setting {
+        name: "Iterations",
+        help: "Degree of the filter: more make it sharper. 0 turns smoothing off.",
+        unit: "",
+        range: 0.0..=f64::from(Smoothing::MAX_ITERATIONS),
+        default: f64::from(default.iterations),
+        decimals: 0,
+        logarithmic: false,
+    };
+    let mut count = f64::from(smoothing.iterations);
+    if iterations.show(ui, &mut count) {
+        smoothing.iterations = count as u32;
+    }
+    ui.horizontal(|ui| {
+        ui.label("Window").on_hover_text("How the filter is tapered. Hamming is the paper's; Nuttall ripples least.");
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let list = ComboBox::from_id_salt("window").selected_text(smoothing.window.name());
+            let response = list.show_ui(ui, |ui| {
+                for window in Window::ALL {
+                    ui.selectable_value(&mut smoothing.window, window, window.name());
+                }
+            });
+            name(&response.response, Role::ComboBox, "Window");
+        });
+    });
+    if report.is_some_and(|report| report.pass_band_missed && report.settings.smoothing == *smoothing) {
+        ui.label(RichText::new("Too few iterations for this pass band: it is not fully let through.").small());
+    }
+}
+
+fn reduce(ui: &mut Ui, state: &mut State) {
+    step(ui, 3, "Reduce", "Removes the vertices that matter least, and never changes the topology.");
+    let entering = state.document.as_ref().and_then(|d| Some(d.levels.as_ref()?.1.triangles.len()));
+    let mut rate = state.settings.target.percent(entering.unwrap_or(0));
+    let reduction = Setting {
+        name: "Reduction",
+        help: "The part of the triangles that is removed.",
+        unit: " %",
+        range: 0.0..=f64::from(Target::MAX_PER_MILLE) / 10.0,
+        default: Target::default().percent(0),
+        decimals: 1,
+        logarithmic: false,
+    };
+    if reduction.show(ui, &mut rate) {
+        state.settings.target = Target::Reduction((rate * 10.0).round() as u32);
+    }
+    if let Some(entering) = entering {
+        ui.horizontal(|ui| {
+            ui.label("Triangles wanted").on_hover_text("The same as a number; drag, or click to type");
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let wanted = state.settings.target.triangles(entering);
+                let mut typed = wanted;
+                let field = egui::DragValue::new(&mut typed).range(1..=entering).speed(entering as f64 / 500.0);
+                let response = ui.add(field.update_while_editing(false));
+                name(&response, Role::SpinButton, "Triangles wanted");
+                if typed != wanted {
+                    state.settings.target = Target::Triangles(typed as u32);
+                }
+            });
+        });
+    }
+    let decimation = &mut state.settings.decimation;
+    let angle = Setting {
+        name: "Feature angle",
+        help: "Edges sharper than this are kept as edges.",
+        unit: "°",
+        range: 0.0..=180.0,
+        default: crate::pipeline::settings::Decimation::default().feature_angle,
+        decimals: 0,
+        logarithmic: false,
+    };
+    angle.show(ui, &mut decimation.feature_angle);
+    let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
+    if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
+        let text = RichText::new(format!("{shortfall}.")).small();
+        ui.add(egui::Label::new(text).wrap());
+    }
+}
+
+fn result(ui: &mut Ui, state: &State) {
+    let Some(document) = &state.document else { return };
+    let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return };
+    ui.add_space(8.0);
+    ui.separator();
+    ui.add_space(4.0);
+    ui.label(RichText::new("Result").heading());
+    let (before, after) = (levels.triangles.len(), shown.level.triangles.len());
+    let counts = format!("{} of {}", grouped(after), grouped(before));
+    number(ui, "Triangles", &counts, "After and before the reduction");
+    let vertices = format!("{} of {}", grouped(shown.vertices), grouped(levels.positions.len()));
+    number(ui, "Vertices", &vertices, "After and before the reduction");
+    number(ui, "Removed", &format!("{:.2} %", reduction_percent(before, after)), "");
+    let Some(measured) = &document.measured else { return };
+    let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
+    let report = &measured.report;
+    let percent =
+        |change: Option<f64>| change.filter(|_| is_current).map_or("–".to_owned(), |c| format!("{c:+.2} %"));
+    let distance = |pick: fn(&crate::pipeline::deviation::Deviation) -> f64| {
+        let found = report.deviation_mm.as_ref().filter(|_| is_current);
+        found.map_or("–".to_owned(), |d| format!("{:.3} mm", pick(d)))
+    };
+    number(ui, "Deviation, mean", &distance(|d| d.mean), "Distance from the smoothed surface, measured both ways");
+    number(ui, "Deviation, max", &distance(|d| d.max), "Distance from the smoothed surface, measured both ways");
+    number(ui, "Volume", &percent(report.volume_change_percent), "Change from the surface as opened, open ends capped");
+    number(ui, "Area", &percent(report.area_change_percent), "Change from the surface as opened");
+    ui.collapsing("Time a stage", |ui| {
+        let ms = &report.stages_ms;
+        let stages = [
+            ("Reading", ms.read),
+            ("Connectivity", ms.connectivity),
+            ("Smoothing", ms.smoothing),
+            ("Decimation, all rates", ms.decimation),
+            ("Level", ms.level),
+            ("Normals", ms.normals),
+            ("Deviation", ms.deviation),
+        ];
+        for (stage, ms) in stages {
+            number(ui, stage, &format!("{ms:.1} ms"), "");
+        }
+    });
+    if !document.import.warnings.is_empty() {
+        ui.collapsing("Notes on the file", |ui| {
+            for warning in &document.import.warnings {
+                ui.add(egui::Label::new(RichText::new(warning).small()).wrap());
+            }
+        });
+    }
+}

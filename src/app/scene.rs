@@ -1,0 +1,232 @@
+//! What is in GPU memory, kept in step with the document: the level, the surface as it was opened, the pieces that
+//! are left out, and the two views' targets.
+
+use std::sync::Arc;
+
+use egui::TextureId;
+use egui::mutex::RwLock;
+
+use super::document::{Document, Revision};
+use crate::mesh::{TriMesh, Vec3};
+use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
+use crate::pipeline::settings::Keep;
+use crate::render::{
+    Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError, ViewTarget, unique_edges,
+};
+
+/// The two views, side by side.
+pub const VIEWS: usize = 2;
+
+/// What one view shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// From where.
+    pub camera: Camera,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// How the surface is shown.
+    pub look: Look,
+    /// The theme's colours.
+    pub style: Style,
+    /// The surface as it was opened, in place of the level.
+    pub before: bool,
+    /// The pieces that are left out as well, faintly.
+    pub left_out: bool,
+}
+
+/// GPU memory and what stands in it.
+pub struct Scene {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    window: Arc<RwLock<egui_wgpu::Renderer>>,
+    renderer: Renderer,
+    level: GpuSurface,
+    before: GpuSurface,
+    left_out: GpuSurface,
+    /// What the surfaces were made from.
+    revision: Revision,
+    has_scalars: bool,
+    before_of: Option<(u64, Keep)>,
+    left_out_of: Option<(u64, Keep)>,
+    normals: Vec<Vec3>,
+    views: [View; VIEWS],
+}
+
+struct View {
+    target: ViewTarget,
+    texture: TextureId,
+    drawn: Option<(Picture, Revision)>,
+}
+
+impl Scene {
+    /// A scene on the window's device.
+    ///
+    /// # Errors
+    /// When the device does not allow a buffer.
+    pub fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
+        let (device, queue) = (state.device.clone(), state.queue.clone());
+        let surface = || GpuSurface::new(&device, &queue, &[]);
+        let view = || {
+            let target = ViewTarget::new(&device, 1, 1);
+            let texture =
+                state.renderer.write().register_native_texture(&device, target.view(), wgpu::FilterMode::Linear);
+            View { target, texture, drawn: None }
+        };
+        Ok(Self {
+            renderer: Renderer::new(&device, &queue),
+            level: surface()?,
+            before: surface()?,
+            left_out: surface()?,
+            window: state.renderer.clone(),
+            revision: Revision::default(),
+            has_scalars: false,
+            before_of: None,
+            left_out_of: None,
+            normals: Vec::new(),
+            views: [view(), view()],
+            device,
+            queue,
+        })
+    }
+
+    /// Brings what is in memory up to the document.
+    ///
+    /// # Errors
+    /// When the surface does not fit into the memory that the device allows.
+    pub fn follow(&mut self, document: &Document, with_deviation: bool) -> Result<(), SurfaceError> {
+        let (old, new) = (self.revision, document.revision);
+        let is_other = old.document != new.document;
+        let Some((_, levels)) = &document.levels else {
+            if is_other {
+                self.level.set_positions(&self.device, &self.queue, &[])?;
+                self.revision = new;
+            }
+            return Ok(());
+        };
+        let Some(shown) = &document.shown else { return Ok(()) };
+        let levels_changed = is_other || old.levels != new.levels;
+        if levels_changed {
+            self.level.set_positions(&self.device, &self.queue, &levels.positions)?;
+        }
+        if levels_changed || old.shown != new.shown {
+            let triangles = &shown.level.triangles;
+            vertex_normals_into(&mut self.normals, &levels.positions, triangles, Weighting::Area);
+            let edges = unique_edges(triangles, levels.positions.len());
+            self.level.set_level(&self.device, &self.queue, triangles, &edges, &self.normals)?;
+            self.has_scalars = false;
+            self.level.set_scalars(&self.device, &self.queue, None)?;
+        }
+        if with_deviation && (!self.has_scalars || old.measured != new.measured) {
+            let scalars = document.deviation_by_node();
+            self.has_scalars = scalars.is_some();
+            self.level.set_scalars(&self.device, &self.queue, scalars.as_deref())?;
+        }
+        self.revision = new;
+        Ok(())
+    }
+
+    /// Uploads the surface as it was opened: the pieces that are kept.
+    fn follow_before(&mut self, document: &Document, keep: Keep) -> Result<(), SurfaceError> {
+        let of = (document.revision.document, keep);
+        if self.before_of != Some(of) && !document.pieces.labels.is_empty() {
+            let kept = document.pieces.kept(keep);
+            let is_kept = |t: usize| kept.is_none_or(|piece| document.pieces.labels[t] == piece);
+            upload(&self.device, &self.queue, &mut self.before, &document.opened.filtered(is_kept))?;
+            self.before_of = Some(of);
+        }
+        Ok(())
+    }
+
+    /// Uploads the pieces that are not kept.
+    fn follow_left_out(&mut self, document: &Document, keep: Keep) -> Result<(), SurfaceError> {
+        let of = (document.revision.document, keep);
+        if self.left_out_of != Some(of) && !document.pieces.labels.is_empty() {
+            let kept = document.pieces.kept(keep);
+            let is_out = |t: usize| kept.is_some_and(|piece| document.pieces.labels[t] != piece);
+            upload(&self.device, &self.queue, &mut self.left_out, &document.opened.filtered(is_out))?;
+            self.left_out_of = Some(of);
+        }
+        Ok(())
+    }
+
+    /// Draws view `index`, if it would look other than it does, and gives the texture that it is in.
+    ///
+    /// # Errors
+    /// When the surface does not fit into the memory that the device allows.
+    pub fn draw(
+        &mut self,
+        index: usize,
+        picture: &Picture,
+        document: Option<&Document>,
+        keep: Keep,
+    ) -> Result<TextureId, SurfaceError> {
+        if let Some(document) = document {
+            if picture.before {
+                self.follow_before(document, keep)?;
+            }
+            if picture.left_out {
+                self.follow_left_out(document, keep)?;
+            }
+        }
+        let view = &mut self.views[index];
+        let drawn = (picture.clone(), self.revision);
+        if view.drawn.as_ref() == Some(&drawn) {
+            return Ok(view.texture);
+        }
+        let [width, height] = picture.size;
+        if view.target.resize(&self.device, width, height) {
+            let filter = wgpu::FilterMode::Linear;
+            self.window.write().update_egui_texture_from_wgpu_texture(
+                &self.device,
+                view.target.view(),
+                filter,
+                view.texture,
+            );
+        }
+        let main = if picture.before { &self.before } else { &self.level };
+        let mut drawables = vec![Drawable { surface: main, look: picture.look, tint: None }];
+        if picture.left_out {
+            drawables.push(Drawable { surface: &self.left_out, look: picture.look, tint: Some(faint(&picture.style)) });
+        }
+        let style = Style { map: picture.style.map.filter(|_| self.has_scalars && !picture.before), ..picture.style };
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("view") });
+        self.renderer.draw(&self.device, &mut encoder, &view.target, &picture.camera, &drawables, &style);
+        self.queue.submit([encoder.finish()]);
+        view.drawn = Some(drawn);
+        Ok(view.texture)
+    }
+
+    /// Edges that the wireframe has.
+    pub fn edge_count(&self) -> u32 {
+        self.level.edge_count()
+    }
+
+    /// Whether the level has scalars for a colour map.
+    pub fn has_scalars(&self) -> bool {
+        self.has_scalars
+    }
+}
+
+/// A colour map over the deviation of a level: from nothing to the 95th percentile.
+pub fn deviation_map(document: &Document) -> Option<ColourMap> {
+    let deviation = document.measured.as_ref()?.report.deviation_mm?;
+    Some(ColourMap { range_mm: (0.0, (deviation.p95 as f32).max(1e-6)) })
+}
+
+/// Between the background and the text.
+fn faint(style: &Style) -> Colour {
+    let (a, b) = (style.background_bottom.0, style.line.0);
+    Colour(std::array::from_fn(|i| ((u16::from(a[i]) * 5 + u16::from(b[i]) * 3) / 8) as u8))
+}
+
+fn upload(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    surface: &mut GpuSurface,
+    mesh: &TriMesh,
+) -> Result<(), SurfaceError> {
+    surface.set_positions(device, queue, &mesh.positions)?;
+    let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
+    let edges = unique_edges(&mesh.triangles, mesh.positions.len());
+    surface.set_level(device, queue, &mesh.triangles, &edges, &normals)
+}

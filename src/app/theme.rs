@@ -1,0 +1,144 @@
+//! The look: two themes of one calm palette, an 8-point grid, one accent.
+
+use egui::{Color32, CornerRadius, FontId, Stroke, TextStyle, Theme, Visuals};
+
+use crate::render::{Colour, Style};
+
+/// One step of the grid, in points.
+pub const GRID: f32 = 8.0;
+
+/// Height of a control that a finger can hit, in points.
+pub const TOUCH: f32 = 28.0;
+
+struct Palette {
+    text: u32,
+    weak: u32,
+    panel: u32,
+    raised: u32,
+    field: u32,
+    line: u32,
+    accent: u32,
+    on_accent: u32,
+    error: u32,
+}
+
+const LIGHT: Palette = Palette {
+    text: 0x16_1D_24,
+    weak: 0x55_60_6B,
+    panel: 0xF7_F9_FB,
+    raised: 0xE6_EB_F0,
+    field: 0xFF_FF_FF,
+    line: 0xC6_CE_D6,
+    accent: 0x1F_66_A8,
+    on_accent: 0xFF_FF_FF,
+    error: 0xA8_1F_1F,
+};
+
+const DARK: Palette = Palette {
+    text: 0xE8_EC_F0,
+    weak: 0xA3_AD_B8,
+    panel: 0x1B_1F_24,
+    raised: 0x2B_31_38,
+    field: 0x12_15_19,
+    line: 0x3C_44_4D,
+    accent: 0x3E_8F_D6,
+    on_accent: 0x08_0C_10,
+    error: 0xFF_8A_80,
+};
+
+fn colour(rgb: u32) -> Color32 {
+    let Colour([r, g, b]) = Colour::hex(rgb);
+    Color32::from_rgb(r, g, b)
+}
+
+/// Sets up both themes.
+pub fn apply(ctx: &egui::Context) {
+    for (theme, palette) in [(Theme::Light, LIGHT), (Theme::Dark, DARK)] {
+        ctx.style_mut_of(theme, |style| {
+            style.visuals = visuals(theme, &palette);
+            let spacing = &mut style.spacing;
+            spacing.item_spacing = egui::vec2(GRID, GRID / 2.0);
+            spacing.button_padding = egui::vec2(GRID, GRID / 2.0);
+            spacing.interact_size = egui::vec2(TOUCH, TOUCH);
+            spacing.slider_rail_height = 4.0;
+            spacing.menu_margin = egui::Margin::same(GRID as i8 / 2);
+            spacing.tooltip_width = 280.0;
+            for (text_style, size) in [
+                (TextStyle::Heading, 16.0),
+                (TextStyle::Body, 14.0),
+                (TextStyle::Button, 14.0),
+                (TextStyle::Small, 12.0),
+            ] {
+                style.text_styles.insert(text_style, FontId::proportional(size));
+            }
+            style.interaction.selectable_labels = false;
+        });
+    }
+}
+
+fn visuals(theme: Theme, palette: &Palette) -> Visuals {
+    let mut v = theme.default_visuals();
+    let (text, weak, accent) = (colour(palette.text), colour(palette.weak), colour(palette.accent));
+    let (panel, raised, line) = (colour(palette.panel), colour(palette.raised), colour(palette.line));
+    v.panel_fill = panel;
+    v.window_fill = panel;
+    v.window_stroke = Stroke::new(1.0, line);
+    v.extreme_bg_color = colour(palette.field);
+    v.faint_bg_color = raised;
+    v.weak_text_color = Some(weak);
+    v.hyperlink_color = accent;
+    v.error_fg_color = colour(palette.error);
+    v.warn_fg_color = text;
+    v.selection.bg_fill = accent;
+    v.selection.stroke = Stroke::new(1.0, colour(palette.on_accent));
+    v.slider_trailing_fill = true;
+    v.window_corner_radius = CornerRadius::same(8);
+    v.menu_corner_radius = CornerRadius::same(6);
+    let widgets = &mut v.widgets;
+    for widget in [
+        &mut widgets.noninteractive,
+        &mut widgets.inactive,
+        &mut widgets.hovered,
+        &mut widgets.active,
+        &mut widgets.open,
+    ] {
+        widget.corner_radius = CornerRadius::same(4);
+        widget.fg_stroke.color = text;
+        widget.bg_fill = raised;
+        widget.weak_bg_fill = raised;
+        widget.expansion = 0.0;
+    }
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, line);
+    widgets.inactive.bg_fill = line;
+    widgets.inactive.bg_stroke = Stroke::NONE;
+    widgets.hovered.bg_stroke = Stroke::new(1.0, weak);
+    widgets.hovered.bg_fill = line;
+    widgets.hovered.weak_bg_fill = line;
+    widgets.active.bg_stroke = Stroke::new(1.0, accent);
+    widgets.active.bg_fill = line;
+    v
+}
+
+/// The colours of the 3-D views.
+pub fn style(visuals: &Visuals) -> Style {
+    if visuals.dark_mode { Style::DARK } else { Style::LIGHT }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::contrast;
+
+    #[test]
+    fn text_has_a_contrast_of_four_and_a_half() {
+        for palette in [LIGHT, DARK] {
+            for text in [palette.text, palette.weak, palette.error] {
+                for ground in [palette.panel, palette.raised, palette.field] {
+                    let found = contrast(Colour::hex(text), Colour::hex(ground));
+                    assert!(found >= 4.5, "{text:06x} on {ground:06x}: {found}");
+                }
+            }
+            assert!(contrast(Colour::hex(palette.on_accent), Colour::hex(palette.accent)) >= 4.5);
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! The two 3-D views: one camera, moved by mouse, trackpad, touch or keys, and what is written over the pictures.
+
+use egui::{Color32, PointerButton, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
+use glam::Vec2;
+
+use super::control::name;
+use super::document::Document;
+use super::overlay;
+use super::scene::{Picture, Scene, deviation_map};
+use super::theme;
+use crate::pipeline::settings::Keep;
+use crate::render::{Camera, Look, StandardView, pick};
+
+/// The views and how they are looked at.
+pub struct Views {
+    /// From where both look.
+    pub camera: Camera,
+    /// Shows the pieces that are left out, faintly; a click keeps one of them.
+    pub show_left_out: bool,
+    /// Each triangle with its own normal.
+    pub flat: bool,
+    /// Shows the hidden lines of the wireframe.
+    pub see_through: bool,
+    /// Colours the shaded view by deviation.
+    pub show_deviation: bool,
+    /// The "before" button is held.
+    pub before_is_held: bool,
+    /// "Before" is switched on, where nothing can be held.
+    pub before_is_on: bool,
+    /// The surface is shown as it was opened, in this frame.
+    pub show_before: bool,
+    scene: Option<Scene>,
+    /// Why there is nothing to see.
+    failure: Option<String>,
+    aspect: f32,
+    /// Frames a second while something moves.
+    frames_per_second: Option<f32>,
+}
+
+impl Views {
+    /// Views on the window's device; without one (in some tests) they stay empty and say so.
+    pub fn new(render_state: Option<&egui_wgpu::RenderState>) -> Self {
+        let scene = render_state.map(Scene::new).transpose();
+        let (scene, failure) = match scene {
+            Ok(Some(scene)) => (Some(scene), None),
+            Ok(None) => (None, Some("There is no graphics device to draw with.".to_owned())),
+            Err(error) => (None, Some(format!("The views cannot be drawn: {error}."))),
+        };
+        Self {
+            camera: Camera::default(),
+            show_left_out: false,
+            flat: false,
+            see_through: false,
+            show_deviation: false,
+            before_is_held: false,
+            before_is_on: false,
+            show_before: false,
+            scene,
+            failure,
+            aspect: 1.0,
+            frames_per_second: None,
+        }
+    }
+
+    /// Brings the whole of the kept pieces into view.
+    pub fn fit(&mut self, document: Option<&Document>, keep: Keep) {
+        if let Some(document) = document {
+            self.camera.fit(&document.bounds(keep), self.aspect);
+        }
+    }
+
+    /// Looks from a side.
+    pub fn look_from(&mut self, view: StandardView, document: Option<&Document>, keep: Keep) {
+        self.camera.standard_view(view);
+        self.fit(document, keep);
+    }
+
+    /// Frames a second, for the status bar.
+    pub fn rate(&self) -> String {
+        self.frames_per_second.map_or("idle".to_owned(), |rate| format!("{rate:.0} fps"))
+    }
+
+    /// Shows both views in what is left of `ui`. Returns the piece that was clicked.
+    pub fn show(&mut self, ui: &mut Ui, document: Option<&Document>, keep: Keep, is_narrow: bool) -> Option<u32> {
+        let moved = ui.ctx().requested_repaint_last_pass();
+        self.frames_per_second = moved.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
+        if let (Some(scene), Some(document)) = (&mut self.scene, document)
+            && let Err(error) = scene.follow(document, self.show_deviation)
+        {
+            self.failure = Some(format!("The surface cannot be drawn: {error}."));
+        }
+        let area = ui.available_rect_before_wrap();
+        let (first, second) =
+            if is_narrow { area.split_top_bottom_at_fraction(0.5) } else { area.split_left_right_at_fraction(0.5) };
+        self.aspect = first.width() / first.height().max(1.0);
+        let shaded = if self.flat { Look::Flat } else { Look::Shaded };
+        let lines = if self.see_through { Look::SeeThrough } else { Look::Wireframe };
+        let mut clicked = None;
+        for (index, (rect, look)) in [(first, shaded), (second, lines)].into_iter().enumerate() {
+            let title = if index == 0 { "Shaded view" } else { "Wireframe view" };
+            let hit = self.view(ui, index, rect.shrink(0.5), look, title, document, keep);
+            clicked = clicked.or(hit);
+        }
+        clicked
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "one call, and a struct would only name the same things again")]
+    fn view(
+        &mut self,
+        ui: &mut Ui,
+        index: usize,
+        rect: Rect,
+        look: Look,
+        title: &str,
+        document: Option<&Document>,
+        keep: Keep,
+    ) -> Option<u32> {
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        name(&response, Role::Image, title);
+        self.steer(ui, &response, document, keep);
+        let pixels = rect.size() * ui.ctx().pixels_per_point();
+        let mut style = theme::style(ui.visuals());
+        if self.show_deviation && index == 0 && !self.show_before {
+            style.map = document.and_then(deviation_map);
+        }
+        let picture = Picture {
+            camera: self.camera,
+            size: [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32],
+            look,
+            style,
+            before: self.show_before,
+            left_out: self.show_left_out,
+        };
+        let drawn = self.scene.as_mut().map(|scene| scene.draw(index, &picture, document, keep));
+        match drawn {
+            Some(Ok(texture)) => {
+                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
+            }
+            Some(Err(error)) => self.failure = Some(format!("The surface cannot be drawn: {error}.")),
+            None => {}
+        }
+        if let Some(failure) = &self.failure {
+            let font = egui::TextStyle::Body.resolve(ui.style());
+            ui.painter_at(rect).text(
+                rect.center(),
+                egui::Align2::CENTER_CENTER,
+                failure,
+                font,
+                ui.visuals().text_color(),
+            );
+        }
+        let has_scalars = self.scene.as_ref().is_some_and(Scene::has_scalars);
+        overlay::show(
+            ui,
+            rect,
+            &overlay::Writing {
+                title: if self.show_before { "As opened" } else { title.trim_end_matches(" view") },
+                name: document.map(|document| document.name.as_str()),
+                camera: &self.camera,
+                map: style.map.filter(|_| has_scalars),
+            },
+        );
+        let is_click = response.clicked() && self.show_left_out;
+        is_click.then(|| self.piece_at(response.interact_pointer_pos()?, rect, document?)).flatten()
+    }
+
+    /// The piece under a point of the view.
+    fn piece_at(&self, at: Pos2, rect: Rect, document: &Document) -> Option<u32> {
+        let ray = self.camera.ray(in_view(at, rect), rect.width() / rect.height());
+        let hit = pick(&ray, &document.opened.positions, &document.opened.triangles)?;
+        document.pieces.labels.get(hit.triangle).copied()
+    }
+
+    fn steer(&mut self, ui: &Ui, response: &egui::Response, document: Option<&Document>, keep: Keep) {
+        let rect = response.rect;
+        let height = rect.height().max(1.0);
+        let fraction = |v: egui::Vec2| Vec2::new(v.x / height, v.y / height);
+        let aspect = rect.width() / height;
+        if let Some(touch) = ui.input(egui::InputState::multi_touch).filter(|touch| rect.contains(touch.center_pos)) {
+            self.camera.pan(fraction(touch.translation_delta));
+            self.camera.zoom(touch.zoom_delta, in_view(touch.center_pos, rect), aspect);
+            return;
+        }
+        let shift = ui.input(|input| input.modifiers.shift);
+        if response.dragged_by(PointerButton::Primary) && !shift {
+            self.camera.orbit(fraction(response.drag_delta()));
+        } else if response.dragged() {
+            self.camera.pan(fraction(response.drag_delta()));
+        }
+        if response.double_clicked() {
+            self.fit(document, keep);
+        }
+        let Some(pointer) = response.hover_pos() else { return };
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        let factor = pinch * (scroll.y / 240.0).exp();
+        if (factor - 1.0).abs() > 1e-4 {
+            self.camera.zoom(factor, in_view(pointer, rect), aspect);
+        }
+    }
+
+    /// Moves the camera by keys: arrows turn, plus and minus zoom.
+    pub fn steer_by_keys(&mut self, ui: &Ui) {
+        use egui::Key;
+        const TURN: f32 = 0.02;
+        let (mut turn, mut zoom) = (Vec2::ZERO, 1.0);
+        ui.input(|input| {
+            let held = |key| f32::from(u8::from(input.key_down(key)));
+            turn.x = held(Key::ArrowRight) - held(Key::ArrowLeft);
+            turn.y = held(Key::ArrowDown) - held(Key::ArrowUp);
+            zoom += 0.03 * (held(Key::Plus).max(held(Key::Equals)) - held(Key::Minus));
+        });
+        if turn != Vec2::ZERO {
+            self.camera.orbit(turn * TURN);
+            ui.ctx().request_repaint();
+        }
+        if zoom != 1.0 {
+            self.camera.zoom(zoom, Vec2::ZERO, self.aspect);
+            ui.ctx().request_repaint();
+        }
+    }
+}
+
+/// A point of the window in normalised device coordinates of a view: -1 to 1, y up.
+fn in_view(at: Pos2, rect: Rect) -> Vec2 {
+    let v = (at - rect.center()) / (rect.size() / 2.0).max(vec2(1.0, 1.0));
+    Vec2::new(v.x, -v.y)
+}

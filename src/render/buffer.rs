@@ -1,0 +1,84 @@
+//! A GPU buffer that is written again and again, as while a slider is dragged: it is made anew only when it has to
+//! grow, and then by half again.
+
+use super::surface::SurfaceError;
+
+/// Sizes are multiples of this, so that small changes are no reason to grow.
+const GRANULE: u64 = 4096;
+
+/// A buffer and the part of it that is in use.
+#[derive(Debug)]
+pub(super) struct GrowingBuffer {
+    label: &'static str,
+    usage: wgpu::BufferUsages,
+    buffer: Option<wgpu::Buffer>,
+    used: u64,
+}
+
+impl GrowingBuffer {
+    /// An empty buffer for `usage`; nothing is allocated before the first write.
+    pub(super) fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
+        Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None, used: 0 }
+    }
+
+    /// Replaces the contents by `bytes`, whose number must be a multiple of four.
+    pub(super) fn write(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        bytes: &[u8],
+    ) -> Result<(), SurfaceError> {
+        let needed = bytes.len() as u64;
+        let limit = device.limits().max_buffer_size;
+        if needed > limit {
+            return Err(SurfaceError::TooLarge { what: self.label, bytes: needed, limit });
+        }
+        let capacity = self.buffer.as_ref().map_or(0, wgpu::Buffer::size);
+        if needed > capacity {
+            let size = grown(capacity, needed).min(limit.max(needed));
+            self.buffer = Some(device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(self.label),
+                size,
+                usage: self.usage,
+                mapped_at_creation: false,
+            }));
+        }
+        if let (Some(buffer), true) = (&self.buffer, needed > 0) {
+            queue.write_buffer(buffer, 0, bytes);
+        }
+        self.used = needed;
+        Ok(())
+    }
+
+    /// Makes the buffer empty and keeps its memory.
+    pub(super) fn clear(&mut self) {
+        self.used = 0;
+    }
+
+    /// The part in use; `None` for an empty buffer.
+    pub(super) fn slice(&self) -> Option<wgpu::BufferSlice<'_>> {
+        self.buffer.as_ref().filter(|_| self.used > 0).map(|buffer| buffer.slice(..self.used))
+    }
+
+    /// Number of elements in use, each of `size` bytes.
+    pub(super) fn count(&self, size: usize) -> u32 {
+        (self.used / size as u64) as u32
+    }
+}
+
+/// The size of a buffer of `capacity` bytes after it has grown to hold `needed`.
+fn grown(capacity: u64, needed: u64) -> u64 {
+    needed.max(capacity + capacity / 2).next_multiple_of(GRANULE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_is_by_half_and_never_too_little() {
+        assert_eq!(grown(0, 1), GRANULE);
+        assert_eq!(grown(8 * GRANULE, 8 * GRANULE + 4), 12 * GRANULE);
+        assert_eq!(grown(GRANULE, 100 * GRANULE), 100 * GRANULE);
+    }
+}

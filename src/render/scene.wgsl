@@ -1,0 +1,53 @@
+// What every shader of this folder knows; the other side is `scene.rs`.
+
+struct Scene {
+    // World to camera: mm, x right, y up, z towards the eye.
+    view: mat4x4<f32>,
+    // Camera to clip; depth is 1 at the near plane and 0 at the far plane.
+    projection: mat4x4<f32>,
+    // Gamma-encoded.
+    background_top: vec4<f32>,
+    background_bottom: vec4<f32>,
+    // The scalar of the colour map's first colour, one over the width of its range.
+    map: vec2<f32>,
+    // Height of a pixel at distance 1.
+    pixel: f32,
+    // Height of the view in pixels.
+    height: f32,
+}
+
+struct Drawn {
+    // Linear.
+    surface: vec4<f32>,
+    inside: vec4<f32>,
+    rim: vec4<f32>,
+    // Gamma-encoded.
+    line: vec4<f32>,
+    line_facing: vec4<f32>,
+    // 1 for flat shading.
+    shading: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> scene: Scene;
+@group(0) @binding(1) var viridis: texture_2d<f32>;
+@group(1) @binding(0) var<uniform> drawn: Drawn;
+
+// IEC 61966-2-1.
+fn encode(linear: vec3<f32>) -> vec3<f32> {
+    let clamped = clamp(linear, vec3(0.0), vec3(1.0));
+    let high = 1.055 * pow(clamped, vec3(1.0 / 2.4)) - 0.055;
+    return select(high, 12.92 * clamped, clamped <= vec3(0.0031308));
+}
+
+fn decode(encoded: vec3<f32>) -> vec3<f32> {
+    let high = pow((encoded + 0.055) / 1.055, vec3(2.4));
+    return select(high, encoded / 12.92, encoded <= vec3(0.04045));
+}
+
+// Spreads the rounding to eight bits over neighbouring pixels, so that slow gradients show no bands: interleaved
+// gradient noise (Jimenez, "Next generation post processing in Call of Duty", 2014), of less than one step, so that
+// an even colour stays even.
+fn dither(encoded: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
+    let noise = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+    return encoded + (noise - 0.5) * 0.95 / 255.0;
+}

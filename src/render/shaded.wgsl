@@ -1,0 +1,85 @@
+// The shaded vessel. All directions are in camera coordinates, so the lights go with the camera.
+
+// Towards the key light: over the left shoulder.
+const KEY: vec3<f32> = vec3(-0.42, 0.56, 0.71);
+const KEY_LIGHT: vec3<f32> = vec3(0.82, 0.80, 0.77);
+const SKY: vec3<f32> = vec3(0.42, 0.44, 0.48);
+const GROUND: vec3<f32> = vec3(0.15, 0.13, 0.12);
+// How much of the rim's colour shows where the surface is seen edge-on.
+const RIM: f32 = 0.8;
+
+struct Fragment {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) scalar: f32,
+}
+
+fn project(position: vec3<f32>, normal: vec3<f32>, scalar: f32) -> Fragment {
+    let seen = scene.view * vec4(position, 1.0);
+    return Fragment(scene.projection * seen, seen.xyz, (scene.view * vec4(normal, 0.0)).xyz, scalar);
+}
+
+@vertex
+fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Fragment {
+    return project(position, normal, 0.0);
+}
+
+@vertex
+fn vertex_mapped(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) scalar: f32,
+) -> Fragment {
+    return project(position, normal, scalar);
+}
+
+// The normal on the eye's side: of the triangle itself for flat shading, and where the vertices have none.
+fn facing_normal(in: Fragment, towards_eye: vec3<f32>, front: bool) -> vec3<f32> {
+    let across = cross(dpdx(in.position), dpdy(in.position));
+    let flat_normal = normalize(across) * select(-1.0, 1.0, dot(across, towards_eye) >= 0.0);
+    let smooth_normal = in.normal * select(-1.0, 1.0, front);
+    let length_2 = dot(smooth_normal, smooth_normal);
+    let flat_wins = drawn.shading.x > 0.5 || length_2 < 1e-12;
+    return select(smooth_normal * inverseSqrt(max(length_2, 1e-12)), flat_normal, flat_wins);
+}
+
+fn light(normal: vec3<f32>) -> vec3<f32> {
+    return mix(GROUND, SKY, 0.5 * normal.y + 0.5) + KEY_LIGHT * max(dot(normal, KEY), 0.0);
+}
+
+// Schlick's (1 - cos)^5 softened, so that the rim is wide enough to shape a thin branch.
+fn rim(normal: vec3<f32>, towards_eye: vec3<f32>) -> f32 {
+    let away = 1.0 - clamp(dot(normal, towards_eye), 0.0, 1.0);
+    return RIM * away * away * away;
+}
+
+@fragment
+fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    let towards_eye = normalize(-in.position);
+    let normal = facing_normal(in, towards_eye, front);
+    let lit = light(normal);
+    let outside = mix(drawn.surface.rgb * lit, drawn.rim.rgb, rim(normal, towards_eye));
+    let colour = select(drawn.inside.rgb * lit, outside, front);
+    return vec4(dither(encode(colour), in.clip.xy), 1.0);
+}
+
+// The colour at `t`, 0 to 1, between the two nearest of the table: as `viridis` in `colour_map.rs`.
+fn map_colour(t: f32) -> vec3<f32> {
+    let at = clamp(t, 0.0, 1.0) * 255.0;
+    let i = min(i32(at), 254);
+    let low = textureLoad(viridis, vec2(i, 0), 0).rgb;
+    let high = textureLoad(viridis, vec2(i + 1, 0), 0).rgb;
+    return mix(low, high, at - f32(i));
+}
+
+// Under a colour map the light is nearly even and white: enough for form, too little to be read as another value.
+@fragment
+fn fragment_mapped(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    let towards_eye = normalize(-in.position);
+    let normal = facing_normal(in, towards_eye, front);
+    let colour = decode(map_colour((in.scalar - scene.map.x) * scene.map.y));
+    let facing = clamp(dot(normal, towards_eye), 0.0, 1.0);
+    let shade = mix(0.55, 1.0, facing) * select(0.6, 1.0, front);
+    return vec4(dither(encode(colour * shade), in.clip.xy), 1.0);
+}
