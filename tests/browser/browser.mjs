@@ -17,7 +17,7 @@ export const dist = process.env.LUMEN_DIST ?? `${checkout}dist`;
 /** Where the surfaces with known facts are. */
 export const data = process.env.LUMEN_DATA ?? `${checkout}../shared/data`;
 /** The command line, whose files the browser's are compared with. */
-export const program = process.env.LUMEN_PROGRAM ?? `${checkout}target/release/lumen`;
+export const program = process.env.LUMEN_PROGRAM ?? `${checkout}target/debug/lumen`;
 
 /** How long the app may take to draw its first frame: there is no graphics card here. */
 const START_MS = 60_000;

@@ -2,14 +2,12 @@
 //!
 //! - [`page`]: starts the app on the canvas, with WebGPU or WebGL2, and tells the page how it goes.
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
-//! - [`files`]: the file dialog and downloads.
-//! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker.
-//! - [`link`]: that line as the app's line to the engine.
+//! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads.
+//! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker; [`link`]: that line as the app's
+//!   line to the engine.
 //!
 //! The page itself is in `www/`; `cargo xtask build` puts both together.
 
-#[cfg(target_arch = "wasm32")]
-mod demo;
 #[cfg(target_arch = "wasm32")]
 mod files;
 #[cfg(target_arch = "wasm32")]
@@ -18,6 +16,8 @@ mod job;
 mod link;
 #[cfg(target_arch = "wasm32")]
 mod page;
+#[cfg(target_arch = "wasm32")]
+mod platform;
 mod twins;
 #[cfg(target_arch = "wasm32")]
 mod worker;

@@ -5,8 +5,11 @@
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup};
 use eframe::wgpu::Backends;
+use lumen::app::LumenApp;
 use wasm_bindgen::prelude::*;
 use web_sys::{Document, HtmlCanvasElement, Window};
+
+use crate::platform::Browser;
 
 /// Starts the app; the page is told of any failure.
 pub(crate) fn start(window: Window) {
@@ -26,7 +29,8 @@ async fn run(window: &Window) -> Result<(), JsValue> {
     let shown = canvas.clone();
     let create: eframe::AppCreator<'static> = Box::new(move |cc| {
         crate::twins::attach(&cc.egui_ctx, &shown, &twins).map_err(|error| format!("{error:?}"))?;
-        Ok(Box::new(crate::demo::Demo::new(cc)))
+        let platform = Box::new(Browser::new(&cc.egui_ctx));
+        Ok(Box::new(LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), platform)))
     });
     eframe::WebRunner::new().start(canvas, options, create).await?;
     document.document_element().ok_or("the page is empty")?.set_attribute("data-state", "ready")

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use lumen::app::platform::{Platform, PlatformEvent};
+use lumen::app::{Platform, PlatformEvent};
 use lumen::engine::Link;
 use wasm_bindgen_futures::spawn_local;
 

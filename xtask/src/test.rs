@@ -90,8 +90,9 @@ fn browser() -> Result<(Counts, bool)> {
         .filter(|path| path.to_string_lossy().ends_with(".test.mjs"))
         .collect();
     files.sort();
+    // In the profile and with the features of the native tests, so that it is there once they have run.
     step("Compile the command line the browser is compared with", || {
-        crate::step::run(cargo().args(["build", "--quiet", "--release", "--package=lumen", "--bin=lumen"]))
+        crate::step::run(cargo().args(["build", "--quiet", "--workspace", "--bin=lumen"]))
     })?;
     let mut command = Command::new("node");
     command
@@ -103,7 +104,7 @@ fn browser() -> Result<(Counts, bool)> {
         .env("LUMEN_NPM", npm)
         .env(
             "LUMEN_PROGRAM",
-            crate::step::target().join("release").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
+            crate::step::target().join("debug").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
         );
     step("Run the browser tests", || count(&mut command, node_counts))
 }
