@@ -27,10 +27,10 @@ export async function settled(page, timeout = 120_000) {
   ).then(({ all }) => all);
 }
 
-/** The number of triangles shown, as the status bar has it, or null. */
+/** The number of triangles shown, as the panel's result has it ("Triangles", "6,698 of 66,982"), or null. */
 export function shownTriangles(all) {
-  const counts = all.map((text) => text.match(/^([\d,]+) triangles$/)).filter(Boolean);
-  return counts.length > 0 ? Number(counts.at(-1)[1].replaceAll(",", "")) : null;
+  const row = all.findIndex((text, i) => text === "Triangles" && /^[\d,]+ of [\d,]+$/.test(all[i + 1] ?? ""));
+  return row < 0 ? null : Number(all[row + 1].split(" of ")[0].replaceAll(",", ""));
 }
 
 /** Opens a file (a path, or { name, buffer }) through the browser's own dialog. */
@@ -57,23 +57,40 @@ export function stlTriangles(bytes) {
   return count;
 }
 
+/** Looks from a side ("Anterior", "Superior", ...). */
+export async function lookFrom(page, side) {
+  await press(page, "button", "View");
+  await press(page, "menuitem", side);
+  // The menu has to be gone from the picture.
+  await twin(page, "menuitem", side).waitFor({ state: "detached" });
+}
+
+/** Pixels of a view that are not background: the silhouette of what is shown. */
+export const silhouette = (page, view) => differing(page, view, () => 24);
+
 /**
- * How many pixels of a view differ from its background. The background is graded from top to bottom, so each row is
- * compared with its own leftmost pixel.
+ * Pixels of a view that are as dark as an edge. Where lines are far apart most pixels are only grazed by one, so a
+ * pixel counts from two thirds of the strongest difference.
  */
-export async function drawnPixels(page, view) {
+export const edgePixels = (page, view) => differing(page, view, (strongest) => (strongest * 2) / 3);
+
+/**
+ * How many pixels differ from the background by more than `from(strongest difference)`, of 255. The background is
+ * graded from top to bottom, so each row is compared with its own leftmost pixel.
+ */
+async function differing(page, view, from) {
   // The pointer would light up what is below it.
   await page.mouse.move(2, 2);
   await frames(page, 3);
   const { width, height, data } = await picture(page, view);
-  let drawn = 0;
+  const differences = [];
   for (let y = 2; y < height - 2; y++) {
     const ground = (y * width + 2) * 4;
     for (let x = 2; x < width - 2; x++) {
       const at = (y * width + x) * 4;
-      const difference = Math.max(...[0, 1, 2].map((c) => Math.abs(data[at + c] - data[ground + c])));
-      if (difference > 24) drawn++;
+      differences.push(Math.max(...[0, 1, 2].map((c) => Math.abs(data[at + c] - data[ground + c]))));
     }
   }
-  return drawn;
+  const least = from(differences.reduce((strongest, it) => Math.max(strongest, it), 0));
+  return differences.filter((difference) => difference > least).length;
 }

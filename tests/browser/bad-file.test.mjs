@@ -38,7 +38,7 @@ test("what cannot be opened is refused in one sentence, and the sample stays", a
     t.diagnostic(`${what}: ${all.find(isSentence)}`);
     assert.equal(shownTriangles(await settled(page)), shown, `after ${what} the sample is still shown`);
   }
-  assert.equal(await dragTo(page, REDUCTION, 50), 50);
+  await dragTo(page, REDUCTION, 50);
   assert.notEqual(shownTriangles(await settled(page)), shown, `the sample still reacts, ${grouped(shown)} before`);
   assert.deepEqual(wrong, []);
 });

@@ -105,26 +105,30 @@ export async function value(control) {
 }
 
 /**
- * Drags a slider until its value is within `within` of `wanted`, or as near as one pixel allows; the scale may be
- * logarithmic, so the place is found by halving. The pointer goes down once and up once. Returns the value reached.
+ * Drags a slider as near to `wanted` as whole pixels allow and returns the value reached. The scale may be
+ * logarithmic, so the place is found by halving. The pointer goes down once and up once.
  */
-export async function dragTo(page, name, wanted, { within = 0 } = {}) {
+export async function dragTo(page, name, wanted) {
   const slider = twin(page, "slider", name);
   await slider.waitFor({ state: "attached" });
   const { y, box } = await middle(slider);
-  let [low, high] = [box.x, box.x + box.width];
-  await page.mouse.move((low + high) / 2, y);
-  await page.mouse.down();
-  let reached = await value(slider);
-  for (let step = 0; step < 24 && high - low > 0.05; step++) {
-    const x = (low + high) / 2;
+  let [low, high] = [Math.floor(box.x), Math.ceil(box.x + box.width)];
+  let best = { off: Infinity, x: low };
+  const look = async (x) => {
     await page.mouse.move(x, y);
     await frames(page, 2);
-    reached = await value(slider);
-    if (Math.abs(reached - wanted) <= within) break;
-    if (reached < wanted) low = x;
-    else high = x;
+    const reached = await value(slider);
+    if (Math.abs(reached - wanted) < best.off) best = { off: Math.abs(reached - wanted), x };
+    return reached;
+  };
+  await page.mouse.move(Math.round((low + high) / 2), y);
+  await page.mouse.down();
+  while (best.off > 0 && low <= high) {
+    const x = Math.floor((low + high) / 2);
+    if ((await look(x)) < wanted) low = x + 1;
+    else high = x - 1;
   }
+  await look(best.x);
   await page.mouse.up();
   await frames(page, 2);
   return value(slider);
@@ -148,9 +152,12 @@ export async function eventually(read, accept, { timeout = 30_000, what = "the a
   }
 }
 
-/** All the text the twins hold. */
+/** All the text the twins hold, in reading order. */
 export function texts(page) {
-  return page.locator("#twins").evaluate((twins) => [...twins.querySelectorAll("*")].map((e) => e.textContent).filter(Boolean));
+  return page.locator("#twins").evaluate((twins) => {
+    const leaves = [...twins.querySelectorAll("*")].filter((twin) => twin.childElementCount === 0);
+    return leaves.map((twin) => twin.textContent).filter(Boolean);
+  });
 }
 
 /** A control's picture, or the whole page's, as { width, height, data } in RGBA. */
