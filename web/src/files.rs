@@ -13,6 +13,9 @@ pub(crate) type Chosen = (String, Result<Vec<u8>, String>);
 /// The largest file that is read, in bytes: with its mesh it has to fit into the 4 GB a page's memory can have.
 const LARGEST: f64 = 1.5e9;
 
+/// Bytes of a file that are copied at a time.
+const PIECE: usize = 4 << 20;
+
 thread_local! {
     static DIALOG: RefCell<Option<Dialog>> = const { RefCell::new(None) };
 }
@@ -59,6 +62,8 @@ pub(crate) fn open(accept: &str, chosen: impl FnOnce(Chosen) + 'static) -> Resul
 }
 
 /// The bytes of a file, or one sentence on why not.
+///
+/// They are read in pieces, so that the copy of a large file does not hold up a frame.
 pub(crate) async fn read(file: &File) -> Result<Vec<u8>, String> {
     let name = file.name();
     if file.size() > LARGEST {
@@ -68,12 +73,21 @@ pub(crate) async fn read(file: &File) -> Result<Vec<u8>, String> {
             LARGEST / 1e9
         ));
     }
-    match JsFuture::from(file.array_buffer()).await {
-        Ok(buffer) => Ok(Uint8Array::new(&buffer).to_vec()),
-        Err(_) => {
-            Err(format!("The browser could not read {name}; it may have been moved or changed since it was chosen."))
+    let lost = |_| format!("The browser could not read {name}; it may have been moved or changed since it was chosen.");
+    let length = file.size() as usize;
+    let mut bytes = Vec::with_capacity(length);
+    while bytes.len() < length {
+        let begin = bytes.len();
+        let end = length.min(begin + PIECE);
+        let piece = file.slice_with_f64_and_f64(begin as f64, end as f64).map_err(lost)?;
+        let piece = Uint8Array::new(&JsFuture::from(piece.array_buffer()).await.map_err(lost)?);
+        bytes.resize(begin + piece.length() as usize, 0);
+        piece.copy_to(&mut bytes[begin..]);
+        if bytes.len() != end {
+            return Err(lost(JsValue::NULL));
         }
     }
+    Ok(bytes)
 }
 
 /// Gives the user `bytes` as a download called `name`.
