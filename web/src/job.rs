@@ -36,11 +36,14 @@ fn run_engine() -> Result<(), JsValue> {
     let again = Again::new()?;
 
     let hear = Closure::<dyn Fn(MessageEvent) -> Result<(), JsValue>>::new({
-        let (engine, again) = (Rc::clone(&engine), again.clone());
+        let (engine, scope, again) = (Rc::clone(&engine), scope.clone(), again.clone());
         move |event: MessageEvent| {
             let message = Received::unpack(&event.data()).ok_or("a message that is none")?;
             let command = wire::decode_command(&message.header, &message).map_err(|error| error.to_string())?;
-            engine.borrow_mut().handle(command);
+            let mut engine = engine.borrow_mut();
+            engine.handle(command);
+            // The answer to a cancel does not wait for the next slice.
+            tell(&mut engine, &scope)?;
             again.soon()
         }
     });
@@ -50,10 +53,7 @@ fn run_engine() -> Result<(), JsValue> {
             again.waiting.set(false);
             let mut engine = engine.borrow_mut();
             let more = engine.advance(SLICE);
-            while let Some(event) = engine.poll() {
-                let (values, transfer) = pack(&wire::encode_event(&event));
-                scope.post_message_with_transfer(&values, &transfer)?;
-            }
+            tell(&mut engine, &scope)?;
             if more { again.soon() } else { Ok(()) }
         }
     });
@@ -62,6 +62,15 @@ fn run_engine() -> Result<(), JsValue> {
     // Both live as long as the Worker.
     work.forget();
     hear.forget();
+    Ok(())
+}
+
+/// Sends what the engine has to say to the page.
+fn tell(engine: &mut Engine, scope: &DedicatedWorkerGlobalScope) -> Result<(), JsValue> {
+    while let Some(event) = engine.poll() {
+        let (values, transfer) = pack(&wire::encode_event(&event));
+        scope.post_message_with_transfer(&values, &transfer)?;
+    }
     Ok(())
 }
 
