@@ -3,24 +3,19 @@
 //! The data are not part of the repository: they are looked for where `LUMEN_DATA` says, else in `../shared/data`
 //! beside the checkout. Where there are none the trials are ignored, not passed.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 use lumen::io::{Format, ImportOptions, ImportReport, Imported, ReadError, read, write};
 use lumen::mesh::{Topology, Vec3};
 
+mod common;
+
 fn main() {
-    let arguments = Arguments::from_args();
-    let data = std::env::var_os("LUMEN_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
-    let trials = match std::fs::read_to_string(data.join("INDEX.md")) {
-        Ok(index) => trials(&data, &index),
-        Err(error) => {
-            eprintln!("no test meshes at {} ({error}): set LUMEN_DATA", data.display());
-            vec![Trial::test("facts of INDEX.md", || Ok(())).with_ignored_flag(true)]
-        }
-    };
-    libtest_mimic::run(&arguments, trials).exit();
+    common::run("facts of INDEX.md", |data| {
+        let index = std::fs::read_to_string(data.join("INDEX.md")).expect("INDEX.md is text");
+        trials(data, &index)
+    })
 }
 
 fn trials(data: &Path, index: &str) -> Vec<Trial> {

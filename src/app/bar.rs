@@ -3,6 +3,7 @@
 use egui::{Button, ProgressBar, RichText, Role, Ui};
 
 use super::control::{grouped, name};
+use super::icon::{self, Icon};
 use super::state::State;
 use super::views::Views;
 use crate::io::Format;
@@ -36,7 +37,7 @@ pub enum Action {
 }
 
 /// The bar above. `is_narrow`: on a phone, where only what is needed most has a button of its own.
-pub fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Option<Action> {
+pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Option<Action> {
     let mut action = None;
     let mut ask = |wanted: bool, what: Action| {
         if wanted {
@@ -67,33 +68,25 @@ pub fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Op
             });
         });
         if is_narrow {
-            ui.menu_button("☰", |ui| more(ui, state, views, &mut ask));
+            let menu = icon::button(ui, Icon::Menu, true, "Menu", "More");
+            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, &mut ask));
         } else {
             ui.separator();
-            ask(icon(ui, state.history.can_undo(), "↶", "Undo", "Undo (Ctrl+Z)"), Action::Undo);
-            ask(icon(ui, state.history.can_redo(), "↷", "Redo", "Redo (Ctrl+Shift+Z)"), Action::Redo);
+            let can_undo = state.history.can_undo();
+            ask(icon::button(ui, Icon::Undo, can_undo, "Undo", "Undo (Ctrl+Z)").clicked(), Action::Undo);
+            let can_redo = state.history.can_redo();
+            ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
             before_button(ui, views);
             ui.menu_button("View", |ui| view_menu(ui, views, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ask(ui.button("About").clicked(), Action::About);
                 ask(ui.button("Help").on_hover_text("Keys and gestures (F1)").clicked(), Action::Help);
-                ask(icon(ui, true, theme_icon(ui), "Theme", "Light or dark"), Action::Theme);
+                ask(icon::button(ui, Icon::Theme, true, "Theme", "Light or dark (T)").clicked(), Action::Theme);
             });
         }
     });
     action
-}
-
-fn theme_icon(ui: &Ui) -> &'static str {
-    if ui.visuals().dark_mode { "☀" } else { "🌙" }
-}
-
-fn icon(ui: &mut Ui, enabled: bool, text: &str, label: &str, help: &str) -> bool {
-    let response =
-        ui.add_enabled(enabled, Button::new(RichText::new(text).size(16.0)).frame(false)).on_hover_text(help);
-    name(&response, Role::Button, label);
-    response.clicked()
 }
 
 /// Shows the surface as it was opened for as long as it is held.
@@ -127,7 +120,7 @@ fn more(ui: &mut Ui, state: &State, views: &mut Views, ask: &mut impl FnMut(bool
 }
 
 /// The bar below.
-pub fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: bool) -> Option<Action> {
+pub(super) fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: bool) -> Option<Action> {
     let mut action = None;
     ui.horizontal_centered(|ui| {
         if let Some((work, fraction)) = state.work {

@@ -2,10 +2,15 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, Response, RichText, Role, Slider, Ui, WidgetInfo};
+use egui::{DragValue, Response, Role, Slider, Ui, WidgetInfo};
+
+use super::icon::{self, Icon};
+
+/// Height of a row, in points.
+const ROW: f32 = 22.0;
 
 /// A number that can be set.
-pub struct Setting<'a> {
+pub(super) struct Setting<'a> {
     /// Its name, also for assistive tools.
     pub name: &'a str,
     /// What it does, in a sentence or two.
@@ -23,9 +28,21 @@ pub struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// Shows the rows; says whether the value was changed.
-    pub fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
-        let before = *value;
+    /// Shows the rows; says whether the user changed the value, which then has as many digits as are shown.
+    pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
+        // The controls work on what is shown: one that is left alone changes no digit that is not.
+        let before = self.rounded(*value);
+        let mut shown = before;
+        self.rows(ui, &mut shown);
+        let changed = self.rounded(shown).to_bits() != before.to_bits();
+        if changed {
+            *value = self.rounded(shown);
+        }
+        changed
+    }
+
+    fn rows(&self, ui: &mut Ui, value: &mut f64) {
+        ui.spacing_mut().interact_size.y = ROW;
         ui.horizontal(|ui| {
             ui.label(self.name).on_hover_text(self.help);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -42,16 +59,13 @@ impl Setting<'_> {
             .step_by(step);
         let response = ui.add(slider).on_hover_text(self.help);
         describe(&response, Role::Slider, self.name, *value);
-        *value = self.rounded(*value);
-        before.to_bits() != value.to_bits()
     }
 
     fn typed(&self, ui: &mut Ui, value: &mut f64) {
-        let digits = self.decimals;
         let field = DragValue::new(value)
             .range(self.range.clone())
             .speed((self.range.end() - self.range.start()) / 1000.0)
-            .max_decimals(digits)
+            .max_decimals(self.decimals)
             .suffix(self.unit)
             .update_while_editing(false);
         let response = ui.add(field).on_hover_text("Drag, or click to type");
@@ -60,16 +74,13 @@ impl Setting<'_> {
 
     fn reset(&self, ui: &mut Ui, value: &mut f64) {
         let is_default = (*value - self.default).abs() < 1e-9;
-        let button = egui::Button::new(RichText::new("⟲")).frame(false);
-        let response =
-            ui.add_enabled(!is_default, button).on_hover_text(format!("Back to {}{}", self.default, self.unit));
-        name(&response, Role::Button, &format!("Reset {}", self.name.to_lowercase()));
-        if response.clicked() {
+        let help = format!("Back to {}{}", self.default, self.unit);
+        let label = format!("Reset {}", self.name.to_lowercase());
+        if icon::button(ui, Icon::Reset, !is_default, &label, &help).clicked() {
             *value = self.default;
         }
     }
 
-    /// The value with as many digits as are shown, so that what is shown is what is computed with.
     fn rounded(&self, value: f64) -> f64 {
         let scale = libm::pow(10.0, self.decimals as f64);
         ((value * scale).round() / scale).clamp(*self.range.start(), *self.range.end())
@@ -86,12 +97,12 @@ fn describe(response: &Response, kind: Role, label: &str, value: f64) {
 }
 
 /// Tells assistive tools what a control is called.
-pub fn name(response: &Response, kind: Role, label: &str) {
+pub(super) fn name(response: &Response, kind: Role, label: &str) {
     response.widget_info(|| WidgetInfo::labeled(kind, response.enabled(), label));
 }
 
 /// A whole number in groups of three: 74,307.
-pub fn grouped(n: usize) -> String {
+pub(super) fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (i, digit) in digits.chars().enumerate() {

@@ -10,7 +10,7 @@ use crate::render::StandardView;
 const VIEW_KEYS: [Key; 6] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
 
 /// What the keys ask for in this frame. While text is typed, only those with Ctrl count.
-pub fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action> {
+pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action> {
     let ctrl_shift = Modifiers::COMMAND | Modifiers::SHIFT;
     let with_ctrl = [
         (ctrl_shift, Key::Z, Action::Redo),
@@ -56,6 +56,6 @@ pub fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action> {
 }
 
 /// Whether the key that shows the surface as it was opened is held.
-pub fn before_is_held(ui: &Ui) -> bool {
+pub(super) fn before_is_held(ui: &Ui) -> bool {
     !ui.ctx().egui_wants_keyboard_input() && ui.input(|input| input.key_down(Key::B))
 }

@@ -2,13 +2,14 @@
 //! files and the line to the engine.
 //!
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
-//! - `panel`, `bar`, `sheets`, `keys`: the controls; `control` is a row of the panel, `theme` the look.
+//! - `panel`, `bar`, `sheets`, `keys`: the controls; `control` is a row of the panel, `icon` its icons, `theme` the look.
 //! - `views`: the two 3-D views; `scene` what stands in GPU memory, `overlay` what is written over them.
 
 mod bar;
 mod control;
 pub mod document;
 pub mod history;
+mod icon;
 mod keys;
 mod overlay;
 mod panel;

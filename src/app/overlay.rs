@@ -6,7 +6,7 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2}
 use crate::render::{Camera, ColourMap, viridis};
 
 /// What to write.
-pub struct Writing<'a> {
+pub(super) struct Writing<'a> {
     /// What the view shows.
     pub title: &'a str,
     /// The surface's name.
@@ -20,7 +20,7 @@ pub struct Writing<'a> {
 const MARGIN: f32 = 12.0;
 
 /// Writes over the view in `rect`.
-pub fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
+pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     let painter = ui.painter_at(rect);
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
     let inner = rect.shrink(MARGIN);
@@ -82,6 +82,9 @@ fn orientation(painter: &Painter, inner: Rect, camera: &Camera, colour: Color32)
         let strength = 0.55 + 0.45 * (axis.z + 1.0) / 2.0;
         let colour = colour.gamma_multiply(strength);
         painter.line_segment([middle, end], Stroke::new(1.5, colour));
+        if axis.truncate().length() < 0.35 {
+            continue;
+        }
         let at: Pos2 = middle + vec2(axis.x, -axis.y) * (SIZE + 8.0);
         painter.text(at, Align2::CENTER_CENTER, letter, FontId::proportional(11.0), colour);
     }

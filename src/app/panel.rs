@@ -11,8 +11,8 @@ use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Settings, Smoothing, Target, Window, reduction_percent};
 
 /// Shows the panel.
-pub fn show(ui: &mut Ui, state: &mut State, views: &mut Views) {
-    ui.spacing_mut().item_spacing.y = 4.0;
+pub(super) fn show(ui: &mut Ui, state: &mut State, views: &mut Views) {
+    ui.spacing_mut().item_spacing.y = 3.0;
     surface(ui, state, views);
     smooth(ui, &mut state.settings, measured(state.document.as_ref()));
     reduce(ui, state);
@@ -25,20 +25,18 @@ fn measured(document: Option<&Document>) -> Option<&Report> {
 
 fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
     if number > 1 {
-        ui.add_space(8.0);
         ui.separator();
     }
-    ui.add_space(4.0);
     ui.horizontal(|ui| {
         ui.label(RichText::new(number.to_string()).heading().color(ui.visuals().hyperlink_color));
         ui.label(RichText::new(title).heading());
     });
     ui.add(egui::Label::new(RichText::new(what).small().weak()).wrap());
-    ui.add_space(4.0);
 }
 
 /// A line of the numbers: what it is on the left, how much on the right.
 fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
+    ui.spacing_mut().interact_size.y = 18.0;
     let row = ui.horizontal(|ui| {
         ui.label(RichText::new(what).weak());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(how_much));
@@ -49,7 +47,7 @@ fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
 }
 
 fn surface(ui: &mut Ui, state: &mut State, views: &mut Views) {
-    step(ui, 1, "Surface", "Keeps the largest connected piece; choose another from the list or in the view.");
+    step(ui, 1, "Surface", "The largest connected piece is kept.");
     let Some(document) = &state.document else {
         ui.label("Open a surface, or drop a file here.");
         return;
@@ -110,7 +108,7 @@ fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
 }
 
 fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
-    step(ui, 2, "Smooth", "A low-pass filter that takes off the stair-steps of the scan and keeps the size.");
+    step(ui, 2, "Smooth", "Takes off the stair-steps of the scan, not the size.");
     let default = Smoothing::default();
     let smoothing = &mut settings.smoothing;
     let pass_band = Setting {
@@ -154,7 +152,7 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
 }
 
 fn reduce(ui: &mut Ui, state: &mut State) {
-    step(ui, 3, "Reduce", "Removes the vertices that matter least, and never changes the topology.");
+    step(ui, 3, "Reduce", "Removes what matters least; topology stays.");
     let entering = state.document.as_ref().and_then(|d| Some(d.levels.as_ref()?.1.triangles.len()));
     let mut rate = state.settings.target.percent(entering.unwrap_or(0));
     let reduction = Setting {
@@ -205,9 +203,7 @@ fn reduce(ui: &mut Ui, state: &mut State) {
 fn result(ui: &mut Ui, state: &State) {
     let Some(document) = &state.document else { return };
     let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return };
-    ui.add_space(8.0);
     ui.separator();
-    ui.add_space(4.0);
     ui.label(RichText::new("Result").heading());
     let (before, after) = (levels.triangles.len(), shown.level.triangles.len());
     let counts = format!("{} of {}", grouped(after), grouped(before));

@@ -15,11 +15,11 @@ use crate::render::{
 };
 
 /// The two views, side by side.
-pub const VIEWS: usize = 2;
+pub(super) const VIEWS: usize = 2;
 
 /// What one view shows.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub(super) struct Picture {
     /// From where.
     pub camera: Camera,
     /// Width and height in pixels.
@@ -35,7 +35,7 @@ pub struct Picture {
 }
 
 /// GPU memory and what stands in it.
-pub struct Scene {
+pub(super) struct Scene {
     device: wgpu::Device,
     queue: wgpu::Queue,
     window: Arc<RwLock<egui_wgpu::Renderer>>,
@@ -63,7 +63,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the device does not allow a buffer.
-    pub fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
+    pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
         let (device, queue) = (state.device.clone(), state.queue.clone());
         let surface = || GpuSurface::new(&device, &queue, &[]);
         let view = || {
@@ -93,7 +93,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the surface does not fit into the memory that the device allows.
-    pub fn follow(&mut self, document: &Document, with_deviation: bool) -> Result<(), SurfaceError> {
+    pub(super) fn follow(&mut self, document: &Document, with_deviation: bool) -> Result<(), SurfaceError> {
         let (old, new) = (self.revision, document.revision);
         let is_other = old.document != new.document;
         let Some((_, levels)) = &document.levels else {
@@ -153,7 +153,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the surface does not fit into the memory that the device allows.
-    pub fn draw(
+    pub(super) fn draw(
         &mut self,
         index: usize,
         picture: &Picture,
@@ -196,19 +196,14 @@ impl Scene {
         Ok(view.texture)
     }
 
-    /// Edges that the wireframe has.
-    pub fn edge_count(&self) -> u32 {
-        self.level.edge_count()
-    }
-
     /// Whether the level has scalars for a colour map.
-    pub fn has_scalars(&self) -> bool {
+    pub(super) fn has_scalars(&self) -> bool {
         self.has_scalars
     }
 }
 
 /// A colour map over the deviation of a level: from nothing to the 95th percentile.
-pub fn deviation_map(document: &Document) -> Option<ColourMap> {
+pub(super) fn deviation_map(document: &Document) -> Option<ColourMap> {
     let deviation = document.measured.as_ref()?.report.deviation_mm?;
     Some(ColourMap { range_mm: (0.0, (deviation.p95 as f32).max(1e-6)) })
 }

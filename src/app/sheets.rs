@@ -34,7 +34,7 @@ const KEYS: [(&str, &str); 17] = [
 ];
 
 /// Shows a sheet; says whether it should be closed.
-pub fn show(ui: &Ui, sheet: Sheet) -> bool {
+pub(super) fn show(ui: &Ui, sheet: Sheet) -> bool {
     let response = Modal::new(Id::unique("sheet")).show(ui.ctx(), |ui| {
         ui.set_max_width(440.0);
         match sheet {

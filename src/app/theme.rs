@@ -5,10 +5,10 @@ use egui::{Color32, CornerRadius, FontId, Stroke, TextStyle, Theme, Visuals};
 use crate::render::{Colour, Style};
 
 /// One step of the grid, in points.
-pub const GRID: f32 = 8.0;
+pub(super) const GRID: f32 = 8.0;
 
 /// Height of a control that a finger can hit, in points.
-pub const TOUCH: f32 = 28.0;
+pub(super) const TOUCH: f32 = 28.0;
 
 struct Palette {
     text: u32,
@@ -52,7 +52,7 @@ fn colour(rgb: u32) -> Color32 {
 }
 
 /// Sets up both themes.
-pub fn apply(ctx: &egui::Context) {
+pub(super) fn apply(ctx: &egui::Context) {
     for (theme, palette) in [(Theme::Light, LIGHT), (Theme::Dark, DARK)] {
         ctx.style_mut_of(theme, |style| {
             style.visuals = visuals(theme, &palette);
@@ -120,7 +120,7 @@ fn visuals(theme: Theme, palette: &Palette) -> Visuals {
 }
 
 /// The colours of the 3-D views.
-pub fn style(visuals: &Visuals) -> Style {
+pub(super) fn style(visuals: &Visuals) -> Style {
     if visuals.dark_mode { Style::DARK } else { Style::LIGHT }
 }
 

@@ -1,1 +1,78 @@
-//! The module `cli`.
+//! The subcommands: the same engine without a window.
+//!
+//! Results go to standard output, progress and warnings to standard error. The exit status is 0 when it is done, 1
+//! when it failed, 2 when the command line makes no sense.
+
+mod inspect;
+mod optimise;
+mod phantom;
+mod source;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The command line.
+#[derive(Debug, Parser)]
+#[command(
+    name = "lumen",
+    version,
+    about = "Makes a blood-vessel surface light enough to simulate on. Not for clinical decisions.",
+    after_help = "Without a subcommand a window opens, with FILE in it if there is one.\n\
+                  Wherever a file is read, sample:aorta or sample:coronary can stand for it.",
+    args_conflicts_with_subcommands = true
+)]
+pub struct Arguments {
+    /// A surface to open in the window
+    pub file: Option<PathBuf>,
+    /// What to do without a window
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// A subcommand.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Say what is in a surface file
+    Inspect(inspect::Inspect),
+    /// Keep the largest piece, smooth it, reduce it, and write the result
+    Optimise(optimise::Optimise),
+    /// Write one of the vessel trees that Lumen makes itself
+    Phantom(phantom::Phantom),
+}
+
+impl Command {
+    /// Runs the subcommand and reports a failure on standard error.
+    pub fn run(&self) -> ExitCode {
+        let result = match self {
+            Self::Inspect(command) => command.run(),
+            Self::Optimise(command) => command.run(),
+            Self::Phantom(command) => command.run(),
+        };
+        match result {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                eprintln!("lumen: {error:#}");
+                ExitCode::FAILURE
+            }
+        }
+    }
+}
+
+/// Writes `bytes` to `path` whole or not at all: what was there before stays if the disk is full.
+fn write_whole(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
+    use anyhow::Context;
+    let mut name = path.file_name().context("the output has no file name")?.to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
+    written
+        .inspect_err(|_| drop(std::fs::remove_file(&part)))
+        .with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// A row of a table: what it is, padded, and how much.
+fn row(what: &str, how_much: impl std::fmt::Display) {
+    println!("{what:<28}{how_much}");
+}

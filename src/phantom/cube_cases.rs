@@ -235,8 +235,8 @@ mod tests {
                 for upper in 0..16u8 {
                     let above: u8 =
                         lower_corners.iter().enumerate().map(|(i, &c)| (upper >> i & 1) << (c | 1 << axis)).sum();
-                    let reversed: Vec<_> = segments(shared | above, axis, 0).into_iter().map(|(a, b)| (b, a)).collect();
-                    let mut reversed = reversed;
+                    let turned = segments(shared | above, axis, 0).into_iter().map(|(a, b)| (b, a));
+                    let mut reversed: Vec<_> = turned.collect();
                     reversed.sort_unstable();
                     assert_eq!(segments(low, axis, 1), reversed);
                 }

@@ -22,7 +22,10 @@ use super::vessel::Vessel;
 /// Share of a branch's radius that the fillet at its origin has.
 const FILLET: f64 = 0.45;
 /// Voxels by which the tube goes on behind an open end, for the cut to pass through tube alone.
-const OVERHANG: f64 = 3.0;
+const OVERHANG: f64 = 1.5;
+
+/// The thinnest tube in voxels of radius: any thinner and the mask falls apart into beads.
+const THINNEST: f64 = 0.9;
 
 /// A sphere that widens a vessel: a sinus of the aortic root.
 pub(super) struct Bulge {
@@ -67,11 +70,24 @@ impl Cone {
     }
 }
 
-/// An open end: cubes beyond the plane are left out, as far as the tube's overhang reaches.
+/// An open end: cubes are left out in the cylinder that begins at `point` and holds the tube's overhang.
 struct OpenEnd {
     point: DVec3,
     outward: DVec3,
-    reach: f64,
+    length: f64,
+    radius: f64,
+}
+
+impl OpenEnd {
+    /// Whether the cylinder, grown by `clearance` mm, holds the point.
+    fn holds(&self, point: DVec3, clearance: f64) -> bool {
+        let from = point - self.point;
+        let height = from.dot(self.outward);
+        let radius = self.radius + clearance;
+        height > -clearance
+            && height < self.length + clearance
+            && from.length_squared() - height * height < radius * radius
+    }
 }
 
 /// The lumen of a vessel tree with open ends, as it is sampled at one spacing.
@@ -88,7 +104,8 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// The lumen of `vessels`, widened by `bulges`, for a grid of the given spacing (mm).
+    /// The lumen of `vessels`, widened by `bulges`, for a grid of the given spacing (mm). Vessels that are thinner
+    /// than the grid can show are widened to what it can, so that the tree stays whole on a coarse grid.
     pub(super) fn new(vessels: &[Vessel], bulges: &[Bulge], spacing: DVec3) -> Self {
         let voxel = spacing.max_element();
         let mut field =
@@ -96,16 +113,18 @@ impl Field {
         for vessel in vessels {
             let ostium = vessel.stations[vessel.ostium].diameter / 2.0;
             field.begin_part(if vessel.parent.is_some() { FILLET * ostium } else { 0.0 });
-            for pair in vessel.stations.windows(2) {
-                field.add([pair[0].position, pair[1].position], [pair[0].diameter / 2.0, pair[1].diameter / 2.0]);
+            let radius_at = |i: usize| (vessel.stations[i].diameter / 2.0).max(THINNEST * voxel);
+            for (i, pair) in vessel.stations.windows(2).enumerate() {
+                field.add([pair[0].position, pair[1].position], [radius_at(i), radius_at(i + 1)]);
             }
             let last = vessel.stations.len() - 1;
             let ends = [(vessel.open_start, 0, -1.0), (vessel.open_end, last, 1.0)];
             for (_, i, sign) in ends.into_iter().filter(|end| end.0) {
-                let (point, radius) = (vessel.stations[i].position, vessel.stations[i].diameter / 2.0);
+                let (point, radius) = (vessel.stations[i].position, radius_at(i));
                 let outward = vessel.direction(i) * sign;
                 field.add([point, point + outward * (OVERHANG * voxel)], [radius, radius]);
-                field.open_ends.push(OpenEnd { point, outward, reach: radius + (OVERHANG + 2.0) * voxel });
+                let (length, radius) = (radius + (OVERHANG + 1.0) * voxel, radius + voxel);
+                field.open_ends.push(OpenEnd { point, outward, length, radius });
             }
         }
         for bulge in bulges {
@@ -136,10 +155,7 @@ impl Field {
 
     /// Whether the point lies in the part of an open end that is cut away, or within `clearance` mm of it.
     pub(super) fn is_behind_an_end(&self, point: DVec3, clearance: f64) -> bool {
-        self.open_ends.iter().any(|end| {
-            let from = point - end.point;
-            from.dot(end.outward) > -clearance && from.length() < end.reach + clearance
-        })
+        self.open_ends.iter().any(|end| end.holds(point, clearance))
     }
 
     fn join<'a>(&'a self, cones: impl Iterator<Item = &'a Cone>, point: DVec3) -> f64 {
@@ -210,6 +226,7 @@ impl Mask for FieldMask<'_> {
             start as usize..end as usize + 1
         }));
         self.spans.sort_unstable_by_key(|span| span.start);
+        let first_run = runs.len();
         let mut i = 0;
         for span in &self.spans {
             i = i.max(span.start);
@@ -219,8 +236,8 @@ impl Mask for FieldMask<'_> {
                 // Points this near have the same sign; a hair less, for rounding.
                 let next = i + 1 + (distance.abs() * 0.999 / (self.field.slope * dx)) as usize;
                 if distance < 0.0 {
-                    match runs.last_mut() {
-                        Some(run) if run.end == i && run.start < i => run.end = next,
+                    match runs[first_run..].last_mut() {
+                        Some(run) if run.end == i => run.end = next,
                         _ => runs.push(i..next),
                     }
                 }
@@ -231,7 +248,7 @@ impl Mask for FieldMask<'_> {
 
     fn has_cuts(&mut self, k: usize) -> bool {
         let z = self.grid.at(0.0, 0.0, k as f64 + 0.5).z;
-        self.field.open_ends.iter().any(|end| (end.point.z - z).abs() < end.reach)
+        self.field.open_ends.iter().any(|end| (end.point.z - z).abs() < end.length + end.radius)
     }
 
     fn is_cut(&self, centre: DVec3) -> bool {
@@ -259,11 +276,14 @@ mod tests {
         let grid = field.grid();
         let mut mask = field.mask(&grid);
         let mut inside = 0;
+        // Rows are appended to what is there already, as marching cubes asks for them.
+        let mut runs = Vec::new();
         for k in 0..grid.size[2] {
             mask.begin_slice(k);
             for j in 0..grid.size[1] {
-                let mut runs = Vec::new();
+                let first = runs.len();
                 mask.row(j, &mut runs);
+                let runs = &runs[first..];
                 assert!(runs.windows(2).all(|w| w[0].end <= w[1].start));
                 for i in 0..grid.size[0] {
                     let expected = field.distance(grid.at(i as f64, j as f64, k as f64)) < 0.0;

@@ -46,7 +46,8 @@ pub(super) trait Mask {
     /// Readies slice `k` for [`Self::row`].
     fn begin_slice(&mut self, k: usize);
 
-    /// Appends the runs of inside points of row `j` of the slice: ascending, disjoint, within `0..size[0]`.
+    /// Appends the runs of inside points of row `j` of the slice: ascending, disjoint, within `0..size[0]`. What
+    /// `runs` holds already belongs to other rows.
     fn row(&mut self, j: usize, runs: &mut Vec<Range<usize>>);
 
     /// Whether cubes between slice `k` and the next can be left out by [`Self::is_cut`].
@@ -235,7 +236,7 @@ fn cube_spans(rows: [&[Range<usize>]; 4], spans: &mut Vec<Range<usize>>) {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::f64::consts::PI;
 
     use proptest::prelude::*;
@@ -256,9 +257,10 @@ mod tests {
         }
 
         fn row(&mut self, j: usize, runs: &mut Vec<Range<usize>>) {
+            let first = runs.len();
             for i in 0..self.grid.size[0] {
                 if (self.inside)(self.grid.at(i as f64, j as f64, self.k as f64)) {
-                    match runs.last_mut() {
+                    match runs[first..].last_mut() {
                         Some(last) if last.end == i => last.end = i + 1,
                         _ => runs.push(i..i + 1),
                     }
@@ -277,7 +279,7 @@ mod tests {
     }
 
     /// Whether the triangles around every vertex form one fan.
-    fn vertices_are_manifold(mesh: &TriMesh, topology: &Topology) -> bool {
+    pub(in crate::phantom) fn vertices_are_manifold(mesh: &TriMesh, topology: &Topology) -> bool {
         (0..mesh.positions.len() as u32).all(|v| {
             let around = topology.triangles(v);
             let links = around.iter().map(|&t| {

@@ -34,15 +34,19 @@ pub const MAX_TRIANGLES: usize = 5_000_000;
 
 /// Distance between slices over distance between points in a slice: 0.5 mm slices at 0.4 mm in plane.
 const SLICE_RATIO: f64 = 1.25;
-/// Grids tried before giving up on a count. The first two or three are enough unless the grid is so coarse that
-/// branches fall off and join again from one to the next.
+/// Grids tried before giving up on a count. One to three are enough unless the grid is so coarse that branches touch
+/// and part again from one to the next.
 const ATTEMPTS: usize = 60;
+/// Of these, the grids that begin in the same corner.
+const STEADY_ATTEMPTS: usize = 8;
+/// Steps in voxels that spread shifted grids evenly: powers of the root of x^4 = x + 1 (Roberts' R3 sequence).
+const GRID_SHIFTS: [f64; 3] = [0.819_172_5, 0.671_043_6, 0.549_700_5];
 
 /// A vessel tree that Lumen can make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sample {
-    /// Abdominal aorta with visceral, renal and iliac arteries.
+    /// Abdominal aorta with renal and common iliac arteries.
     Aorta,
     /// Aortic root and arch with the coronary arteries.
     Coronary,
@@ -73,15 +77,15 @@ impl Sample {
     pub fn default_triangles(self) -> usize {
         match self {
             Self::Aorta => 74_307,
-            Self::Coronary => 320_000,
+            Self::Coronary => 380_000,
         }
     }
 
     /// Distance in mm between points in a slice that gives [`Self::default_triangles`] to the triangle.
     fn default_spacing(self) -> f64 {
         match self {
-            Self::Aorta => 0.8,
-            Self::Coronary => 0.4,
+            Self::Aorta => 0.593_508,
+            Self::Coronary => 0.398_353,
         }
     }
 
@@ -150,9 +154,9 @@ pub fn vessels(sample: Sample) -> Vec<Vessel> {
 }
 
 /// Makes a sample whose largest component has `triangles` triangles to within 1 % (exactly, for
-/// [`Sample::default_triangles`]). `triangles` is in [`MIN_TRIANGLES`]`..=`[`MAX_TRIANGLES`]; below about 10,000 for
-/// the aorta and 60,000 for the coronary arteries the grid is coarser than the finest branches, which then break
-/// off or vanish, as they do in a coarse scan.
+/// [`Sample::default_triangles`]). `triangles` is in [`MIN_TRIANGLES`]`..=`[`MAX_TRIANGLES`]. On coarse grids thin
+/// branches are widened to what the grid can show; below about 10,000 triangles for the
+/// coronary arteries they so come to touch their neighbours.
 ///
 /// # Errors
 /// [`PhantomError::TrianglesOutOfRange`] and [`PhantomError::NotReached`].
@@ -176,10 +180,11 @@ pub fn generate_with(
     // A surface sampled s times as finely has s^2 times as many triangles.
     let mut spacing = sample.default_spacing() * (default as f64 / triangles as f64).sqrt();
     let (mut nearest, mut nearest_spacing) = (0usize, spacing);
+    let mut shift = [0.0; 3];
     // How far the bar is, and how far it will be after this grid: half of what is left, for others may follow.
     let (mut done, mut share) = (0.0, if triangles == default { 1.0 } else { 0.6 });
     for attempt in 1..=ATTEMPTS {
-        let mesh = sampled(sample, spacing, &mut |fraction| progress(done + share * fraction))?;
+        let mesh = sampled(sample, spacing, shift, &mut |fraction| progress(done + share * fraction))?;
         let found = largest_component(&mesh);
         if found.abs_diff(triangles) * 100 <= triangles {
             return match progress(1.0) {
@@ -187,30 +192,35 @@ pub fn generate_with(
                 ControlFlow::Break(()) => Err(PhantomError::Cancelled),
             };
         }
-        if found.abs_diff(triangles) < nearest.abs_diff(triangles) {
+        if attempt == 1 || found.abs_diff(triangles) < nearest.abs_diff(triangles) {
             (nearest, nearest_spacing) = (found, spacing);
         }
-        spacing = if attempt < 6 && found > 0 {
-            spacing * (found as f64 / triangles as f64).sqrt()
+        if found == 0 {
+            break;
+        }
+        if attempt < STEADY_ATTEMPTS {
+            spacing *= (found as f64 / triangles as f64).sqrt();
         } else {
-            // The count jumps here: look around the best, ever farther, on both sides in turn.
-            let step = 0.002 * (attempt / 2) as f64;
-            nearest_spacing * if attempt % 2 == 0 { 1.0 + step } else { 1.0 - step }
-        };
+            // The count jumps with the spacing here: grids that lie otherwise against the vessels jump elsewhere.
+            spacing = nearest_spacing * (nearest as f64 / triangles as f64).sqrt();
+            shift = GRID_SHIFTS.map(|s| (s * attempt as f64).fract());
+        }
         done += share;
         share = (1.0 - done) / 2.0;
     }
     Err(PhantomError::NotReached { asked: triangles, nearest })
 }
 
-/// The surface of a sample on a grid of `spacing` mm in plane.
+/// The surface of a sample on a grid of `spacing` mm in plane, that begins `shift` voxels (0 to 1) lower.
 fn sampled(
     sample: Sample,
     spacing: f64,
+    shift: [f64; 3],
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<TriMesh, PhantomError> {
     let field = sample.field(DVec3::new(spacing, spacing, spacing * SLICE_RATIO));
-    let grid = field.grid();
+    let mut grid = field.grid();
+    grid.origin -= grid.spacing * DVec3::from(shift);
     marching_cubes::marching_cubes(&grid, &mut field.mask(&grid), progress).ok_or(PhantomError::Cancelled)
 }
 

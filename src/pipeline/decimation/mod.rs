@@ -41,13 +41,17 @@ struct Strictness {
     turn: f64,
     /// Smallest quality of a triangle that gets worse: 1 is equilateral, 0 has no area.
     quality: f64,
+    /// Whether feature edges hold their vertices.
+    features: bool,
 }
 
-/// Tried in turn, each until no vertex is left that passes.
-const STRICTNESS: [Strictness; 3] = [
-    Strictness { turn: 0.5, quality: 0.15 },
-    Strictness { turn: 0.2, quality: 0.03 },
-    Strictness { turn: 0.0, quality: 1e-4 },
+/// Tried in turn, each until no vertex is left that passes. The last lets a triangle swing round as the end of a branch
+/// does that is drawn in, but not fold over, and no longer heeds feature edges.
+const STRICTNESS: [Strictness; 4] = [
+    Strictness { turn: 0.5, quality: 0.15, features: true },
+    Strictness { turn: 0.2, quality: 0.03, features: true },
+    Strictness { turn: 0.0, quality: 1e-3, features: true },
+    Strictness { turn: -0.8, quality: 1e-4, features: false },
 ];
 
 /// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
@@ -126,7 +130,7 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     /// Distance in mm at which `v` would go now; the ring is left in `self.ring`.
     fn judge(&mut self, v: u32) -> (Judged, f32) {
         let is_fan = self.surface.order_ring(v, &mut self.ring);
-        let judged = Judged::new(&self.surface, v, &self.ring, is_fan);
+        let judged = Judged::new(&self.surface, v, &self.ring, is_fan, STRICTNESS[self.strictness].features);
         let distance = judged.distance as f32 + self.inherited[v as usize];
         (judged, distance)
     }
@@ -242,9 +246,14 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
                 return false;
             }
         }
-        // The last triangle of a piece stays.
-        if self.ring.spokes.len() == 1 && self.surface.fan(target).len() == 1 {
-            return false;
+        // An ear goes only from an edge that has one more triangle: a piece of one triangle stays, and so does an
+        // edge of three.
+        if let [ear] = self.ring.spokes[..] {
+            let beside =
+                self.surface.fan(ear.a).iter().filter(|&&t| self.surface.triangles[t as usize].contains(&ear.b));
+            if beside.count() != 2 {
+                return false;
+            }
         }
         // An edge between two boundaries may not become a vertex: only boundary edges of boundary vertices collapse.
         common == opposite && (opposite == 2 || (opposite == 1 && !self.ring.closed))

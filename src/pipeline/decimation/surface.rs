@@ -155,7 +155,8 @@ impl Surface {
             drop(next);
             spokes.swap(i, found);
         }
-        !ring.closed || spokes[spokes.len() - 1].b == spokes[0].a
+        let last = spokes[spokes.len() - 1].b;
+        if ring.closed { last == spokes[0].a } else { spokes.iter().all(|s| s.a != last) }
     }
 
     /// Moves every triangle of `gone` to `kept`; those that have both end, and are pushed to `ended`.

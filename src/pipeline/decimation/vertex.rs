@@ -31,12 +31,12 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// Judges `v`, whose ring is in order if `is_fan`.
-    pub(super) fn new(surface: &Surface, v: u32, ring: &Ring, is_fan: bool) -> Self {
+    /// Judges `v`, whose ring is in order if `is_fan`; feature edges count only `with_features`.
+    pub(super) fn new(surface: &Surface, v: u32, ring: &Ring, is_fan: bool, with_features: bool) -> Self {
         if !is_fan {
             return Self { class: Class::Complex, distance: f64::INFINITY, along: None };
         }
-        let creases = ring.neighbours().filter(|&(_, crease)| crease).count();
+        let creases = if with_features { ring.neighbours().filter(|&(_, crease)| crease).count() } else { 0 };
         if !ring.closed {
             let along = ring.ends();
             let distance = distance_to_line(surface, v, along);

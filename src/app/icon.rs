@@ -1,0 +1,89 @@
+//! Small icons, drawn as strokes so that they need no font of symbols.
+
+use std::f32::consts::{PI, TAU};
+
+use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
+
+use super::control::name;
+
+/// An icon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Icon {
+    /// An arrow that turns back.
+    Undo,
+    /// An arrow that turns forth.
+    Redo,
+    /// A round arrow.
+    Reset,
+    /// Half light, half dark.
+    Theme,
+    /// Three lines.
+    Menu,
+}
+
+/// A button that is an icon. `label` is its name for assistive tools, `help` what it does.
+pub(super) fn button(ui: &mut Ui, icon: Icon, enabled: bool, label: &str, help: &str) -> Response {
+    let size = if icon == Icon::Reset { 20.0 } else { ui.spacing().interact_size.y };
+    let sense = if enabled { Sense::click() } else { Sense::hover() };
+    let (rect, response) = ui.allocate_exact_size(vec2(size, size), sense);
+    let visuals = ui.style().interact(&response);
+    if enabled && (response.hovered() || response.has_focus()) {
+        ui.painter().rect(rect, 4.0, visuals.weak_bg_fill, visuals.bg_stroke, egui::StrokeKind::Inside);
+    }
+    let colour = if enabled { visuals.fg_stroke.color } else { ui.visuals().weak_text_color().gamma_multiply(0.5) };
+    draw(ui.painter(), rect, icon, colour);
+    let response = response.on_hover_text(help);
+    response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, enabled, label));
+    if enabled {
+        name(&response, Role::Button, label);
+    }
+    response
+}
+
+fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
+    let (middle, radius) = (rect.center(), 6.0);
+    let stroke = Stroke::new(1.5, colour);
+    let on_circle = |angle: f32| middle + vec2(angle.cos(), angle.sin()) * radius;
+    match icon {
+        Icon::Undo => arrow(painter, middle, -1.0, stroke),
+        Icon::Redo => arrow(painter, middle, 1.0, stroke),
+        Icon::Reset => {
+            let points: Vec<Pos2> = (0..=20).map(|i| on_circle(-0.4 * PI + 0.83 * TAU * i as f32 / 20.0)).collect();
+            let tip = points[0];
+            painter.add(Shape::line(points, stroke));
+            head(painter, tip + vec2(-1.0, 0.0), vec2(-1.0, -0.15), stroke);
+        }
+        Icon::Theme => {
+            painter.circle_stroke(middle, radius, stroke);
+            let half: Vec<Pos2> = (0..=16).map(|i| on_circle(-PI / 2.0 + PI * i as f32 / 16.0)).collect();
+            painter.add(Shape::convex_polygon(half, colour, Stroke::NONE));
+        }
+        Icon::Menu => {
+            for y in [-5.0, 0.0, 5.0] {
+                painter.line_segment([middle + vec2(-7.0, y), middle + vec2(7.0, y)], stroke);
+            }
+        }
+    }
+}
+
+/// An arrow that comes from below, bends over and points to `side` (-1 left, 1 right).
+fn arrow(painter: &Painter, middle: Pos2, side: f32, stroke: Stroke) {
+    let at = |x: f32, y: f32| pos2(middle.x + side * x, middle.y + y);
+    let bend = (0..=12).map(|i| {
+        let angle = -PI / 2.0 - PI * i as f32 / 12.0;
+        at(angle.cos() * 4.5, 1.0 + angle.sin() * 4.5)
+    });
+    let mut points = vec![at(6.5, -3.5)];
+    points.extend(bend);
+    points.push(at(3.0, 5.5));
+    painter.add(Shape::line(points, stroke));
+    head(painter, at(6.5, -3.5), vec2(side, 0.0), stroke);
+}
+
+/// The head of an arrow with its tip at `tip`, pointing along `way`.
+fn head(painter: &Painter, tip: Pos2, way: egui::Vec2, stroke: Stroke) {
+    let across = way.rot90();
+    for side in [-1.0, 1.0] {
+        painter.line_segment([tip, tip - way * 4.0 + across * (4.0 * side)], stroke);
+    }
+}

@@ -1,0 +1,49 @@
+//! `lumen inspect`: what is in a surface file.
+
+use anyhow::Result;
+use clap::Args;
+
+use super::{row, source};
+use crate::io::Unit;
+
+/// Says what is in a surface file.
+#[derive(Debug, Args)]
+pub struct Inspect {
+    /// A surface file, or sample:aorta, sample:coronary
+    file: String,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// The unit of the numbers in the file: mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<Unit>,
+}
+
+impl Inspect {
+    /// Reads the file and prints its report.
+    pub(super) fn run(&self) -> Result<()> {
+        let report = source::read(&self.file, self.unit)?.report;
+        if self.json {
+            println!("{}", serde_json::to_string_pretty(&report)?);
+            return Ok(());
+        }
+        let size = report.bounds_mm.size();
+        row("format", &report.format);
+        row("triangles", report.triangles);
+        row("vertices", report.vertices);
+        row("components", report.components);
+        row("largest component", format!("{} triangles", report.largest_component_triangles));
+        row("boundary edges", report.boundary_edges);
+        row("non-manifold edges", report.non_manifold_edges);
+        row("degenerate triangles", report.degenerate_triangles);
+        row("duplicate triangles", report.duplicate_triangles);
+        row("winding mended", format!("{} edges", report.winding_flips));
+        row("size", format!("{:.3} x {:.3} x {:.3} mm", size.x, size.y, size.z));
+        row("area", format!("{:.3} mm2", report.area_mm2));
+        match report.volume_mm3 {
+            Some(volume) => row("volume, ends capped", format!("{volume:.3} mm3")),
+            None => row("volume", "none: the surface cannot be oriented"),
+        }
+        Ok(())
+    }
+}

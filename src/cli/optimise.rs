@@ -1,0 +1,196 @@
+//! `lumen optimise`: the whole pipeline on a file.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{row, source, write_whole};
+use crate::io::{self, Format, Unit};
+use crate::pipeline::deviation::REPORT_SAMPLES;
+use crate::pipeline::report::{DISCLAIMER, Report};
+use crate::pipeline::run::{Advance, Pipeline};
+use crate::pipeline::settings::{Boundary, Decimation, Keep, Settings, Smoothing, Target, Window};
+use crate::pipeline::task::Budget;
+
+/// Keeps the largest piece, smooths it, reduces it, and writes the result.
+#[derive(Debug, Args)]
+pub struct Optimise {
+    /// A surface file, or sample:aorta, sample:coronary
+    file: String,
+    /// Where to write: .stl, .ply, .obj or .glb
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Pass band of the smoothing filter, 0.001 to 2
+    #[arg(long, value_name = "F", default_value_t = Smoothing::default().pass_band)]
+    pass_band: f64,
+    /// Iterations of the smoothing filter, 0 to 200; 0 skips smoothing
+    #[arg(long, value_name = "N", default_value_t = Smoothing::default().iterations)]
+    iterations: u32,
+    /// Window of the smoothing filter
+    #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Window::default())]
+    window: Window,
+    /// The part of the triangles to remove, in percent, 0 to 99.9 (90 or 90%)
+    #[arg(long, value_name = "PERCENT", value_parser = percent, default_value = "90", conflicts_with = "triangles")]
+    reduction: f64,
+    /// How many triangles to keep, in place of --reduction
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    triangles: Option<u32>,
+    /// Edges sharper than this are kept as edges, degrees, 0 to 180
+    #[arg(long, value_name = "DEG", default_value_t = Decimation::default().feature_angle)]
+    feature_angle: f64,
+    /// The unit of the numbers in the file: mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<Unit>,
+    /// Keep every connected piece, not only the largest
+    #[arg(long)]
+    keep_all_components: bool,
+    /// Write all numbers to this file
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
+}
+
+impl ValueEnum for Window {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        Some(clap::builder::PossibleValue::new(self.name().to_lowercase()))
+    }
+}
+
+/// A reduction rate in percent, with or without the sign.
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches('%').trim_end();
+    let value: f64 = number.parse().map_err(|_| format!("{text} is not a percentage"))?;
+    let most = f64::from(Target::MAX_PER_MILLE) / 10.0;
+    if (0.0..=most).contains(&value) { Ok(value) } else { Err(format!("{text} is not between 0 and {most} %")) }
+}
+
+impl Optimise {
+    fn settings(&self) -> Settings {
+        Settings {
+            keep: if self.keep_all_components { Keep::All } else { Keep::Largest },
+            smoothing: Smoothing {
+                window: self.window,
+                pass_band: self.pass_band,
+                iterations: self.iterations,
+                boundary: Boundary::default(),
+            },
+            decimation: Decimation { feature_angle: self.feature_angle },
+            target: match self.triangles {
+                Some(count) => Target::Triangles(count),
+                None => Target::Reduction((self.reduction * 10.0).round() as u32),
+            },
+        }
+    }
+
+    /// Runs the pipeline, writes the surface and the report, prints the table.
+    pub(super) fn run(&self) -> Result<()> {
+        let settings = self.settings();
+        settings.check().unwrap_or_else(|error| {
+            use clap::CommandFactory;
+            super::Arguments::command().error(clap::error::ErrorKind::ValueValidation, error).exit()
+        });
+        let format = Format::from_name(&self.output.to_string_lossy())
+            .with_context(|| format!("{} does not end in .stl, .ply, .obj or .glb", self.output.display()))?;
+        if self.triangles.is_none() && 0.0 < self.reduction && self.reduction < 1.0 {
+            eprintln!(
+                "lumen: warning: --reduction {} removes less than one percent; nine tenths are --reduction 90",
+                self.reduction
+            );
+        }
+        let start = Instant::now();
+        let imported = source::read(&self.file, self.unit)?;
+        let read = milliseconds(start.elapsed());
+        let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
+        advance(&mut pipeline)?;
+        let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
+        let start = Instant::now();
+        write_whole(&self.output, &io::write(&reduced.mesh, Some(&reduced.normals), format)?)?;
+        let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
+        report.stages_ms.read = read;
+        report.stages_ms.write = milliseconds(start.elapsed());
+        if let Some(path) = &self.report {
+            write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
+        }
+        self.print(&report);
+        Ok(())
+    }
+
+    fn print(&self, report: &Report) {
+        let (kept, output) = (report.after_connectivity, report.output);
+        row("triangles in file", report.opened.triangles);
+        row("kept", format!("{} triangles of {} components", kept.triangles, report.opened.components));
+        row("output", format!("{} triangles, {} vertices", output.triangles, output.vertices));
+        row("reduction", format!("{:.2} %", report.reduction_percent));
+        if let Some(deviation) = report.deviation_mm {
+            row("deviation, mean", format!("{:.4} mm", deviation.mean));
+            row("deviation, max", format!("{:.4} mm", deviation.max));
+        }
+        if let Some(deviation) = report.deviation_from_original_mm {
+            row("deviation from original", format!("{:.4} mm mean, {:.4} mm max", deviation.mean, deviation.max));
+        }
+        if let Some(change) = report.volume_change_percent {
+            row("volume change", format!("{change:+.3} %"));
+        }
+        if let Some(change) = report.area_change_percent {
+            row("area change", format!("{change:+.3} %"));
+        }
+        let ms = &report.stages_ms;
+        row("connectivity", format!("{:.1} ms", ms.connectivity));
+        row("smoothing", format!("{:.1} ms", ms.smoothing));
+        row("decimation, all rates", format!("{:.1} ms", ms.decimation));
+        row("level and normals", format!("{:.1} ms", ms.level + ms.normals));
+        row("written to", self.output.display());
+        if let Some(shortfall) = &report.shortfall {
+            eprintln!("lumen: warning: {shortfall}");
+        }
+        if report.pass_band_missed {
+            eprintln!("lumen: warning: too few iterations for this pass band: it is not fully let through");
+        }
+        println!("{DISCLAIMER}");
+    }
+}
+
+/// Runs all stages and shows how far they are, on standard error.
+fn advance(pipeline: &mut Pipeline) -> Result<()> {
+    let is_terminal = std::io::stderr().is_terminal();
+    let bar = if is_terminal { ProgressBar::new(1000) } else { ProgressBar::hidden() };
+    bar.set_style(ProgressStyle::with_template("{msg:<24} {wide_bar} {percent:>3} %")?);
+    loop {
+        match pipeline.advance(Budget::new(Duration::from_millis(50)))? {
+            Advance::Working(stage, fraction) => {
+                bar.set_message(stage.label());
+                bar.set_position((fraction * 1000.0) as u64);
+            }
+            Advance::Finished(stage) if !is_terminal => eprintln!("{}: done", stage.label()),
+            Advance::Finished(_) => {}
+            Advance::Idle => break,
+        }
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+fn milliseconds(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::percent;
+
+    #[test]
+    fn a_percentage_is_what_is_removed_with_or_without_its_sign() {
+        assert_eq!(percent("90"), Ok(90.0));
+        assert_eq!(percent("90%"), Ok(90.0));
+        assert_eq!(percent(" 99.9 % "), Ok(99.9));
+        assert!(["100", "-1", "nan", "", "%", "ninety"].iter().all(|text| percent(text).is_err()));
+    }
+}

@@ -1,0 +1,124 @@
+//! The app on a platform of plain memory: the engine runs within the test, files are lists of bytes.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::rc::Rc;
+use std::time::Duration;
+
+use egui_kittest::Harness;
+use lumen::app::{LumenApp, Platform, PlatformEvent};
+use lumen::engine::{Command, Engine, Event, Link};
+
+/// What the test sees of the platform.
+#[derive(Default)]
+pub struct Memory {
+    /// Files that the app offered.
+    pub offered: Vec<(String, Vec<u8>)>,
+    /// How often the app asked for a file.
+    pub asked: usize,
+    /// What the platform will report next.
+    pub events: VecDeque<PlatformEvent>,
+    /// Why the engine stops at the next look, if it does.
+    pub engine_failure: Option<String>,
+    /// Engines that were started.
+    pub engines: usize,
+    /// Lets the engine work when it is listened to.
+    pub runs: bool,
+    /// How long it works in each frame.
+    pub slice: Duration,
+}
+
+/// A platform of plain memory.
+struct MemoryPlatform {
+    engine: Engine,
+    has_advanced: bool,
+    memory: Rc<RefCell<Memory>>,
+}
+
+impl Link for MemoryPlatform {
+    fn send(&mut self, command: Command) {
+        self.engine.handle(command);
+    }
+
+    fn poll(&mut self) -> Option<Event> {
+        // One slice a frame: the app listens until there is nothing more to hear.
+        if self.memory.borrow().runs && !self.has_advanced {
+            self.engine.advance(self.memory.borrow().slice);
+            self.has_advanced = true;
+        }
+        let event = self.engine.poll();
+        self.has_advanced &= event.is_some();
+        event
+    }
+
+    fn restart(&mut self) {
+        self.engine = Engine::new();
+        self.memory.borrow_mut().engines += 1;
+    }
+
+    fn failure(&mut self) -> Option<String> {
+        self.memory.borrow_mut().engine_failure.take()
+    }
+}
+
+impl Platform for MemoryPlatform {
+    fn link(&mut self) -> &mut dyn Link {
+        self
+    }
+
+    fn choose_file(&mut self, _: &egui::Context) {
+        self.memory.borrow_mut().asked += 1;
+    }
+
+    fn read_dropped(&mut self, file: egui::DroppedFileHandle, _: &egui::Context) {
+        let name = file.path().display().to_string();
+        let event = match file.bytes() {
+            Ok(bytes) => PlatformEvent::Chosen { name, bytes },
+            Err(message) => PlatformEvent::Failed { message },
+        };
+        self.memory.borrow_mut().events.push_back(event);
+    }
+
+    fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {
+        self.memory.borrow_mut().offered.push((name.to_owned(), bytes));
+    }
+
+    fn poll(&mut self) -> Option<PlatformEvent> {
+        self.memory.borrow_mut().events.pop_front()
+    }
+}
+
+/// The app in a window of `size` points that is not there, drawn by a real (software) graphics device.
+pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    let memory =
+        Rc::new(RefCell::new(Memory { runs: true, slice: Duration::from_millis(50), engines: 1, ..Memory::default() }));
+    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, memory: memory.clone() };
+    let harness = Harness::builder()
+        .with_size(size)
+        .with_max_steps(4000)
+        .wgpu()
+        .build_eframe(move |cc| LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), Box::new(platform)));
+    (harness, memory)
+}
+
+/// Steps until the engine has nothing more to do.
+///
+/// # Panics
+/// When that takes too long.
+pub fn settle(harness: &mut Harness<'_, LumenApp>) {
+    for _ in 0..2000 {
+        harness.step();
+        let state = harness.state().state();
+        let is_measured = state.document.as_ref().is_some_and(|document| {
+            document
+                .measured
+                .as_ref()
+                .is_some_and(|measured| !measured.deviation.is_empty() && measured.generation == state.generation())
+        });
+        if is_measured && !state.is_busy() {
+            harness.run_steps(2);
+            return;
+        }
+    }
+    panic!("the engine does not come to an end");
+}

@@ -1,0 +1,277 @@
+//! Each control does what it says, moved as a user moves it: by pointer and keys, found by role and name.
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lumen::app::{LumenApp, PlatformEvent};
+use lumen::pipeline::settings::{Keep, Target, Window};
+use lumen_ui_tests::{app, settle};
+
+const DESKTOP: [f32; 2] = [1280.0, 800.0];
+
+fn open() -> Harness<'static, LumenApp> {
+    let (mut harness, _) = app(DESKTOP);
+    settle(&mut harness);
+    harness
+}
+
+/// Moves a slider by pressing on it at a part of its length.
+fn press_at(harness: &mut Harness<'_, LumenApp>, slider: &str, part: f32) {
+    let rect = harness.get_by_role_and_label(Role::Slider, slider).rect();
+    let at = egui::pos2(rect.left() + rect.width() * part, rect.center().y);
+    harness.drag_at(at);
+    harness.run_steps(2);
+    harness.drop_at(at);
+    harness.run_steps(2);
+}
+
+/// Types into the field beside a slider.
+fn type_into(harness: &mut Harness<'_, LumenApp>, field: &str, text: &str) {
+    harness.get_by_role_and_label(Role::SpinButton, field).click();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run_steps(1);
+    harness.key_press(Key::Enter);
+    harness.run_steps(2);
+}
+
+fn shown(harness: &Harness<'_, LumenApp>) -> usize {
+    let document = harness.state().state().document.as_ref();
+    document.and_then(|document| document.shown.as_ref()).map_or(0, |shown| shown.level.triangles.len())
+}
+
+#[test]
+fn the_app_opens_with_the_sample_of_the_paper_smoothed_and_reduced() {
+    let harness = open();
+    let document = harness.state().state().document.as_ref().unwrap();
+    // Tables I and II of the paper: 74,307 polygons, 7,430 of them at 90 %.
+    assert_eq!(document.levels.as_ref().unwrap().1.triangles.len(), 74_307);
+    assert!((7_429..=7_430).contains(&shown(&harness)));
+    assert!(document.pieces.list.len() > 5, "islands for connectivity to leave out");
+    assert!(harness.query_by_label_contains("Not for clinical decisions").is_some());
+}
+
+#[test]
+fn the_reduction_slider_shows_another_level_in_the_same_frame() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    memory.borrow_mut().runs = false;
+    let before = shown(&harness);
+    press_at(&mut harness, "Reduction", 0.5);
+    let (after, target) = (shown(&harness), harness.state().state().settings.target);
+    let wanted = target.triangles(74_307);
+    assert!(after > 4 * before && after <= wanted && after + 2 > wanted, "{before} {after} {target:?}");
+}
+
+#[test]
+fn a_typed_rate_and_a_typed_count_are_met() {
+    let mut harness = open();
+    type_into(&mut harness, "Reduction value", "99");
+    assert_eq!(harness.state().state().settings.target, Target::Reduction(990));
+    assert!((742..=743).contains(&shown(&harness)));
+    type_into(&mut harness, "Triangles wanted", "18576");
+    assert_eq!(harness.state().state().settings.target, Target::Triangles(18_576));
+    assert!((18_575..=18_576).contains(&shown(&harness)));
+}
+
+#[test]
+fn smoothing_is_set_by_slider_field_and_list_and_goes_back() {
+    let mut harness = open();
+    press_at(&mut harness, "Pass band", 0.9);
+    assert!(harness.state().state().settings.smoothing.pass_band > 0.5);
+    harness.get_by_role_and_label(Role::Button, "Reset pass band").click();
+    harness.run_steps(2);
+    assert!((harness.state().state().settings.smoothing.pass_band - 0.01).abs() < 1e-12);
+    type_into(&mut harness, "Iterations value", "30");
+    assert_eq!(harness.state().state().settings.smoothing.iterations, 30);
+    harness.get_by_role_and_label(Role::ComboBox, "Window").click();
+    harness.run_steps(2);
+    harness.get_by_label("Nuttall").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().settings.smoothing.window, Window::Nuttall);
+    settle(&mut harness);
+    let measured = harness.state().state().document.as_ref().unwrap().measured.as_ref().unwrap();
+    assert_eq!(measured.report.settings, harness.state().state().settings);
+}
+
+#[test]
+fn the_feature_angle_is_set() {
+    let mut harness = open();
+    type_into(&mut harness, "Feature angle value", "15");
+    settle(&mut harness);
+    assert!((harness.state().state().settings.decimation.feature_angle - 15.0).abs() < 1e-12);
+}
+
+#[test]
+fn another_piece_is_chosen_in_the_list() {
+    let mut harness = open();
+    harness.get_by_role_and_label(Role::ComboBox, "Piece").click();
+    harness.run_steps(2);
+    harness.get_by_label("All pieces").click();
+    settle(&mut harness);
+    assert_eq!(harness.state().state().settings.keep, Keep::All);
+    let document = harness.state().state().document.as_ref().unwrap();
+    let all = document.opened.triangles.len();
+    assert_eq!(document.levels.as_ref().unwrap().1.triangles.len(), all);
+}
+
+#[test]
+fn undo_and_redo_walk_through_the_settings() {
+    let mut harness = open();
+    press_at(&mut harness, "Reduction", 0.2);
+    let moved = harness.state().state().settings.clone();
+    assert_ne!(moved.target, Target::default());
+    harness.get_by_role_and_label(Role::Button, "Undo").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().settings.target, Target::default());
+    assert!((7_429..=7_430).contains(&shown(&harness)));
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().settings, moved);
+}
+
+#[test]
+fn a_broken_file_gets_a_sentence_and_what_was_open_stays() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let before = shown(&harness);
+    let broken = PlatformEvent::Chosen { name: "scan.stl".to_owned(), bytes: vec![0; 50] };
+    memory.borrow_mut().events.push_back(broken);
+    harness.run_steps(10);
+    let state = harness.state().state();
+    let notice = state.notice.as_ref().expect("a sentence");
+    assert!(notice.is_error && notice.text.starts_with("scan.stl: ") && notice.text.ends_with('.'), "{notice:?}");
+    assert_eq!(shown(&harness), before);
+    assert!(harness.query_by_label_contains("scan.stl").is_some());
+}
+
+#[test]
+fn the_shown_level_is_saved_in_every_format_and_reads_back() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    for format in ["STL", "PLY", "OBJ", "GLB"] {
+        harness.get_by_role_and_label(Role::Button, "Save").click();
+        harness.run_steps(3);
+        harness.get_by_label(&format!("{format}...")).click();
+        harness.run_steps(10);
+        let (name, bytes) = memory.borrow_mut().offered.pop().expect("a file is offered");
+        assert_eq!(name, format!("abdominal-aorta-{}.{}", shown(&harness), format.to_lowercase()));
+        let read = lumen::io::read(&bytes, &name, &lumen::io::ImportOptions::default()).unwrap();
+        assert_eq!(read.report.triangles, shown(&harness));
+    }
+}
+
+#[test]
+fn the_open_button_and_its_key_ask_for_a_file() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    harness.get_by_role_and_label(Role::Button, "Open...").click();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    harness.run_steps(2);
+    assert_eq!(memory.borrow().asked, 2);
+}
+
+#[test]
+fn the_coronary_sample_opens_from_the_menu() {
+    let mut harness = open();
+    harness.get_by_role_and_label(Role::Button, "Sample").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("oronary").click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert_ne!(harness.state().state().document.as_ref().unwrap().levels.as_ref().unwrap().1.triangles.len(), 74_307);
+}
+
+#[test]
+fn cancel_goes_back_to_the_last_result() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let before = harness.state().state().settings.clone();
+    memory.borrow_mut().slice = std::time::Duration::ZERO;
+    press_at(&mut harness, "Iterations", 0.1);
+    assert_ne!(harness.state().state().settings, before);
+    assert!(harness.state().state().is_busy());
+    harness.get_by_role_and_label(Role::Button, "Cancel").click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().state().settings, before);
+    assert!((7_429..=7_430).contains(&shown(&harness)));
+}
+
+#[test]
+fn an_engine_that_stops_is_started_again_and_nothing_is_lost() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let before = shown(&harness);
+    memory.borrow_mut().engine_failure = Some("out of memory".to_owned());
+    harness.run_steps(2);
+    assert_eq!(memory.borrow().engines, 2);
+    assert!(harness.state().state().notice.as_ref().is_some_and(|notice| notice.text.contains("out of memory")));
+    assert_eq!(shown(&harness), before);
+    harness.run_steps(50);
+    press_at(&mut harness, "Iterations", 0.1);
+    settle(&mut harness);
+    let state = harness.state().state();
+    assert_eq!(state.document.as_ref().unwrap().measured.as_ref().unwrap().report.settings, state.settings);
+}
+
+#[test]
+fn theme_help_and_about_open_and_close() {
+    let mut harness = open();
+    let dark = harness.ctx.theme();
+    harness.get_by_role_and_label(Role::Button, "Theme").click();
+    harness.run_steps(2);
+    assert_ne!(harness.ctx.theme(), dark);
+    harness.get_by_role_and_label(Role::Button, "About").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("MIT or Apache-2.0").is_some());
+    assert!(harness.query_by_label("Not for clinical decisions.").is_some());
+    harness.get_by_role_and_label(Role::Button, "Close").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("MIT or Apache-2.0").is_none());
+    harness.key_press(Key::F1);
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Keys and gestures").is_some());
+}
+
+#[test]
+fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() {
+    let mut harness = open();
+    let picture = harness.render().unwrap();
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+    harness.drag_at(view.center());
+    harness.run_steps(2);
+    harness.hover_at(view.center() + egui::vec2(80.0, 0.0));
+    harness.run_steps(2);
+    harness.drop_at(view.center() + egui::vec2(80.0, 0.0));
+    harness.run_steps(2);
+    let turned = harness.render().unwrap();
+    assert_ne!(picture.as_raw(), turned.as_raw());
+    harness.key_down(Key::B);
+    harness.run_steps(2);
+    let before = harness.render().unwrap();
+    assert_ne!(before.as_raw(), turned.as_raw());
+    harness.key_up(Key::B);
+    harness.run_steps(2);
+    assert_eq!(harness.render().unwrap().as_raw(), turned.as_raw());
+}
+
+#[test]
+fn everything_is_there_on_a_phone() {
+    let (mut harness, _) = app([390.0, 844.0]);
+    settle(&mut harness);
+    for (role, name) in [
+        (Role::Button, "Open..."),
+        (Role::Button, "Menu"),
+        (Role::Image, "Shaded view"),
+        (Role::Image, "Wireframe view"),
+    ] {
+        let rect = harness.get_by_role_and_label(role, name).rect();
+        assert!(rect.left() >= 0.0 && rect.right() <= 390.0 && rect.bottom() <= 844.0, "{name} at {rect:?}");
+    }
+    let (shaded, wireframe) =
+        ["Shaded view", "Wireframe view"].map(|name| harness.get_by_role_and_label(Role::Image, name).rect()).into();
+    assert!(shaded.bottom() <= wireframe.top() + 1.0, "the views stack");
+}
