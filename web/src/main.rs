@@ -1,2 +1,39 @@
-//! Lumen in a browser.
-fn main() {}
+//! Lumen in a browser: what the page gives the app.
+//!
+//! - [`page`]: starts the app on the canvas, with WebGPU or WebGL2, and tells the page how it goes.
+//! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
+//! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads.
+//! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker; [`link`]: that line as the app's
+//!   line to the engine.
+//!
+//! The page itself is in `www/`; `cargo xtask build` puts both together.
+
+#[cfg(target_arch = "wasm32")]
+mod files;
+#[cfg(target_arch = "wasm32")]
+mod job;
+#[cfg(target_arch = "wasm32")]
+mod link;
+#[cfg(target_arch = "wasm32")]
+mod page;
+#[cfg(target_arch = "wasm32")]
+mod platform;
+mod twins;
+#[cfg(target_arch = "wasm32")]
+mod worker;
+
+/// Runs when the module is instantiated: on the page it starts the app, in a Worker it leaves the start to
+/// [`job::worker_main`].
+#[cfg(target_arch = "wasm32")]
+fn main() {
+    if let Some(window) = web_sys::window() {
+        page::start(window);
+    }
+}
+
+/// The desktop program is `lumen`.
+#[cfg(not(target_arch = "wasm32"))]
+fn main() {
+    eprintln!("This program runs in a browser: cargo xtask serve");
+    std::process::exit(2);
+}

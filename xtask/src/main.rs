@@ -1,2 +1,57 @@
-//! Developer commands.
-fn main() {}
+//! Developer commands: `cargo xtask serve | build | test`.
+//!
+//! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
+//! does nothing twice.
+
+mod build;
+mod page;
+mod serve;
+mod step;
+mod test;
+mod tools;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Lumen's developer commands.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Build the browser app and serve it on this machine.
+    Serve {
+        /// Port to listen on; 0 takes a free one.
+        #[arg(long, default_value_t = 8080)]
+        port: u16,
+        /// Open the address in the browser.
+        #[arg(long)]
+        open: bool,
+    },
+    /// Build the browser app into dist/, which any web server can host under any path.
+    Build,
+    /// Run every test: library, command line, window, browser.
+    Test {
+        /// Run these alone; may be given more than once.
+        #[arg(long, value_enum, value_delimiter = ',')]
+        only: Vec<test::Suite>,
+    },
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Serve { port, open } => build::build().and_then(|dist| serve::serve(&dist, port, open)),
+        Command::Build => build::build().map(|_| ()),
+        Command::Test { only } => test::test(&only),
+    };
+    if let Err(error) = done {
+        eprintln!("error: {error:#}");
+        return ExitCode::FAILURE;
+    }
+    ExitCode::SUCCESS
+}

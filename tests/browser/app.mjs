@@ -1,0 +1,96 @@
+// What the tests know about the app: the names of its controls and how to read what it shows. They are in one place,
+// so that renaming a control is one change.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { eventually, frames, picture, press, texts, twin } from "./browser.mjs";
+
+export const REDUCTION = "Reduction";
+
+/** The two views, as the page names them. */
+export const views = {
+  shaded: (page) => twin(page, "img", /shaded/i),
+  wireframe: (page) => twin(page, "img", /wireframe/i),
+};
+
+/** A whole number as the app writes it. */
+export const grouped = (number) => number.toLocaleString("en");
+
+/** Waits until nothing is being computed and a result is shown; returns all the text there is. */
+export async function settled(page, timeout = 120_000) {
+  let calm = 0;
+  return eventually(
+    async () => ({ busy: await twin(page, "button", "Cancel").count(), all: await texts(page) }),
+    // A result can be followed by the next piece of work a moment later.
+    ({ busy, all }) => (calm = !busy && shownTriangles(all) !== null ? calm + 1 : 0) >= 6,
+    { timeout, what: "the result" },
+  ).then(({ all }) => all);
+}
+
+/** The number of triangles shown, as the panel's result has it ("Triangles", "6,698 of 66,982"), or null. */
+export function shownTriangles(all) {
+  const row = all.findIndex((text, i) => text === "Triangles" && /^[\d,]+ of [\d,]+$/.test(all[i + 1] ?? ""));
+  return row < 0 ? null : Number(all[row + 1].split(" of ")[0].replaceAll(",", ""));
+}
+
+/** Opens a file (a path, or { name, buffer }) through the browser's own dialog. */
+export async function openFile(page, file) {
+  const chooser = page.waitForEvent("filechooser");
+  await press(page, "button", "Open...");
+  const payload = typeof file === "string" ? file : { mimeType: "application/octet-stream", ...file };
+  await (await chooser).setFiles(payload);
+}
+
+/** Saves in a format ("STL", "PLY", "OBJ", "GLB") and returns the file's name and bytes. */
+export async function save(page, format) {
+  await press(page, "button", "Save");
+  const download = page.waitForEvent("download");
+  await press(page, "menuitem", `${format}...`);
+  const file = await download;
+  return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
+}
+
+/** Triangles in a binary STL file, from its length and from its header, which have to agree. */
+export function stlTriangles(bytes) {
+  const count = bytes.readUInt32LE(80);
+  assert.equal(bytes.length, 84 + 50 * count);
+  return count;
+}
+
+/** Looks from a side ("Anterior", "Superior", ...). */
+export async function lookFrom(page, side) {
+  await press(page, "button", "View");
+  await press(page, "menuitem", side);
+  // The menu has to be gone from the picture.
+  await twin(page, "menuitem", side).waitFor({ state: "detached" });
+}
+
+/** Pixels of a view that are not background: the silhouette of what is shown. */
+export const silhouette = (page, view) => differing(page, view, () => 24);
+
+/**
+ * Pixels of a view that are as dark as an edge. Where lines are far apart most pixels are only grazed by one, so a
+ * pixel counts from two thirds of the strongest difference.
+ */
+export const edgePixels = (page, view) => differing(page, view, (strongest) => (strongest * 2) / 3);
+
+/**
+ * How many pixels differ from the background by more than `from(strongest difference)`, of 255. The background is
+ * graded from top to bottom, so each row is compared with its own leftmost pixel.
+ */
+async function differing(page, view, from) {
+  // The pointer would light up what is below it.
+  await page.mouse.move(2, 2);
+  await frames(page, 3);
+  const { width, height, data } = await picture(page, view);
+  const differences = [];
+  for (let y = 2; y < height - 2; y++) {
+    const ground = (y * width + 2) * 4;
+    for (let x = 2; x < width - 2; x++) {
+      const at = (y * width + x) * 4;
+      differences.push(Math.max(...[0, 1, 2].map((c) => Math.abs(data[at + c] - data[ground + c]))));
+    }
+  }
+  const least = from(differences.reduce((strongest, it) => Math.max(strongest, it), 0));
+  return differences.filter((difference) => difference > least).length;
+}

@@ -1,0 +1,37 @@
+// A file that is dropped on the window is opened as one from the dialog is.
+
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
+import { basename, join } from "node:path";
+import { after, before, test } from "node:test";
+import { grouped, settled } from "./app.mjs";
+import { data, frames, launch, openApp } from "./browser.mjs";
+
+const SEGMENT = join(data, "real/aorta-surface-segment-2.stl");
+/** A fact of data/INDEX.md. */
+const TRIANGLES = 24_372;
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+test("a file can be dropped on the window", { skip: existsSync(SEGMENT) ? false : `${SEGMENT} is not there` }, async (t) => {
+  const { page, wrong } = await openApp(t, browser);
+  await settled(page);
+  const file = { name: basename(SEGMENT), base64: (await readFile(SEGMENT)).toString("base64") };
+  const dataTransfer = await page.evaluateHandle(({ name, base64 }) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))], name));
+    return transfer;
+  }, file);
+  const place = { clientX: 640, clientY: 400, bubbles: true, cancelable: true };
+  for (const event of ["dragenter", "dragover", "drop"]) {
+    await page.dispatchEvent("#lumen", event, { ...place, dataTransfer });
+    await frames(page, 2);
+  }
+  await page.locator("#twins").getByText(grouped(TRIANGLES), { exact: true }).first().waitFor({ state: "attached" });
+  const told = await settled(page);
+  assert(told.includes(file.name), told.join("\n"));
+  assert.deepEqual(wrong, []);
+});

@@ -1,0 +1,132 @@
+// The page stays responsive while the engine works: the issue's bounds on main-thread tasks, frame times and cancel.
+//
+// Tasks are read from a trace of the browser, so that the frames can be told from everything else the page does. Where
+// there is no graphics card the drawing itself takes every core there is, and the clock on the wall would measure how
+// many there are; so tasks and frames are measured in the main thread's own processor time.
+
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { existsSync } from "node:fs";
+import { mkdtemp, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { promisify } from "node:util";
+import { openFile, settled } from "./app.mjs";
+import { dragTo, eventually, launch, openApp, press, program, texts } from "./browser.mjs";
+
+const TRIANGLES = 1_000_000;
+/** Bounds of the issue, in milliseconds. */
+const LONGEST_TASK = 16;
+const LONGEST_CANCEL = 50;
+/** A tenth of a frame at 60 frames a second. */
+const SLOWER_FRAME = 1.67;
+const REDUCING = /^Reducing \d+ %$/;
+
+let browser;
+let folder;
+before(async () => {
+  browser = await launch();
+  folder = await mkdtemp(join(tmpdir(), "lumen-"));
+});
+after(async () => {
+  await browser.close();
+  await rm(folder, { recursive: true });
+});
+
+const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
+
+/** Moves the pointer over the views, so that each frame is drawn anew, for `count` frames or until `text` is gone. */
+function moveAround(page, count, text = "") {
+  return page.evaluate(
+    async ({ count, text }) => {
+      const canvas = document.getElementById("lumen");
+      const twins = document.getElementById("twins");
+      let frames = 0;
+      for (; frames < count && twins.textContent.includes(text); frames++) {
+        const place = { clientX: 640 + (frames % 40), clientY: 400, bubbles: true, pointerType: "mouse", isPrimary: true };
+        canvas.dispatchEvent(new PointerEvent("pointermove", place));
+        canvas.dispatchEvent(new MouseEvent("mousemove", place));
+        await new Promise(requestAnimationFrame);
+      }
+      return frames;
+    },
+    { count, text },
+  );
+}
+
+/** Runs `work` and returns what the page's main thread did meanwhile, in ms: its frames, and its other tasks. */
+async function traced(page, work) {
+  await browser.startTracing(page, { categories: ["devtools.timeline", "disabled-by-default-devtools.timeline", "toplevel"] });
+  await work();
+  const events = JSON.parse((await browser.stopTracing()).toString()).traceEvents;
+  const main = events.find((event) => event.name === "thread_name" && event.args?.name === "CrRendererMain" && hasFrames(events, event));
+  assert(main, "the trace has the page's main thread");
+  const own = events.filter((event) => event.pid === main.pid && event.tid === main.tid && event.dur !== undefined);
+  const ms = (event) => (event.tdur ?? event.dur) / 1000;
+  const draws = own.filter((event) => event.name === "FireAnimationFrame");
+  const within = (task) => (event) => event.ts >= task.ts && event.ts + event.dur <= task.ts + task.dur;
+  const tasks = own
+    .filter((event) => /(^|::)RunTask$/.test(event.name) && ms(event) > 4 && !draws.some(within(event)))
+    .map((task) => {
+      const parts = own.filter(within(task)).filter((event) => event !== task && event.dur > task.dur / 3);
+      return { ms: ms(task), what: [...new Set(parts.map((event) => event.name))].join(", ") };
+    });
+  return { frames: draws.map(ms), tasks: tasks.sort((a, b) => b.ms - a.ms) };
+}
+
+function hasFrames(events, thread) {
+  return events.some((event) => event.name === "FireAnimationFrame" && event.pid === thread.pid && event.tid === thread.tid);
+}
+
+test("a million triangles are worked on beside a page that stays responsive", { skip: existsSync(program) ? false : `${program} is not built` }, async (t) => {
+  const file = join(folder, "million.stl");
+  await promisify(execFile)(program, ["phantom", "aorta", "--triangles", String(TRIANGLES), "-o", file]);
+  const { page } = await openApp(t, browser, { before: (page) => page.addInitScript(watchCancel) });
+  await settled(page);
+  const reducing = () => eventually(() => texts(page), (all) => all.some((text) => REDUCING.test(text)), { what: "the decimation", timeout: 120_000 });
+
+  const idle = await traced(page, () => moveAround(page, 40));
+  let moved;
+  const busy = await traced(page, async () => {
+    await openFile(page, file);
+    await reducing();
+    moved = await moveAround(page, 40, "Reducing");
+  });
+  await settled(page);
+  const answers = [];
+  for (const iterations of [50, 60, 70]) {
+    await dragTo(page, "Iterations", iterations);
+    await reducing();
+    await press(page, "button", "Cancel");
+    answers.push(await eventually(() => page.evaluate(() => window.cancelHeard), (ms) => ms > 0, { what: "the answer to cancel" }));
+    await page.evaluate(() => (window.cancelHeard = 0));
+    await settled(page);
+  }
+  const heard = median(answers);
+
+  const [calm, loaded] = [median(idle.frames), median(busy.frames)];
+  t.diagnostic(`median frame: ${calm.toFixed(1)} ms idle, ${loaded.toFixed(1)} ms busy (${moved} frames of reducing)`);
+  t.diagnostic(`longest tasks beside frames: ${busy.tasks.slice(0, 5).map(({ ms, what }) => `${ms.toFixed(1)} ms (${what})`).join("; ")}`);
+  t.diagnostic(`cancel answered after ${answers.map((ms) => ms.toFixed(0)).join(", ")} ms`);
+  assert((busy.tasks[0]?.ms ?? 0) <= LONGEST_TASK, `a task of ${busy.tasks[0]?.ms} ms: ${busy.tasks[0]?.what}`);
+  assert(loaded <= calm + SLOWER_FRAME, `${loaded} ms a frame, ${calm} ms when idle`);
+  assert(heard <= LONGEST_CANCEL, `${heard} ms until cancel is answered`);
+  await settled(page);
+});
+
+/** Runs in the page before the app: times the way from the message "Cancel" to the Worker's answer. */
+function watchCancel() {
+  const heard = new WeakSet();
+  const post = Worker.prototype.postMessage;
+  Worker.prototype.postMessage = function (message, ...rest) {
+    if (message?.[0] === '"Cancel"') this.cancelSent = performance.now();
+    if (!heard.has(this)) {
+      heard.add(this);
+      this.addEventListener("message", ({ data }) => {
+        if (data?.[0]?.startsWith?.('{"Cancelled"')) window.cancelHeard = performance.now() - this.cancelSent;
+      });
+    }
+    return post.call(this, message, ...rest);
+  };
+}

@@ -1,0 +1,56 @@
+// A static server for the built dist/, under a path of its own: whatever works here works below any path of any host.
+
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { extname, join, normalize, sep } from "node:path";
+
+/** The path dist/ is served under. */
+export const PREFIX = "/some/where/lumen/";
+
+const MEDIA_TYPES = {
+  ".css": "text/css",
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+  ".webmanifest": "application/manifest+json",
+};
+
+/**
+ * Serves `folder` on a free port of this machine. `slow` is the number of bytes per millisecond a module is sent with
+ * (0: as fast as it goes), so that a download lasts long enough to be looked at.
+ */
+export async function serve(folder, { slow = 0 } = {}) {
+  const server = createServer(async (request, response) => {
+    const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
+    const name = normalize(path.slice(PREFIX.length) || "index.html");
+    if (!path.startsWith(PREFIX) || name.startsWith("..") || name.startsWith(sep)) {
+      response.writeHead(404).end();
+      return;
+    }
+    try {
+      const body = await readFile(join(folder, name));
+      const type = MEDIA_TYPES[extname(name)] ?? "application/octet-stream";
+      // No policy, no length, no caching: the plainest host there is.
+      response.writeHead(200, { "Content-Type": type, "Cache-Control": "no-store" });
+      if (slow > 0 && type === "application/wasm") await trickle(response, body, slow);
+      else response.end(body);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
+  return {
+    address: `http://127.0.0.1:${server.address().port}${PREFIX}`,
+    close: () => new Promise((closed) => (server.closeAllConnections(), server.close(closed))),
+  };
+}
+
+async function trickle(response, body, bytesPerMillisecond) {
+  const slice = bytesPerMillisecond * 20;
+  for (let at = 0; at < body.length && !response.destroyed; at += slice) {
+    response.write(body.subarray(at, at + slice));
+    await new Promise((later) => setTimeout(later, 20));
+  }
+  response.end();
+}

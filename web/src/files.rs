@@ -1,0 +1,123 @@
+//! Files: opened through the browser's own dialog, saved as a download. Dropped files come through egui.
+
+use std::cell::RefCell;
+
+use js_sys::{Array, Uint8Array};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::{Blob, BlobPropertyBag, Document, File, HtmlAnchorElement, HtmlInputElement, Url, Window};
+
+/// A file the user has chosen: its name and its bytes, or one sentence on why it could not be read.
+pub(crate) type Chosen = (String, Result<Vec<u8>, String>);
+
+/// The largest file that is read, in bytes: with its mesh it has to fit into the 4 GB a page's memory can have.
+const LARGEST: f64 = 1.5e9;
+
+/// Bytes of a file that are copied at a time.
+const PIECE: usize = 4 << 20;
+
+thread_local! {
+    static DIALOG: RefCell<Option<Dialog>> = const { RefCell::new(None) };
+}
+
+/// The hidden field that opens the dialog, and what listens to it. It stays in the page: some browsers open no dialog
+/// for a field outside it, and forget one that nothing holds.
+struct Dialog {
+    input: HtmlInputElement,
+    _changed: Closure<dyn Fn()>,
+}
+
+/// Lets the user choose a file; call it while a click or a key press is being handled.
+///
+/// `accept` lists extensions (".stl,.ply"). `chosen` is called once, later, unless the user thinks better of it.
+///
+/// # Errors
+///
+/// What the browser answers when it makes no dialog.
+pub(crate) fn open(accept: &str, chosen: impl FnOnce(Chosen) + 'static) -> Result<(), JsValue> {
+    let document = page()?.1;
+    let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
+    input.set_type("file");
+    input.set_accept(accept);
+    input.set_hidden(true);
+    let chosen = RefCell::new(Some(chosen));
+    let changed = Closure::<dyn Fn()>::new({
+        let input = input.clone();
+        move || {
+            let file = input.files().and_then(|files| files.get(0));
+            if let (Some(file), Some(chosen)) = (file, chosen.take()) {
+                spawn_local(async move { chosen((file.name(), read(&file).await)) });
+            }
+        }
+    });
+    input.set_onchange(Some(changed.as_ref().unchecked_ref()));
+    document.body().ok_or("the page has no body")?.append_child(&input)?;
+    DIALOG.with_borrow_mut(|dialog| {
+        if let Some(last) = dialog.replace(Dialog { input: input.clone(), _changed: changed }) {
+            last.input.remove();
+        }
+    });
+    input.click();
+    Ok(())
+}
+
+/// The bytes of a file, or one sentence on why not.
+///
+/// They are read in pieces, so that the copy of a large file does not hold up a frame.
+pub(crate) async fn read(file: &File) -> Result<Vec<u8>, String> {
+    let name = file.name();
+    if file.size() > LARGEST {
+        return Err(format!(
+            "{name} has {:.1} GB; in the browser Lumen opens files of up to {:.1} GB.",
+            file.size() / 1e9,
+            LARGEST / 1e9
+        ));
+    }
+    let lost = |_| format!("The browser could not read {name}; it may have been moved or changed since it was chosen.");
+    let length = file.size() as usize;
+    let mut bytes = Vec::with_capacity(length);
+    while bytes.len() < length {
+        let begin = bytes.len();
+        let end = length.min(begin + PIECE);
+        let piece = file.slice_with_f64_and_f64(begin as f64, end as f64).map_err(lost)?;
+        let piece = Uint8Array::new(&JsFuture::from(piece.array_buffer()).await.map_err(lost)?);
+        bytes.resize(begin + piece.length() as usize, 0);
+        piece.copy_to(&mut bytes[begin..]);
+        if bytes.len() != end {
+            return Err(lost(JsValue::NULL));
+        }
+    }
+    Ok(bytes)
+}
+
+/// Gives the user `bytes` as a download called `name`.
+///
+/// # Errors
+///
+/// What the browser answers, when there is no memory left for the copy.
+pub(crate) fn save(name: &str, bytes: &[u8]) -> Result<(), JsValue> {
+    let (window, document) = page()?;
+    let options = BlobPropertyBag::new();
+    options.set_type("application/octet-stream");
+    let parts = Array::of1(&Uint8Array::from(bytes));
+    let blob = Blob::new_with_u8_array_sequence_and_options(&parts, &options)?;
+    let address = Url::create_object_url_with_blob(&blob)?;
+    let link: HtmlAnchorElement = document.create_element("a")?.unchecked_into();
+    link.set_href(&address);
+    link.set_download(name);
+    link.click();
+
+    // The download begins after the click has been handled; its copy of the file is let go a little later.
+    let let_go = Closure::once_into_js(move || {
+        // It fails only for an address that is none.
+        let _ = Url::revoke_object_url(&address);
+    });
+    window.set_timeout_with_callback_and_timeout_and_arguments_0(let_go.unchecked_ref(), 10_000)?;
+    Ok(())
+}
+
+fn page() -> Result<(Window, Document), JsValue> {
+    let window = web_sys::window().ok_or("there is no page")?;
+    let document = window.document().ok_or("there is no page")?;
+    Ok((window, document))
+}

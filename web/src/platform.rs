@@ -1,0 +1,85 @@
+//! What a browser gives the app: the line to an engine in a Worker, the file dialog, dropped files, downloads.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::rc::Rc;
+
+use lumen::app::{Platform, PlatformEvent};
+use lumen::engine::Link;
+use wasm_bindgen_futures::spawn_local;
+
+use crate::files;
+use crate::link::WorkerLink;
+
+/// The extensions the file dialog offers.
+const ACCEPT: &str = ".stl,.ply,.obj,.glb,.gltf";
+
+/// The browser as a platform.
+pub(crate) struct Browser {
+    link: WorkerLink,
+    inbox: Rc<RefCell<VecDeque<PlatformEvent>>>,
+}
+
+impl Browser {
+    /// Starts the engine; `ctx` draws again whenever there is news.
+    pub(crate) fn new(ctx: &egui::Context) -> Self {
+        Self { link: WorkerLink::new(ctx.clone()), inbox: Rc::default() }
+    }
+
+    /// Where news is put, from wherever it comes.
+    fn news(&self, ctx: &egui::Context) -> impl Fn(PlatformEvent) + Clone + 'static {
+        let (inbox, ctx) = (Rc::clone(&self.inbox), ctx.clone());
+        move |event| {
+            inbox.borrow_mut().push_back(event);
+            ctx.request_repaint();
+        }
+    }
+}
+
+fn chosen((name, bytes): files::Chosen) -> PlatformEvent {
+    match bytes {
+        Ok(bytes) => PlatformEvent::Chosen { name, bytes },
+        Err(message) => PlatformEvent::Failed { message },
+    }
+}
+
+impl Platform for Browser {
+    fn link(&mut self) -> &mut dyn Link {
+        &mut self.link
+    }
+
+    fn choose_file(&mut self, ctx: &egui::Context) {
+        let news = self.news(ctx);
+        let tell = news.clone();
+        if files::open(ACCEPT, move |file| tell(chosen(file))).is_err() {
+            news(PlatformEvent::Failed { message: "The browser opened no file dialog.".to_owned() });
+        }
+    }
+
+    fn read_dropped(&mut self, file: egui::DroppedFileHandle, ctx: &egui::Context) {
+        let news = self.news(ctx);
+        spawn_local(async move {
+            let event = match file.web_file() {
+                Some(file) => chosen((file.name(), files::read(file).await)),
+                None => PlatformEvent::Failed { message: "What was dropped is no file.".to_owned() },
+            };
+            news(event);
+        });
+    }
+
+    fn offer_file(&mut self, name: &str, bytes: Vec<u8>, ctx: &egui::Context) {
+        let news = self.news(ctx);
+        match files::save(name, &bytes) {
+            Ok(()) => news(PlatformEvent::Saved { name: name.to_owned() }),
+            Err(_) => {
+                let message =
+                    format!("The browser has no memory left for the {:.0} MB of {name}.", bytes.len() as f64 / 1e6);
+                news(PlatformEvent::Failed { message });
+            }
+        }
+    }
+
+    fn poll(&mut self) -> Option<PlatformEvent> {
+        self.inbox.borrow_mut().pop_front()
+    }
+}

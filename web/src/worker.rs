@@ -1,0 +1,188 @@
+//! Work in a dedicated Worker: the page's end of the line and the Worker's.
+//!
+//! A Worker runs an instance of its own of the module the page has already compiled (`www/worker.js`). There is no
+//! shared memory. A message is a JSON header and any number of byte buffers: each buffer is copied once out of the
+//! sender's memory, transferred, and copied once into the receiver's.
+//!
+//! A Worker that dies (a panic, out of memory) says so to the page as an error event; [`WorkerLine::poll`] hands it on
+//! and [`WorkerLine::restart`] starts another.
+
+use std::cell::{Cell, RefCell};
+use std::collections::VecDeque;
+use std::rc::Rc;
+
+use js_sys::{Array, Object, Reflect, Uint8Array};
+use lumen::engine::wire::{Buffers, Encoded};
+use wasm_bindgen::prelude::*;
+use web_sys::{ErrorEvent, MessageEvent, Worker, WorkerOptions, WorkerType};
+
+/// A message as a script value, and the list of what is to be transferred rather than copied again.
+pub(crate) fn pack((header, buffers): &Encoded<'_>) -> (Array, Array) {
+    let values = Array::of1(&JsValue::from_str(header));
+    let transfer = Array::new();
+    for buffer in buffers {
+        let buffer = Uint8Array::from(*buffer).buffer();
+        values.push(&buffer);
+        transfer.push(&buffer);
+    }
+    (values, transfer)
+}
+
+/// A message that has arrived; its buffers are still outside this instance's memory.
+#[derive(Debug)]
+pub(crate) struct Received {
+    /// What it is, as a line of JSON.
+    pub(crate) header: String,
+    buffers: Vec<Uint8Array>,
+}
+
+impl Received {
+    /// The reverse of [`pack`]; `None` for anything else.
+    pub(crate) fn unpack(value: &JsValue) -> Option<Self> {
+        let values: &Array = value.dyn_ref()?;
+        let header = values.get(0).as_string()?;
+        let buffers = values.iter().skip(1).map(|buffer| Uint8Array::new(&buffer)).collect();
+        Some(Self { header, buffers })
+    }
+}
+
+impl Buffers for Received {
+    fn len(&self, index: usize) -> Option<usize> {
+        self.buffers.get(index).map(|buffer| buffer.length() as usize)
+    }
+
+    fn copy(&self, index: usize, target: &mut [u8]) {
+        self.buffers[index].copy_to(target);
+    }
+}
+
+/// What the page hears from a Worker.
+#[derive(Debug)]
+pub(crate) enum Heard {
+    /// It answers.
+    Message(Received),
+    /// It has died, and why, as far as the browser tells; nothing more comes until a restart.
+    Died(String),
+}
+
+/// The page's end of the line to one Worker. Dropped, it ends the Worker.
+pub(crate) struct WorkerLine {
+    job: &'static str,
+    inbox: Inbox,
+    worker: Worker,
+    _listeners: Listeners,
+}
+
+impl WorkerLine {
+    /// Starts a Worker on `job`; `wake` is called whenever [`poll`](Self::poll) has something new.
+    ///
+    /// # Errors
+    ///
+    /// What the browser answers when it makes no Worker. One that fails later is heard of through `poll`.
+    pub(crate) fn start(job: &'static str, wake: impl Fn() + 'static) -> Result<Self, JsValue> {
+        let inbox = Inbox { queue: Rc::default(), wake: Rc::new(wake) };
+        let (worker, listeners) = spawn(job, &inbox)?;
+        Ok(Self { job, inbox, worker, _listeners: listeners })
+    }
+
+    /// Sends a message.
+    ///
+    /// # Errors
+    ///
+    /// What the browser answers when there is no memory left for the copies.
+    pub(crate) fn send(&self, message: &Encoded<'_>) -> Result<(), JsValue> {
+        let (values, transfer) = pack(message);
+        self.worker.post_message_with_transfer(&values, &transfer)
+    }
+
+    /// The next thing heard, if there is one.
+    pub(crate) fn poll(&self) -> Option<Heard> {
+        self.inbox.queue.borrow_mut().pop_front()
+    }
+
+    /// Ends the Worker in the middle of whatever it does and starts another; what was under way is lost.
+    ///
+    /// # Errors
+    ///
+    /// As for [`start`](Self::start).
+    pub(crate) fn restart(&mut self) -> Result<(), JsValue> {
+        self.worker.terminate();
+        self.inbox.queue.borrow_mut().clear();
+        (self.worker, self._listeners) = spawn(self.job, &self.inbox)?;
+        Ok(())
+    }
+}
+
+impl Drop for WorkerLine {
+    fn drop(&mut self) {
+        self.worker.terminate();
+    }
+}
+
+#[derive(Clone)]
+struct Inbox {
+    queue: Rc<RefCell<VecDeque<Heard>>>,
+    wake: Rc<dyn Fn()>,
+}
+
+impl Inbox {
+    fn put(&self, heard: Heard) {
+        self.queue.borrow_mut().push_back(heard);
+        (self.wake)();
+    }
+}
+
+/// The closures a Worker calls; they live as long as it does.
+struct Listeners {
+    _message: Closure<dyn Fn(MessageEvent)>,
+    _error: Closure<dyn Fn(web_sys::Event)>,
+}
+
+fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
+    let options = WorkerOptions::new();
+    options.set_type(WorkerType::Module);
+    options.set_name(job);
+    let worker = Worker::new_with_options(&script_address()?, &options)?;
+
+    // A death is told once: a panic arrives as its own report and then as the trap that ends it.
+    let dead = Rc::new(Cell::new(false));
+    let message = Closure::<dyn Fn(MessageEvent)>::new({
+        let inbox = inbox.clone();
+        let dead = Rc::clone(&dead);
+        move |event: MessageEvent| {
+            if !dead.get() {
+                inbox.put(match Received::unpack(&event.data()) {
+                    Some(message) => Heard::Message(message),
+                    None => Heard::Died("The message could not be read.".to_owned()),
+                });
+            }
+        }
+    });
+    let error = Closure::<dyn Fn(web_sys::Event)>::new({
+        let inbox = inbox.clone();
+        move |event: web_sys::Event| {
+            event.prevent_default();
+            if !dead.replace(true) {
+                let why = event.dyn_ref::<ErrorEvent>().map(ErrorEvent::message);
+                inbox.put(Heard::Died(why.unwrap_or_else(|| "The Worker's script could not be loaded.".to_owned())));
+            }
+        }
+    });
+    worker.set_onmessage(Some(message.as_ref().unchecked_ref()));
+    worker.set_onerror(Some(error.as_ref().unchecked_ref()));
+
+    let first = Object::new();
+    Reflect::set(&first, &"module".into(), &wasm_bindgen::module())?;
+    Reflect::set(&first, &"job".into(), &job.into())?;
+    worker.post_message(&first)?;
+    Ok((worker, Listeners { _message: message, _error: error }))
+}
+
+/// The address of `worker.js` beside the page, with the version the page was stamped with, whatever path it is under.
+fn script_address() -> Result<String, JsValue> {
+    let document = web_sys::window().and_then(|window| window.document()).ok_or("there is no page")?;
+    let base = document.base_uri()?.ok_or("the page has no address")?;
+    let version = document.query_selector("meta[name=lumen-version]")?.and_then(|meta| meta.get_attribute("content"));
+    let script = version.map_or("worker.js".to_owned(), |version| format!("worker.js?v={version}"));
+    Ok(web_sys::Url::new_with_base(&script, &base)?.href())
+}

@@ -1,0 +1,106 @@
+// Loads the program: says what the browser lacks, downloads the module with its progress shown, starts it, and shows
+// the screen with the details when it stops. The program itself only sets data-state on <html> (web/src/page.rs).
+
+const root = document.documentElement;
+const query = import.meta.url.includes("?") ? import.meta.url.slice(import.meta.url.indexOf("?")) : "";
+const at = (name) => new URL(name + query, import.meta.url).href;
+
+// (module (func (result v128) i32.const 0 i8x16.splat)): valid only where there is WebAssembly SIMD.
+const SIMD_MODULE = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11,
+]);
+
+/** What the browser lacks, as a sentence, or null. */
+async function missing() {
+  if (typeof WebAssembly !== "object" || !WebAssembly.validate(SIMD_MODULE)) {
+    return "Lumen needs WebAssembly with SIMD, which this browser does not have or has switched off.";
+  }
+  if (document.createElement("canvas").getContext("webgl2")) return null;
+  if (await navigator.gpu?.requestAdapter().catch(() => null)) return null;
+  return "Lumen needs WebGL2 or WebGPU to draw, and this browser has neither. Hardware acceleration may be switched off in its settings.";
+}
+
+function showUnsupported(sentence) {
+  document.getElementById("unsupported-text").textContent = sentence;
+  root.dataset.state = "unsupported";
+}
+
+/** The first failure is the cause; the ones that follow from it are left out. */
+function showFailed(details) {
+  if (root.dataset.state === "failed" || root.dataset.state === "unsupported") return;
+  document.getElementById("failed-details").textContent = `${details}\n\n${navigator.userAgent}`;
+  root.dataset.state = "failed";
+  document.getElementById("failed-reload").focus();
+}
+
+function showProgress(bytes, total) {
+  const bar = document.getElementById("loading-bar");
+  const mb = (n) => (n / 1e6).toFixed(1);
+  let text = `${mb(bytes)} MB`;
+  if (total > 0) {
+    const fraction = Math.min(bytes / total, 1);
+    bar.value = fraction;
+    text = `${mb(bytes)} of ${mb(total)} MB, ${Math.floor(fraction * 100)} %`;
+  }
+  document.getElementById("loading-text").textContent = text;
+}
+
+/** Downloads and compiles at the same time; `total` is the module's size before any compression on the way. */
+async function fetchModule(url, total) {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${response.status} ${response.statusText} (${url})`);
+  let bytes = 0;
+  showProgress(0, total);
+  const counted = response.body.pipeThrough(
+    new TransformStream({
+      transform(chunk, controller) {
+        bytes += chunk.byteLength;
+        showProgress(bytes, total);
+        controller.enqueue(chunk);
+      },
+    }),
+  );
+  const headers = { "Content-Type": "application/wasm" };
+  return WebAssembly.compileStreaming(new Response(counted, { headers }));
+}
+
+async function start() {
+  const sentence = await missing();
+  if (sentence) return showUnsupported(sentence);
+
+  const total = Number(document.querySelector('meta[name="lumen-module-bytes"]')?.content ?? 0);
+  let glue, module;
+  try {
+    [glue, module] = await Promise.all([import(at("lumen-web.js")), fetchModule(at("lumen-web_bg.wasm"), total)]);
+  } catch (error) {
+    return showFailed(`The program could not be downloaded: ${error.message}`);
+  }
+  document.getElementById("loading-text").textContent = "Starting";
+  await glue.default({ module_or_path: module });
+}
+
+async function copyDetails() {
+  const details = document.getElementById("failed-details");
+  let said = "Copied.";
+  try {
+    await navigator.clipboard.writeText(details.textContent);
+  } catch {
+    getSelection().selectAllChildren(details);
+    said = "The browser does not allow it here: the text is selected, copy it with Ctrl+C.";
+  }
+  document.getElementById("failed-copied").textContent = said;
+}
+
+document.getElementById("failed-reload").addEventListener("click", () => location.reload());
+document.getElementById("failed-copy").addEventListener("click", copyDetails);
+
+// The program reports a panic as an error of that name, and ends in a trap. Other errors do not end it.
+addEventListener("error", ({ error, message }) => {
+  if (error?.name === "Panic" || error instanceof WebAssembly.RuntimeError) showFailed(error.stack ?? message);
+});
+
+// A drop beside the canvas must not make the browser leave the page for the file.
+addEventListener("dragover", (event) => event.preventDefault());
+addEventListener("drop", (event) => event.preventDefault());
+
+start().catch((error) => showFailed(error?.stack ?? String(error)));

@@ -1,0 +1,161 @@
+//! `cargo xtask test`: every test, and at the end how many passed.
+
+use std::io::{BufRead as _, BufReader};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context as _, Result, bail};
+use clap::ValueEnum;
+
+use crate::step::{cargo, name, root, step};
+use crate::{build, tools};
+
+/// A part of the tests.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Suite {
+    /// Library, command line and window, as `cargo test` runs them.
+    Native,
+    /// The built app in headless Chromium.
+    Browser,
+}
+
+/// Counts of one run.
+#[derive(Clone, Copy, Default)]
+struct Counts {
+    passed: u64,
+    failed: u64,
+    ignored: u64,
+}
+
+/// Runs the suites named in `only`, or all of them, and fails if a test fails.
+pub(crate) fn test(only: &[Suite]) -> Result<()> {
+    let wanted = |suite| only.is_empty() || only.contains(&suite);
+    let mut total = Counts::default();
+    let mut sound = true;
+    let mut add = |(counts, ended_well): (Counts, bool)| {
+        total.passed += counts.passed;
+        total.failed += counts.failed;
+        total.ignored += counts.ignored;
+        sound &= ended_well;
+    };
+    if wanted(Suite::Native) {
+        add(native()?);
+    }
+    if wanted(Suite::Browser) {
+        add(browser()?);
+    }
+    println!("{} passed, {} failed, {} ignored", total.passed, total.failed, total.ignored);
+    if total.failed > 0 || !sound {
+        bail!("not every test passed");
+    }
+    Ok(())
+}
+
+fn native() -> Result<(Counts, bool)> {
+    tools::vulkan()?;
+    let display = tools::display()?;
+    let cargo = cargo();
+    let mut command = match &display {
+        Some(xvfb_run) => {
+            let mut command = Command::new(xvfb_run);
+            command.args(["--auto-servernum", "--server-args=-screen 0 1280x800x24"]).arg(cargo.get_program());
+            command
+        }
+        None => cargo,
+    };
+    command.args(["test", "--workspace", "--no-fail-fast"]);
+    step("Run the native tests", || count(&mut command, cargo_counts))
+}
+
+/// "test result: ok. 12 passed; 0 failed; 1 ignored; ..."
+fn cargo_counts(line: &str, counts: &mut Counts) {
+    let Some((_, figures)) = line.strip_prefix("test result: ").and_then(|rest| rest.split_once(". ")) else { return };
+    for figure in figures.split("; ") {
+        let Some((number, what)) = figure.split_once(' ') else { continue };
+        let Ok(number) = number.parse::<u64>() else { continue };
+        match what {
+            "passed" => counts.passed += number,
+            "failed" => counts.failed += number,
+            "ignored" => counts.ignored += number,
+            _ => {}
+        }
+    }
+}
+
+fn browser() -> Result<(Counts, bool)> {
+    let npm = tools::npm()?;
+    let chromium = tools::chromium()?;
+    let dist = build::build()?;
+    let mut files: Vec<_> = std::fs::read_dir(root().join("tests/browser"))?
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.to_string_lossy().ends_with(".test.mjs"))
+        .collect();
+    files.sort();
+    // In the profile and with the features of the native tests, so that it is there once they have run.
+    step("Compile the command line the browser is compared with", || {
+        crate::step::run(cargo().args(["build", "--quiet", "--workspace", "--bin=lumen"]))
+    })?;
+    let mut command = Command::new("node");
+    command
+        // One at a time: they measure times, and the browser draws on the processor.
+        .args(["--test", "--test-concurrency=1", "--test-reporter=spec"])
+        .args(files)
+        .env("CHROMIUM", chromium)
+        .env("LUMEN_DIST", dist)
+        .env("LUMEN_NPM", npm)
+        .env(
+            "LUMEN_PROGRAM",
+            crate::step::target().join("debug").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
+        );
+    step("Run the browser tests", || count(&mut command, node_counts))
+}
+
+/// "ℹ pass 5"
+fn node_counts(line: &str, counts: &mut Counts) {
+    let mut words = line.trim_start_matches(|letter: char| !letter.is_ascii_alphabetic()).split(' ');
+    let (Some(what), Some(Ok(number)), None) = (words.next(), words.next().map(str::parse::<u64>), words.next()) else {
+        return;
+    };
+    match what {
+        "pass" => counts.passed += number,
+        "fail" | "cancelled" => counts.failed += number,
+        "skipped" | "todo" => counts.ignored += number,
+        _ => {}
+    }
+}
+
+/// Runs a test runner with its output shown and read; whether it ended well is told beside the counts.
+fn count(command: &mut Command, read: fn(&str, &mut Counts)) -> Result<(Counts, bool)> {
+    let mut runner = command
+        .current_dir(root())
+        .stdout(Stdio::piped())
+        .spawn()
+        .with_context(|| format!("{} did not start", name(command)))?;
+    let mut counts = Counts::default();
+    if let Some(output) = runner.stdout.take() {
+        for line in BufReader::new(output).lines() {
+            let line = line.context("what a test runner prints is no text")?;
+            println!("{line}");
+            read(&line, &mut counts);
+        }
+    }
+    Ok((counts, runner.wait()?.success()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn summaries_are_read() {
+        let mut counts = Counts::default();
+        cargo_counts(
+            "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.1s",
+            &mut counts,
+        );
+        cargo_counts("test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out", &mut counts);
+        node_counts("ℹ pass 5", &mut counts);
+        node_counts("ℹ fail 1", &mut counts);
+        node_counts("    pass the file to the chooser", &mut counts);
+        assert_eq!((counts.passed, counts.failed, counts.ignored), (20, 3, 1));
+    }
+}

@@ -1,0 +1,145 @@
+//! What has to be there and how it is got: each function finds a tool or installs it.
+//!
+//! Trunk and wasm-bindgen are built once into `target/tools`, wasm-opt and playwright-core come from npm into
+//! `target/npm` (their versions are in `xtask/npm`), the browser and a display for it from apt.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context as _, Result, bail};
+
+use crate::step::{cargo, on_path, output, root, run, step, target};
+
+/// Newer ones need a newer Rust than rust-toolchain.toml names.
+const TRUNK: &str = "0.21.14";
+
+/// The wasm target of the toolchain in use.
+pub(crate) fn wasm_target() -> Result<()> {
+    const TARGET: &str = "wasm32-unknown-unknown";
+    let libraries = output(Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]));
+    if libraries.is_some_and(|dir| Path::new(&dir).is_dir()) {
+        return Ok(());
+    }
+    step("Install the wasm target", || {
+        run(Command::new("rustup").args(["target", "add", TARGET])).context(
+            "where no wasm target can be downloaded, Debian's packages rustc-web, cargo-web, rust-web-src and lld-22 \
+             build it from source: RUSTC_BOOTSTRAP=1 RUSTC=/usr/bin/rustc /usr/bin/cargo build \
+             -Z build-std=std,panic_abort --target wasm32-unknown-unknown, with -C linker=rust-lld",
+        )
+    })
+}
+
+/// The folder with `trunk` and `wasm-bindgen`.
+pub(crate) fn wasm_tools() -> Result<PathBuf> {
+    let tools = target().join("tools");
+    let bin = tools.join("bin");
+    let bindgen = locked_version("wasm-bindgen")?;
+    if !is_version(&bin.join("trunk"), TRUNK) {
+        step(&format!("Install Trunk {TRUNK} (some minutes, once)"), || {
+            // Without --locked one of its dependencies does not compile.
+            let version = format!("trunk@{TRUNK}");
+            run(cargo().args(["install", "--quiet", "--locked", "--root"]).arg(&tools).arg(version))
+        })?;
+    }
+    if !is_version(&bin.join("wasm-bindgen"), &bindgen) {
+        step(&format!("Install wasm-bindgen {bindgen} (a minute or two, once)"), || {
+            let version = format!("wasm-bindgen-cli@{bindgen}");
+            run(cargo().args(["install", "--quiet", "--root"]).arg(&tools).arg(version))
+        })?;
+    }
+    Ok(bin)
+}
+
+fn is_version(program: &Path, version: &str) -> bool {
+    output(Command::new(program).arg("--version")).is_some_and(|line| line.split_whitespace().nth(1) == Some(version))
+}
+
+/// The version of a package in Cargo.lock.
+fn locked_version(package: &str) -> Result<String> {
+    let lock = std::fs::read_to_string(root().join("Cargo.lock")).context("Cargo.lock cannot be read")?;
+    let mut lines = lock.lines();
+    let name = format!("name = \"{package}\"");
+    lines.find(|line| *line == name).with_context(|| format!("Cargo.lock has no {package}"))?;
+    let version = lines.next().and_then(|line| line.strip_prefix("version = \"")?.strip_suffix('"'));
+    version.map(str::to_owned).with_context(|| format!("Cargo.lock has no version of {package}"))
+}
+
+/// The folder with `node_modules`, as `xtask/npm` asks.
+pub(crate) fn npm() -> Result<PathBuf> {
+    let folder = target().join("npm");
+    let asked = root().join("xtask/npm");
+    let same = |name: &str| std::fs::read(folder.join(name)).ok() == std::fs::read(asked.join(name)).ok();
+    // npm writes this file last.
+    let done = folder.join("node_modules/.package-lock.json").is_file();
+    if done && same("package.json") && same("package-lock.json") {
+        return Ok(folder);
+    }
+    if on_path(&["npm", "npm.cmd"]).is_none() {
+        bail!("npm is missing: install Node.js 20 or newer");
+    }
+    step("Install wasm-opt and playwright-core from npm", || {
+        std::fs::create_dir_all(&folder)?;
+        for name in ["package.json", "package-lock.json"] {
+            std::fs::copy(asked.join(name), folder.join(name))?;
+        }
+        let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
+        run(Command::new(npm).args(["ci", "--silent", "--no-audit", "--no-fund", "--prefix"]).arg(&folder))
+    })?;
+    Ok(folder)
+}
+
+/// The browser the tests drive: the environment's `CHROMIUM`, else the one on the PATH, else apt's.
+pub(crate) fn chromium() -> Result<PathBuf> {
+    if let Some(named) = std::env::var_os("CHROMIUM") {
+        return Ok(named.into());
+    }
+    const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+    if let Some(found) = on_path(&NAMES) {
+        return Ok(found);
+    }
+    apt("Chromium", "chromium", "name one in the environment variable CHROMIUM")?;
+    on_path(&NAMES).context("apt installed chromium, but it is not on the PATH")
+}
+
+/// What a window needs on a machine without a display: `None` where there is a display.
+pub(crate) fn display() -> Result<Option<PathBuf>> {
+    let has_display = ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some());
+    if has_display || !cfg!(target_os = "linux") {
+        return Ok(None);
+    }
+    if let Some(found) = on_path(&["xvfb-run"]) {
+        return Ok(Some(found));
+    }
+    apt("Xvfb", "xvfb", "run the tests where there is a display")?;
+    on_path(&["xvfb-run"]).context("apt installed xvfb, but xvfb-run is not on the PATH").map(Some)
+}
+
+/// A Vulkan driver for the native views: the machine's own, else Mesa's, which needs no graphics card.
+pub(crate) fn vulkan() -> Result<()> {
+    const DRIVERS: [&str; 2] = ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
+    let found = DRIVERS.iter().any(|dir| std::fs::read_dir(dir).is_ok_and(|mut drivers| drivers.next().is_some()));
+    if found || std::env::var_os("VK_ICD_FILENAMES").is_some() || !cfg!(target_os = "linux") {
+        return Ok(());
+    }
+    apt("A Vulkan driver", "mesa-vulkan-drivers", "install the driver of your graphics card")
+}
+
+/// Installs a Debian package where that is allowed, else says in one line what is missing and how to get it.
+fn apt(what: &str, package: &str, instead: &str) -> Result<()> {
+    let is_root = output(Command::new("id").arg("-u")).as_deref() == Some("0");
+    let may_sudo = !is_root && output(Command::new("sudo").args(["-n", "true"])).is_some();
+    if on_path(&["apt-get"]).is_none() || !(is_root || may_sudo) {
+        bail!("{what} is missing: sudo apt-get install {package} (Debian, Ubuntu), or {instead}");
+    }
+    let apt_get = |arguments: &[&str]| {
+        let mut command = Command::new(if is_root { "apt-get" } else { "sudo" });
+        if may_sudo {
+            command.args(["-n", "DEBIAN_FRONTEND=noninteractive", "apt-get"]);
+        }
+        run(command.env("DEBIAN_FRONTEND", "noninteractive").args(["-qq", "-o", "Dpkg::Use-Pty=0"]).args(arguments))
+    };
+    step(&format!("Install {package} with apt"), || {
+        apt_get(&["update"])?;
+        apt_get(&["install", "--yes", "--no-install-recommends", package])
+    })
+}
