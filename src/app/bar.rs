@@ -129,6 +129,9 @@ pub(super) fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: b
             let response = ui.add(bar);
             name(&response, Role::ProgressIndicator, "Progress");
             ui.label(format!("{} {:.0} %", work.label(), fraction * 100.0));
+            if let Some(name) = state.opening().filter(|_| !is_narrow) {
+                ui.add(egui::Label::new(RichText::new(name).weak()).truncate());
+            }
             if ui.button("Cancel").on_hover_text("Esc").clicked() {
                 action = Some(Action::Cancel);
             }

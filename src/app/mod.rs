@@ -44,8 +44,8 @@ pub struct LumenApp {
     views: Views,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
-    /// The views fit the surface when they are next shown: their shape is known by then.
-    fit_next: bool,
+    /// The views find a new surface when they are next shown: their shape is known by then.
+    look_next: bool,
 }
 
 impl LumenApp {
@@ -58,7 +58,7 @@ impl LumenApp {
         theme::apply(ctx);
         let mut state = State::default();
         state.open_sample(Sample::Aorta, platform.link());
-        Self { state, views: Views::new(render_state), platform, sheet: None, fit_next: false }
+        Self { state, views: Views::new(render_state), platform, sheet: None, look_next: false }
     }
 
     /// What the app knows.
@@ -76,7 +76,7 @@ impl LumenApp {
         }
         while let Some(event) = self.platform.link().poll() {
             match self.state.receive(event) {
-                Some(Effect::Opened) => {}
+                Some(Effect::Opened) => self.look_next = true,
                 Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
                 None => {}
             }
@@ -140,9 +140,8 @@ impl LumenApp {
             .frame(Frame::new().fill(ui.visuals().widgets.noninteractive.bg_stroke.color))
             .show(ui, |ui| {
                 let document = self.state.document.as_ref();
-                if self.fit_next && document.is_some_and(|document| !document.pieces.list.is_empty()) {
-                    self.views.fit(document, keep);
-                    self.fit_next = false;
+                if std::mem::take(&mut self.look_next) {
+                    self.views.look_first(document, keep);
                 }
                 self.views.show(ui, document, keep, is_narrow)
             });
@@ -161,11 +160,7 @@ fn toggled(open: Option<Sheet>, sheet: Sheet) -> Option<Sheet> {
 impl eframe::App for LumenApp {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
-        let opened = self.state.document.as_ref().map(|document| document.revision.document);
         self.listen(&ctx);
-        if opened != self.state.document.as_ref().map(|document| document.revision.document) {
-            self.fit_next = true;
-        }
         let held = keys::before_is_held(ui) || self.views.before_is_held || self.views.before_is_on;
         self.views.show_before = held;
         let by_key = if self.sheet.is_none() { keys::action(ui, &mut self.views, self.state.is_busy()) } else { None };

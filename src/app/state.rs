@@ -26,8 +26,8 @@ pub struct State {
     pub history: History<Settings>,
     /// The surface that is open.
     pub document: Option<Document>,
-    /// A surface that is being read.
-    opening: Option<(u64, Source)>,
+    /// A surface that is on its way in; the one that is open stays until this one has something to show.
+    opening: Option<Opening>,
     /// What the engine is doing, and the part that is done, 0 to 1.
     pub work: Option<(Work, f32)>,
     /// The last thing that the user should know.
@@ -38,6 +38,14 @@ pub struct State {
     next_id: u64,
     /// Times in a row that the engine has stopped by itself.
     failures: u32,
+}
+
+/// A surface on its way in.
+struct Opening {
+    id: u64,
+    source: Source,
+    /// What is known of it, once it is read.
+    document: Option<Document>,
 }
 
 /// How often the engine may stop in a row before the app leaves it alone.
@@ -92,9 +100,14 @@ impl State {
         self.next_id += 1;
         let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
         link.send(Command::Open { id: self.next_id, source: source.clone(), settings });
-        self.opening = Some((self.next_id, source));
+        self.opening = Some(Opening { id: self.next_id, source, document: None });
         self.work = Some((Work::Reading, 0.0));
         self.notice = None;
+    }
+
+    /// The name of the surface that is on its way in.
+    pub fn opening(&self) -> Option<&str> {
+        self.opening.as_ref().map(|opening| opening.source.name())
     }
 
     /// Whether the engine is at work.
@@ -109,8 +122,9 @@ impl State {
 
     /// Stops what the engine does and goes back to the last result.
     pub fn cancel(&mut self, link: &mut dyn Link) {
-        if self.opening.take().is_some() {
+        if self.opening.as_ref().is_some_and(|opening| opening.document.is_none()) {
             // Reading is one piece: only another engine can be told now. It takes up the surface that is shown.
+            self.opening = None;
             self.reopen(link);
             self.tell("Opening was cancelled; what was open still is.");
         } else {
@@ -167,24 +181,25 @@ impl State {
         if self.settings == self.sent {
             return;
         }
-        let Some(document) = &mut self.document else {
-            self.sent = self.settings.clone();
-            return;
-        };
-        if self.settings.target != self.sent.target {
+        if let Some(document) = self.document.as_mut().filter(|_| self.settings.target != self.sent.target) {
             document.show(self.settings.target);
         }
+        let mut settings = self.settings.clone();
+        if self.opening.is_some() {
+            // The pieces are those of the surface that is shown, not of the one that is coming.
+            settings.keep = Keep::Largest;
+        }
         self.generation += 1;
-        link.send(Command::Set { generation: self.generation, settings: self.settings.clone() });
+        link.send(Command::Set { generation: self.generation, settings });
         self.sent = self.settings.clone();
     }
 
     /// Hears what the engine has to say. Events that belong to a surface which was given up are passed over.
     pub fn receive(&mut self, event: Event) -> Option<Effect> {
         match event {
-            Event::Opened(opened) => return self.receive_opened(*opened),
+            Event::Opened(opened) => self.receive_opened(*opened),
             Event::OpenFailed { id, name, message } => {
-                if self.opening.as_ref().is_some_and(|(waiting, _)| *waiting == id) {
+                if self.opening.as_ref().is_some_and(|opening| opening.id == id) {
                     self.opening = None;
                     self.work = None;
                     let kept = if self.document.is_some() { " What was open still is." } else { "" };
@@ -192,16 +207,18 @@ impl State {
                 }
             }
             Event::Pieces { labels, components } => {
-                if let Some(document) = &mut self.document {
+                if let Some(document) = self.worked_on() {
                     document.set_pieces(labels, components);
                 }
             }
             Event::Progress { work, fraction } => self.work = Some((work, fraction)),
             Event::Reduced(reduced) => {
                 let target = self.settings.target;
+                let arrived = self.arrive();
                 if let Some(document) = &mut self.document {
                     document.set_levels(*reduced, target);
                 }
+                return arrived;
             }
             Event::Measured { generation, complete, report, deviation } => {
                 if complete {
@@ -212,18 +229,7 @@ impl State {
                     document.set_measured(Measured { generation, report: *report, deviation });
                 }
             }
-            Event::Cancelled { settings } => {
-                self.work = None;
-                if settings != self.settings {
-                    self.tell("Cancelled; the last result stands.");
-                }
-                if let Some(document) = &mut self.document {
-                    document.show(settings.target);
-                }
-                self.settings = settings.clone();
-                self.history.replace(&settings);
-                self.sent = settings;
-            }
+            Event::Cancelled { settings } => self.receive_cancelled(settings),
             Event::Written { name, bytes } => return Some(Effect::Offer { name, bytes }),
             Event::Failed { message } => {
                 self.work = None;
@@ -233,22 +239,47 @@ impl State {
         None
     }
 
-    fn receive_opened(&mut self, opened: crate::engine::Opened) -> Option<Effect> {
-        match self.opening.take() {
-            Some((id, source)) if id == opened.id => {
-                self.settings.keep = Keep::Largest;
-                self.history.replace(&self.settings);
-                self.sent = self.settings.clone();
-                self.notice = opened.report.warnings.first().map(|text| Notice { text: text.clone(), is_error: false });
-                self.document = Some(Document::new(source, opened));
-                Some(Effect::Opened)
-            }
-            // The surface that is shown was read again by a new engine.
-            other => {
-                self.opening = other;
-                None
-            }
+    /// The surface that the engine works on.
+    fn worked_on(&mut self) -> Option<&mut Document> {
+        match &mut self.opening {
+            Some(Opening { document: Some(document), .. }) => Some(document),
+            _ => self.document.as_mut(),
         }
+    }
+
+    fn receive_opened(&mut self, opened: crate::engine::Opened) {
+        // Others were read again by a new engine, and are shown already.
+        if let Some(opening) = self.opening.as_mut().filter(|opening| opening.id == opened.id) {
+            opening.document = Some(Document::new(opening.source.clone(), opened));
+        }
+    }
+
+    /// The surface that was on its way in takes the place of the one that is open.
+    fn arrive(&mut self) -> Option<Effect> {
+        let opening = self.opening.take_if(|opening| opening.document.is_some())?;
+        let document = opening.document?;
+        self.settings.keep = Keep::Largest;
+        self.sent.keep = Keep::Largest;
+        self.history.replace(&self.settings);
+        let warning = document.import.warnings.first();
+        self.notice = warning.map(|text| Notice { text: text.clone(), is_error: false });
+        self.document = Some(document);
+        Some(Effect::Opened)
+    }
+
+    fn receive_cancelled(&mut self, settings: Settings) {
+        self.work = None;
+        if self.opening.take().is_some() {
+            self.tell("Opening was cancelled; what was open still is.");
+        } else if settings != self.settings {
+            self.tell("Cancelled; the last result stands.");
+        }
+        if let Some(document) = &mut self.document {
+            document.show(settings.target);
+        }
+        self.settings = settings.clone();
+        self.history.replace(&settings);
+        self.sent = settings;
     }
 
     /// Hears that the engine has stopped by itself.
@@ -263,7 +294,9 @@ impl State {
         }
         self.reopen(link);
         let text = match opening {
-            Some((_, source)) => format!("{} could not be read: the computation stopped ({reason}).", source.name()),
+            Some(opening) => {
+                format!("{} could not be opened: the computation stopped ({reason}).", opening.source.name())
+            }
             None => format!("The computation stopped ({reason}) and was started again. Nothing was lost."),
         };
         self.warn(&text);

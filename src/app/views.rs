@@ -69,6 +69,13 @@ impl Views {
         }
     }
 
+    /// Looks at a new surface: from the front, unless it lies on its back, as some scans are stored.
+    pub fn look_first(&mut self, document: Option<&Document>, keep: Keep) {
+        let size = document.map_or(glam::Vec3::ZERO, |document| document.bounds(keep).size());
+        let lies = size.y > size.z && size.y > size.x;
+        self.look_from(if lies { StandardView::Superior } else { StandardView::Anterior }, document, keep);
+    }
+
     /// Looks from a side.
     pub fn look_from(&mut self, view: StandardView, document: Option<&Document>, keep: Keep) {
         self.camera.standard_view(view);

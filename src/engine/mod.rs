@@ -40,6 +40,8 @@ pub struct Engine {
     /// A file to be opened, with the settings to begin with.
     opening: Option<(u64, Source, Settings)>,
     current: Option<Current>,
+    /// What was open before, until the present surface has its first result: a cancel goes back to it.
+    fallback: Option<Current>,
     writing: Vec<(String, io::Format, crate::mesh::TriMesh)>,
     events: VecDeque<Event>,
 }
@@ -76,14 +78,18 @@ impl Engine {
         }
     }
 
+    /// Goes back to the last result: of this surface, or else of the one that was open before.
     fn cancel(&mut self) {
         self.opening = None;
         if let Some(current) = &mut self.current {
             current.waiting = None;
             current.pipeline.cancel();
-            let settings = current.pipeline.settings().clone();
-            self.events.push_back(Event::Cancelled { settings });
+            if current.pipeline.reduced().is_none() {
+                self.current = self.fallback.take();
+            }
         }
+        let settings = self.current.as_ref().map(|current| current.pipeline.settings().clone());
+        self.events.push_back(Event::Cancelled { settings: settings.unwrap_or_default() });
     }
 
     /// Works for about `slice` and says whether there is more to do. Reading a file is one piece and may take
@@ -98,11 +104,16 @@ impl Engine {
             loop {
                 match current.advance(budget, &mut self.events) {
                     Ok(true) if !budget.is_spent() => {}
-                    Ok(more) => return more || !self.writing.is_empty(),
+                    Ok(more) => {
+                        if current.pipeline.reduced().is_some() {
+                            self.fallback = None;
+                        }
+                        return more || !self.writing.is_empty();
+                    }
                     Err(message) => {
-                        current.pipeline.cancel();
                         self.events.push_back(Event::Failed { message });
-                        return false;
+                        self.cancel();
+                        return self.current.is_some();
                     }
                 }
             }
@@ -137,8 +148,11 @@ impl Engine {
                 }
                 let read_ms = start.elapsed().as_secs_f64() * 1e3;
                 let since = Instant::now();
-                self.current =
-                    Some(Current { name: name.clone(), pipeline, read_ms, generation: 0, waiting: None, since });
+                let new = Current { name: name.clone(), pipeline, read_ms, generation: 0, waiting: None, since };
+                let old = self.current.replace(new);
+                if let Some(old) = old.filter(|old| old.pipeline.has_result()) {
+                    self.fallback = Some(old);
+                }
                 self.events.push_back(Event::Opened(Box::new(Opened { id, name, report, mesh })));
             }
             Err(message) => self.events.push_back(Event::OpenFailed { id, name, message }),

@@ -251,6 +251,11 @@ impl Pipeline {
         }
     }
 
+    /// Whether there is a level to show, or to go back to.
+    pub fn has_result(&self) -> bool {
+        self.now.reduced.is_some() || self.last.is_some()
+    }
+
     /// Works until `budget` is spent or a stage is finished.
     ///
     /// # Errors

@@ -43,7 +43,7 @@ pub(crate) fn test(only: &[Suite]) -> Result<()> {
     if wanted(Suite::Browser) {
         add(browser()?);
     }
-    println!("{} passed, {} failed, {} ignored", total.passed, total.failed, total.ignored);
+    println!("{} passed, {} failed, {} skipped", total.passed, total.failed, total.ignored);
     if total.failed > 0 || !sound {
         bail!("not every test passed");
     }
