@@ -176,6 +176,8 @@ pub struct Pipeline {
     opened: Arc<TriMesh>,
     samples: usize,
     connectivity: Option<Connectivity>,
+    /// The pieces that go on, before they are measured.
+    adjacent: Option<(Arc<TriMesh>, Topology)>,
     now: Results,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
@@ -186,7 +188,15 @@ impl Pipeline {
     /// A pipeline for an opened surface. Triangles must not repeat a vertex (`io` sees to that).
     pub fn new(opened: Arc<TriMesh>, settings: Settings) -> Self {
         let now = Results { settings, ..Results::default() };
-        Self { opened, samples: INTERACTIVE_SAMPLES, connectivity: None, now, last: None, running: None }
+        Self {
+            opened,
+            samples: INTERACTIVE_SAMPLES,
+            connectivity: None,
+            adjacent: None,
+            now,
+            last: None,
+            running: None,
+        }
     }
 
     /// Sets the number of samples of each surface that the deviation takes.
@@ -217,6 +227,7 @@ impl Pipeline {
         let decimation = smoothing || old.decimation != new.decimation;
         let level = decimation || old.target != new.target;
         if keep {
+            self.adjacent = None;
             self.now.kept = None;
             self.now.indices[1] = None;
         }
@@ -246,6 +257,7 @@ impl Pipeline {
     /// Stops what is under way and goes back to the last settings that reached a level, with their results.
     pub fn cancel(&mut self) {
         self.running = None;
+        self.adjacent = None;
         if let (None, Some(last)) = (&self.now.reduced, self.last.take()) {
             self.now = last;
         }
@@ -299,7 +311,11 @@ impl Pipeline {
 
     fn work(&mut self, stage: Stage, budget: Budget) -> Result<Advance, SettingsError> {
         match stage {
-            Stage::Connectivity => self.connect()?,
+            Stage::Connectivity => {
+                if let Some(fraction) = self.connect()? {
+                    return Ok(Advance::Working(stage, fraction));
+                }
+            }
             Stage::Level | Stage::Normals => self.take_level(),
             Stage::Smoothing if self.now.settings.smoothing.iterations == 0 => self.skip_smoothing(),
             Stage::Smoothing | Stage::Decimation | Stage::Deviation => {
@@ -314,14 +330,21 @@ impl Pipeline {
         Ok(Advance::Finished(stage))
     }
 
-    fn connect(&mut self) -> Result<(), SettingsError> {
-        let opened = &self.opened;
-        let found = self.connectivity.get_or_insert_with(|| Connectivity::of(opened));
-        let mesh = Arc::new(found.kept(opened, self.now.settings.keep)?);
-        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    /// One of the three parts of the first stage; `None` when it was the last.
+    fn connect(&mut self) -> Result<Option<f32>, SettingsError> {
+        let Some(found) = &self.connectivity else {
+            self.connectivity = Some(Connectivity::of(&self.opened));
+            return Ok(Some(0.3));
+        };
+        let Some((mesh, topology)) = self.adjacent.take() else {
+            let mesh = Arc::new(found.kept(&self.opened, self.now.settings.keep)?);
+            let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+            self.adjacent = Some((mesh, topology));
+            return Ok(Some(0.8));
+        };
         let measures = measures(&mesh, &topology);
         self.now.kept = Some(Arc::new(Surface { mesh, topology, measures }));
-        Ok(())
+        Ok(None)
     }
 
     fn skip_smoothing(&mut self) {

@@ -79,7 +79,10 @@ pub struct DecimationTask<M> {
     /// Distance in mm that a vertex's surroundings have lost already.
     inherited: Vec<f32>,
     strictness: usize,
-    /// Vertices judged at the start of the run so far.
+    /// Cosine of the feature angle.
+    crease: f64,
+    /// Triangles whose feature edges are found, and vertices that are judged, at the start of the run so far.
+    creased: u32,
     begun: u32,
     collapses: Vec<[u32; 2]>,
     errors: Vec<f32>,
@@ -106,7 +109,7 @@ enum State {
 impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     /// Starts decimating `mesh`, whose topology is `topology`.
     pub fn new(mesh: M, topology: &Topology, settings: &Decimation) -> Self {
-        let surface = Surface::new(&mesh, topology, settings.feature_angle);
+        let surface = Surface::new(&mesh, topology);
         let count = mesh.positions.len();
         Self {
             triangle_ends: vec![NEVER; mesh.triangles.len()],
@@ -117,6 +120,8 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
             state: vec![State::Gone; count],
             inherited: vec![0.0; count],
             strictness: 0,
+            crease: libm::cos(settings.feature_angle.to_radians()),
+            creased: 0,
             begun: 0,
             collapses: Vec::with_capacity(count),
             errors: Vec::with_capacity(count),
@@ -328,7 +333,10 @@ impl<M: Deref<Target = TriMesh>> Task for DecimationTask<M> {
         let count = self.surface.vertex_count() as u32;
         loop {
             for _ in 0..CHUNK {
-                if self.begun < count {
+                if (self.creased as usize) < self.surface.triangles.len() {
+                    self.surface.find_creases(self.creased, self.crease);
+                    self.creased += 1;
+                } else if self.begun < count {
                     if !self.surface.fan(self.begun).is_empty() {
                         self.enqueue(self.begun);
                     }

@@ -52,37 +52,32 @@ impl Ring {
 }
 
 impl Surface {
-    /// Takes over `mesh`; edges of two triangles whose normals differ by more than `feature_angle` degrees become
-    /// feature edges.
-    pub(super) fn new(mesh: &TriMesh, topology: &Topology, feature_angle: f64) -> Self {
+    /// Takes over `mesh`, as yet without feature edges.
+    pub(super) fn new(mesh: &TriMesh, topology: &Topology) -> Self {
         let centre = mesh.bounds().centre();
         let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| p - centre).collect();
         let mut fans = Vec::with_capacity(mesh.triangles.len() * 6);
-        let (mut starts, mut lengths) = (Vec::new(), Vec::new());
+        let (mut starts, mut lengths) = (Vec::with_capacity(positions.len()), Vec::with_capacity(positions.len()));
         for v in 0..mesh.positions.len() as u32 {
             starts.push(fans.len() as u32);
             lengths.push(topology.triangles(v).len() as u32);
             fans.extend_from_slice(topology.triangles(v));
         }
         let creases = vec![0; mesh.triangles.len()];
-        let mut surface = Self { positions, triangles: mesh.triangles.clone(), creases, fans, starts, lengths };
-        surface.find_creases(feature_angle);
-        surface
+        Self { positions, triangles: mesh.triangles.clone(), creases, fans, starts, lengths }
     }
 
-    fn find_creases(&mut self, feature_angle: f64) {
-        let limit = libm::cos(feature_angle.to_radians());
-        for t in 0..self.triangles.len() {
-            for corner in 0..3 {
-                let (from, to) = (self.triangles[t][corner], self.triangles[t][(corner + 1) % 3]);
-                let Some(twin) = self.triangle_with_edge(to, from) else { continue };
-                if twin as usize > t {
-                    let (n, m) = (self.normal(t as u32), self.normal(twin));
-                    if n.dot(m) < limit * (n.length_squared() * m.length_squared()).sqrt() {
-                        self.set_crease(t as u32, from, to);
-                        self.set_crease(twin, from, to);
-                    }
-                }
+    /// Makes feature edges of those edges of triangle `t` on which its normal and that of the one other triangle have
+    /// a cosine below `limit`. To be called for every triangle before the first collapse.
+    pub(super) fn find_creases(&mut self, t: u32, limit: f64) {
+        let corners = self.triangles[t as usize];
+        for i in 0..3 {
+            let (from, to) = (corners[i], corners[(i + 1) % 3]);
+            let Some(twin) = self.triangle_with_edge(to, from).filter(|&twin| twin > t) else { continue };
+            let (n, m) = (self.normal(t), self.normal(twin));
+            if n.dot(m) < limit * (n.length_squared() * m.length_squared()).sqrt() {
+                self.set_crease(t, from, to);
+                self.set_crease(twin, from, to);
             }
         }
     }

@@ -201,6 +201,30 @@ fn cancel_goes_back_to_the_last_result() {
 }
 
 #[test]
+fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let before = shown(&harness);
+    memory.borrow_mut().slice = std::time::Duration::ZERO;
+    harness.get_by_role_and_label(Role::Button, "Sample").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("oronary").click();
+    harness.run_steps(20);
+    assert!(harness.query_by_label_contains("Smoothing").is_some(), "it is read, and on its way");
+    assert_eq!(shown(&harness), before);
+    harness.get_by_role_and_label(Role::Button, "Cancel").click();
+    harness.run_steps(5);
+    let state = harness.state().state();
+    assert!(!state.is_busy() && state.opening().is_none());
+    assert!(state.notice.as_ref().is_some_and(|notice| notice.text.contains("cancelled")));
+    assert_eq!(state.document.as_ref().unwrap().name, "Abdominal aorta");
+    memory.borrow_mut().slice = std::time::Duration::from_millis(50);
+    press_at(&mut harness, "Iterations", 0.1);
+    settle(&mut harness);
+    assert!((7_429..=7_430).contains(&shown(&harness)), "the engine works on the aorta again");
+}
+
+#[test]
 fn an_engine_that_stops_is_started_again_and_nothing_is_lost() {
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);
