@@ -1,10 +1,10 @@
-//! Lumen opens a blood-vessel surface, keeps its largest connected piece, smooths it, reduces it to a
-//! progressive mesh and proves the result with a virtual guidewire.
+//! Lumen opens a blood-vessel surface, keeps its largest connected piece, smooths it and reduces it to a
+//! progressive mesh.
 //!
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! mesh < io, phantom, pipeline, trial < engine < app < desktop, web
+//! mesh < io, phantom, pipeline < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.

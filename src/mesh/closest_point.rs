@@ -1,6 +1,6 @@
 //! The point of a triangle that is closest to a given point.
 //!
-//! Ericson, Real-Time Collision Detection, 2005, section 5.1.5: the Voronoi region of the triangle in which the query
+//! Ericson, "Real-time collision detection" (2005), section 5.1.5: the Voronoi region of the triangle in which the query
 //! lies (a corner, an edge or the face) is found from six dot products, and the closest point is a combination
 //! `a + v (b - a) + w (c - a)`. The arithmetic is f64 on the exact differences of f32 coordinates.
 //!

@@ -1,7 +1,7 @@
 //! Builds a [`SurfaceIndex`] in slices.
 //!
-//! Top-down by the surface-area heuristic over 16 bins of the longest axis of the centroids' box (Wald, On fast
-//! Construction of SAH-based Bounding Volume Hierarchies, 2007). Two binary splits make one four-wide node. Where the
+//! Top-down by the surface-area heuristic over 16 bins of the longest axis of the centroids' box (Wald, "On fast
+//! construction of SAH-based bounding volume hierarchies", 2007). Two binary splits make one four-wide node. Where the
 //! bins cannot separate the centroids, or a branch has grown too deep, the range is split at its median instead, which
 //! bounds the depth for any input.
 //!

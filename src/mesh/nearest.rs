@@ -1,8 +1,8 @@
 //! The nearest point of a surface, by a hierarchy of bounding boxes.
 //!
 //! The tree is four wide: a node holds the boxes of its four children lane by lane, so that the distances to all four
-//! are found at once (Dammertz, Hanika and Keller, Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of
-//! Incoherent Rays, 2008), and the children are visited nearest first. `index_build.rs` builds it.
+//! are found at once (Dammertz, Hanika and Keller, "Shallow bounding volume hierarchies for fast SIMD ray tracing
+//! of incoherent rays", 2008), and the children are visited nearest first. `index_build.rs` builds it.
 //!
 //! Boxes are compared in f32 with a margin, triangles in f64 (`closest_point.rs`). Of triangles at the same distance
 //! the one of the least number wins, so the answer depends neither on the order of the visit nor on a hint or bound.

@@ -1,12 +1,12 @@
 //! The deviation of one surface from another: how far apart they are, in millimetres, measured both ways.
 //!
 //! Each surface is sampled evenly by area and each sample is measured to the nearest point of the other; mean, RMS and
-//! 95th percentile are over the pooled samples of both, as in Metro (Cignoni, Rocchini and Scopigno, Metro: Measuring
-//! Error on Simplified Surfaces, Computer Graphics Forum 17(2), 1998). The maximum is over the samples and all
+//! 95th percentile are over the pooled samples of both, as in Metro (Cignoni, Rocchini and Scopigno, "Metro: measuring
+//! error on simplified surfaces", 1998). The maximum is over the samples and all
 //! vertices of both, so it misses no tip; it remains a lower bound of the Hausdorff distance, which can lie between.
 //!
 //! Sample `i` of `n` lies in the `i`-th of `n` equal parts of the area, in the order of the triangles, and its place
-//! there comes from a hash of `i` (SplitMix64: Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators,
+//! there comes from a hash of `i` (SplitMix64: Steele, Lea and Flood, "Fast splittable pseudorandom number generators",
 //! 2014). A sample is thus known from its number alone, and the result depends on neither slices nor threads.
 
 use std::mem;

@@ -1,8 +1,8 @@
 //! Vertex normals: the mean of the normals of the triangles around a vertex, weighted by area or by angle.
 //!
 //! Area: the cross product of two edges is the normal times the doubled area, so the sum is weighted as it stands; the
-//! cheaper of the two, and the default. Angle: Thürmer and Wüthrich, Computing Vertex Normals from Polygonal Facets,
-//! Journal of Graphics Tools 3(1), 1998: each normal counts by the angle its triangle has at the vertex, which does not
+//! cheaper of the two, and the default. Angle: Thürmer and Wüthrich, "Computing vertex normals from polygonal facets"
+//! (1998): each normal counts by the angle its triangle has at the vertex, which does not
 //! depend on how the facets around it were cut into triangles.
 //!
 //! Triangles add to their corners in the order of the list. That order is part of the result: work on several threads

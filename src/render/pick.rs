@@ -1,5 +1,5 @@
-//! Which triangle is under the cursor: every triangle against one ray (Moeller and Trumbore, "Fast, minimum storage
-//! ray/triangle intersection", 1997).
+//! Which triangle is under the cursor: every triangle against one ray (Möller and Trumbore, "Fast, minimum storage
+//! ray-triangle intersection", 1997).
 //!
 //! Brute force, in f64: a click is rare, and a tree would have to be rebuilt for every level of the progressive mesh.
 //! Edges belong to both of their triangles, so a ray does not slip between two of them.
