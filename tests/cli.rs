@@ -128,12 +128,8 @@ fn what_cannot_be_done_ends_with_one_and_a_sentence_and_leaves_the_output_alone(
     let (out, bad) = (folder.file("out.stl"), folder.file("bad.stl"));
     std::fs::write(&out, "precious").unwrap();
     std::fs::write(&bad, "this is no mesh").unwrap();
-    let cases: [&[&str]; 4] = [
-        &["optimise", "no-such-file.stl", "-o", &out],
-        &["optimise", &bad, "-o", &out],
-        &["optimise", "sample:aorta", "-o", &folder.file("out.docx")],
-        &["inspect", "sample:kidney"],
-    ];
+    let cases: [&[&str]; 3] =
+        [&["optimise", "no-such-file.stl", "-o", &out], &["optimise", &bad, "-o", &out], &["inspect", "sample:kidney"]];
     for arguments in cases {
         let output = lumen(arguments);
         let error = String::from_utf8(output.stderr).unwrap();
@@ -152,6 +148,8 @@ fn a_command_line_without_sense_ends_with_two() {
         &["optimise", "sample:aorta", "-o", "x.stl", "--iterations", "201"],
         &["optimise", "sample:aorta", "-o", "x.stl", "--feature-angle", "181"],
         &["optimise", "sample:aorta", "-o", "x.stl", "--triangles", "0"],
+        &["optimise", "sample:aorta", "-o", "x.docx"],
+        &["phantom", "aorta", "-o", "x.stl", "--triangles", "100"],
         &["optimise", "sample:aorta", "-o", "x.stl", "--window", "boxcar"],
         &["optimise", "sample:aorta", "-o", "x.stl", "--unit", "inch"],
     ] {

@@ -32,7 +32,9 @@ struct Case {
 fn main() {
     common::run("smoothing beside VTK", |data| {
         let oracle = data.join("../oracle");
-        let text = std::fs::read_to_string(oracle.join("windowed_sinc.json")).expect("the oracle's list of cases");
+        let list = oracle.join("windowed_sinc.json");
+        let text = std::fs::read_to_string(&list)
+            .unwrap_or_else(|error| panic!("VTK's results belong beside the test meshes: {}: {error}", list.display()));
         let cases: Vec<Case> = serde_json::from_str(&text).expect("a list of cases");
         assert_eq!(cases.len(), 26);
         let trial = |case: Case| {

@@ -55,6 +55,11 @@ pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action
     None
 }
 
+/// Whether the key that opened the sheet is pressed again.
+pub(super) fn closes_sheet(ui: &Ui) -> bool {
+    ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1))
+}
+
 /// Whether the key that shows the surface as it was opened is held.
 pub(super) fn before_is_held(ui: &Ui) -> bool {
     !ui.ctx().egui_wants_keyboard_input() && ui.input(|input| input.key_down(Key::B))

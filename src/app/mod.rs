@@ -132,7 +132,9 @@ impl LumenApp {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Room for the scroll bar beside what stands at the right.
                 ui.set_max_width(ui.available_width() - 8.0);
-                panel::show(ui, &mut self.state, &mut self.views);
+                if let Some(unit) = panel::show(ui, &mut self.state, &mut self.views) {
+                    self.state.set_unit(unit, self.platform.link());
+                }
             });
         });
         let keep = self.state.settings.keep;
@@ -168,7 +170,7 @@ impl eframe::App for LumenApp {
         if let Some(action) = by_key.or(by_bar) {
             self.act(action, &ctx);
         }
-        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet)) {
+        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet)) || self.sheet.is_some() && keys::closes_sheet(ui) {
             self.sheet = None;
         }
         let is_held = ctx.input(|input| input.pointer.any_down()) || ctx.egui_wants_keyboard_input();

@@ -7,16 +7,19 @@ use super::control::{Setting, grouped, name};
 use super::document::Document;
 use super::state::State;
 use super::views::Views;
+use crate::engine::Source;
+use crate::io::Unit;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Settings, Smoothing, Target, Window, reduction_percent};
 
-/// Shows the panel.
-pub(super) fn show(ui: &mut Ui, state: &mut State, views: &mut Views) {
+/// Shows the panel; returns the unit in which the file should be read instead, if one was chosen.
+pub(super) fn show(ui: &mut Ui, state: &mut State, views: &mut Views) -> Option<Unit> {
     ui.spacing_mut().item_spacing.y = 3.0;
-    surface(ui, state, views);
+    let unit = surface(ui, state, views);
     smooth(ui, &mut state.settings, measured(state.document.as_ref()));
     reduce(ui, state);
     result(ui, state);
+    unit
 }
 
 fn measured(document: Option<&Document>) -> Option<&Report> {
@@ -46,18 +49,21 @@ fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
     }
 }
 
-fn surface(ui: &mut Ui, state: &mut State, views: &mut Views) {
+fn surface(ui: &mut Ui, state: &mut State, views: &mut Views) -> Option<Unit> {
     step(ui, 1, "Surface", "The largest connected piece is kept.");
     let Some(document) = &state.document else {
         ui.label("Open a surface, or drop a file here.");
-        return;
+        return None;
     };
     let pieces = &document.pieces;
+    let unit = unit_list(ui, document);
     number(ui, "Triangles in file", &grouped(document.import.triangles), "As the file holds them, polygons split");
-    let Some(kept) = pieces.kept(state.settings.keep).or(pieces.by_size.first().copied()) else { return };
+    let Some(kept) = pieces.kept(state.settings.keep).or(pieces.by_size.first().copied()) else {
+        return unit;
+    };
     let kept_count = match state.settings.keep {
         Keep::All => document.opened.triangles.len(),
-        _ => pieces.list[kept as usize].triangles as usize,
+        _ => pieces.list.get(kept as usize).map_or(0, |piece| piece.triangles as usize),
     };
     number(ui, "Kept", &format!("{} triangles", grouped(kept_count)), "");
     let left_out = document.opened.triangles.len() - kept_count;
@@ -73,6 +79,28 @@ fn surface(ui: &mut Ui, state: &mut State, views: &mut Views) {
         let shown = ui.checkbox(&mut views.show_left_out, "Show what is left out");
         shown.on_hover_text("Click a piece in the view to keep that one");
     }
+    unit
+}
+
+/// The unit of the file's numbers; returns another one that was chosen.
+fn unit_list(ui: &mut Ui, document: &Document) -> Option<Unit> {
+    if !matches!(document.source, Source::File { .. }) {
+        return None;
+    }
+    let mut unit = document.import.unit;
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Unit of the file").weak()).on_hover_text("What a length of 1 in the file means");
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let list = ComboBox::from_id_salt("unit").width(56.0).selected_text(unit.symbol());
+            let response = list.show_ui(ui, |ui| {
+                for choice in Unit::ALL {
+                    ui.selectable_value(&mut unit, choice, choice.symbol());
+                }
+            });
+            name(&response.response, Role::ComboBox, "Unit");
+        });
+    });
+    (unit != document.import.unit).then_some(unit)
 }
 
 /// Size of a piece in words.
@@ -108,7 +136,7 @@ fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
 }
 
 fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
-    step(ui, 2, "Smooth", "Takes off the stair-steps of the scan, not the size.");
+    step(ui, 2, "Smooth", "Takes off the stair-steps of the scan.");
     let default = Smoothing::default();
     let smoothing = &mut settings.smoothing;
     let pass_band = Setting {
@@ -147,7 +175,8 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
         });
     });
     if report.is_some_and(|report| report.pass_band_missed && report.settings.smoothing == *smoothing) {
-        ui.label(RichText::new("Too few iterations for this pass band: it is not fully let through.").small());
+        let text = RichText::new("Too few iterations for this pass band: more are needed to smooth.").small();
+        ui.add(egui::Label::new(text).wrap());
     }
 }
 
@@ -222,8 +251,13 @@ fn result(ui: &mut Ui, state: &State) {
     };
     number(ui, "Deviation, mean", &distance(|d| d.mean), "Distance from the smoothed surface, measured both ways");
     number(ui, "Deviation, max", &distance(|d| d.max), "Distance from the smoothed surface, measured both ways");
-    number(ui, "Volume", &percent(report.volume_change_percent), "Change from the surface as opened, open ends capped");
-    number(ui, "Area", &percent(report.area_change_percent), "Change from the surface as opened");
+    number(
+        ui,
+        "Volume",
+        &percent(report.volume_change_percent),
+        "Change from the kept pieces as opened, open ends capped",
+    );
+    number(ui, "Area", &percent(report.area_change_percent), "Change from the kept pieces as opened");
     ui.collapsing("Time a stage", |ui| {
         let ms = &report.stages_ms;
         let stages = [

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::document::{Document, Measured};
 use super::history::History;
 use crate::engine::{Command, Event, Link, Source, Work};
-use crate::io::{Format, ImportOptions};
+use crate::io::{Format, ImportOptions, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::settings::{Keep, Settings};
 
@@ -126,7 +126,7 @@ impl State {
             // Reading is one piece: only another engine can be told now. It takes up the surface that is shown.
             self.opening = None;
             self.reopen(link);
-            self.tell("Opening was cancelled; what was open still is.");
+            self.tell_opening_was_cancelled();
         } else {
             link.send(Command::Cancel);
         }
@@ -260,7 +260,8 @@ impl State {
         let document = opening.document?;
         self.settings.keep = Keep::Largest;
         self.sent.keep = Keep::Largest;
-        self.history.replace(&self.settings);
+        // The steps before this one may name pieces that this surface does not have.
+        self.history = History::new(self.settings.clone());
         let warning = document.import.warnings.first();
         self.notice = warning.map(|text| Notice { text: text.clone(), is_error: false });
         self.document = Some(document);
@@ -270,7 +271,7 @@ impl State {
     fn receive_cancelled(&mut self, settings: Settings) {
         self.work = None;
         if self.opening.take().is_some() {
-            self.tell("Opening was cancelled; what was open still is.");
+            self.tell_opening_was_cancelled();
         } else if settings != self.settings {
             self.tell("Cancelled; the last result stands.");
         }
@@ -289,7 +290,9 @@ impl State {
         let opening = self.opening.take();
         if self.failures > PATIENCE {
             link.restart();
-            self.warn(&format!("The computation keeps stopping ({reason}). Nothing that is shown was lost."));
+            self.warn(&format!(
+                "The computation keeps stopping ({reason}). What is shown is still there; open a file to go on."
+            ));
             return;
         }
         self.reopen(link);
@@ -300,6 +303,20 @@ impl State {
             None => format!("The computation stopped ({reason}) and was started again. Nothing was lost."),
         };
         self.warn(&text);
+    }
+
+    fn tell_opening_was_cancelled(&mut self) {
+        let kept = if self.document.is_some() { "; what was open still is" } else { "" };
+        self.tell(&format!("Opening was cancelled{kept}."));
+    }
+
+    /// Opens the file that is shown again, with its numbers in `unit`. Samples have theirs.
+    pub fn set_unit(&mut self, unit: Unit, link: &mut dyn Link) {
+        if let Some(Source::File { name, bytes, .. }) = self.document.as_ref().map(|document| &document.source) {
+            let options = ImportOptions { unit: Some(unit) };
+            let source = Source::File { name: name.clone(), bytes: bytes.clone(), options };
+            self.open(source, link);
+        }
     }
 
     /// Tells the user something.

@@ -60,6 +60,18 @@ impl Command {
     }
 }
 
+/// Ends the program as for a command line that makes no sense.
+fn misuse(error: impl std::fmt::Display) -> ! {
+    use clap::CommandFactory;
+    Arguments::command().error(clap::error::ErrorKind::ValueValidation, error).exit()
+}
+
+/// The format that the name of an output file asks for.
+fn output_format(path: &std::path::Path) -> crate::io::Format {
+    crate::io::Format::from_name(&path.to_string_lossy())
+        .unwrap_or_else(|| misuse(format!("{} does not end in .stl, .ply, .obj or .glb", path.display())))
+}
+
 /// Writes `bytes` to `path` whole or not at all: what was there before stays if the disk is full.
 fn write_whole(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
     use anyhow::Context;

@@ -9,8 +9,8 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{row, source, write_whole};
-use crate::io::{self, Format, Unit};
+use super::{misuse, output_format, row, source, write_whole};
+use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::{Advance, Pipeline};
@@ -93,12 +93,8 @@ impl Optimise {
     /// Runs the pipeline, writes the surface and the report, prints the table.
     pub(super) fn run(&self) -> Result<()> {
         let settings = self.settings();
-        settings.check().unwrap_or_else(|error| {
-            use clap::CommandFactory;
-            super::Arguments::command().error(clap::error::ErrorKind::ValueValidation, error).exit()
-        });
-        let format = Format::from_name(&self.output.to_string_lossy())
-            .with_context(|| format!("{} does not end in .stl, .ply, .obj or .glb", self.output.display()))?;
+        settings.check().unwrap_or_else(|error| misuse(error));
+        let format = output_format(&self.output);
         if self.triangles.is_none() && 0.0 < self.reduction && self.reduction < 1.0 {
             eprintln!(
                 "lumen: warning: --reduction {} removes less than one percent; nine tenths are --reduction 90",
@@ -126,7 +122,10 @@ impl Optimise {
     fn print(&self, report: &Report) {
         let (kept, output) = (report.after_connectivity, report.output);
         row("triangles in file", report.opened.triangles);
-        row("kept", format!("{} triangles of {} components", kept.triangles, report.opened.components));
+        row(
+            "kept",
+            format!("{} triangles in {} of {} components", kept.triangles, kept.components, report.opened.components),
+        );
         row("output", format!("{} triangles, {} vertices", output.triangles, output.vertices));
         row("reduction", format!("{:.2} %", report.reduction_percent));
         if let Some(deviation) = report.deviation_mm {
@@ -152,7 +151,7 @@ impl Optimise {
             eprintln!("lumen: warning: {shortfall}");
         }
         if report.pass_band_missed {
-            eprintln!("lumen: warning: too few iterations for this pass band: it is not fully let through");
+            eprintln!("lumen: warning: too few iterations for this pass band: more are needed to smooth");
         }
         println!("{DISCLAIMER}");
     }

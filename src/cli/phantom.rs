@@ -2,22 +2,22 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
 
-use super::{row, write_whole};
-use crate::io::{self, Format};
+use super::{output_format, row, write_whole};
+use crate::io;
 use crate::mesh::components;
-use crate::phantom::{Sample, generate};
+use crate::phantom::{MAX_TRIANGLES, MIN_TRIANGLES, Sample, generate};
 
 /// Writes a vessel tree.
 #[derive(Debug, Args)]
 pub struct Phantom {
     /// aorta or coronary
     sample: Sample,
-    /// Triangles of the largest piece, to within 1 %
-    #[arg(long, value_name = "N")]
-    triangles: Option<usize>,
+    /// Triangles of the largest piece, to within 1 %; 2,000 to 5,000,000
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(MIN_TRIANGLES as i64..=MAX_TRIANGLES as i64))]
+    triangles: Option<u32>,
     /// Where to write: .stl, .ply, .obj or .glb
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -26,9 +26,9 @@ pub struct Phantom {
 impl Phantom {
     /// Makes the surface and writes it.
     pub(super) fn run(&self) -> Result<()> {
-        let format = Format::from_name(&self.output.to_string_lossy())
-            .with_context(|| format!("{} does not end in .stl, .ply, .obj or .glb", self.output.display()))?;
-        let mesh = generate(self.sample, self.triangles.unwrap_or(self.sample.default_triangles()))?;
+        let format = output_format(&self.output);
+        let wanted = self.triangles.map_or(self.sample.default_triangles(), |n| n as usize);
+        let mesh = generate(self.sample, wanted)?;
         write_whole(&self.output, &io::write(&mesh, None, format)?)?;
         let pieces = components(mesh.positions.len(), &mesh.triangles);
         let largest = pieces.largest().map_or(0, |piece| pieces.triangle_counts[piece as usize]);

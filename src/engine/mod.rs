@@ -111,8 +111,8 @@ impl Engine {
                         return more || !self.writing.is_empty();
                     }
                     Err(message) => {
-                        self.events.push_back(Event::Failed { message });
                         self.cancel();
+                        self.events.push_back(Event::Failed { message });
                         return self.current.is_some();
                     }
                 }
@@ -130,7 +130,7 @@ impl Engine {
         let normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
         self.events.push_back(match io::write(mesh, Some(&normals), format) {
             Ok(bytes) => Event::Written { name, bytes },
-            Err(error) => Event::Failed { message: format!("{name} could not be written: {error}.") },
+            Err(error) => Event::Failed { message: format!("{name} could not be written: {error}") },
         });
     }
 

@@ -204,7 +204,7 @@ fn warn(report: &mut ImportReport) {
     tell(skipped.lines, "line", "lines", "left out: Lumen shows surfaces.");
     tell(skipped.points, "point", "points", "left out: Lumen shows surfaces.");
     tell(report.reoriented_triangles, "triangle", "triangles", "turned over to agree with the neighbours.");
-    tell(report.components_turned, "piece", "pieces", "turned inside out to face outwards.");
+    tell(report.components_turned, "piece", "pieces", "found inside out and turned.");
     tell(report.non_manifold_edges, "edge", "edges", "where more than two triangles meet; left as in the file.");
     if !report.orientable {
         sentences.push("The surface has no inside and outside (its triangles cannot be made to agree).".to_owned());

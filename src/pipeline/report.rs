@@ -51,7 +51,7 @@ pub struct Report {
     pub reduction_percent: f64,
     /// Why the target was not met; null where it was.
     pub shortfall: Option<String>,
-    /// The response at the pass band could not be brought to within 1e-3 of 1 with so few iterations.
+    /// With so few iterations the filter either misses its pass band by more than 1e-3 or lets everything through.
     pub pass_band_missed: bool,
     /// Milliseconds a stage.
     pub stages_ms: StageTimes,
@@ -82,6 +82,7 @@ impl Report {
         let (from_kept, from_smoothed) =
             (change(&kept.measures, &reduced.measures), change(&smoothed.measures, &reduced.measures));
         let opened = pipeline.opened();
+        let pass_band = pipeline.settings().smoothing.pass_band;
         Some(Self {
             disclaimer: DISCLAIMER.to_owned(),
             lumen: env!("CARGO_PKG_VERSION").to_owned(),
@@ -96,7 +97,7 @@ impl Report {
             settings: pipeline.settings().clone(),
             reduction_percent: reduction_percent(kept.mesh.triangles.len(), reduced.mesh.triangles.len()),
             shortfall: reduced.level.shortfall.as_ref().map(Shortfall::to_string),
-            pass_band_missed: smoothed.filter.as_ref().is_some_and(|filter| !filter.reaches_pass_band),
+            pass_band_missed: smoothed.filter.as_ref().is_some_and(|filter| !filter.keeps_promise(pass_band)),
             stages_ms: pipeline.times(),
             deviation_mm: comparison(true),
             deviation_from_original_mm: comparison(false),

@@ -11,8 +11,8 @@
 //! - Of the neighbours that it may collapse onto, a vertex takes the one over which the surface sweeps the least
 //!   volume, with a preference for well-shaped triangles. Boundary and interior-edge vertices move along their line.
 //! - Every collapse passes the link condition (Dey, Edelsbrunner, Guha and Nekhayev 1999): no topology changes,
-//!   no open end falls below three edges. None may fold a triangle over or make a sliver; when no vertex is left
-//!   that meets the strict limits they are eased, down to "does not fold".
+//!   no open end falls below three edges. None may fold a triangle over or make a sliver; for a vertex that does not
+//!   meet the strict limits they are eased, step by step, at the price of waiting longer, down to "does not fold".
 //!
 //! It does not move vertices, does not bound the true deviation (measure it: `super::deviation`), and does not test
 //! for triangles that meet without sharing a vertex.
@@ -43,15 +43,18 @@ struct Strictness {
     quality: f64,
     /// Whether feature edges hold their vertices.
     features: bool,
+    /// By what the distance of a vertex counts that is held to no more than this: it waits until the others have come
+    /// as far.
+    price: f32,
 }
 
-/// Tried in turn, each until no vertex is left that passes. The last lets a triangle swing round as the end of a branch
-/// does that is drawn in, but not fold over, and no longer heeds feature edges.
+/// A vertex that does not pass is tried again under the next, at its price. The last lets a triangle swing round as
+/// the end of a branch does that is drawn in, but not fold over, and no longer heeds feature edges.
 const STRICTNESS: [Strictness; 4] = [
-    Strictness { turn: 0.5, quality: 0.15, features: true },
-    Strictness { turn: 0.2, quality: 0.03, features: true },
-    Strictness { turn: 0.0, quality: 1e-3, features: true },
-    Strictness { turn: -0.8, quality: 1e-4, features: false },
+    Strictness { turn: 0.5, quality: 0.15, features: true, price: 1.0 },
+    Strictness { turn: 0.2, quality: 0.03, features: true, price: 2.0 },
+    Strictness { turn: 0.0, quality: 1e-3, features: true, price: 8.0 },
+    Strictness { turn: -0.8, quality: 1e-4, features: false, price: 64.0 },
 ];
 
 /// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
@@ -78,7 +81,8 @@ pub struct DecimationTask<M> {
     state: Vec<State>,
     /// Distance in mm that a vertex's surroundings have lost already.
     inherited: Vec<f32>,
-    strictness: usize,
+    /// The index into [`STRICTNESS`] that each vertex is held to.
+    strictness: Vec<u8>,
     /// Cosine of the feature angle.
     crease: f64,
     /// Triangles whose feature edges are found, and vertices that are judged, at the start of the run so far.
@@ -119,7 +123,7 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
             queue: BinaryHeap::with_capacity(count),
             state: vec![State::Gone; count],
             inherited: vec![0.0; count],
-            strictness: 0,
+            strictness: vec![0; count],
             crease: libm::cos(settings.feature_angle.to_radians()),
             creased: 0,
             begun: 0,
@@ -132,23 +136,34 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         }
     }
 
+    /// What `v` is held to.
+    fn limits(&self, v: u32) -> Strictness {
+        STRICTNESS[usize::from(self.strictness[v as usize])]
+    }
+
     /// Distance in mm at which `v` would go now; the ring is left in `self.ring`.
     fn judge(&mut self, v: u32) -> (Judged, f32) {
         let is_fan = self.surface.order_ring(v, &mut self.ring);
-        let judged = Judged::new(&self.surface, v, &self.ring, is_fan, STRICTNESS[self.strictness].features);
+        let judged = Judged::new(&self.surface, v, &self.ring, is_fan, self.limits(v).features);
         let distance = judged.distance as f32 + self.inherited[v as usize];
         (judged, distance)
     }
 
-    /// Judges `v` and puts it into the queue, unless it can never go.
+    /// Judges `v`, held to the strictest limits, and puts it into the queue, unless it can never go.
     fn enqueue(&mut self, v: u32) {
+        self.strictness[v as usize] = 0;
         let (judged, distance) = self.judge(v);
-        self.state[v as usize] = if judged.class == Class::Complex {
-            State::Stuck(Stuck::Complex)
+        if judged.class == Class::Complex {
+            self.state[v as usize] = State::Stuck(Stuck::Complex);
         } else {
-            self.queue.push(Reverse((distance.to_bits(), v)));
-            State::Fresh
-        };
+            self.push(v, distance);
+        }
+    }
+
+    fn push(&mut self, v: u32, distance: f32) {
+        let price = distance * self.limits(v).price;
+        self.queue.push(Reverse((price.to_bits(), v)));
+        self.state[v as usize] = State::Fresh;
     }
 
     /// Tries the vertex at the head of the queue. Returns false when the queue is empty.
@@ -159,20 +174,34 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
             State::Stale => true,
             State::Stuck(_) | State::Gone => return true,
         };
+        if stale {
+            self.strictness[v as usize] = 0;
+        }
         let (judged, distance) = self.judge(v);
         if judged.class == Class::Complex {
             self.state[v as usize] = State::Stuck(Stuck::Complex);
             return true;
         }
         if stale && self.queue.peek().is_some_and(|Reverse((next, _))| distance.to_bits() > *next) {
-            self.queue.push(Reverse((distance.to_bits(), v)));
-            self.state[v as usize] = State::Fresh;
+            self.push(v, distance);
             return true;
         }
         match self.best_target(v, &judged) {
             Ok(kept) => self.collapse(v, kept, distance),
+            Err(stuck) if self.is_eased(v, &judged, stuck) => self.push(v, distance),
             Err(stuck) => self.state[v as usize] = State::Stuck(stuck),
         }
+        true
+    }
+
+    /// Holds `v` to less, if that can help: what is stuck by topology is helped only where a feature edge holds it.
+    fn is_eased(&mut self, v: u32, judged: &Judged, stuck: Stuck) -> bool {
+        let last = STRICTNESS.len() as u8 - 1;
+        let strictness = &mut self.strictness[v as usize];
+        if *strictness == last || (stuck == Stuck::Topology && judged.class != Class::InteriorEdge) {
+            return false;
+        }
+        *strictness = if stuck == Stuck::Topology { last } else { *strictness + 1 };
         true
     }
 
@@ -272,7 +301,7 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     /// What the collapse of `v` onto `target` costs: the mean height over which the ring is swept, in mm, and a
     /// little for poor shape. `None` if it would fold a triangle or make a sliver.
     fn cost(&self, v: u32, target: u32) -> Option<f64> {
-        let limits = STRICTNESS[self.strictness];
+        let limits = self.limits(v);
         let (p, q) = (self.surface.at(v), self.surface.at(target));
         let way = q - p;
         let (mut swept, mut area, mut worst) = (0.0, 0.0, 1.0f64);
@@ -298,16 +327,6 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         }
         let height = if area > 0.0 { swept / area } else { 0.0 };
         Some(height + SHAPE_COST * area.sqrt() * (1.0 - worst))
-    }
-
-    /// Puts every vertex that is left back into the queue, for the next strictness.
-    fn ease(&mut self) {
-        self.strictness += 1;
-        for v in 0..self.surface.vertex_count() as u32 {
-            if let State::Stuck(Stuck::Geometry | Stuck::Topology) = self.state[v as usize] {
-                self.enqueue(v);
-            }
-        }
     }
 
     fn result(&mut self) -> ProgressiveMesh {
@@ -342,10 +361,7 @@ impl<M: Deref<Target = TriMesh>> Task for DecimationTask<M> {
                     }
                     self.begun += 1;
                 } else if !self.step() {
-                    if self.strictness + 1 == STRICTNESS.len() {
-                        return Progress::Done(self.result());
-                    }
-                    self.ease();
+                    return Progress::Done(self.result());
                 }
             }
             if budget.is_spent() {
