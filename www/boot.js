@@ -64,6 +64,25 @@ async function fetchModule(url, total) {
   return WebAssembly.compileStreaming(new Response(counted, { headers }));
 }
 
+/**
+ * A browser that emulates another screen can report the device pixels of the real one. What draws would then be too
+ * large for its canvas; without the report it computes the size itself.
+ */
+async function checkPixels(canvas) {
+  if (!("devicePixelContentBoxSize" in ResizeObserverEntry.prototype)) return;
+  const entry = await new Promise((resolve) => {
+    const observer = new ResizeObserver(([entry]) => {
+      observer.disconnect();
+      resolve(entry);
+    });
+    observer.observe(canvas, { box: "device-pixel-content-box" });
+  });
+  const expected = entry.contentBoxSize[0].inlineSize * devicePixelRatio;
+  if (Math.abs(entry.devicePixelContentBoxSize[0].inlineSize - expected) > 1) {
+    delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+  }
+}
+
 async function start() {
   const sentence = await missing();
   if (sentence) return showUnsupported(sentence);
@@ -76,6 +95,7 @@ async function start() {
     return showFailed(`The program could not be downloaded: ${error.message}`);
   }
   document.getElementById("loading-text").textContent = "Starting";
+  await checkPixels(document.getElementById("lumen"));
   await glue.default({ module_or_path: module });
 }
 

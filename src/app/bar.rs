@@ -145,13 +145,15 @@ pub(super) fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: b
         }
         if !is_narrow || state.work.is_none() && state.notice.is_none() {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                ui.label(RichText::new("Not for clinical decisions").small().weak());
+                if !is_narrow {
+                    ui.label(RichText::new("Not for clinical decisions").small().weak());
+                    ui.separator();
+                }
                 if let Some(shown) = state.document.as_ref().and_then(|document| document.shown.as_ref()) {
                     if !is_narrow {
-                        ui.separator();
                         ui.label(RichText::new(views.rate()).weak());
+                        ui.separator();
                     }
-                    ui.separator();
                     ui.label(format!("{} triangles", grouped(shown.level.triangles.len())));
                 }
             });

@@ -7,7 +7,7 @@ use egui::{DragValue, Response, Role, Slider, Ui, WidgetInfo};
 use super::icon::{self, Icon};
 
 /// Height of a row, in points.
-const ROW: f32 = 22.0;
+const ROW: f32 = 20.0;
 
 /// A number that can be set.
 pub(super) struct Setting<'a> {

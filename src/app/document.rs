@@ -48,7 +48,7 @@ pub struct Measured {
     pub generation: u64,
     /// All numbers.
     pub report: Report,
-    /// Distance in mm of each node in use, ascending, from the smoothed surface; empty until it is known.
+    /// For each node, how far the vertices that it stands for are from the level, in mm; empty until it is known.
     pub deviation: Vec<f32>,
 }
 
@@ -128,7 +128,7 @@ impl Document {
         let Some((_, levels)) = &self.levels else { return };
         let level = levels.level(target);
         if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
-            let vertices = nodes_in_use(&level.triangles, levels.positions.len()).count();
+            let vertices = nodes_in_use(&level.triangles, levels.positions.len());
             self.shown = Some(Shown { level, vertices });
             self.revision.shown += 1;
         }
@@ -154,23 +154,18 @@ impl Document {
         }
     }
 
-    /// The distance of each node from the smoothed surface, in mm, if it is known for the level that is shown.
-    pub fn deviation_by_node(&self) -> Option<Vec<f32>> {
+    /// For each node, how far the vertices that it stands for are from the level, in mm, if it is known for the level
+    /// that is shown.
+    pub fn deviation_by_node(&self) -> Option<&[f32]> {
         let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
-        if measured.deviation.len() != shown.vertices || measured.report.output.triangles != shown.level.triangles.len()
-        {
-            return None;
-        }
-        let mut by_node = vec![0.0; levels.positions.len()];
-        let nodes = nodes_in_use(&shown.level.triangles, by_node.len());
-        nodes.zip(&measured.deviation).for_each(|(node, &distance)| by_node[node] = distance);
-        Some(by_node)
+        let is_of_shown = measured.report.output.triangles == shown.level.triangles.len();
+        (is_of_shown && measured.deviation.len() == levels.positions.len()).then_some(&measured.deviation)
     }
 }
 
-/// The nodes that `triangles` use, ascending.
-fn nodes_in_use(triangles: &[[u32; 3]], nodes: usize) -> impl Iterator<Item = usize> {
+/// How many nodes `triangles` use.
+fn nodes_in_use(triangles: &[[u32; 3]], nodes: usize) -> usize {
     let mut used = vec![false; nodes];
     triangles.as_flattened().iter().for_each(|&node| used[node as usize] = true);
-    used.into_iter().enumerate().filter(|(_, used)| *used).map(|(node, _)| node)
+    used.into_iter().filter(|&used| used).count()
 }

@@ -119,7 +119,7 @@ impl Scene {
         if with_deviation && (!self.has_scalars || old.measured != new.measured) {
             let scalars = document.deviation_by_node();
             self.has_scalars = scalars.is_some();
-            self.level.set_scalars(&self.device, &self.queue, scalars.as_deref())?;
+            self.level.set_scalars(&self.device, &self.queue, scalars)?;
         }
         self.revision = new;
         Ok(())

@@ -35,8 +35,9 @@ const KEYS: [(&str, &str); 17] = [
 
 /// Shows a sheet; says whether it should be closed.
 pub(super) fn show(ui: &Ui, sheet: Sheet) -> bool {
-    let response = Modal::new(Id::unique("sheet")).show(ui.ctx(), |ui| {
-        ui.set_max_width(440.0);
+    let frame = egui::Frame::popup(ui.style()).inner_margin(24.0);
+    let response = Modal::new(Id::unique("sheet")).frame(frame).show(ui.ctx(), |ui| {
+        ui.set_max_width(560.0_f32.min(ui.ctx().content_rect().width() - 80.0));
         match sheet {
             Sheet::Help => help(ui),
             Sheet::About => about(ui),
@@ -50,6 +51,7 @@ pub(super) fn show(ui: &Ui, sheet: Sheet) -> bool {
 fn help(ui: &mut Ui) {
     ui.heading("Keys and gestures");
     ui.add_space(8.0);
+    ui.spacing_mut().interact_size.y = 20.0;
     Grid::new("keys").num_columns(2).spacing([16.0, 6.0]).show(ui, |ui| {
         for (key, what) in KEYS {
             ui.label(RichText::new(key).weak());

@@ -89,8 +89,8 @@ impl Views {
 
     /// Shows both views in what is left of `ui`. Returns the piece that was clicked.
     pub fn show(&mut self, ui: &mut Ui, document: Option<&Document>, keep: Keep, is_narrow: bool) -> Option<u32> {
-        let moved = ui.ctx().requested_repaint_last_pass();
-        self.frames_per_second = moved.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
+        let moves = ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != egui::Vec2::ZERO);
+        self.frames_per_second = moves.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
         if let (Some(scene), Some(document)) = (&mut self.scene, document)
             && let Err(error) = scene.follow(document, self.show_deviation)
         {

@@ -162,8 +162,8 @@ pub enum Event {
         complete: bool,
         /// The numbers.
         report: Box<Report>,
-        /// Distance in mm of each vertex of the level (nodes in use, ascending) from the smoothed surface; empty
-        /// until `complete`.
+        /// For each node, the largest distance from the level, in mm, of the vertices that it stands for; empty until
+        /// `complete`.
         deviation: Vec<f32>,
     },
     /// The work was stopped; these settings, and their results, are in force.

@@ -194,8 +194,8 @@ impl Current {
             Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {
                 if let Some(mut report) = Report::new(&self.name, &self.pipeline) {
                     report.stages_ms.read = self.read_ms;
-                    let found = self.pipeline.deviations().and_then(|found| found.from_smoothed.as_ref());
-                    let deviation = found.map_or_else(Vec::new, |found| found.per_vertex.clone());
+                    let found = self.pipeline.deviations();
+                    let deviation = found.map_or_else(Vec::new, |found| found.by_node.clone());
                     let complete = stage == Stage::Deviation;
                     events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
                 }

@@ -114,7 +114,7 @@ const STAGES: [Stage; 9] = [
 ];
 
 impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
-    /// A comparison of `a`, the surface to judge, with `b`, by `samples` samples of each (at least one).
+    /// A comparison of `a`, whose vertices are measured one by one, with `b`, by `samples` samples of each (at least one).
     pub fn new(a: M, b: M, samples: usize) -> Self {
         Self {
             samples: samples.max(1),
@@ -130,17 +130,17 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
         }
     }
 
-    /// Uses an index of `b` that is there already: for many levels compared with one input.
+    /// Uses an index of `a` that is there already: for many levels compared with one input.
     #[must_use]
-    pub fn with_index_of_b(mut self, index: Arc<SurfaceIndex>) -> Self {
-        self.sides[1].index = Some(index);
+    pub fn with_index_of_a(mut self, index: Arc<SurfaceIndex>) -> Self {
+        self.sides[0].index = Some(index);
         self.index_was_given = true;
         self
     }
 
-    /// The index of `b`, once it is built.
-    pub fn index_of_b(&self) -> Option<&Arc<SurfaceIndex>> {
-        self.sides[1].index.as_ref()
+    /// The index of `a`, once it is built.
+    pub fn index_of_a(&self) -> Option<&Arc<SurfaceIndex>> {
+        self.sides[0].index.as_ref()
     }
 
     /// The part that is done, 0-1, by estimated time.
@@ -168,7 +168,7 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
     fn cost(&self, stage: Stage) -> usize {
         let each = match stage {
             Stage::Areas(_) => 10,
-            Stage::Index(1) if self.index_was_given => 0,
+            Stage::Index(0) if self.index_was_given => 0,
             Stage::Index(_) => 250,
             Stage::Vertices(0) | Stage::Samples(_) => 700,
             Stage::Vertices(_) => 200,
@@ -461,9 +461,9 @@ mod tests {
                 Progress::Done(result) => break result.unwrap(),
             }
         };
-        let index = task.index_of_b().unwrap().clone();
+        let index = task.index_of_a().unwrap().clone();
         assert_eq!(sliced, whole);
-        assert_eq!(DeviationTask::new(a, b, 5000).with_index_of_b(index).finish().unwrap(), whole);
+        assert_eq!(DeviationTask::new(a, b, 5000).with_index_of_a(index).finish().unwrap(), whole);
     }
 
     #[test]

@@ -177,13 +177,24 @@ impl ProgressiveMesh {
 
     /// The triangles after `steps` steps, over the nodes. Linear in nodes and triangles of the level.
     pub fn triangles_at(&self, steps: u32) -> Vec<[u32; 3]> {
-        let alive = self.node_ends.partition_point(|&end| end >= steps) as u32;
-        let mut heir: Vec<u32> = Vec::with_capacity(self.parents.len());
-        for (node, &parent) in (0..).zip(&self.parents) {
-            heir.push(if node < alive { node } else { heir[parent as usize] });
-        }
+        let heir = self.heirs(steps);
         let level = &self.triangles[..self.triangles_after(steps)];
         level.iter().map(|corners| corners.map(|v| heir[v as usize])).collect()
+    }
+
+    /// For each node, the one that stands for it after `steps` steps: itself, or its first ancestor that ends later.
+    pub fn heirs(&self, steps: u32) -> Vec<u32> {
+        let alive = self.node_ends.partition_point(|&end| end >= steps) as u32;
+        let mut heirs: Vec<u32> = Vec::with_capacity(self.parents.len());
+        for (node, &parent) in (0..).zip(&self.parents) {
+            heirs.push(if node < alive { node } else { heirs[parent as usize] });
+        }
+        heirs
+    }
+
+    /// The level without any step as a surface over the nodes: the one that entered, in another order.
+    pub fn finest(&self) -> TriMesh {
+        TriMesh { positions: self.positions.clone(), triangles: self.triangles.clone() }
     }
 
     /// A surface of its own of a level's triangles: nodes in use, in their order.

@@ -132,6 +132,9 @@ pub struct Deviations {
     pub from_smoothed: Option<Comparison>,
     /// From the surface as it was opened.
     pub from_original: Option<Comparison>,
+    /// For each node of the level, the largest distance from the level, in mm, of the vertices that it stands for; 0
+    /// for other nodes. (The nodes themselves lie on the smoothed surface.)
+    pub by_node: Vec<f32>,
 }
 
 /// What [`Pipeline::advance`] did.
@@ -164,9 +167,11 @@ struct Results {
     kept: Option<Arc<Surface>>,
     smoothed: Option<Arc<Smoothed>>,
     progressive: Option<Arc<ProgressiveMesh>>,
+    /// The smoothed surface over the nodes of the progressive mesh.
+    finest: Option<Arc<TriMesh>>,
     reduced: Option<Arc<Reduced>>,
     deviations: Option<Arc<Deviations>>,
-    /// Of the smoothed and the kept surface, for the next level.
+    /// Of `finest` and the kept surface, for the next level.
     indices: [Option<Arc<SurfaceIndex>>; 2],
     times: StageTimes,
 }
@@ -233,9 +238,10 @@ impl Pipeline {
         }
         if smoothing {
             self.now.smoothed = None;
-            self.now.indices[0] = None;
         }
         if decimation {
+            self.now.finest = None;
+            self.now.indices[0] = None;
             self.now.progressive = None;
         }
         if level {
@@ -382,16 +388,16 @@ impl Pipeline {
                 Running::Decimation(task)
             }
             _ => {
-                let (smoothed, reduced) = (self.now.smoothed.as_ref()?, self.now.reduced.as_ref()?);
+                let (finest, reduced) = (self.now.finest.as_ref()?, self.now.reduced.as_ref()?);
                 let task = |mesh: &Arc<TriMesh>, index: &Option<Arc<SurfaceIndex>>| {
-                    let task = DeviationTask::new(reduced.mesh.clone(), mesh.clone(), self.samples);
+                    let task = DeviationTask::new(mesh.clone(), reduced.mesh.clone(), self.samples);
                     match index {
-                        Some(index) => task.with_index_of_b(index.clone()),
+                        Some(index) => task.with_index_of_a(index.clone()),
                         None => task,
                     }
                 };
                 let [of_smoothed, of_original] = &self.now.indices;
-                let (from_smoothed, from_original) = (task(&smoothed.mesh, of_smoothed), task(&kept.mesh, of_original));
+                let (from_smoothed, from_original) = (task(finest, of_smoothed), task(&kept.mesh, of_original));
                 Running::Deviation(Box::new(DeviationRun { from_smoothed, from_original, first: None }))
             }
         })
@@ -412,7 +418,10 @@ impl Pipeline {
             },
             Running::Decimation(task) => match task.advance(budget) {
                 Progress::Working(fraction) => return Some(fraction),
-                Progress::Done(progressive) => self.now.progressive = Some(Arc::new(progressive)),
+                Progress::Done(progressive) => {
+                    self.now.finest = Some(Arc::new(progressive.finest()));
+                    self.now.progressive = Some(Arc::new(progressive));
+                }
             },
             Running::Deviation(run) => {
                 if run.first.is_none() {
@@ -425,15 +434,27 @@ impl Pipeline {
                     Progress::Working(fraction) => return Some(0.5 + fraction / 2.0),
                     Progress::Done(from_original) => {
                         self.now.indices =
-                            [&run.from_smoothed, &run.from_original].map(|task| task.index_of_b().cloned());
+                            [&run.from_smoothed, &run.from_original].map(|task| task.index_of_a().cloned());
                         let from_smoothed = run.first.take().flatten();
-                        self.now.deviations = Some(Arc::new(Deviations { from_smoothed, from_original }));
+                        let by_node = self.by_node(from_smoothed.as_ref());
+                        self.now.deviations = Some(Arc::new(Deviations { from_smoothed, from_original, by_node }));
                     }
                 }
             }
         }
         self.running = None;
         None
+    }
+
+    /// The distances of the finest nodes from the level, gathered at the nodes of the level.
+    fn by_node(&self, found: Option<&Comparison>) -> Vec<f32> {
+        let (Some(progressive), Some(reduced)) = (&self.now.progressive, &self.now.reduced) else { return Vec::new() };
+        let mut by_node = vec![0.0f32; progressive.positions.len()];
+        let heirs = progressive.heirs(reduced.level.steps);
+        for (&heir, &distance) in heirs.iter().zip(found.map_or(&[][..], |found| &found.per_vertex)) {
+            by_node[heir as usize] = by_node[heir as usize].max(distance);
+        }
+        by_node
     }
 
     /// The surface as it was opened.
@@ -485,4 +506,73 @@ impl Pipeline {
 /// Whether two settings make the same surface: without iterations, the rest does not matter.
 fn same_filter(a: &Smoothing, b: &Smoothing) -> bool {
     a == b || (a.iterations == 0 && b.iterations == 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::phantom::{Sample, generate};
+    use crate::pipeline::settings::{Keep, Target};
+
+    fn finished() -> Pipeline {
+        let opened = Arc::new(generate(Sample::Aorta, 10_000).unwrap());
+        let mut pipeline = Pipeline::new(opened, Settings::default()).with_samples(2_000);
+        pipeline.finish().unwrap();
+        pipeline
+    }
+
+    #[test]
+    fn another_rate_costs_a_level_and_another_pass_band_keeps_the_pieces() {
+        let mut pipeline = finished();
+        let (kept, smoothed) = (pipeline.kept().unwrap().clone(), pipeline.smoothed().unwrap().clone());
+        pipeline.set(Settings { target: Target::Reduction(500), ..Settings::default() }).unwrap();
+        assert_eq!(pipeline.next_stage(), Some(Stage::Level));
+        pipeline.finish().unwrap();
+        assert!(Arc::ptr_eq(&smoothed, pipeline.smoothed().unwrap()));
+        let smoothing = Smoothing { pass_band: 0.1, ..Smoothing::default() };
+        pipeline.set(Settings { smoothing, ..Settings::default() }).unwrap();
+        assert_eq!(pipeline.next_stage(), Some(Stage::Smoothing));
+        pipeline.finish().unwrap();
+        assert!(Arc::ptr_eq(&kept, pipeline.kept().unwrap()));
+        assert!(!Arc::ptr_eq(&smoothed, pipeline.smoothed().unwrap()));
+    }
+
+    #[test]
+    fn a_cancelled_run_leaves_the_last_result_standing() {
+        let mut pipeline = finished();
+        let (reduced, settings) = (pipeline.reduced().unwrap().clone(), pipeline.settings().clone());
+        pipeline.set(Settings { keep: Keep::All, ..Settings::default() }).unwrap();
+        for _ in 0..8 {
+            assert!(!matches!(pipeline.advance(Budget::new(Duration::ZERO)), Ok(Advance::Idle)));
+        }
+        assert!(pipeline.reduced().is_none());
+        pipeline.cancel();
+        assert!(Arc::ptr_eq(&reduced, pipeline.reduced().unwrap()));
+        assert_eq!(*pipeline.settings(), settings);
+    }
+
+    #[test]
+    fn what_nodes_stand_for_lies_within_the_largest_deviation() {
+        let pipeline = finished();
+        let found = pipeline.deviations().unwrap();
+        let (most, deviation) =
+            (found.by_node.iter().copied().fold(0.0, f32::max), found.from_smoothed.as_ref().unwrap());
+        assert!(most > 0.0 && f64::from(most) <= deviation.deviation.max);
+        let gone = found.by_node.iter().filter(|&&distance| distance == 0.0).count();
+        assert!(gone >= found.by_node.len() - pipeline.reduced().unwrap().mesh.positions.len());
+    }
+
+    #[test]
+    fn nothing_comes_of_nothing_and_a_piece_that_is_not_there_is_refused() {
+        let mut empty = Pipeline::new(Arc::new(TriMesh::default()), Settings::default());
+        empty.finish().unwrap();
+        assert!(empty.reduced().unwrap().mesh.triangles.is_empty());
+        assert!(empty.deviations().unwrap().from_smoothed.is_none());
+        let mut pipeline = finished();
+        let wanted = Settings { keep: Keep::Component(10_000), ..Settings::default() };
+        assert!(matches!(pipeline.set(wanted), Err(SettingsError::Component { wanted: 10_000, .. })));
+        assert!(pipeline.reduced().is_some());
+    }
 }
