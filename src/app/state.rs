@@ -26,8 +26,8 @@ pub struct State {
     pub history: History<Settings>,
     /// The surface that is open.
     pub document: Option<Document>,
-    /// A surface that is being read.
-    opening: Option<(u64, Source)>,
+    /// Surfaces that are being read, with the settings they begin with, the newest last.
+    opening: Vec<(u64, Source, Settings)>,
     /// What the engine is doing, and the part that is done, 0 to 1.
     pub work: Option<(Work, f32)>,
     /// The last thing that the user should know.
@@ -35,7 +35,10 @@ pub struct State {
     /// The settings that the engine has, and their number.
     sent: Settings,
     generation: u64,
-    next_id: u64,
+    /// The number of the newest command.
+    number: u64,
+    /// Whether a cancel waits for its answer, which has the settings that are in force.
+    is_cancelling: bool,
     /// Times in a row that the engine has stopped by itself.
     failures: u32,
 }
@@ -65,11 +68,12 @@ impl Default for State {
             sent: settings.clone(),
             settings,
             document: None,
-            opening: None,
+            opening: Vec::new(),
             work: None,
             notice: None,
             generation: 0,
-            next_id: 0,
+            number: 0,
+            is_cancelling: false,
             failures: 0,
         }
     }
@@ -89,10 +93,13 @@ impl State {
 
     /// Opens a surface, of all of which the largest piece is kept.
     pub fn open(&mut self, source: Source, link: &mut dyn Link) {
-        self.next_id += 1;
+        if self.failures > PATIENCE {
+            link.restart();
+        }
+        self.number += 1;
         let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
-        link.send(Command::Open { id: self.next_id, source: source.clone(), settings });
-        self.opening = Some((self.next_id, source));
+        link.send(Command::Open { id: self.number, source: source.clone(), settings: settings.clone() });
+        self.opening.push((self.number, source, settings));
         self.work = Some((Work::Reading, 0.0));
         self.notice = None;
     }
@@ -109,12 +116,14 @@ impl State {
 
     /// Stops what the engine does and goes back to the last result.
     pub fn cancel(&mut self, link: &mut dyn Link) {
-        if self.opening.take().is_some() {
+        if !self.opening.is_empty() {
+            self.opening.clear();
             // Reading is one piece: only another engine can be told now. It takes up the surface that is shown.
             self.reopen(link);
             self.tell("Opening was cancelled; what was open still is.");
         } else {
             link.send(Command::Cancel);
+            self.is_cancelling = true;
         }
         self.work = None;
     }
@@ -122,9 +131,11 @@ impl State {
     /// Starts another engine on the surface that is open.
     fn reopen(&mut self, link: &mut dyn Link) {
         link.restart();
+        self.is_cancelling = false;
         if let Some(document) = &self.document {
-            self.next_id += 1;
-            let (id, source, settings) = (self.next_id, document.source.clone(), self.settings.clone());
+            self.number += 1;
+            self.generation = self.number;
+            let (id, source, settings) = (self.number, document.source.clone(), self.settings.clone());
             link.send(Command::Open { id, source, settings: settings.clone() });
             self.sent = settings;
         }
@@ -146,6 +157,8 @@ impl State {
 
     /// Goes one step back in the settings.
     pub fn undo(&mut self) {
+        // A value that was typed a moment ago may not be a step yet.
+        self.history.record(&self.settings);
         if let Some(settings) = self.history.undo() {
             self.settings = settings.clone();
         }
@@ -153,13 +166,16 @@ impl State {
 
     /// Takes back the last step back.
     pub fn redo(&mut self) {
+        self.history.record(&self.settings);
         if let Some(settings) = self.history.redo() {
             self.settings = settings.clone();
         }
     }
 
     /// To be called each frame, after the controls: shows the level that the settings ask for and lets the engine
-    /// know about them. While a control is held, the steps of its way are not recorded for undo.
+    /// know about them. While a control is held, the steps of its way are not recorded for undo. While a surface is
+    /// being read or a cancel waits for its answer the engine is told nothing: it is then told all at once, and on
+    /// which surface the settings act is never in doubt.
     pub fn follow(&mut self, is_held: bool, link: &mut dyn Link) {
         if !is_held {
             self.history.record(&self.settings);
@@ -167,14 +183,16 @@ impl State {
         if self.settings == self.sent {
             return;
         }
-        let Some(document) = &mut self.document else {
-            self.sent = self.settings.clone();
-            return;
-        };
-        if self.settings.target != self.sent.target {
+        if let Some(document) = &mut self.document
+            && self.settings.target != self.sent.target
+        {
             document.show(self.settings.target);
         }
-        self.generation += 1;
+        if self.document.is_none() || !self.opening.is_empty() || self.is_cancelling {
+            return;
+        }
+        self.number += 1;
+        self.generation = self.number;
         link.send(Command::Set { generation: self.generation, settings: self.settings.clone() });
         self.sent = self.settings.clone();
     }
@@ -184,9 +202,11 @@ impl State {
         match event {
             Event::Opened(opened) => return self.receive_opened(*opened),
             Event::OpenFailed { id, name, message } => {
-                if self.opening.as_ref().is_some_and(|(waiting, _)| *waiting == id) {
-                    self.opening = None;
-                    self.work = None;
+                if let Some(at) = self.opening.iter().position(|(waiting, ..)| *waiting == id) {
+                    self.opening.remove(at);
+                    if self.opening.is_empty() {
+                        self.work = None;
+                    }
                     let kept = if self.document.is_some() { " What was open still is." } else { "" };
                     self.warn(&format!("{name}: {}{kept}", sentence(&message)));
                 }
@@ -206,13 +226,18 @@ impl State {
             Event::Measured { generation, complete, report, deviation } => {
                 if complete {
                     self.failures = 0;
-                    self.work = None;
+                    // Numbers of older settings, or of the surface before, end no work on newer ones.
+                    if self.opening.is_empty() && generation == self.generation {
+                        self.work = None;
+                    }
                 }
                 if let Some(document) = &mut self.document {
                     document.set_measured(Measured { generation, report: *report, deviation });
                 }
             }
-            Event::Cancelled { settings } => {
+            Event::Cancelled { generation, settings } => {
+                self.generation = generation;
+                self.is_cancelling = false;
                 self.work = None;
                 if settings != self.settings {
                     self.tell("Cancelled; the last result stands.");
@@ -234,20 +259,23 @@ impl State {
     }
 
     fn receive_opened(&mut self, opened: crate::engine::Opened) -> Option<Effect> {
-        match self.opening.take() {
-            Some((id, source)) if id == opened.id => {
+        match self.opening.iter().position(|(id, ..)| *id == opened.id) {
+            Some(at) => {
+                // The engine gives up what it was asked for before.
+                let (id, source, settings) = self.opening.drain(..=at).next_back()?;
+                // Pieces are numbered in one surface only.
                 self.settings.keep = Keep::Largest;
-                self.history.replace(&self.settings);
-                self.sent = self.settings.clone();
+                self.history.change_all(|settings| settings.keep = Keep::Largest);
+                self.generation = id;
+                // What was moved while the surface was read follows.
+                self.sent = settings;
+                self.is_cancelling = false;
                 self.notice = opened.report.warnings.first().map(|text| Notice { text: text.clone(), is_error: false });
                 self.document = Some(Document::new(source, opened));
                 Some(Effect::Opened)
             }
             // The surface that is shown was read again by a new engine.
-            other => {
-                self.opening = other;
-                None
-            }
+            None => None,
         }
     }
 
@@ -255,15 +283,15 @@ impl State {
     pub fn engine_failed(&mut self, reason: &str, link: &mut dyn Link) {
         self.failures += 1;
         self.work = None;
-        let opening = self.opening.take();
+        self.is_cancelling = false;
+        let opening = std::mem::take(&mut self.opening).pop();
         if self.failures > PATIENCE {
-            link.restart();
             self.warn(&format!("The computation keeps stopping ({reason}). Nothing that is shown was lost."));
             return;
         }
         self.reopen(link);
         let text = match opening {
-            Some((_, source)) => format!("{} could not be read: the computation stopped ({reason}).", source.name()),
+            Some((_, source, _)) => format!("{} could not be read: the computation stopped ({reason}).", source.name()),
             None => format!("The computation stopped ({reason}) and was started again. Nothing was lost."),
         };
         self.warn(&text);
@@ -288,3 +316,6 @@ fn sentence(text: &str) -> String {
     let end = if text.ends_with(['.', '!', '?']) { "" } else { "." };
     format!("{first}{}{end}", letters.as_str())
 }
+
+#[cfg(test)]
+mod tests;

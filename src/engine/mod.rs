@@ -37,8 +37,8 @@ pub const SLICE: Duration = Duration::from_millis(8);
 /// The pipeline as a machine of commands and events.
 #[derive(Default)]
 pub struct Engine {
-    /// A file to be opened, with the settings to begin with.
-    opening: Option<(u64, Source, Settings)>,
+    /// Files to be opened, with the settings to begin with: the newest is, those before it only if it cannot be read.
+    opening: Vec<(u64, Source, Settings)>,
     current: Option<Current>,
     writing: Vec<(String, io::Format, crate::mesh::TriMesh)>,
     events: VecDeque<Event>,
@@ -50,10 +50,17 @@ struct Current {
     read_ms: f64,
     /// The number of the settings that are worked on.
     generation: u64,
+    /// The number of the newest settings that reached a level.
+    reached: u64,
     /// Newer settings, with their number.
     waiting: Option<(u64, Settings)>,
     /// When work on the present settings began.
     since: Instant,
+    /// Whether it was cancelled: nothing goes on until there are newer settings.
+    is_stopped: bool,
+    /// Whether the levels are newer than those that were sent: they go out with their first numbers, so that a
+    /// cancel never leaves levels outside that the pipeline has gone back from.
+    has_new_levels: bool,
 }
 
 impl Engine {
@@ -65,7 +72,7 @@ impl Engine {
     /// Takes a command. Nothing long happens here.
     pub fn handle(&mut self, command: Command) {
         match command {
-            Command::Open { id, source, settings } => self.opening = Some((id, source, settings)),
+            Command::Open { id, source, settings } => self.opening.push((id, source, settings)),
             Command::Set { generation, settings } => {
                 if let Some(current) = &mut self.current {
                     current.waiting = Some((generation, settings));
@@ -77,12 +84,17 @@ impl Engine {
     }
 
     fn cancel(&mut self) {
-        self.opening = None;
+        self.opening.clear();
         if let Some(current) = &mut self.current {
             current.waiting = None;
             current.pipeline.cancel();
-            let settings = current.pipeline.settings().clone();
-            self.events.push_back(Event::Cancelled { settings });
+            current.is_stopped = true;
+            current.has_new_levels = false;
+            if current.pipeline.reduced().is_some() {
+                current.generation = current.reached;
+            }
+            let (generation, settings) = (current.generation, current.pipeline.settings().clone());
+            self.events.push_back(Event::Cancelled { generation, settings });
         }
     }
 
@@ -92,7 +104,7 @@ impl Engine {
         let budget = Budget::new(slice);
         if let Some((name, format, mesh)) = self.writing.pop() {
             self.write(name, format, &mesh);
-        } else if let Some((id, source, settings)) = self.opening.take() {
+        } else if let Some((id, source, settings)) = self.opening.pop() {
             self.open(id, source, settings);
         } else if let Some(current) = &mut self.current {
             loop {
@@ -107,7 +119,7 @@ impl Engine {
                 }
             }
         }
-        self.opening.is_some() || self.current.is_some() || !self.writing.is_empty()
+        !self.opening.is_empty() || self.current.is_some() || !self.writing.is_empty()
     }
 
     /// The next event.
@@ -137,8 +149,18 @@ impl Engine {
                 }
                 let read_ms = start.elapsed().as_secs_f64() * 1e3;
                 let since = Instant::now();
-                self.current =
-                    Some(Current { name: name.clone(), pipeline, read_ms, generation: 0, waiting: None, since });
+                self.current = Some(Current {
+                    name: name.clone(),
+                    pipeline,
+                    read_ms,
+                    generation: id,
+                    reached: id,
+                    waiting: None,
+                    since,
+                    is_stopped: false,
+                    has_new_levels: false,
+                });
+                self.opening.clear();
                 self.events.push_back(Event::Opened(Box::new(Opened { id, name, report, mesh })));
             }
             Err(message) => self.events.push_back(Event::OpenFailed { id, name, message }),
@@ -160,6 +182,9 @@ impl Current {
     /// One step; whether there is more to do.
     fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> Result<bool, String> {
         self.take_waiting().map_err(|error| error.to_string())?;
+        if self.is_stopped {
+            return Ok(false);
+        }
         let generation = self.generation;
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
             Advance::Idle => return Ok(false),
@@ -170,14 +195,15 @@ impl Current {
                     _ => events.push_back(event),
                 }
             }
-            Advance::Finished(Stage::Decimation) => {
-                if let Some(mesh) = self.pipeline.progressive() {
+            Advance::Finished(Stage::Decimation) => self.has_new_levels = true,
+            Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {
+                self.reached = generation;
+                if let Some(mesh) = self.pipeline.progressive().filter(|_| self.has_new_levels) {
                     let keep = self.pipeline.settings().keep;
                     let reduced = Reduced { generation, keep, mesh: mesh.clone() };
                     events.push_back(Event::Reduced(Box::new(reduced)));
+                    self.has_new_levels = false;
                 }
-            }
-            Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {
                 if let Some(mut report) = Report::new(&self.name, &self.pipeline) {
                     report.stages_ms.read = self.read_ms;
                     let found = self.pipeline.deviations().and_then(|found| found.from_smoothed.as_ref());
@@ -200,7 +226,8 @@ impl Current {
 
     /// Goes over to newer settings, unless a result of the present ones is near.
     fn take_waiting(&mut self) -> Result<(), crate::pipeline::settings::SettingsError> {
-        let result_is_near = self.pipeline.reduced().is_none()
+        let result_is_near = !self.is_stopped
+            && self.pipeline.reduced().is_none()
             && self.pipeline.next_stage() > Some(Stage::Connectivity)
             && self.since.elapsed() < PATIENCE;
         if result_is_near {
@@ -209,6 +236,7 @@ impl Current {
         if let Some((generation, settings)) = self.waiting.take() {
             self.generation = generation;
             self.since = Instant::now();
+            self.is_stopped = false;
             self.pipeline.set(settings)?;
         }
         Ok(())
