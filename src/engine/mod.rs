@@ -181,7 +181,7 @@ fn read(source: Source) -> Result<Imported, String> {
 impl Current {
     /// One step; whether there is more to do.
     fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> Result<bool, String> {
-        self.take_waiting().map_err(|error| error.to_string())?;
+        self.take_waiting(events).map_err(|error| error.to_string())?;
         if self.is_stopped {
             return Ok(false);
         }
@@ -204,13 +204,7 @@ impl Current {
                     events.push_back(Event::Reduced(Box::new(reduced)));
                     self.has_new_levels = false;
                 }
-                if let Some(mut report) = Report::new(&self.name, &self.pipeline) {
-                    report.stages_ms.read = self.read_ms;
-                    let found = self.pipeline.deviations().and_then(|found| found.from_smoothed.as_ref());
-                    let deviation = found.map_or_else(Vec::new, |found| found.per_vertex.clone());
-                    let complete = stage == Stage::Deviation;
-                    events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
-                }
+                self.tell_numbers(stage == Stage::Deviation, events);
             }
             Advance::Finished(Stage::Connectivity) => {
                 let pieces = self.pipeline.connectivity();
@@ -225,7 +219,7 @@ impl Current {
     }
 
     /// Goes over to newer settings, unless a result of the present ones is near.
-    fn take_waiting(&mut self) -> Result<(), crate::pipeline::settings::SettingsError> {
+    fn take_waiting(&mut self, events: &mut VecDeque<Event>) -> Result<(), crate::pipeline::settings::SettingsError> {
         let result_is_near = !self.is_stopped
             && self.pipeline.reduced().is_none()
             && self.pipeline.next_stage() > Some(Stage::Connectivity)
@@ -238,7 +232,22 @@ impl Current {
             self.since = Instant::now();
             self.is_stopped = false;
             self.pipeline.set(settings)?;
+            // Where they change nothing that is made, the numbers stand under their number too.
+            if self.pipeline.reduced().is_some() {
+                self.reached = generation;
+                self.tell_numbers(self.pipeline.deviations().is_some(), events);
+            }
         }
         Ok(())
+    }
+
+    /// The numbers of the level, with or without its deviation.
+    fn tell_numbers(&self, complete: bool, events: &mut VecDeque<Event>) {
+        let Some(mut report) = Report::new(&self.name, &self.pipeline) else { return };
+        report.stages_ms.read = self.read_ms;
+        let found = self.pipeline.deviations().and_then(|found| found.from_smoothed.as_ref());
+        let deviation = found.map_or_else(Vec::new, |found| found.per_vertex.clone());
+        let generation = self.generation;
+        events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
     }
 }

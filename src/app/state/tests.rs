@@ -230,3 +230,16 @@ fn an_engine_that_cannot_start_is_left_alone() {
     settle(&mut s, &mut l);
     agrees(&s);
 }
+
+#[test]
+fn a_setting_that_changes_nothing_leaves_the_numbers() {
+    let (mut s, mut l) = start();
+    s.settings.smoothing.iterations = 0;
+    s.follow(false, &mut l);
+    settle(&mut s, &mut l);
+    agrees(&s);
+    s.settings.smoothing.pass_band = 0.5;
+    s.follow(false, &mut l);
+    settle(&mut s, &mut l);
+    agrees(&s);
+}
