@@ -99,6 +99,9 @@ impl Optimise {
         });
         let format = Format::from_name(&self.output.to_string_lossy())
             .with_context(|| format!("{} does not end in .stl, .ply, .obj or .glb", self.output.display()))?;
+        if self.report.as_ref() == Some(&self.output) {
+            anyhow::bail!("the surface and the report cannot both go to {}", self.output.display());
+        }
         if self.triangles.is_none() && 0.0 < self.reduction && self.reduction < 1.0 {
             eprintln!(
                 "lumen: warning: --reduction {} removes less than one percent; nine tenths are --reduction 90",
