@@ -1,6 +1,6 @@
 //! File dialogs and files, each on a thread of its own so that no frame waits for a disk.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
 use std::thread;
 
@@ -15,19 +15,19 @@ const EXTENSIONS: [&str; 5] = ["stl", "ply", "obj", "glb", "gltf"];
 pub(super) fn choose(events: Sender<PlatformEvent>, ctx: egui::Context) {
     thread::spawn(move || {
         if let Some(path) = FileDialog::new().add_filter("Surfaces", &EXTENSIONS).pick_file() {
-            send(&events, &ctx, load(path));
+            send(&events, &ctx, load(&path));
         }
     });
 }
 
 /// Reads a file.
 pub(super) fn read(path: PathBuf, events: Sender<PlatformEvent>, ctx: egui::Context) {
-    thread::spawn(move || send(&events, &ctx, load(path)));
+    thread::spawn(move || send(&events, &ctx, load(&path)));
 }
 
-fn load(path: PathBuf) -> PlatformEvent {
+fn load(path: &Path) -> PlatformEvent {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    match std::fs::read(&path) {
+    match std::fs::read(path) {
         Ok(bytes) => PlatformEvent::Chosen { name, bytes },
         Err(error) => PlatformEvent::Failed { message: format!("{name} could not be read: {error}.") },
     }
