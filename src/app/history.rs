@@ -35,6 +35,16 @@ impl<T: Clone + PartialEq> History<T> {
         self.present = value.clone();
     }
 
+    /// Changes every value alike; steps that lead nowhere then are left out.
+    pub fn change_all(&mut self, change: impl Fn(&mut T)) {
+        change(&mut self.present);
+        for steps in [&mut self.undo, &mut self.redo] {
+            steps.iter_mut().for_each(&change);
+            steps.dedup();
+            steps.pop_if(|next| *next == self.present);
+        }
+    }
+
     /// Goes one step back: the value that stands then.
     pub fn undo(&mut self) -> Option<&T> {
         let before = self.undo.pop()?;

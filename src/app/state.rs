@@ -26,8 +26,9 @@ pub struct State {
     pub history: History<Settings>,
     /// The surface that is open.
     pub document: Option<Document>,
-    /// A surface that is on its way in; the one that is open stays until this one has something to show.
-    opening: Option<Opening>,
+    /// Surfaces that are on their way in, the newest last; the one that is open stays until one of them has something
+    /// to show.
+    opening: Vec<Opening>,
     /// What the engine is doing, and the part that is done, 0 to 1.
     pub work: Option<(Work, f32)>,
     /// The last thing that the user should know.
@@ -35,7 +36,10 @@ pub struct State {
     /// The settings that the engine has, and their number.
     sent: Settings,
     generation: u64,
-    next_id: u64,
+    /// The number of the newest command.
+    number: u64,
+    /// Whether a cancel waits for its answer, which has the settings that are in force.
+    is_cancelling: bool,
     /// Times in a row that the engine has stopped by itself.
     failures: u32,
 }
@@ -44,6 +48,8 @@ pub struct State {
 struct Opening {
     id: u64,
     source: Source,
+    /// The settings it begins with.
+    settings: Settings,
     /// What is known of it, once it is read.
     document: Option<Document>,
 }
@@ -73,11 +79,12 @@ impl Default for State {
             sent: settings.clone(),
             settings,
             document: None,
-            opening: None,
+            opening: Vec::new(),
             work: None,
             notice: None,
             generation: 0,
-            next_id: 0,
+            number: 0,
+            is_cancelling: false,
             failures: 0,
         }
     }
@@ -97,17 +104,21 @@ impl State {
 
     /// Opens a surface, of all of which the largest piece is kept.
     pub fn open(&mut self, source: Source, link: &mut dyn Link) {
-        self.next_id += 1;
+        if self.failures > PATIENCE {
+            link.restart();
+        }
+        self.number += 1;
+        let id = self.number;
         let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
-        link.send(Command::Open { id: self.next_id, source: source.clone(), settings });
-        self.opening = Some(Opening { id: self.next_id, source, document: None });
+        link.send(Command::Open { id, source: source.clone(), settings: settings.clone() });
+        self.opening.push(Opening { id, source, settings, document: None });
         self.work = Some((Work::Reading, 0.0));
         self.notice = None;
     }
 
     /// The name of the surface that is on its way in.
     pub fn opening(&self) -> Option<&str> {
-        self.opening.as_ref().map(|opening| opening.source.name())
+        self.opening.last().map(|opening| opening.source.name())
     }
 
     /// Whether the engine is at work.
@@ -122,13 +133,15 @@ impl State {
 
     /// Stops what the engine does and goes back to the last result.
     pub fn cancel(&mut self, link: &mut dyn Link) {
-        if self.opening.as_ref().is_some_and(|opening| opening.document.is_none()) {
-            // Reading is one piece: only another engine can be told now. It takes up the surface that is shown.
-            self.opening = None;
-            self.reopen(link);
-            self.tell_opening_was_cancelled();
-        } else {
+        if self.opening.is_empty() {
             link.send(Command::Cancel);
+            self.is_cancelling = true;
+        } else {
+            // Reading is one piece, which no command can stop: another engine takes up the surface that is shown.
+            self.opening.clear();
+            self.reopen(link);
+            let kept = if self.document.is_some() { "; what was open still is" } else { "" };
+            self.tell(&format!("Opening was cancelled{kept}."));
         }
         self.work = None;
     }
@@ -136,9 +149,11 @@ impl State {
     /// Starts another engine on the surface that is open.
     fn reopen(&mut self, link: &mut dyn Link) {
         link.restart();
+        self.is_cancelling = false;
         if let Some(document) = &self.document {
-            self.next_id += 1;
-            let (id, source, settings) = (self.next_id, document.source.clone(), self.settings.clone());
+            self.number += 1;
+            self.generation = self.number;
+            let (id, source, settings) = (self.number, document.source.clone(), self.settings.clone());
             link.send(Command::Open { id, source, settings: settings.clone() });
             self.sent = settings;
         }
@@ -160,6 +175,8 @@ impl State {
 
     /// Goes one step back in the settings.
     pub fn undo(&mut self) {
+        // A value that was typed a moment ago may not be a step yet.
+        self.history.record(&self.settings);
         if let Some(settings) = self.history.undo() {
             self.settings = settings.clone();
         }
@@ -167,13 +184,16 @@ impl State {
 
     /// Takes back the last step back.
     pub fn redo(&mut self) {
+        self.history.record(&self.settings);
         if let Some(settings) = self.history.redo() {
             self.settings = settings.clone();
         }
     }
 
     /// To be called each frame, after the controls: shows the level that the settings ask for and lets the engine
-    /// know about them. While a control is held, the steps of its way are not recorded for undo.
+    /// know about them. While a control is held, the steps of its way are not recorded for undo. While a surface is on
+    /// its way in or a cancel waits for its answer the engine is told nothing: it is then told all at once, and on
+    /// which surface the settings act is never in doubt.
     pub fn follow(&mut self, is_held: bool, link: &mut dyn Link) {
         if !is_held {
             self.history.record(&self.settings);
@@ -184,13 +204,12 @@ impl State {
         if let Some(document) = self.document.as_mut().filter(|_| self.settings.target != self.sent.target) {
             document.show(self.settings.target);
         }
-        let mut settings = self.settings.clone();
-        if self.opening.is_some() {
-            // The pieces are those of the surface that is shown, not of the one that is coming.
-            settings.keep = Keep::Largest;
+        if self.document.is_none() || !self.opening.is_empty() || self.is_cancelling {
+            return;
         }
-        self.generation += 1;
-        link.send(Command::Set { generation: self.generation, settings });
+        self.number += 1;
+        self.generation = self.number;
+        link.send(Command::Set { generation: self.generation, settings: self.settings.clone() });
         self.sent = self.settings.clone();
     }
 
@@ -199,9 +218,11 @@ impl State {
         match event {
             Event::Opened(opened) => self.receive_opened(*opened),
             Event::OpenFailed { id, name, message } => {
-                if self.opening.as_ref().is_some_and(|opening| opening.id == id) {
-                    self.opening = None;
-                    self.work = None;
+                if let Some(at) = self.opening.iter().position(|opening| opening.id == id) {
+                    self.opening.remove(at);
+                    if self.opening.is_empty() {
+                        self.work = None;
+                    }
                     let kept = if self.document.is_some() { " What was open still is." } else { "" };
                     self.warn(&format!("{name}: {}{kept}", sentence(&message)));
                 }
@@ -223,13 +244,16 @@ impl State {
             Event::Measured { generation, complete, report, deviation } => {
                 if complete {
                     self.failures = 0;
-                    self.work = None;
+                    // Numbers of older settings, or of the surface before, end no work on newer ones.
+                    if self.opening.is_empty() && generation == self.generation {
+                        self.work = None;
+                    }
                 }
                 if let Some(document) = &mut self.document {
                     document.set_measured(Measured { generation, report: *report, deviation });
                 }
             }
-            Event::Cancelled { settings } => self.receive_cancelled(settings),
+            Event::Cancelled { generation, settings } => self.receive_cancelled(generation, settings),
             Event::Written { name, bytes } => return Some(Effect::Offer { name, bytes }),
             Event::Failed { message } => {
                 self.work = None;
@@ -241,38 +265,43 @@ impl State {
 
     /// The surface that the engine works on.
     fn worked_on(&mut self) -> Option<&mut Document> {
-        match &mut self.opening {
-            Some(Opening { document: Some(document), .. }) => Some(document),
-            _ => self.document.as_mut(),
-        }
+        let incoming = self.opening.iter_mut().filter_map(|opening| opening.document.as_mut()).next_back();
+        incoming.or(self.document.as_mut())
     }
 
     fn receive_opened(&mut self, opened: crate::engine::Opened) {
         // Others were read again by a new engine, and are shown already.
-        if let Some(opening) = self.opening.as_mut().filter(|opening| opening.id == opened.id) {
+        if let Some(at) = self.opening.iter().position(|opening| opening.id == opened.id) {
+            // The engine gives up what it was asked for before.
+            self.opening.drain(..at);
+            let opening = &mut self.opening[0];
             opening.document = Some(Document::new(opening.source.clone(), opened));
         }
     }
 
     /// The surface that was on its way in takes the place of the one that is open.
     fn arrive(&mut self) -> Option<Effect> {
-        let opening = self.opening.take_if(|opening| opening.document.is_some())?;
-        let document = opening.document?;
+        let at = self.opening.iter().rposition(|opening| opening.document.is_some())?;
+        let Opening { id, settings, document, .. } = self.opening.drain(..=at).next_back()?;
+        let document = document?;
+        // Pieces are numbered in one surface only.
         self.settings.keep = Keep::Largest;
-        self.sent.keep = Keep::Largest;
-        // The steps before this one may name pieces that this surface does not have.
-        self.history = History::new(self.settings.clone());
+        self.history.change_all(|settings| settings.keep = Keep::Largest);
+        self.generation = id;
+        // What was moved meanwhile follows.
+        self.sent = settings;
+        self.is_cancelling = false;
         let warning = document.import.warnings.first();
         self.notice = warning.map(|text| Notice { text: text.clone(), is_error: false });
         self.document = Some(document);
         Some(Effect::Opened)
     }
 
-    fn receive_cancelled(&mut self, settings: Settings) {
+    fn receive_cancelled(&mut self, generation: u64, settings: Settings) {
+        self.generation = generation;
+        self.is_cancelling = false;
         self.work = None;
-        if self.opening.take().is_some() {
-            self.tell_opening_was_cancelled();
-        } else if settings != self.settings {
+        if settings != self.settings {
             self.tell("Cancelled; the last result stands.");
         }
         if let Some(document) = &mut self.document {
@@ -287,9 +316,9 @@ impl State {
     pub fn engine_failed(&mut self, reason: &str, link: &mut dyn Link) {
         self.failures += 1;
         self.work = None;
-        let opening = self.opening.take();
+        self.is_cancelling = false;
+        let opening = std::mem::take(&mut self.opening).pop();
         if self.failures > PATIENCE {
-            link.restart();
             self.warn(&format!(
                 "The computation keeps stopping ({reason}). What is shown is still there; open a file to go on."
             ));
@@ -303,11 +332,6 @@ impl State {
             None => format!("The computation stopped ({reason}) and was started again. Nothing was lost."),
         };
         self.warn(&text);
-    }
-
-    fn tell_opening_was_cancelled(&mut self) {
-        let kept = if self.document.is_some() { "; what was open still is" } else { "" };
-        self.tell(&format!("Opening was cancelled{kept}."));
     }
 
     /// Opens the file that is shown again, with its numbers in `unit`. Samples have theirs.
@@ -338,3 +362,6 @@ fn sentence(text: &str) -> String {
     let end = if text.ends_with(['.', '!', '?']) { "" } else { "." };
     format!("{first}{}{end}", letters.as_str())
 }
+
+#[cfg(test)]
+mod tests;

@@ -95,6 +95,9 @@ impl Optimise {
         let settings = self.settings();
         settings.check().unwrap_or_else(|error| misuse(error));
         let format = output_format(&self.output);
+        if self.report.as_ref() == Some(&self.output) {
+            misuse(format!("the surface and the report cannot both go to {}", self.output.display()));
+        }
         if self.triangles.is_none() && 0.0 < self.reduction && self.reduction < 1.0 {
             eprintln!(
                 "lumen: warning: --reduction {} removes less than one percent; nine tenths are --reduction 90",

@@ -54,7 +54,8 @@ impl Source {
 pub enum Command {
     /// Read a surface and run the pipeline on it.
     Open {
-        /// Comes back with the answer.
+        /// Comes back with the answer, and with the results until the settings change: it is counted with the
+        /// generations.
         id: u64,
         /// Where from.
         source: Source,
@@ -68,7 +69,7 @@ pub enum Command {
         /// All of them.
         settings: Settings,
     },
-    /// Stop, and go back to the last result.
+    /// Stop, and go back to the last result; nothing goes on until there are other settings.
     Cancel,
     /// Turn a surface into a file.
     Write {
@@ -168,6 +169,8 @@ pub enum Event {
     },
     /// The work was stopped; these settings, and their results, are in force.
     Cancelled {
+        /// That of the settings.
+        generation: u64,
         /// All of them.
         settings: Settings,
     },

@@ -20,7 +20,7 @@ use web_time::Instant;
 
 pub use self::message::{Command, Event, Link, Opened, Reduced, Source, Work};
 use crate::io::{self, Imported};
-use crate::mesh::Vec3;
+use crate::mesh::{TriMesh, Vec3};
 use crate::phantom;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::report::Report;
@@ -37,12 +37,10 @@ pub const SLICE: Duration = Duration::from_millis(8);
 /// The pipeline as a machine of commands and events.
 #[derive(Default)]
 pub struct Engine {
-    /// A file to be opened, with the settings to begin with.
-    opening: Option<(u64, Source, Settings)>,
+    /// Files to be opened, with the settings to begin with: the newest is, those before it only if it cannot be read.
+    opening: Vec<(u64, Source, Settings)>,
     current: Option<Current>,
-    /// What was open before, until the present surface has its first result: a cancel goes back to it.
-    fallback: Option<Current>,
-    writing: Vec<(String, io::Format, crate::mesh::TriMesh)>,
+    writing: VecDeque<(String, io::Format, TriMesh)>,
     events: VecDeque<Event>,
 }
 
@@ -52,10 +50,17 @@ struct Current {
     read_ms: f64,
     /// The number of the settings that are worked on.
     generation: u64,
+    /// The number of the newest settings that reached a level.
+    reached: u64,
     /// Newer settings, with their number.
     waiting: Option<(u64, Settings)>,
     /// When work on the present settings began.
     since: Instant,
+    /// Whether it was cancelled: nothing goes on until there are newer settings.
+    is_stopped: bool,
+    /// Whether the levels are newer than those that were sent: they go out with their first numbers, so that a
+    /// cancel never leaves levels outside that the pipeline has gone back from.
+    has_new_levels: bool,
 }
 
 impl Engine {
@@ -67,58 +72,55 @@ impl Engine {
     /// Takes a command. Nothing long happens here.
     pub fn handle(&mut self, command: Command) {
         match command {
-            Command::Open { id, source, settings } => self.opening = Some((id, source, settings)),
+            Command::Open { id, source, settings } => self.opening.push((id, source, settings)),
             Command::Set { generation, settings } => {
                 if let Some(current) = &mut self.current {
                     current.waiting = Some((generation, settings));
                 }
             }
             Command::Cancel => self.cancel(),
-            Command::Write { name, format, mesh } => self.writing.push((name, format, mesh)),
+            Command::Write { name, format, mesh } => self.writing.push_back((name, format, mesh)),
         }
     }
 
-    /// Goes back to the last result: of this surface, or else of the one that was open before.
     fn cancel(&mut self) {
-        self.opening = None;
+        self.opening.clear();
         if let Some(current) = &mut self.current {
             current.waiting = None;
             current.pipeline.cancel();
-            if current.pipeline.reduced().is_none() {
-                self.current = self.fallback.take();
+            current.is_stopped = true;
+            current.has_new_levels = false;
+            if current.pipeline.reduced().is_some() {
+                current.generation = current.reached;
             }
+            let (generation, settings) = (current.generation, current.pipeline.settings().clone());
+            self.events.push_back(Event::Cancelled { generation, settings });
         }
-        let settings = self.current.as_ref().map(|current| current.pipeline.settings().clone());
-        self.events.push_back(Event::Cancelled { settings: settings.unwrap_or_default() });
     }
 
-    /// Works for about `slice` and says whether there is more to do. Reading a file is one piece and may take
-    /// longer; everything else keeps to the slice.
+    /// Works for about `slice` and says whether there is more to do. Reading a file and writing one are one piece each
+    /// and may take longer; so may, for surfaces of a million triangles, the parts of connectivity and the beginning
+    /// and end of smoothing and decimation (tens of milliseconds).
     pub fn advance(&mut self, slice: Duration) -> bool {
         let budget = Budget::new(slice);
-        if let Some((name, format, mesh)) = self.writing.pop() {
+        if let Some((name, format, mesh)) = self.writing.pop_front() {
             self.write(name, format, &mesh);
-        } else if let Some((id, source, settings)) = self.opening.take() {
+        } else if let Some((id, source, settings)) = self.opening.pop() {
             self.open(id, source, settings);
         } else if let Some(current) = &mut self.current {
             loop {
                 match current.advance(budget, &mut self.events) {
                     Ok(true) if !budget.is_spent() => {}
-                    Ok(more) => {
-                        if current.pipeline.reduced().is_some() {
-                            self.fallback = None;
-                        }
-                        return more || !self.writing.is_empty();
-                    }
+                    Ok(more) => return more || !self.writing.is_empty(),
                     Err(message) => {
                         self.cancel();
                         self.events.push_back(Event::Failed { message });
-                        return self.current.is_some();
+                        return false;
                     }
                 }
             }
         }
-        self.opening.is_some() || self.current.is_some() || !self.writing.is_empty()
+        !self.opening.is_empty() || self.current.is_some() || !self.writing.is_empty()
     }
 
     /// The next event.
@@ -126,7 +128,7 @@ impl Engine {
         self.events.pop_front()
     }
 
-    fn write(&mut self, name: String, format: io::Format, mesh: &crate::mesh::TriMesh) {
+    fn write(&mut self, name: String, format: io::Format, mesh: &TriMesh) {
         let normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
         self.events.push_back(match io::write(mesh, Some(&normals), format) {
             Ok(bytes) => Event::Written { name, bytes },
@@ -148,11 +150,18 @@ impl Engine {
                 }
                 let read_ms = start.elapsed().as_secs_f64() * 1e3;
                 let since = Instant::now();
-                let new = Current { name: name.clone(), pipeline, read_ms, generation: 0, waiting: None, since };
-                let old = self.current.replace(new);
-                if let Some(old) = old.filter(|old| old.pipeline.has_result()) {
-                    self.fallback = Some(old);
-                }
+                self.current = Some(Current {
+                    name: name.clone(),
+                    pipeline,
+                    read_ms,
+                    generation: id,
+                    reached: id,
+                    waiting: None,
+                    since,
+                    is_stopped: false,
+                    has_new_levels: false,
+                });
+                self.opening.clear();
                 self.events.push_back(Event::Opened(Box::new(Opened { id, name, report, mesh })));
             }
             Err(message) => self.events.push_back(Event::OpenFailed { id, name, message }),
@@ -173,7 +182,10 @@ fn read(source: Source) -> Result<Imported, String> {
 impl Current {
     /// One step; whether there is more to do.
     fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> Result<bool, String> {
-        self.take_waiting().map_err(|error| error.to_string())?;
+        self.take_waiting(events).map_err(|error| error.to_string())?;
+        if self.is_stopped {
+            return Ok(false);
+        }
         let generation = self.generation;
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
             Advance::Idle => return Ok(false),
@@ -184,21 +196,16 @@ impl Current {
                     _ => events.push_back(event),
                 }
             }
-            Advance::Finished(Stage::Decimation) => {
-                if let Some(mesh) = self.pipeline.progressive() {
+            Advance::Finished(Stage::Decimation) => self.has_new_levels = true,
+            Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {
+                self.reached = generation;
+                if let Some(mesh) = self.pipeline.progressive().filter(|_| self.has_new_levels) {
                     let keep = self.pipeline.settings().keep;
                     let reduced = Reduced { generation, keep, mesh: mesh.clone() };
                     events.push_back(Event::Reduced(Box::new(reduced)));
+                    self.has_new_levels = false;
                 }
-            }
-            Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {
-                if let Some(mut report) = Report::new(&self.name, &self.pipeline) {
-                    report.stages_ms.read = self.read_ms;
-                    let found = self.pipeline.deviations();
-                    let deviation = found.map_or_else(Vec::new, |found| found.by_node.clone());
-                    let complete = stage == Stage::Deviation;
-                    events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
-                }
+                self.tell_numbers(stage == Stage::Deviation, events);
             }
             Advance::Finished(Stage::Connectivity) => {
                 let pieces = self.pipeline.connectivity();
@@ -213,8 +220,9 @@ impl Current {
     }
 
     /// Goes over to newer settings, unless a result of the present ones is near.
-    fn take_waiting(&mut self) -> Result<(), crate::pipeline::settings::SettingsError> {
-        let result_is_near = self.pipeline.reduced().is_none()
+    fn take_waiting(&mut self, events: &mut VecDeque<Event>) -> Result<(), crate::pipeline::settings::SettingsError> {
+        let result_is_near = !self.is_stopped
+            && self.pipeline.reduced().is_none()
             && self.pipeline.next_stage() > Some(Stage::Connectivity)
             && self.since.elapsed() < PATIENCE;
         if result_is_near {
@@ -223,8 +231,23 @@ impl Current {
         if let Some((generation, settings)) = self.waiting.take() {
             self.generation = generation;
             self.since = Instant::now();
+            self.is_stopped = false;
             self.pipeline.set(settings)?;
+            // Where they change nothing that is made, the numbers stand under their number too.
+            if self.pipeline.reduced().is_some() {
+                self.reached = generation;
+                self.tell_numbers(self.pipeline.deviations().is_some(), events);
+            }
         }
         Ok(())
+    }
+
+    /// The numbers of the level, with or without its deviation.
+    fn tell_numbers(&self, complete: bool, events: &mut VecDeque<Event>) {
+        let Some(mut report) = Report::new(&self.name, &self.pipeline) else { return };
+        report.stages_ms.read = self.read_ms;
+        let deviation = self.pipeline.deviations().map_or_else(Vec::new, |found| found.by_node.clone());
+        let generation = self.generation;
+        events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
     }
 }

@@ -72,7 +72,7 @@ enum EventHeader {
     Progress { work: Work, fraction: f32 },
     Reduced { generation: u64, keep: Keep, limit: Limit },
     Measured { generation: u64, complete: bool, report: Box<Report> },
-    Cancelled { settings: Settings },
+    Cancelled { generation: u64, settings: Settings },
     Written { name: String },
     Failed { message: String },
 }
@@ -155,7 +155,9 @@ pub fn encode_event(event: &Event) -> Encoded<'_> {
             let header = EventHeader::Measured { generation: *generation, complete: *complete, report: report.clone() };
             (header, vec![cast_slice(deviation)])
         }
-        Event::Cancelled { settings } => (EventHeader::Cancelled { settings: settings.clone() }, vec![]),
+        Event::Cancelled { generation, settings } => {
+            (EventHeader::Cancelled { generation: *generation, settings: settings.clone() }, vec![])
+        }
         Event::Written { name, bytes } => (EventHeader::Written { name: name.clone() }, vec![&bytes[..]]),
         Event::Failed { message } => (EventHeader::Failed { message: message.clone() }, vec![]),
     };
@@ -189,7 +191,7 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<Event, WireE
         EventHeader::Measured { generation, complete, report } => {
             Event::Measured { generation, complete, report, deviation: array(buffers, 0)? }
         }
-        EventHeader::Cancelled { settings } => Event::Cancelled { settings },
+        EventHeader::Cancelled { generation, settings } => Event::Cancelled { generation, settings },
         EventHeader::Written { name } => Event::Written { name, bytes: array(buffers, 0)? },
         EventHeader::Failed { message } => Event::Failed { message },
     })

@@ -129,7 +129,8 @@ impl Target {
     /// The number of triangles wanted of `n`: `n (1000 - r) / 1000` in integers.
     pub fn triangles(self, n: usize) -> usize {
         match self {
-            Self::Reduction(per_mille) => n * (1000 - per_mille.min(1000) as usize) / 1000,
+            // In u64: five million triangles times a thousand are more than wasm's usize holds.
+            Self::Reduction(per_mille) => (n as u64 * u64::from(1000 - per_mille.min(1000)) / 1000) as usize,
             Self::Triangles(count) => n.min(count as usize),
         }
     }

@@ -60,6 +60,10 @@ const STRICTNESS: [Strictness; 4] = [
 /// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
 const SHAPE_COST: f64 = 0.01;
 
+/// Triangles around a vertex above which it waits for its neighbours to go first, and nothing collapses onto it: what
+/// is asked of a ring takes the square of its size and more, and the middle of a flat cap may have thousands.
+const MOST_AROUND: usize = 128;
+
 /// Pops between two looks at the clock.
 const CHUNK: usize = 64;
 
@@ -141,6 +145,11 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         STRICTNESS[usize::from(self.strictness[v as usize])]
     }
 
+    /// Whether too many triangles meet at `v`.
+    fn is_hub(&self, v: u32) -> bool {
+        self.surface.fan(v).len() > MOST_AROUND
+    }
+
     /// Distance in mm at which `v` would go now; the ring is left in `self.ring`.
     fn judge(&mut self, v: u32) -> (Judged, f32) {
         let is_fan = self.surface.order_ring(v, &mut self.ring);
@@ -151,6 +160,10 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
 
     /// Judges `v`, held to the strictest limits, and puts it into the queue, unless it can never go.
     fn enqueue(&mut self, v: u32) {
+        if self.is_hub(v) {
+            self.state[v as usize] = State::Stuck(Stuck::Geometry);
+            return;
+        }
         self.strictness[v as usize] = 0;
         let (judged, distance) = self.judge(v);
         if judged.class == Class::Complex {
@@ -174,6 +187,10 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
             State::Stale => true,
             State::Stuck(_) | State::Gone => return true,
         };
+        if self.is_hub(v) {
+            self.state[v as usize] = State::Stuck(Stuck::Geometry);
+            return true;
+        }
         if stale {
             self.strictness[v as usize] = 0;
         }
@@ -236,7 +253,8 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         let mut stuck = Stuck::Topology;
         for i in 0..=self.ring.spokes.len() {
             let Some((target, _)) = self.ring.neighbours().nth(i) else { break };
-            if judged.along.is_some_and(|along| !along.contains(&target)) || !self.link_condition(v, target) {
+            let is_off_line = judged.along.is_some_and(|along| !along.contains(&target));
+            if is_off_line || self.is_hub(target) || !self.link_condition(v, target) {
                 continue;
             }
             match self.cost(v, target) {
@@ -383,4 +401,30 @@ fn quality(twice_area: f64, a: DVec3, b: DVec3, c: DVec3) -> f64 {
     const NORM: f64 = 3.464_101_615_137_754_6; // 2 sqrt 3
     let squares = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
     if squares > 0.0 { NORM * twice_area / squares } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    #[test]
+    fn caps_with_thousands_of_triangles_around_one_vertex_go_as_far_as_any() {
+        let n = 3000u32;
+        let at = |i: u32, z: f32| {
+            let angle = f64::from(i) / f64::from(n) * std::f64::consts::TAU;
+            Vec3::new(50.0 * libm::cos(angle) as f32, 50.0 * libm::sin(angle) as f32, z)
+        };
+        let mut positions: Vec<Vec3> = [0.0, 100.0].iter().flat_map(|&z| (0..n).map(move |i| at(i, z))).collect();
+        positions.extend([Vec3::ZERO, Vec3::Z * 100.0]);
+        let around = |i: u32| {
+            let j = (i + 1) % n;
+            [[i, j, n + j], [i, n + j, n + i], [2 * n, j, i], [2 * n + 1, n + i, n + j]]
+        };
+        let mesh = TriMesh { positions, triangles: (0..n).flat_map(around).collect() };
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let levels = decimate(&mesh, &topology, &Decimation::default());
+        levels.assert_well_formed();
+        assert_eq!(levels.triangles_after(levels.errors.len() as u32), 4);
+    }
 }

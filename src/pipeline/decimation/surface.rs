@@ -116,7 +116,11 @@ impl Surface {
 
     /// The triangle that runs `from -> to`.
     fn triangle_with_edge(&self, from: u32, to: u32) -> Option<u32> {
-        self.fan(from).iter().copied().find(|&t| self.spoke(t, from).a == to)
+        if self.lengths[from as usize] <= self.lengths[to as usize] {
+            self.fan(from).iter().copied().find(|&t| self.spoke(t, from).a == to)
+        } else {
+            self.fan(to).iter().copied().find(|&t| self.spoke(t, to).b == from)
+        }
     }
 
     fn set_crease(&mut self, t: u32, a: u32, b: u32) {
