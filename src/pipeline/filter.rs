@@ -156,6 +156,14 @@ mod tests {
     }
 
     #[test]
+    fn a_filter_that_lets_nearly_everything_through_says_so() {
+        for (iterations, pass_band, keeps) in [(1, 0.1, false), (3, 0.1, false), (6, 0.1, true), (100, 0.01, true)] {
+            let filter = Filter::new(&Smoothing { pass_band, iterations, ..Smoothing::default() });
+            assert_eq!(filter.keeps_promise(pass_band), keeps, "{iterations} {}", filter.response(2.0));
+        }
+    }
+
+    #[test]
     fn sigma_is_the_smallest() {
         let settings = Smoothing::default();
         let filter = Filter::new(&settings);
@@ -175,8 +183,10 @@ mod tests {
                 assert!((filter.dc_gain() - 1.0).abs() < 1e-12);
                 let reached = (filter.response(pass_band) - 1.0).abs() <= TOLERANCE * 1.000_001;
                 assert_eq!(filter.reaches_pass_band, reached, "{pass_band} {iterations}");
-                let is_enough = iterations == 200 || pass_band == 2.0;
-                assert_eq!(filter.keeps_promise(pass_band), is_enough, "{pass_band} {iterations} {filter:?}");
+                if [0, 200].contains(&iterations) {
+                    let is_enough = iterations == 200 || pass_band == 2.0;
+                    assert_eq!(filter.keeps_promise(pass_band), is_enough, "{pass_band} {iterations}");
+                }
             }
         }
     }

@@ -21,11 +21,12 @@ use crate::mesh::Topology;
 /// Vertices between two looks at the clock.
 const CHUNK: usize = 16 * 1024;
 
-/// Which vertices pull on which, and which stay.
+/// Which vertices pull on which. One that stays is its own only neighbour: then `mean(x) = x`, and the recurrence keeps
+/// it where it is for those that it pulls on.
 struct Stencil {
     offsets: Vec<u32>,
     neighbours: Vec<u32>,
-    /// One over the number of neighbours; 0 for a fixed vertex.
+    /// One over the number of neighbours.
     weights: Vec<f32>,
 }
 
@@ -94,7 +95,7 @@ impl SmoothingTask {
         let normalised = (self.gain - 1.0).abs() < 1e-9;
         let offset = (self.centre.as_dvec3() * self.gain).as_vec3();
         let place = |v: usize| {
-            if self.stencil.weights[v] > 0.0 {
+            if !self.stencil.stays(v) {
                 let [x, y, z, _] = self.sum[v];
                 Vec3::new(x, y, z) + if normalised { self.centre } else { offset }
             } else if normalised {
@@ -146,7 +147,7 @@ impl Stencil {
             let start = neighbours.len();
             let uses = topology.edge_uses(v);
             if uses.iter().any(|edge| edge.is_non_manifold()) {
-                // stays: no neighbours
+                // stays
             } else if uses.iter().any(|edge| edge.is_boundary()) {
                 let ends = topology.neighbours(v).iter().zip(uses).filter(|(_, edge)| edge.is_boundary());
                 neighbours.extend(ends.map(|(&n, _)| n));
@@ -160,11 +161,20 @@ impl Stencil {
             } else {
                 neighbours.extend_from_slice(topology.neighbours(v));
             }
-            let degree = neighbours.len() - start;
-            weights.push(if degree == 0 { 0.0 } else { 1.0 / degree as f32 });
+            if neighbours.len() == start {
+                neighbours.push(v);
+            }
+            weights.push(1.0 / (neighbours.len() - start) as f32);
             offsets.push(neighbours.len() as u32);
         }
         Self { offsets, neighbours, weights }
+    }
+}
+
+impl Stencil {
+    /// Whether vertex `v` stays.
+    fn stays(&self, v: usize) -> bool {
+        self.neighbours[self.offsets[v] as usize..self.offsets[v + 1] as usize] == [v as u32]
     }
 }
 
@@ -235,5 +245,7 @@ mod tests {
         let filter = Filter::new(&Smoothing::default());
         let smoothed = smooth(&positions, &topology, Boundary::Loop, &filter);
         assert_eq!(smoothed[..2], positions[..2]);
+        // The others are pulled between them: a filter of unit gain keeps them near.
+        assert!(smoothed.iter().all(|p| p.length() < 2.0), "{smoothed:?}");
     }
 }

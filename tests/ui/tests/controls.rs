@@ -215,7 +215,7 @@ fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
     harness.get_by_role_and_label(Role::Button, "Cancel").click();
     harness.run_steps(5);
     let state = harness.state().state();
-    assert!(!state.is_busy() && state.opening().is_none());
+    assert!(state.opening().is_none());
     assert!(state.notice.as_ref().is_some_and(|notice| notice.text.contains("cancelled")));
     assert_eq!(state.document.as_ref().unwrap().name, "Abdominal aorta");
     memory.borrow_mut().slice = std::time::Duration::from_millis(50);
