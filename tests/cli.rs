@@ -128,6 +128,7 @@ fn what_cannot_be_done_ends_with_one_and_a_sentence_and_leaves_the_output_alone(
     let (out, bad) = (folder.file("out.stl"), folder.file("bad.stl"));
     std::fs::write(&out, "precious").unwrap();
     std::fs::write(&bad, "this is no mesh").unwrap();
+    assert_eq!(lumen(&["optimise", &out, "-o", &out]).status.code(), Some(2), "the input is not overwritten");
     let cases: [&[&str]; 3] =
         [&["optimise", "no-such-file.stl", "-o", &out], &["optimise", &bad, "-o", &out], &["inspect", "sample:kidney"]];
     for arguments in cases {

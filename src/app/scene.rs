@@ -55,7 +55,7 @@ pub(super) struct Scene {
 struct View {
     target: ViewTarget,
     texture: TextureId,
-    drawn: Option<(Picture, Revision)>,
+    drawn: Option<(Picture, Revision, Keep)>,
 }
 
 impl Scene {
@@ -169,7 +169,7 @@ impl Scene {
             }
         }
         let view = &mut self.views[index];
-        let drawn = (picture.clone(), self.revision);
+        let drawn = (picture.clone(), self.revision, keep);
         if view.drawn.as_ref() == Some(&drawn) {
             return Ok(view.texture);
         }

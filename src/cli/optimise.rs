@@ -95,6 +95,9 @@ impl Optimise {
         let settings = self.settings();
         settings.check().unwrap_or_else(|error| misuse(error));
         let format = output_format(&self.output);
+        if same_file(std::path::Path::new(&self.file), &self.output) {
+            misuse(format!("{} would be overwritten: choose another output", self.file));
+        }
         if self.report.as_ref() == Some(&self.output) {
             misuse(format!("the surface and the report cannot both go to {}", self.output.display()));
         }
@@ -153,11 +156,19 @@ impl Optimise {
         if let Some(shortfall) = &report.shortfall {
             eprintln!("lumen: warning: {shortfall}");
         }
+        if let Some(warning) = report.volume_warning() {
+            eprintln!("lumen: warning: {warning}");
+        }
         if report.pass_band_missed {
             eprintln!("lumen: warning: too few iterations for this pass band: more are needed to smooth");
         }
         println!("{DISCLAIMER}");
     }
+}
+
+/// Whether both names are of one file that is there.
+fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Runs all stages and shows how far they are, on standard error.

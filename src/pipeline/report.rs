@@ -109,6 +109,23 @@ impl Report {
     }
 }
 
+/// A change of volume, in percent, above which a report warns.
+const LARGE_CHANGE: f64 = 10.0;
+
+impl Report {
+    /// A sentence where the volume changed so much that the settings do not suit the surface.
+    pub fn volume_warning(&self) -> Option<String> {
+        let change = self.volume_change_percent.filter(|change| change.abs() > LARGE_CHANGE)?;
+        let reduced = self.volume_change_from_smoothed_percent.unwrap_or(0.0);
+        let cause = if reduced.abs() > change.abs() / 2.0 {
+            "so few triangles do not carry this shape"
+        } else {
+            "the pass band is too narrow for vessels as thin as these"
+        };
+        Some(format!("The volume changed by {change:+.1} %: {cause}."))
+    }
+}
+
 /// Change of volume and area in percent of `before`; `None` where there is nothing to compare with.
 fn change(before: &Measures, after: &Measures) -> (Option<f64>, Option<f64>) {
     let percent = |before: f64, after: f64| (before != 0.0).then(|| (after / before - 1.0) * 100.0);
