@@ -94,7 +94,7 @@ impl State {
     /// Opens the file `name`. What is open stays until the new surface is there.
     pub fn open_file(&mut self, name: String, bytes: Vec<u8>, link: &mut dyn Link) {
         let options = ImportOptions::default();
-        self.open(Source::File { name, bytes: Arc::from(bytes), options }, link);
+        self.open(Source::File { name, bytes: Arc::new(bytes), options }, link);
     }
 
     /// Opens a sample.

@@ -21,7 +21,7 @@ pub enum Source {
         /// Its name, with extension.
         name: String,
         /// Its bytes.
-        bytes: Arc<[u8]>,
+        bytes: Arc<Vec<u8>>,
         /// How to read it.
         options: ImportOptions,
     },

@@ -112,7 +112,7 @@ pub fn encode_command(command: &Command) -> Encoded<'_> {
 pub fn decode_command(header: &str, buffers: &impl Buffers) -> Result<Command, WireError> {
     Ok(match serde_json::from_str(header)? {
         CommandHeader::OpenFile { id, name, options, settings } => {
-            let source = Source::File { name, bytes: array::<u8>(buffers, 0)?.into(), options };
+            let source = Source::File { name, bytes: Arc::new(array(buffers, 0)?), options };
             Command::Open { id, source, settings }
         }
         CommandHeader::OpenSample { id, sample, triangles, settings } => {
@@ -236,13 +236,13 @@ mod tests {
     #[test]
     fn every_event_of_a_run_and_every_command_comes_through_unchanged() {
         let mut engine = Engine::new();
-        let stl: Arc<[u8]> = {
+        let stl = {
             let sample = crate::phantom::generate(Sample::Aorta, 10_000).unwrap();
-            crate::io::write(&sample, None, Format::Stl).unwrap().into()
+            Arc::new(crate::io::write(&sample, None, Format::Stl).unwrap())
         };
         let mesh = TriMesh { positions: vec![glam::Vec3::X; 3], triangles: vec![[0, 1, 2]] };
         let source = Source::File { name: "a.stl".into(), bytes: stl, options: ImportOptions::default() };
-        let bad = Source::File { name: "b.stl".into(), bytes: [0u8; 3][..].into(), options: ImportOptions::default() };
+        let bad = Source::File { name: "b.stl".into(), bytes: Arc::new(vec![0; 3]), options: ImportOptions::default() };
         let settings = Settings::default();
         let commands = [
             Command::Open { id: 1, source, settings: settings.clone() },
