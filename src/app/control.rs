@@ -33,7 +33,8 @@ impl Setting<'_> {
         // The controls work on what is shown: one that is left alone changes no digit that is not.
         let before = self.rounded(*value);
         let mut shown = before;
-        self.rows(ui, &mut shown);
+        // An identity of its own: rows that come and go above must not take the focus away.
+        ui.push_id(self.name, |ui| self.rows(ui, &mut shown));
         let changed = self.rounded(shown).to_bits() != before.to_bits();
         if changed {
             *value = self.rounded(shown);

@@ -15,10 +15,11 @@ use crate::pipeline::settings::{Keep, Settings, Smoothing, Target, Window, reduc
 /// Shows the panel; returns the unit in which the file should be read instead, if one was chosen.
 pub(super) fn show(ui: &mut Ui, state: &mut State, views: &mut Views) -> Option<Unit> {
     ui.spacing_mut().item_spacing.y = 3.0;
-    let unit = surface(ui, state, views);
-    smooth(ui, &mut state.settings, measured(state.document.as_ref()));
-    reduce(ui, state);
-    result(ui, state);
+    // Each step with an identity of its own: what comes and goes in one must not take the focus away in another.
+    let unit = ui.push_id("surface", |ui| surface(ui, state, views)).inner;
+    ui.push_id("smooth", |ui| smooth(ui, &mut state.settings, measured(state.document.as_ref())));
+    ui.push_id("reduce", |ui| reduce(ui, state));
+    ui.push_id("result", |ui| result(ui, state));
     unit
 }
 

@@ -5,7 +5,8 @@ import { readFile, readdir } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { dist, frames, launch, openApp, openPage, started, twin } from "./browser.mjs";
+import { settled } from "./app.mjs";
+import { dist, eventually, frames, launch, openApp, openPage, started, twin, value } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -77,13 +78,15 @@ test("an assistive tool's click works, and the keyboard stays with the canvas", 
     await page.locator("#lumen").getAttribute("aria-activedescendant"),
     await open.getAttribute("id"),
   );
+  await settled(page);
   const slider = twin(page, "slider", "Reduction");
   await slider.evaluate((twin) => twin.focus());
-  const rate = Number(await slider.getAttribute("aria-valuenow"));
-  await frames(page, 3);
+  const own = await slider.getAttribute("id");
+  const focused = () => page.locator("#lumen").getAttribute("aria-activedescendant");
+  await eventually(focused, (id) => id === own, { what: "the slider's focus" });
+  const rate = await value(slider);
   await page.keyboard.press("ArrowLeft");
-  await frames(page, 3);
-  assert(Number(await slider.getAttribute("aria-valuenow")) < rate, "the arrow key reached the slider");
+  await eventually(() => value(slider), (now) => now < rate, { what: "the arrow key's step" });
 });
 
 for (const [what, stub, sentence] of [
