@@ -242,12 +242,12 @@ fn result(ui: &mut Ui, state: &State) {
     number(ui, "Vertices", &vertices, "After and before the reduction");
     number(ui, "Removed", &format!("{:.2} %", reduction_percent(before, after)), "");
     let Some(measured) = &document.measured else { return };
-    if let Some(warning) = measured.report.volume_warning() {
+    let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
+    let report = &measured.report;
+    if let Some(warning) = report.volume_warning().filter(|_| is_current) {
         let text = RichText::new(warning).small().color(ui.visuals().error_fg_color);
         ui.add(egui::Label::new(text).wrap());
     }
-    let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
-    let report = &measured.report;
     let percent =
         |change: Option<f64>| change.filter(|_| is_current).map_or("–".to_owned(), |c| format!("{c:+.2} %"));
     let distance = |pick: fn(&crate::pipeline::deviation::Deviation) -> f64| {

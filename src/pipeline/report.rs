@@ -116,13 +116,19 @@ impl Report {
     /// A sentence where the volume changed so much that the settings do not suit the surface.
     pub fn volume_warning(&self) -> Option<String> {
         let change = self.volume_change_percent.filter(|change| change.abs() > LARGE_CHANGE)?;
-        let reduced = self.volume_change_from_smoothed_percent.unwrap_or(0.0);
-        let cause = if reduced.abs() > change.abs() / 2.0 {
-            "so few triangles do not carry this shape"
-        } else {
-            "the pass band is too narrow for vessels as thin as these"
-        };
+        let cause = volume_cause(change, self.volume_change_from_smoothed_percent.unwrap_or(0.0));
         Some(format!("The volume changed by {change:+.1} %: {cause}."))
+    }
+}
+
+/// What made the most of a change of volume of `change` percent, of which the reduction made `reduction` percent of
+/// the smoothed surface's volume.
+fn volume_cause(change: f64, reduction: f64) -> &'static str {
+    let smoothing = ((1.0 + change / 100.0) / (1.0 + reduction / 100.0) - 1.0) * 100.0;
+    if smoothing.abs() >= (change - smoothing).abs() {
+        "the pass band is too narrow for vessels as thin as these"
+    } else {
+        "so few triangles do not carry this shape"
     }
 }
 
@@ -131,4 +137,19 @@ fn change(before: &Measures, after: &Measures) -> (Option<f64>, Option<f64>) {
     let percent = |before: f64, after: f64| (before != 0.0).then(|| (after / before - 1.0) * 100.0);
     let volume = before.volume_mm3.zip(after.volume_mm3).and_then(|(b, a)| percent(b, a));
     (volume, percent(before.area_mm2, after.area_mm2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_of_volume_is_laid_to_the_stage_that_made_most_of_it() {
+        let (smoothing, reduction) = (volume_cause(-20.0, 0.0), volume_cause(-20.0, -20.0));
+        assert!(smoothing.contains("pass band") && reduction.contains("triangles"));
+        // 100 mm3 are smoothed to 5 and reduced to 1: the reduction took four fifths of little.
+        assert_eq!(volume_cause(-99.0, -80.0), smoothing);
+        // 100 mm3 are smoothed to 98 and reduced to 70.
+        assert_eq!(volume_cause(-30.0, (70.0 / 98.0 - 1.0) * 100.0), reduction);
+    }
 }
