@@ -291,8 +291,11 @@ impl State {
         // What was moved meanwhile follows.
         self.sent = settings;
         self.is_cancelling = false;
-        let warning = document.import.warnings.first();
-        self.notice = warning.map(|text| Notice { text: text.clone(), is_error: false });
+        // That another file could not be opened meanwhile is not to be lost.
+        if self.notice.as_ref().is_none_or(|notice| !notice.is_error) {
+            let warning = document.import.warnings.first();
+            self.notice = warning.map(|text| Notice { text: text.clone(), is_error: false });
+        }
         self.document = Some(document);
         Some(Effect::Opened)
     }

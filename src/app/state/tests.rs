@@ -252,3 +252,13 @@ fn a_setting_that_changes_nothing_leaves_the_numbers() {
     settle(&mut state, &mut line);
     agrees(&state);
 }
+
+#[test]
+fn a_broken_file_opened_with_the_first_surface_is_not_passed_over() {
+    let (mut state, mut line) = (State::default(), Line::default());
+    state.open_sample(Sample::Aorta, &mut line);
+    state.open_file("b.stl".into(), vec![1, 2, 3], &mut line);
+    settle(&mut state, &mut line);
+    agrees(&state);
+    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.starts_with("b.stl: ")));
+}
