@@ -16,6 +16,7 @@ mod topology;
 
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
+pub(crate) use closest_point::foot_on_triangle;
 pub use components::{Components, components};
 pub use glam::Vec3;
 pub use index_build::IndexBuild;
