@@ -50,7 +50,8 @@ struct Patch {
 }
 
 impl Patch {
-    const NOTHING: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY, axis: Vec3A::ZERO, angle: 0.0, spread: 0.0 };
+    const NOTHING: Self =
+        Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY, axis: Vec3A::ZERO, angle: 0.0, spread: 0.0 };
 
     fn overlaps(&self, low: Vec3A, high: Vec3A) -> bool {
         (self.low.cmple(high) & self.high.cmpge(low)).all()
@@ -146,7 +147,6 @@ impl Guard {
             found: Vec::new(),
         };
         guard.find_pairs();
-        unsafe_count(5); unsafe_add(6, guard.pairs.len() as u64);if std::env::var("V").is_ok() { eprintln!("epoch {} leaves {} pairs {} margin {} angles {:?} {:?}", rings.len(), count, guard.pairs.len(), guard.margin, guard.levels[0].iter().map(|l| l.angle).sum::<f32>() / count as f32, &C); }
         guard
     }
 
@@ -210,7 +210,6 @@ impl Guard {
         if fits && angle <= patch.angle {
             return;
         }
-        unsafe_count(3); if !fits { unsafe_count(4); }
         if !fits {
             patch.low = patch.low.min(low - self.margin);
             patch.high = patch.high.max(high + self.margin);
@@ -281,10 +280,10 @@ impl Guard {
         let mut pairs = std::mem::take(&mut self.near);
         pairs.clear();
         pairs.extend(self.pairs_of(leaf).filter(|&other| near(self, other)));
-        unsafe_count(0); if !pairs.is_empty() { unsafe_count(1); } 
         let [least, most] = &mut self.boxes[leaf as usize];
         (*least, *most) = (least.min(low), most.max(high));
-        let allowed = pairs.is_empty() || self.crossings_allow(rings, mesh, planned, &pairs, (low, high), (cosine > FACING).then_some(axis));
+        let allowed = pairs.is_empty()
+            || self.crossings_allow(rings, mesh, planned, &pairs, (low, high), (cosine > FACING).then_some(axis));
         self.near = pairs;
         allowed
     }
@@ -319,11 +318,9 @@ impl Guard {
                 }
             }
         }
-        unsafe_add(2, self.found.len() as u64);
         if self.found.is_empty() && axis.is_some() {
             return true;
         }
-        unsafe_count(7);
         self.found.sort_unstable();
         self.found.dedup();
         let place = |s: u32| rings.place(s, mesh);
@@ -337,7 +334,10 @@ impl Guard {
         let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
         let new: Vec<[u32; 3]> = of_v.chain(of_u).collect();
         let new_faces: Vec<Face> = new.iter().map(|&corners| face(corners)).collect();
-        let old_face = |corners: [u32; 3]| Face { vertices: corners.map(|s| rings.nodes[s as usize]), corners: corners.map(place) };
+        let old_face = |corners: [u32; 3]| Face {
+            vertices: corners.map(|s| rings.nodes[s as usize]),
+            corners: corners.map(place),
+        };
         let others: Vec<Face> = self.found.iter().map(|&corners| old_face(corners)).collect();
         let after = crossing(&new_faces, &others);
         if after.is_none() {
@@ -483,7 +483,3 @@ fn parent(children: &[Patch]) -> Patch {
         }
     })
 }
-
-pub static C: [std::sync::atomic::AtomicU64; 8] = [const { std::sync::atomic::AtomicU64::new(0) }; 8];
-fn unsafe_count(i: usize) { C[i].fetch_add(1, std::sync::atomic::Ordering::Relaxed); }
-fn unsafe_add(i: usize, n: u64) { C[i].fetch_add(n, std::sync::atomic::Ordering::Relaxed); }

@@ -36,7 +36,7 @@ use self::guard::{Guard, Planned};
 pub use self::method::Class;
 use self::method::{Candidate, Judged};
 use self::quadric::Quadric;
-use self::rings::{CREASE, Rings, gather, neighbour};
+use self::rings::{Rings, gather, neighbour};
 use self::schroeder::Schroeder;
 use self::star::{MOST_AROUND, Star};
 use super::progressive::{Limit, Merge, ProgressiveMesh};
@@ -59,9 +59,10 @@ struct Strictness {
 }
 
 /// A vertex that does not pass is tried again under the next, at its price. The last lets a triangle swing round as
-/// the end of a branch does that is drawn in, but not fold over, and no longer heeds feature edges.
+/// the end of a branch does that is drawn in, but not fold over, and no longer heeds feature edges. The quality of the
+/// first is the method's ([`method::Method::fair_quality`]).
 const STRICTNESS: [Strictness; 4] = [
-    Strictness { turn: 0.5, quality: 0.15, features: true, price: 1.0 },
+    Strictness { turn: 0.5, quality: 1.0, features: true, price: 1.0 },
     Strictness { turn: 0.2, quality: 0.03, features: true, price: 2.0 },
     Strictness { turn: 0.0, quality: 1e-3, features: true, price: 8.0 },
     Strictness { turn: -0.8, quality: 1e-4, features: false, price: 64.0 },
@@ -225,7 +226,10 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     }
 
     fn limits(&self, v: u32) -> Strictness {
-        STRICTNESS[usize::from(self.states[v as usize].strictness)]
+        match self.states[v as usize].strictness {
+            0 => Strictness { quality: self.method.fair_quality(), ..STRICTNESS[0] },
+            eased => STRICTNESS[usize::from(eased)],
+        }
     }
 
     /// Judges `v`, whose star is loaded.
@@ -289,10 +293,13 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         self.method.offer(&self.star, v, judged, &mut self.candidates);
         let mut stuck = Stuck::Topology;
         while let Some(i) = self.cheapest(v, limits, &mut stuck) {
-            let candidate = self.candidates[i];
+            let mut candidate = self.candidates[i];
             let u = neighbour(self.star.entries()[candidate.to]);
             if !self.is_hub(u) && self.rings.may_collapse(v, u) {
                 let at = candidate.place.and_then(|_| self.load_other(v, u));
+                if let (Some(at), Some(place)) = (at, candidate.place) {
+                    candidate.place = Some(self.level(v, u, &candidate, at, limits).unwrap_or(place));
+                }
                 let tip = self.tip(&candidate, at);
                 let key = self.method.priority(tip) * limits.price;
                 if key > self.threshold {
@@ -351,6 +358,22 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         self.other.load(&self.rings, u);
         self.other.span();
         self.other.position(v)
+    }
+
+    /// Where the new vertex of a candidate should be so that the volume stays, if that passes the tests of shape.
+    fn level(&self, v: u32, u: u32, candidate: &Candidate, at: usize, limits: Strictness) -> Option<Vec3A> {
+        if self.rings.is_open(v) || self.rings.is_open(u) {
+            return None;
+        }
+        let edge = self.star.edge(candidate.to);
+        let count = self.other.entries().len();
+        let shared = self.other.normal(at) + self.other.normal((at + count - 1) % count);
+        let apart = self.other.normal_sum() - shared;
+        let normal = self.star.normal_sum() + apart;
+        let place = self.method.level(v, u, edge, candidate.place?, normal, apart.dot(edge))?;
+        self.star.worst_after(place, candidate.to, limits.turn, limits.quality)?;
+        self.other.worst_after(place - edge, at, limits.turn, limits.quality)?;
+        Some(place)
     }
 
     /// The distance that a vertex which goes has, by its reach alone, from what it leaves behind; 0 where its planes say

@@ -34,7 +34,7 @@ struct Own {
     area: f32,
 }
 
-/// The method's state: for each slot its planes.
+/// The method's state.
 #[derive(Default)]
 pub(super) struct Schroeder {
     planes: Vec<Planes>,
@@ -59,11 +59,7 @@ impl Planes {
 
     fn times(&self, x: Vec3A) -> Vec3A {
         let [xx, xy, xz, yy, yz, zz] = self.a;
-        Vec3A::new(
-            xx * x.x + xy * x.y + xz * x.z,
-            xy * x.x + yy * x.y + yz * x.z,
-            xz * x.x + yz * x.y + zz * x.z,
-        )
+        Vec3A::new(xx * x.x + xy * x.y + xz * x.z, xy * x.x + yy * x.y + yz * x.z, xz * x.x + yz * x.y + zz * x.z)
     }
 }
 
@@ -111,9 +107,7 @@ impl Method for Schroeder {
             _ => (Class::Corner, None),
         };
         let distance = match along {
-            Some([a, b]) => {
-                square(a).min(square(b)).sqrt().max(distance_to_segment(star.edge(a), star.edge(b)))
-            }
+            Some([a, b]) => square(a).min(square(b)).sqrt().max(distance_to_segment(star.edge(a), star.edge(b))),
             None => (0..entries.len()).map(square).fold(f32::INFINITY, f32::min).sqrt(),
         };
         Judged { class, distance, priority: distance, along }
@@ -125,8 +119,16 @@ impl Method for Schroeder {
         candidates.extend(allowed.map(|j| Candidate { cost: star.height(j), to: j, place: None }));
     }
 
+    fn fair_quality(&self) -> f32 {
+        0.15
+    }
+
     fn shape_cost(&self, star: &Star, _: f32) -> f32 {
         SHAPE_COST * star.area().sqrt()
+    }
+
+    fn level(&self, _: u32, _: u32, _: Vec3A, _: Vec3A, _: Vec3A, _: f32) -> Option<Vec3A> {
+        None
     }
 
     fn priority(&self, distance: f32) -> f32 {
