@@ -1,0 +1,259 @@
+//! How far a surface gets from another, for certain: the one-sided Hausdorff distance, and whether it is within a
+//! bound.
+//!
+//! The distance from one triangle is a convex function, so where all corners of a convex piece are within the bound of
+//! one triangle, all of the piece is (the certificate of Guthe, Borodin and Klein, "Fast and accurate Hausdorff
+//! distance calculation between meshes", 2005, and of Tang, Lee and Kim, "Interactive Hausdorff distance computation for
+//! general polygonal models", 2009). Each triangle of the first surface begins as one piece. A piece that has no such
+//! triangle is cut along the sides of the triangle that is nearest to its middle, so that what is left overlays the
+//! second surface and the number of pieces does not depend on the bound; where that cuts nothing off, it is halved. A
+//! piece may also be so small, and so near, that the distance of its middle settles it.
+//!
+//! The answer is exact to [`TOLERANCE`] and the rounding of f64: samples are nowhere taken for the whole.
+
+use std::task::Poll;
+
+use glam::{DVec3, Vec3};
+
+use super::nearest::{Leaf, Nearest, SurfaceIndex};
+
+/// What lies between "within" and "beyond", as a part of the bound.
+pub const TOLERANCE: f64 = 1e-3;
+
+/// Most corners of a piece; one that has more is halved.
+const CORNERS: usize = 10;
+
+/// The rounding of a distance to f32.
+const F32_ROUNDING: f64 = 1e-7;
+
+/// A length below this part of the size of the coordinates is lost in their rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A point of one surface that is far from another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beyond {
+    /// The point, in mm.
+    pub point: Vec3,
+    /// Its distance from the other surface in mm; never more than the truth.
+    pub distance: f64,
+}
+
+/// Whether triangles of one surface lie within a bound of another, piece by piece.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    /// A piece whose points are all within this is settled.
+    within: f64,
+    /// A point that is farther than this is beyond.
+    beyond: f64,
+    pieces: Vec<Piece>,
+    last: Option<Nearest>,
+}
+
+/// A convex piece of a triangle: its corners in order.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    corners: [DVec3; CORNERS],
+    count: usize,
+}
+
+/// What is known of a piece.
+enum Verdict {
+    Within,
+    Beyond(Beyond),
+    /// Neither yet; the triangle nearest to its middle, and how near that is.
+    Open(Leaf, f64),
+}
+
+impl Reach {
+    /// Nothing tested yet; `bound` in mm, above 0.
+    pub fn new(bound: f64) -> Self {
+        Self { within: bound, beyond: bound * (1.0 - TOLERANCE), pieces: Vec::new(), last: None }
+    }
+
+    /// From now on a point counts as beyond only where it is farther than `distance` in mm: for the search of the
+    /// farthest.
+    pub fn raise(&mut self, distance: f64) {
+        self.beyond = distance;
+        self.within = distance * (1.0 + TOLERANCE);
+    }
+
+    /// The bound in mm within which everything is that was settled.
+    pub fn bound(&self) -> f64 {
+        self.within
+    }
+
+    /// The triangle of the surface that settled a piece last.
+    pub fn nearest(&self) -> Option<u32> {
+        self.last.map(|last| last.triangle)
+    }
+
+    /// Puts a triangle to the test.
+    pub fn begin(&mut self, corners: [Vec3; 3]) {
+        self.pieces.clear();
+        self.pieces.push(Piece::triangle(corners.map(Vec3::as_dvec3)));
+    }
+
+    /// Settles up to `work` pieces: `Ready(None)` where the triangle is within the bound of `surface`, or a point of
+    /// it that is farther than the bound less [`TOLERANCE`].
+    pub fn advance(&mut self, surface: &SurfaceIndex, work: usize) -> Poll<Option<Beyond>> {
+        for _ in 0..work.max(1) {
+            let Some(piece) = self.pieces.pop() else { return Poll::Ready(None) };
+            match self.judge(&piece, surface) {
+                Verdict::Within => {}
+                Verdict::Beyond(found) => {
+                    self.pieces.push(piece);
+                    return Poll::Ready(Some(found));
+                }
+                Verdict::Open(nearest, distance) => self.divide(&piece, &nearest, distance),
+            }
+        }
+        if self.pieces.is_empty() { Poll::Ready(None) } else { Poll::Pending }
+    }
+
+    fn judge(&mut self, piece: &Piece, surface: &SurfaceIndex) -> Verdict {
+        let bound = self.within * self.within;
+        let hint = self.last.and_then(|last| surface.leaves.get(last.slot as usize));
+        if hint.is_some_and(|leaf| piece.is_within(leaf, bound)) {
+            return Verdict::Within;
+        }
+        let middle = piece.middle();
+        let query = middle.as_vec3();
+        let found = match &self.last {
+            Some(last) => surface.nearest_from(query, last),
+            None => surface.nearest(query),
+        };
+        let Some(found) = found else {
+            return Verdict::Beyond(Beyond { point: query, distance: f64::INFINITY });
+        };
+        self.last = Some(found);
+        let leaf = surface.leaves[found.slot as usize];
+        // The query is the middle but for rounding.
+        let aside = middle.distance(query.as_dvec3());
+        let distance = f64::from(found.distance);
+        let beyond = Beyond { point: query, distance: (distance * (1.0 - F32_ROUNDING) - aside).max(0.0) };
+        if beyond.distance > self.beyond {
+            return Verdict::Beyond(beyond);
+        }
+        let radius = piece.radius(middle);
+        if distance + aside + radius <= self.within || piece.is_within(&leaf, bound) {
+            return Verdict::Within;
+        }
+        let size = middle.abs().max_element();
+        if radius <= ((self.within - self.beyond) / 2.0).max(size * ROUNDING) {
+            return Verdict::Beyond(beyond);
+        }
+        Verdict::Open(leaf, distance)
+    }
+
+    /// Cuts a piece along the sides of `nearest`, or in half.
+    fn divide(&mut self, piece: &Piece, nearest: &Leaf, distance: f64) {
+        let [a, b, c] = nearest.corners.map(Vec3::as_dvec3);
+        let normal = (b - a).cross(c - a);
+        let mut rest = *piece;
+        let before = self.pieces.len();
+        // Where halves will soon be settled by their middles alone, the sides of small triangles cost more.
+        let size = (b - a).length_squared().max((c - a).length_squared());
+        let is_near = (self.within - distance).powi(2) > size;
+        if !nearest.is_sliver && !is_near {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                let outward = (to - from).cross(normal);
+                if let Some([inside, outside]) = rest.cut(from, outward.normalize_or_zero()) {
+                    self.pieces.push(outside);
+                    rest = inside;
+                }
+            }
+        }
+        if self.pieces.len() > before {
+            self.pieces.push(rest);
+        } else {
+            self.pieces.extend(rest.halves());
+        }
+    }
+}
+
+impl Piece {
+    fn triangle([a, b, c]: [DVec3; 3]) -> Self {
+        let mut corners = [DVec3::ZERO; CORNERS];
+        (corners[0], corners[1], corners[2]) = (a, b, c);
+        Self { corners, count: 3 }
+    }
+
+    fn corners(&self) -> &[DVec3] {
+        &self.corners[..self.count]
+    }
+
+    fn middle(&self) -> DVec3 {
+        self.corners().iter().sum::<DVec3>() / self.count as f64
+    }
+
+    /// Distance of the farthest corner, and so of any point, from `middle`.
+    fn radius(&self, middle: DVec3) -> f64 {
+        self.corners().iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Whether all of the piece is within the bound, squared, of one triangle.
+    fn is_within(&self, leaf: &Leaf, bound: f64) -> bool {
+        self.corners().iter().all(|&p| leaf.foot(p).squared <= bound)
+    }
+
+    fn push(&mut self, p: DVec3) {
+        self.corners[self.count] = p;
+        self.count += 1;
+    }
+
+    /// The parts below and above the plane through `origin` with unit normal `up`; `None` where one of them would be
+    /// of no account, or the piece has too many corners to be cut.
+    fn cut(&self, origin: DVec3, up: DVec3) -> Option<[Self; 2]> {
+        if self.count == CORNERS {
+            return None;
+        }
+        let height = |i: usize| (self.corners[i] - origin).dot(up);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for i in 0..self.count {
+            low = low.min(height(i));
+            high = high.max(height(i));
+        }
+        let slight = 1e-6 * (high - low);
+        if !(low < -slight && high > slight) {
+            return None;
+        }
+        let mut parts = [Self { corners: [DVec3::ZERO; CORNERS], count: 0 }; 2];
+        for i in 0..self.count {
+            let j = (i + 1) % self.count;
+            let (p, q) = (self.corners[i], self.corners[j]);
+            let (from, to) = (height(i), height(j));
+            if from <= 0.0 {
+                parts[0].push(p);
+            }
+            if from >= 0.0 {
+                parts[1].push(p);
+            }
+            if (from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0) {
+                let crossing = p + (q - p) * (from / (from - to));
+                parts[0].push(crossing);
+                parts[1].push(crossing);
+            }
+        }
+        Some(parts)
+    }
+
+    /// Two halves: of a triangle across its longest side, of another piece along a diagonal.
+    fn halves(&self) -> [Self; 2] {
+        let p = self.corners();
+        if let &[a, b, c] = p {
+            let sides = [(a, b, c), (b, c, a), (c, a, b)];
+            let longest = sides.into_iter().max_by(|x, y| {
+                let length = |side: &(DVec3, DVec3, DVec3)| side.0.distance_squared(side.1);
+                length(x).total_cmp(&length(y))
+            });
+            let (a, b, c) = longest.unwrap_or((a, b, c));
+            let middle = a.midpoint(b);
+            return [Self::triangle([a, middle, c]), Self::triangle([middle, b, c])];
+        }
+        let half = self.count / 2;
+        let mut parts = [Self { corners: [DVec3::ZERO; CORNERS], count: 0 }; 2];
+        p[..=half].iter().for_each(|&p| parts[0].push(p));
+        p[half..].iter().chain([&p[0]]).for_each(|&p| parts[1].push(p));
+        parts
+    }
+}
