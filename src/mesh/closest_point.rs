@@ -33,6 +33,12 @@ impl Foot {
     }
 }
 
+/// Distance of `p` from a triangle in mm.
+pub fn distance_to_triangle(p: Vec3, corners: [Vec3; 3]) -> f64 {
+    let foot = if is_sliver(corners) { foot_on_sliver(p, corners) } else { foot_on_triangle(p, corners) };
+    foot.squared.sqrt()
+}
+
 /// Whether the triangle needs [`foot_on_sliver`].
 pub(super) fn is_sliver(corners: [Vec3; 3]) -> bool {
     let [a, b, c] = corners.map(Vec3::as_dvec3);

@@ -16,6 +16,7 @@ mod topology;
 
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
+pub use closest_point::distance_to_triangle;
 pub use components::{Components, components};
 pub use glam::Vec3;
 pub use hausdorff::{Beyond, Reach, TOLERANCE};

@@ -1,0 +1,274 @@
+//! The stop by deviation: the level of fewest triangles that stays within a bound of the surface that entered
+//! decimation.
+//!
+//! A level is *within* the bound when no point of it is farther than the bound from the finest level, and no point of
+//! the finest level is farther from it. That is decided for whole surfaces, not for samples ([`Reach`]): what is
+//! within is so for certain, what is not has a point that is farther than the bound less one part in a thousand.
+//!
+//! The deviation is not monotone in the level: a collapse may mend what another has done. So the search goes from the
+//! coarsest level towards finer ones and ends at the first that is within; each level that it passes is ruled out by a
+//! witness, and one witness rules out many:
+//!
+//! - a triangle that is beyond rules out every level that it is part of;
+//! - a point of the finest level that is beyond the bound of one level is so of the next finer as well, unless one of
+//!   the few triangles that come back with that step is near.
+//!
+//! What was found within stays so: a coarse triangle, and a fine one within the bound of one coarse triangle that is
+//! still there, are not tested again at another level.
+
+mod history;
+mod trial;
+
+use std::sync::Arc;
+use std::task::Poll;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use self::history::History;
+use self::trial::{Memory, Surfaces, Trial, UNITS, Witness, distance};
+use super::progressive::ProgressiveMesh;
+use super::task::{Budget, Progress, Task};
+use crate::mesh::{IndexBuild, SurfaceIndex, TriMesh, distance_to_triangle};
+
+/// Steps of a leap between two looks at the clock.
+const STEPS: u32 = 32;
+
+/// The level that a bound on the deviation leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bound {
+    /// Steps from the finest level to the one that is within.
+    pub steps: u32,
+    /// A distance in mm that was found between the next coarser level and the finest: more than the bound, or less by
+    /// no more than one part in a thousand. `None` where there is no coarser level.
+    pub next_coarser_mm: Option<f64>,
+}
+
+/// The search for the level, in slices.
+pub struct BoundTask {
+    progressive: Arc<ProgressiveMesh>,
+    finest: Arc<TriMesh>,
+    /// The bound in mm.
+    bound: f64,
+    build: IndexBuild,
+    fine: Option<Arc<SurfaceIndex>>,
+    history: Option<History>,
+    memory: Memory,
+    work: Work,
+    /// What rules out the level one step coarser than the one at work.
+    last: Option<Last>,
+}
+
+enum Work {
+    /// The next level, in steps, if it is not the finest.
+    Begin(u32),
+    Trial(Box<Trial>),
+    /// Points that are beyond the bound of the level after so many steps.
+    Leap(u32, Vec<Vec3>),
+    /// The level is found; the next coarser is measured from this point.
+    Measure(u32, Vec3, Box<(IndexBuild, Vec<[u32; 3]>)>),
+}
+
+enum Last {
+    Point(Vec3),
+    Distance(f64),
+}
+
+impl BoundTask {
+    /// A search over the levels of `progressive`, whose finest is `finest`, for the coarsest within `bound` mm.
+    pub fn new(progressive: Arc<ProgressiveMesh>, finest: Arc<TriMesh>, bound: f64) -> Self {
+        Self {
+            work: Work::Begin(progressive.errors.len() as u32),
+            memory: Memory::new(finest.triangles.len()),
+            progressive,
+            finest,
+            bound,
+            build: IndexBuild::new(),
+            fine: None,
+            history: None,
+            last: None,
+        }
+    }
+
+    /// Uses an index of the finest level that is there already.
+    #[must_use]
+    pub fn with_index(mut self, index: Arc<SurfaceIndex>) -> Self {
+        self.fine = Some(index);
+        self
+    }
+
+    /// The index of the finest level, once it is built.
+    pub fn index(&self) -> Option<&Arc<SurfaceIndex>> {
+        self.fine.as_ref()
+    }
+
+    /// One piece of work; the result when it is there.
+    fn step(&mut self) -> Option<Bound> {
+        let Some(fine) = &self.fine else {
+            if let Poll::Ready(index) = self.build.advance(&self.finest.positions, &self.finest.triangles, UNITS) {
+                self.fine = Some(Arc::new(index));
+            }
+            return None;
+        };
+        let Some(history) = &self.history else {
+            self.history = Some(History::new(&self.progressive));
+            return None;
+        };
+        match &mut self.work {
+            Work::Begin(0) => return self.found(0),
+            Work::Begin(steps) => {
+                self.work = Work::Trial(Box::new(Trial::new(&self.progressive, *steps, self.bound)));
+            }
+            Work::Trial(trial) => {
+                let all = Surfaces { progressive: &self.progressive, finest: &self.finest, fine };
+                let steps = trial.steps;
+                match trial.advance(&all, &mut self.memory) {
+                    Poll::Pending => {}
+                    Poll::Ready(None) => return self.found(steps),
+                    Poll::Ready(Some(Witness::Points(points))) => self.work = Work::Leap(steps, points),
+                    Poll::Ready(Some(Witness::Triangle { birth, distance })) => {
+                        self.last = Some(Last::Distance(distance));
+                        self.work = Work::Begin(birth.saturating_sub(1));
+                    }
+                }
+            }
+            Work::Leap(steps, points) => {
+                for _ in 0..STEPS {
+                    // A level of no steps is the surface itself.
+                    if let Some(last) = step_back(&self.progressive, history, *steps - 1, points, self.bound) {
+                        self.last = Some(Last::Point(last));
+                        self.work = Work::Begin(*steps - 1);
+                        return None;
+                    }
+                    *steps -= 1;
+                    if *steps == 0 {
+                        self.work = Work::Begin(0);
+                        return None;
+                    }
+                }
+            }
+            Work::Measure(steps, point, next) => {
+                let (build, level) = &mut **next;
+                if let Poll::Ready(index) = build.advance(&self.progressive.positions, level, UNITS) {
+                    return Some(Bound { steps: *steps, next_coarser_mm: Some(distance(&index, *point)) });
+                }
+            }
+        }
+        None
+    }
+
+    /// The level is found; what is left is how far the next coarser is.
+    fn found(&mut self, steps: u32) -> Option<Bound> {
+        match self.last {
+            None => Some(Bound { steps, next_coarser_mm: None }),
+            Some(Last::Distance(distance)) => Some(Bound { steps, next_coarser_mm: Some(distance) }),
+            Some(Last::Point(point)) => {
+                let level = self.progressive.triangles_at(steps + 1);
+                self.work = Work::Measure(steps, point, Box::new((IndexBuild::new(), level)));
+                None
+            }
+        }
+    }
+
+    /// The part that is done, 0 to 1: how far the search has come from the coarsest level.
+    fn fraction(&self) -> f32 {
+        let steps = match &self.work {
+            Work::Begin(steps) | Work::Leap(steps, _) | Work::Measure(steps, ..) => *steps,
+            Work::Trial(trial) => trial.steps,
+        };
+        1.0 - steps as f32 / self.progressive.errors.len().max(1) as f32
+    }
+}
+
+/// Leaves out the points that are near to a triangle that comes back between `steps` + 1 steps and `steps`; the last of
+/// them, if none is left.
+fn step_back(
+    mesh: &ProgressiveMesh,
+    history: &History,
+    steps: u32,
+    points: &mut Vec<Vec3>,
+    bound: f64,
+) -> Option<Vec3> {
+    let last = points.last().copied();
+    for corners in history.before(mesh, steps) {
+        points.retain(|&p| distance_to_triangle(p, corners) > bound);
+    }
+    last.filter(|_| points.is_empty())
+}
+
+impl Task for BoundTask {
+    type Output = Bound;
+
+    /// The clock is read every fraction of a millisecond, but for the beginning of each level (a few nanoseconds a
+    /// node).
+    fn advance(&mut self, budget: Budget) -> Progress<Bound> {
+        loop {
+            if let Some(bound) = self.step() {
+                return Progress::Done(bound);
+            }
+            if budget.is_spent() {
+                return Progress::Working(self.fraction());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Topology;
+    use crate::phantom::{Sample, generate};
+    use crate::pipeline::decimation::decimate;
+    use crate::pipeline::settings::Decimation;
+
+    #[test]
+    fn probe() {
+        let n: usize = std::env::var("N").map_or(74_307, |n| n.parse().unwrap());
+        let opened = generate(Sample::Aorta, n).unwrap();
+        let mut p = crate::pipeline::run::Pipeline::new(
+            Arc::new(opened),
+            crate::pipeline::settings::Settings::default(),
+        )
+        .with_samples(200_000);
+        p.finish().unwrap();
+        println!("{:?}", p.deviations().unwrap().from_smoothed.as_ref().unwrap().deviation);
+        let smoothed = p.smoothed().unwrap().mesh.clone();
+        let topology = Topology::new(smoothed.positions.len(), &smoothed.triangles);
+        let progressive = Arc::new(decimate(&smoothed, &topology, &Decimation::default()));
+        let finest = Arc::new(progressive.finest());
+        let index = Arc::new(SurfaceIndex::new(&finest.positions, &finest.triangles));
+        for bound in [0.001, 0.003, 0.01, 0.03, 0.1, 0.2, 0.3, 1.0, 3.0, 10.0] {
+            let start = web_time::Instant::now();
+            let mut task = BoundTask::new(progressive.clone(), finest.clone(), bound).with_index(index.clone());
+            let mut log = String::new();
+            let mut last = start;
+            let mut now = None;
+            let mut trials = 0;
+            let found = loop {
+                if let Some(bound) = task.step() {
+                    break bound;
+                }
+                let id = match &task.work {
+                    Work::Begin(_) => None,
+                    Work::Trial(t) => Some((t.steps, format!("{:?}", t.stage))),
+                    Work::Leap(..) => Some((0, "leap".to_owned())),
+                    Work::Measure(..) => Some((0, "measure".to_owned())),
+                };
+                if id != now {
+                    if let Some((s, st)) = now {
+                        trials += u32::from(st == "Index");
+                        log += &format!(" {s}{st}:{:.1}", last.elapsed().as_secs_f64() * 1e3);
+                    }
+                    last = web_time::Instant::now();
+                    now = id;
+                }
+            };
+            let ms = start.elapsed().as_secs_f64() * 1e3;
+            let level = progressive.extract(&progressive.triangles_at(found.steps));
+            let next = progressive.extract(&progressive.triangles_at((found.steps + 1).min(progressive.errors.len() as u32)));
+            let d = |m: &TriMesh| crate::pipeline::deviation::deviation(&finest, m, 200_000).unwrap().max;
+            println!("{bound}: {ms:.0} ms, {found:?}, {} triangles, sampled {:.5} next {:.5}; trials {trials}", level.triangles.len(), d(&level), d(&next));
+            if std::env::var("LOG").is_ok() { println!("   {log}"); }
+        }
+    }
+}
