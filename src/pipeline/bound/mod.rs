@@ -79,7 +79,7 @@ impl BoundTask {
     pub fn new(progressive: Arc<ProgressiveMesh>, finest: Arc<TriMesh>, bound: f64) -> Self {
         Self {
             work: Work::Begin(progressive.errors.len() as u32),
-            memory: Memory::new(finest.triangles.len()),
+            memory: Memory::new(&progressive.triangles),
             progressive,
             finest,
             bound,
@@ -190,8 +190,14 @@ fn step_back(
     bound: f64,
 ) -> Option<Vec3> {
     let last = points.last().copied();
+    let [reach, margin] = [Vec3::splat(bound as f32), Vec3::splat(1.0 + 1e-6)];
     for corners in history.before(mesh, steps) {
-        points.retain(|&p| distance_to_triangle(p, corners) > bound);
+        let [a, b, c] = corners;
+        // A little too large, for the rounding of f32.
+        let slack = reach * margin + a.abs().max(b.abs()).max(c.abs()) * 1e-6;
+        let (min, max) = (a.min(b).min(c) - slack, a.max(b).max(c) + slack);
+        let is_near = |p: Vec3| p.cmpge(min).all() && p.cmple(max).all();
+        points.retain(|&p| !is_near(p) || distance_to_triangle(p, corners) > bound);
     }
     last.filter(|_| points.is_empty())
 }

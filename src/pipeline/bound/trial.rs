@@ -40,8 +40,13 @@ pub(super) struct Memory {
 const NONE: [u32; 3] = [u32::MAX; 3];
 
 impl Memory {
-    pub(super) fn new(triangles: usize) -> Self {
-        Self { seen: vec![NONE; triangles], coarse: vec![NONE; triangles], fine: vec![(0, NONE); triangles] }
+    /// What is known of a surface of these triangles: that none of them is far from itself.
+    pub(super) fn new(triangles: &[[u32; 3]]) -> Self {
+        Self {
+            seen: triangles.to_vec(),
+            coarse: triangles.to_vec(),
+            fine: (0..).zip(triangles.iter().copied()).collect(),
+        }
     }
 }
 
