@@ -70,18 +70,6 @@ impl Reach {
         Self { within: bound, beyond: bound * (1.0 - TOLERANCE), pieces: Vec::new(), last: None }
     }
 
-    /// From now on a point counts as beyond only where it is farther than `distance` in mm: for the search of the
-    /// farthest.
-    pub fn raise(&mut self, distance: f64) {
-        self.beyond = distance;
-        self.within = distance * (1.0 + TOLERANCE);
-    }
-
-    /// The bound in mm within which everything is that was settled.
-    pub fn bound(&self) -> f64 {
-        self.within
-    }
-
     /// The triangle of the surface that settled a piece last.
     pub fn nearest(&self) -> Option<u32> {
         self.last.map(|last| last.triangle)
