@@ -245,3 +245,130 @@ impl Piece {
         parts
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mesh::TriMesh;
+    use crate::mesh::shapes::{icosphere, sagitta, square};
+
+    /// The first triangle of `a` that is beyond `bound` of `b`, and the pieces that it took to say so.
+    fn beyond(a: &TriMesh, b: &TriMesh, bound: f64) -> (Option<Beyond>, usize) {
+        let index = SurfaceIndex::new(&b.positions, &b.triangles);
+        let mut reach = Reach::new(bound);
+        let mut pieces = 0;
+        for t in 0..a.triangles.len() {
+            reach.begin(a.corners(t));
+            loop {
+                pieces += 1;
+                match reach.advance(&index, 1) {
+                    Poll::Pending => {}
+                    Poll::Ready(None) => break,
+                    Poll::Ready(found) => return (found, pieces),
+                }
+            }
+        }
+        (None, pieces)
+    }
+
+    #[test]
+    fn the_depth_of_a_valley_between_the_corners_is_found() {
+        // From a flat square down to a valley 3 mm below its middle line: the walls are 4 x 3 / 5 mm from that line.
+        let flat = square(1, 8.0, 0.0);
+        let mut valley = square(8, 8.0, 0.0);
+        valley.positions.iter_mut().for_each(|p| p.z = -3.0 * (1.0 - (p.x - 4.0).abs() / 4.0));
+        assert_eq!(beyond(&flat, &valley, 2.403).0, None);
+        for bound in [2.39, 1.0, 0.01] {
+            let found = beyond(&flat, &valley, bound).0.unwrap();
+            assert!(found.distance > bound * (1.0 - TOLERANCE) && found.distance <= 2.400_001, "{found:?}");
+        }
+        // The other way it is as deep as it is.
+        assert_eq!(beyond(&valley, &flat, 3.004).0, None);
+        assert!(beyond(&valley, &flat, 2.99).0.is_some());
+    }
+
+    #[test]
+    fn a_sphere_is_within_the_difference_of_radii_and_no_less() {
+        let (small, large) = (icosphere(4, 10.0, Vec3::ONE), icosphere(3, 12.0, Vec3::ONE));
+        let slack = f64::from(sagitta(&small, 10.0, Vec3::ONE).max(sagitta(&large, 12.0, Vec3::ONE)));
+        for (a, b) in [(&small, &large), (&large, &small)] {
+            assert_eq!(beyond(a, b, 2.0 + slack).0, None);
+            assert!(beyond(a, b, 2.0 - slack).0.is_some());
+        }
+    }
+
+    #[test]
+    fn the_number_of_pieces_depends_on_the_triangles_and_hardly_on_the_bound() {
+        // A large triangle above a fine grid: it has to be overlaid with all of it.
+        let large = TriMesh {
+            positions: vec![Vec3::new(1.0, 1.0, 0.0), Vec3::new(31.0, 2.0, 0.0), Vec3::new(3.0, 30.0, 0.0)],
+            triangles: vec![[0, 1, 2]],
+        };
+        let mut grid = square(32, 32.0, 0.0);
+        grid.positions.iter_mut().enumerate().for_each(|(i, p)| p.z = 1e-3 * (i % 7) as f32);
+        for bound in [0.0065, 0.01, 0.1, 1.0, 10.0] {
+            let (found, pieces) = beyond(&large, &grid, bound);
+            assert_eq!(found, None, "{bound}");
+            assert!(pieces < 20 * grid.triangles.len(), "{bound}: {pieces}");
+        }
+    }
+
+    #[test]
+    fn everything_is_beyond_a_surface_of_nothing() {
+        let found = beyond(&square(1, 1.0, 0.0), &TriMesh::default(), 1e9).0;
+        assert_eq!(found.map(|found| found.distance), Some(f64::INFINITY));
+    }
+
+    #[test]
+    fn no_size_of_coordinates_keeps_it_from_an_end() {
+        for size in [1e-30f32, 1e-6, 1.0, 1e6, 1e18] {
+            let (flat, apart) = (square(4, size, 0.0), square(3, size, size));
+            assert!(beyond(&flat, &apart, f64::from(size) * 0.99).0.is_some(), "{size}");
+            assert_eq!(beyond(&flat, &apart, f64::from(size) * 1.01).0, None, "{size}");
+            assert_eq!(beyond(&flat, &flat, f64::from(size) * 1e-3).0, None, "{size}");
+        }
+    }
+
+    fn point() -> impl Strategy<Value = Vec3> {
+        prop::array::uniform3(prop_oneof![(-4i8..=4).prop_map(f32::from), -4.0f32..4.0]).prop_map(Vec3::from)
+    }
+
+    fn soup() -> impl Strategy<Value = TriMesh> {
+        prop::collection::vec(prop::array::uniform3(point()), 1..24).prop_map(|list| TriMesh {
+            triangles: (0..list.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
+            positions: list.into_flattened(),
+        })
+    }
+
+    proptest! {
+        /// Samples bound the truth from below, and from above with their spacing: the answer must lie between.
+        #[test]
+        fn the_answer_is_that_of_dense_samples(corners in prop::array::uniform3(point()), b in soup(),
+                                               part in 0.2f64..2.0) {
+            let index = SurfaceIndex::new(&b.positions, &b.triangles);
+            let n = 60;
+            let [p, q, r] = corners.map(Vec3::as_dvec3);
+            let mut most = 0.0f64;
+            for i in 0..=n {
+                for j in 0..=n - i {
+                    let at = p + ((q - p) * f64::from(i) + (r - p) * f64::from(j)) / f64::from(n);
+                    most = most.max(f64::from(index.nearest(at.as_vec3()).unwrap().distance));
+                }
+            }
+            let spacing = p.distance(q).max(q.distance(r)).max(r.distance(p)) / f64::from(n);
+            let bound = (most * part).max(1e-3);
+            let a = TriMesh { positions: corners.to_vec(), triangles: vec![[0, 1, 2]] };
+            match beyond(&a, &b, bound).0 {
+                None => prop_assert!(most <= bound + 1e-5),
+                Some(found) => {
+                    prop_assert!(found.distance >= bound * (1.0 - 3.0 * TOLERANCE));
+                    prop_assert!(found.distance <= most + spacing + 1e-5);
+                    let there = index.nearest(found.point).unwrap().distance;
+                    prop_assert!((f64::from(there) - found.distance).abs() <= 1e-5);
+                }
+            }
+        }
+    }
+}

@@ -30,11 +30,7 @@ impl History {
     }
 
     /// The triangles, as they stand after `step` steps, that the next one ends or changes.
-    pub(super) fn before<'a>(
-        &'a self,
-        mesh: &'a ProgressiveMesh,
-        step: u32,
-    ) -> impl Iterator<Item = [Vec3; 3]> + 'a {
+    pub(super) fn before<'a>(&'a self, mesh: &'a ProgressiveMesh, step: u32) -> impl Iterator<Item = [Vec3; 3]> + 'a {
         let range = self.starts[step as usize] as usize..self.starts[step as usize + 1] as usize;
         self.triangles[range].iter().map(move |&t| {
             mesh.triangles[t as usize].map(|mut node| {

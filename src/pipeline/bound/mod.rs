@@ -221,60 +221,88 @@ impl Task for BoundTask {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
-    use crate::mesh::Topology;
+    use crate::mesh::{Topology, surface_area};
     use crate::phantom::{Sample, generate};
     use crate::pipeline::decimation::decimate;
+    use crate::pipeline::deviation::deviation;
     use crate::pipeline::settings::Decimation;
 
+    fn levels(mesh: &TriMesh) -> Arc<ProgressiveMesh> {
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        Arc::new(decimate(mesh, &topology, &Decimation::default()))
+    }
+
+    fn search(levels: &Arc<ProgressiveMesh>, bound: f64) -> Bound {
+        BoundTask::new(levels.clone(), Arc::new(levels.finest()), bound).finish()
+    }
+
+    fn largest(levels: &ProgressiveMesh, steps: u32, samples: usize) -> f64 {
+        let level = levels.extract(&levels.triangles_at(steps));
+        deviation(&levels.finest(), &level, samples).unwrap().max
+    }
+
     #[test]
-    fn probe() {
-        let n: usize = std::env::var("N").map_or(74_307, |n| n.parse().unwrap());
-        let opened = generate(Sample::Aorta, n).unwrap();
-        let mut p = crate::pipeline::run::Pipeline::new(
-            Arc::new(opened),
-            crate::pipeline::settings::Settings::default(),
-        )
-        .with_samples(200_000);
-        p.finish().unwrap();
-        println!("{:?}", p.deviations().unwrap().from_smoothed.as_ref().unwrap().deviation);
-        let smoothed = p.smoothed().unwrap().mesh.clone();
-        let topology = Topology::new(smoothed.positions.len(), &smoothed.triangles);
-        let progressive = Arc::new(decimate(&smoothed, &topology, &Decimation::default()));
-        let finest = Arc::new(progressive.finest());
-        let index = Arc::new(SurfaceIndex::new(&finest.positions, &finest.triangles));
-        for bound in [0.001, 0.003, 0.01, 0.03, 0.1, 0.2, 0.3, 1.0, 3.0, 10.0] {
-            let start = web_time::Instant::now();
-            let mut task = BoundTask::new(progressive.clone(), finest.clone(), bound).with_index(index.clone());
-            let mut log = String::new();
-            let mut last = start;
-            let mut now = None;
-            let mut trials = 0;
-            let found = loop {
-                if let Some(bound) = task.step() {
-                    break bound;
-                }
-                let id = match &task.work {
-                    Work::Begin(_) => None,
-                    Work::Trial(t) => Some((t.steps, format!("{:?}", t.stage))),
-                    Work::Leap(..) => Some((0, "leap".to_owned())),
-                    Work::Measure(..) => Some((0, "measure".to_owned())),
-                };
-                if id != now {
-                    if let Some((s, st)) = now {
-                        trials += u32::from(st == "Index");
-                        log += &format!(" {s}{st}:{:.1}", last.elapsed().as_secs_f64() * 1e3);
-                    }
-                    last = web_time::Instant::now();
-                    now = id;
-                }
-            };
-            let ms = start.elapsed().as_secs_f64() * 1e3;
-            let level = progressive.extract(&progressive.triangles_at(found.steps));
-            let next = progressive.extract(&progressive.triangles_at((found.steps + 1).min(progressive.errors.len() as u32)));
-            let d = |m: &TriMesh| crate::pipeline::deviation::deviation(&finest, m, 200_000).unwrap().max;
-            println!("{bound}: {ms:.0} ms, {found:?}, {} triangles, sampled {:.5} next {:.5}; trials {trials}", level.triangles.len(), d(&level), d(&next));
-            if std::env::var("LOG").is_ok() { println!("   {log}"); }
+    fn the_level_found_is_within_by_samples_and_the_next_is_not() {
+        for (sample, triangles) in [(Sample::Aorta, 3_000), (Sample::Coronary, 8_000)] {
+            let levels = levels(&generate(sample, triangles).unwrap());
+            for bound in [0.02, 0.1, 0.5, 2.0, 8.0] {
+                let found = search(&levels, bound);
+                let measured = largest(&levels, found.steps, 50_000);
+                assert!(measured <= bound, "{sample:?}, {bound}: {found:?}, {measured}");
+                let Some(next) = found.next_coarser_mm else { continue };
+                let measured = largest(&levels, found.steps + 1, 200_000);
+                let spacing = (surface_area(&levels.finest()) / 200_000.0).sqrt();
+                assert!(next > bound * 0.998, "{sample:?}, {bound}: {found:?}");
+                assert!(next <= measured + 2.0 * spacing, "{sample:?}, {bound}: {found:?}, {measured}");
+            }
         }
+    }
+
+    #[test]
+    fn no_coarser_level_is_within() {
+        let levels = levels(&generate(Sample::Aorta, 2_000).unwrap());
+        let last = levels.errors.len() as u32;
+        for bound in [0.05, 0.3, 2.0] {
+            let found = search(&levels, bound);
+            assert!(found.steps < last);
+            for steps in (found.steps + 1..=last).step_by(29) {
+                let measured = largest(&levels, steps, 20_000);
+                // Samples may miss the farthest point.
+                assert!(measured > bound * 0.9, "{bound}: {found:?}, {steps} steps: {measured}");
+            }
+        }
+    }
+
+    #[test]
+    fn slices_and_a_given_index_change_nothing_and_progress_goes_up() {
+        let levels = levels(&generate(Sample::Aorta, 2_000).unwrap());
+        let whole = search(&levels, 0.2);
+        let mut task = BoundTask::new(levels.clone(), Arc::new(levels.finest()), 0.2);
+        let mut before = 0.0;
+        let sliced = loop {
+            match task.advance(Budget::new(Duration::ZERO)) {
+                Progress::Working(now) => {
+                    assert!((before..=1.0).contains(&now), "{before} then {now}");
+                    before = now;
+                }
+                Progress::Done(found) => break found,
+            }
+        };
+        assert_eq!(sliced, whole);
+        let index = task.index().unwrap().clone();
+        let again = BoundTask::new(levels.clone(), Arc::new(levels.finest()), 0.2).with_index(index).finish();
+        assert_eq!(again, whole);
+    }
+
+    #[test]
+    fn a_bound_beyond_all_levels_gives_the_coarsest_and_nothing_gives_nothing() {
+        let levels = levels(&generate(Sample::Aorta, 2_000).unwrap());
+        let found = search(&levels, 1e6);
+        assert_eq!(found, Bound { steps: levels.errors.len() as u32, next_coarser_mm: None });
+        let none = Arc::new(ProgressiveMesh::default());
+        assert_eq!(search(&none, 0.1), Bound { steps: 0, next_coarser_mm: None });
     }
 }

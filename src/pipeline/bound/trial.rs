@@ -64,7 +64,7 @@ pub(super) struct Trial {
     level: Vec<[u32; 3]>,
     build: IndexBuild,
     index: SurfaceIndex,
-    pub(super) stage: Stage,
+    stage: Stage,
     next: usize,
     beyond: Vec<Vec3>,
     births: Vec<u32>,
@@ -77,7 +77,7 @@ pub(super) struct Trial {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Stage {
+enum Stage {
     Index,
     /// Nodes that are gone.
     Nodes,
@@ -236,12 +236,7 @@ enum Settled {
 }
 
 /// Goes on with a triangle, from its beginning unless `is_begun`.
-fn settle(
-    reach: &mut Reach,
-    is_begun: &mut bool,
-    corners: impl Fn() -> [Vec3; 3],
-    surface: &SurfaceIndex,
-) -> Settled {
+fn settle(reach: &mut Reach, is_begun: &mut bool, corners: impl Fn() -> [Vec3; 3], surface: &SurfaceIndex) -> Settled {
     let is_whole = !*is_begun;
     if is_whole {
         reach.begin(corners());
