@@ -291,7 +291,7 @@ impl Pipeline {
     /// Works until `budget` is spent or a stage is finished.
     ///
     /// # Errors
-    /// When the settings name a component that the surface does not have.
+    /// When a setting is out of range or names a component that the surface does not have.
     pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
@@ -306,7 +306,7 @@ impl Pipeline {
     /// Runs all stages to the end.
     ///
     /// # Errors
-    /// When the settings name a component that the surface does not have.
+    /// When a setting is out of range or names a component that the surface does not have.
     pub fn finish(&mut self) -> Result<(), SettingsError> {
         while self.advance(Budget::UNLIMITED)? != Advance::Idle {}
         Ok(())
@@ -334,6 +334,7 @@ impl Pipeline {
     fn work(&mut self, stage: Stage, budget: Budget) -> Result<Advance, SettingsError> {
         match stage {
             Stage::Connectivity => {
+                self.now.settings.check()?;
                 if let Some(fraction) = self.connect()? {
                     return Ok(Advance::Working(stage, fraction));
                 }
