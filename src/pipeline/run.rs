@@ -202,7 +202,8 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// A pipeline for an opened surface. Triangles must not repeat a vertex (`io` sees to that).
+    /// A pipeline for an opened surface. Triangles must not repeat a vertex, coordinates must be finite (`io` sees to
+    /// both).
     pub fn new(opened: Arc<TriMesh>, settings: Settings) -> Self {
         let now = Results { settings, ..Results::default() };
         Self {
