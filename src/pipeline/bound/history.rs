@@ -1,32 +1,47 @@
 //! When a triangle of some level came to be, and which ones each step ended: what lets the search leap over levels.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
 use crate::pipeline::progressive::ProgressiveMesh;
 
-/// The triangles that each step of a run ended or changed.
+/// The triangles that each step of a run ended or changed; it is made in slices.
 #[derive(Debug, Default)]
 pub(super) struct History {
     /// For each step and one more, where its triangles begin.
     starts: Vec<u32>,
     /// Triangles that have a corner at a node that the step ends.
     triangles: Vec<u32>,
+    /// Triangles that were looked at: each twice.
+    looked_at: usize,
 }
 
 impl History {
-    /// The history of a run; takes time linear in what its steps changed.
-    pub(super) fn new(mesh: &ProgressiveMesh) -> Self {
-        let mut starts = vec![0u32; mesh.errors.len() + 2];
-        each_change(mesh, |step, _| starts[step as usize + 2] += 1);
-        (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
-        let mut triangles = vec![0; starts.last().map_or(0, |&end| end as usize)];
-        each_change(mesh, |step, t| {
-            let place = &mut starts[step as usize + 1];
-            triangles[*place as usize] = t;
-            *place += 1;
-        });
-        starts.pop();
-        Self { starts, triangles }
+    /// Looks at up to `work` triangles and says whether that is all.
+    pub(super) fn advance(&mut self, mesh: &ProgressiveMesh, work: usize) -> bool {
+        let count = mesh.triangles.len();
+        if self.looked_at == 0 {
+            self.starts = vec![0; mesh.errors.len() + 2];
+        }
+        if self.looked_at < count {
+            let range = self.looked_at..count.min(self.looked_at + work);
+            self.looked_at = range.end;
+            each_change(mesh, range, |step, _| self.starts[step as usize + 2] += 1);
+            if self.looked_at == count {
+                (1..self.starts.len()).for_each(|i| self.starts[i] += self.starts[i - 1]);
+                self.triangles = vec![0; self.starts[self.starts.len() - 1] as usize];
+            }
+        } else if self.looked_at < 2 * count {
+            let range = self.looked_at - count..count.min(self.looked_at - count + work);
+            self.looked_at = count + range.end;
+            each_change(mesh, range, |step, t| {
+                let place = &mut self.starts[step as usize + 1];
+                self.triangles[*place as usize] = t;
+                *place += 1;
+            });
+        }
+        self.looked_at == 2 * count
     }
 
     /// The triangles, as they stand after `step` steps, that the next one ends or changes.
@@ -43,14 +58,15 @@ impl History {
     }
 }
 
-/// Calls `change` with each step and a triangle that has a corner at a node which the step ends.
-fn each_change(mesh: &ProgressiveMesh, mut change: impl FnMut(u32, u32)) {
-    for (t, (corners, &last)) in (0..).zip(mesh.triangles.iter().zip(&mesh.triangle_ends)) {
-        for &corner in corners {
+/// Calls `change` with each step and a triangle of `range` that has a corner at a node which the step ends.
+fn each_change(mesh: &ProgressiveMesh, range: Range<usize>, mut change: impl FnMut(u32, u32)) {
+    for t in range {
+        let last = mesh.triangle_ends[t];
+        for corner in mesh.triangles[t] {
             let mut node = corner as usize;
             // A node that never ends is its own parent.
             while mesh.node_ends[node] <= last && mesh.parents[node] as usize != node {
-                change(mesh.node_ends[node], t);
+                change(mesh.node_ends[node], t as u32);
                 node = mesh.parents[node] as usize;
             }
         }
@@ -83,7 +99,8 @@ mod tests {
     fn a_step_puts_back_what_the_level_before_has_and_the_one_after_has_not() {
         let mesh = generate(Sample::Aorta, 2_000).unwrap();
         let levels = decimate(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), &Decimation::default());
-        let history = History::new(&levels);
+        let mut history = History::default();
+        while !history.advance(&levels, 100) {}
         let corners = |steps: u32| -> Vec<[Vec3; 3]> {
             levels.triangles_at(steps).iter().map(|t| t.map(|v| levels.positions[v as usize])).collect()
         };

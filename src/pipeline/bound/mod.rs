@@ -52,7 +52,7 @@ pub struct BoundTask {
     bound: f64,
     build: IndexBuild,
     fine: Option<Arc<SurfaceIndex>>,
-    history: Option<History>,
+    history: History,
     memory: Memory,
     work: Work,
     /// What rules out the level one step coarser than the one at work.
@@ -79,13 +79,13 @@ impl BoundTask {
     pub fn new(progressive: Arc<ProgressiveMesh>, finest: Arc<TriMesh>, bound: f64) -> Self {
         Self {
             work: Work::Begin(progressive.errors.len() as u32),
-            memory: Memory::new(&progressive.triangles),
+            memory: Memory::new(finest.triangles.len()),
             progressive,
             finest,
             bound,
             build: IndexBuild::new(),
             fine: None,
-            history: None,
+            history: History::default(),
             last: None,
         }
     }
@@ -110,10 +110,9 @@ impl BoundTask {
             }
             return None;
         };
-        let Some(history) = &self.history else {
-            self.history = Some(History::new(&self.progressive));
+        if !self.history.advance(&self.progressive, UNITS) {
             return None;
-        };
+        }
         match &mut self.work {
             Work::Begin(0) => return self.found(0),
             Work::Begin(steps) => {
@@ -135,7 +134,7 @@ impl BoundTask {
             Work::Leap(steps, points) => {
                 for _ in 0..STEPS {
                     // A level of no steps is the surface itself.
-                    if let Some(last) = step_back(&self.progressive, history, *steps - 1, points, self.bound) {
+                    if let Some(last) = step_back(&self.progressive, &self.history, *steps - 1, points, self.bound) {
                         self.last = Some(Last::Point(last));
                         self.work = Work::Begin(*steps - 1);
                         return None;

@@ -26,26 +26,26 @@ pub(super) enum Witness {
     Triangle { birth: u32, distance: f64 },
 }
 
-/// What stays true from one level to another.
+/// What stays true from one level to another. A triangle as it stands is known by its number and its birth.
 pub(super) struct Memory {
-    /// For each triangle, the corners with which some of its points were within.
-    seen: Vec<[u32; 3]>,
-    /// For each triangle, the corners with which all of it was within.
-    coarse: Vec<[u32; 3]>,
-    /// For each triangle of the finest level, a triangle and its corners within whose bound it is.
-    fine: Vec<(u32, [u32; 3])>,
+    /// For each triangle, the birth of one of which some points were within.
+    seen: Vec<u32>,
+    /// For each triangle, the birth of one of which all was within.
+    coarse: Vec<u32>,
+    /// For each triangle of the finest level, a triangle and its birth within whose bound it is.
+    fine: Vec<(u32, u32)>,
 }
 
-/// The corners of no triangle.
-const NONE: [u32; 3] = [u32::MAX; 3];
+/// A birth that no triangle has.
+const NO_BIRTH: u32 = u32::MAX;
 
 impl Memory {
-    /// What is known of a surface of these triangles: that none of them is far from itself.
-    pub(super) fn new(triangles: &[[u32; 3]]) -> Self {
+    /// What is known of a surface of so many triangles: that none of them is far from itself.
+    pub(super) fn new(triangles: usize) -> Self {
         Self {
-            seen: triangles.to_vec(),
-            coarse: triangles.to_vec(),
-            fine: (0..).zip(triangles.iter().copied()).collect(),
+            seen: vec![0; triangles],
+            coarse: vec![0; triangles],
+            fine: (0..triangles as u32).map(|t| (t, 0)).collect(),
         }
     }
 }
@@ -132,14 +132,14 @@ impl Trial {
                 Stage::Points
             }
             Stage::Points => {
-                let is_open = |&t: &u32| memory.coarse[t as usize] != self.level[t as usize];
+                let is_open = |&t: &u32| memory.coarse[t as usize] != self.births[t as usize];
                 self.order = self.index.triangles().filter(is_open).collect();
                 Stage::Coarse
             }
             Stage::Coarse => {
                 let is_open = |&t: &u32| {
-                    let (by, corners) = memory.fine[t as usize];
-                    self.level.get(by as usize) != Some(&corners)
+                    let (by, birth) = memory.fine[t as usize];
+                    self.births.get(by as usize) != Some(&birth)
                 };
                 self.order = all.fine.triangles().filter(is_open).collect();
                 Stage::Fine
@@ -170,16 +170,15 @@ impl Trial {
     fn points(&mut self, all: &Surfaces<'_>, memory: &mut Memory) -> Poll<Option<Witness>> {
         let end = self.level.len().min(self.next + QUERIES / 4);
         for t in self.next..end {
-            let corners = self.level[t];
-            if memory.seen[t] == corners {
+            if memory.seen[t] == self.births[t] {
                 continue;
             }
-            let [a, b, c] = corners.map(|v| all.progressive.positions[v as usize]);
+            let [a, b, c] = self.level[t].map(|v| all.progressive.positions[v as usize]);
             let points = [(a + b + c) / 3.0, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, a, b, c];
             // Only a method that places new vertices has corners that are not on the finest level.
             let points = &points[..if all.finest.positions.len() == all.progressive.positions.len() { 4 } else { 7 }];
             match points.iter().find(|&&p| !all.fine.is_within(p, self.bound as f32)) {
-                None => memory.seen[t] = corners,
+                None => memory.seen[t] = self.births[t],
                 Some(&p) => self.offer(t, distance(all.fine, p)),
             }
         }
@@ -202,7 +201,7 @@ impl Trial {
             let corners = || self.level[t].map(|v| all.progressive.positions[v as usize]);
             match settle(&mut self.reach, &mut self.is_begun, corners, all.fine) {
                 Settled::Open => return Poll::Pending,
-                Settled::Within(_) => memory.coarse[t] = self.level[t],
+                Settled::Within(_) => memory.coarse[t] = self.births[t],
                 Settled::Beyond(found) => self.offer(t, found.distance),
             }
             self.next += 1;
@@ -217,7 +216,7 @@ impl Trial {
             match settle(&mut self.reach, &mut self.is_begun, || all.finest.corners(t), &self.index) {
                 Settled::Open => return Poll::Pending,
                 Settled::Within(by) => {
-                    memory.fine[t] = by.map_or((0, NONE), |by| (by, self.level[by as usize]));
+                    memory.fine[t] = by.map_or((0, NO_BIRTH), |by| (by, self.births[by as usize]));
                 }
                 Settled::Beyond(found) => return Poll::Ready(Some(Witness::Points(vec![found.point]))),
             }
