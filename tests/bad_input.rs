@@ -15,7 +15,7 @@ const LIMIT: Duration = Duration::from_secs(120);
 /// Runs every stage, up to a report that can be read back, under settings that between them reach every branch.
 fn survive(name: &str, mesh: TriMesh) {
     let (label, mesh) = (name.to_owned(), Arc::new(mesh));
-    in_time(name, move || all_settings().into_iter().for_each(|settings| check(&label, &mesh, settings)));
+    in_time(name, move || all_settings().iter().for_each(|settings| check(&label, &mesh, settings)));
 }
 
 /// Runs `work` on a thread, which is left behind if it does not come to an end.
@@ -47,7 +47,7 @@ fn all_settings() -> Vec<Settings> {
     list
 }
 
-fn check(name: &str, mesh: &Arc<TriMesh>, settings: Settings) {
+fn check(name: &str, mesh: &Arc<TriMesh>, settings: &Settings) {
     let what = format!("{name}, {settings:?}");
     let mut pipeline = Pipeline::new(mesh.clone(), settings.clone()).with_samples(500);
     pipeline.finish().unwrap_or_else(|error| panic!("{what}: {error}"));

@@ -1,5 +1,4 @@
-//! How far a surface gets from another, for certain: the one-sided Hausdorff distance, and whether it is within a
-//! bound.
+//! Whether a surface stays within a distance of another, for certain: a decision on the one-sided Hausdorff distance.
 //!
 //! The distance from one triangle is a convex function, so where all corners of a convex piece are within the bound of
 //! one triangle, all of the piece is (the certificate of Guthe, Borodin and Klein, "Fast and accurate Hausdorff
@@ -9,7 +8,8 @@
 //! second surface and the number of pieces does not depend on the bound; where that cuts nothing off, it is halved. A
 //! piece may also be so small, and so near, that the distance of its middle settles it.
 //!
-//! The answer is exact to [`TOLERANCE`] and the rounding of f64: samples are nowhere taken for the whole.
+//! "Within" is exact but for the rounding of f64, "beyond" to [`TOLERANCE`] and the rounding of a point to f32: samples
+//! are nowhere taken for the whole.
 
 use std::task::Poll;
 
@@ -117,13 +117,14 @@ impl Reach {
         let leaf = surface.leaves[found.slot as usize];
         // The query is the middle but for rounding.
         let aside = middle.distance(query.as_dvec3());
-        let distance = f64::from(found.distance);
-        let beyond = Beyond { point: query, distance: (distance * (1.0 - F32_ROUNDING) - aside).max(0.0) };
+        let found = f64::from(found.distance);
+        let beyond = Beyond { point: query, distance: (found * (1.0 - F32_ROUNDING) - aside).max(0.0) };
         if beyond.distance > self.beyond {
             return Verdict::Beyond(beyond);
         }
+        let distance = found * (1.0 + F32_ROUNDING) + aside;
         let radius = piece.radius(middle);
-        if distance + aside + radius <= self.within || piece.is_within(&leaf, bound) {
+        if distance + radius <= self.within || piece.is_within(&leaf, bound) {
             return Verdict::Within;
         }
         let size = middle.abs().max_element();
