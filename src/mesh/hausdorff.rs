@@ -137,26 +137,39 @@ impl Reach {
     /// Cuts a piece along the sides of `nearest`, or in half.
     fn divide(&mut self, piece: &Piece, nearest: &Leaf, distance: f64) {
         let [a, b, c] = nearest.corners.map(Vec3::as_dvec3);
-        let normal = (b - a).cross(c - a);
-        let mut rest = *piece;
-        let before = self.pieces.len();
+        let normal = (b - a).cross(c - a).normalize_or_zero();
         // Where halves will soon be settled by their middles alone, the sides of small triangles cost more.
         let size = (b - a).length_squared().max((c - a).length_squared());
         let is_near = (self.within - distance).powi(2) > size;
         if !nearest.is_sliver && !is_near {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                let outward = (to - from).cross(normal);
-                if let Some([inside, outside]) = rest.cut(from, outward.normalize_or_zero()) {
-                    self.pieces.push(outside);
-                    rest = inside;
+            // The triangle reaches beyond its sides: so far, or half as far at its corners.
+            let height = piece.corners().iter().map(|&p| normal.dot(p - a).abs()).fold(0.0, f64::max);
+            let margin = (self.within * self.within - height * height).max(0.0).sqrt() / 2.0;
+            for margin in [margin, 0.0] {
+                if self.cut_off(piece, [a, b, c], normal, margin) {
+                    return;
                 }
             }
         }
-        if self.pieces.len() > before {
-            self.pieces.push(rest);
-        } else {
-            self.pieces.extend(rest.halves());
+        self.pieces.extend(piece.halves());
+    }
+
+    /// Cuts a piece `margin` beside the sides of a triangle; whether that took anything off.
+    fn cut_off(&mut self, piece: &Piece, [a, b, c]: [DVec3; 3], normal: DVec3, margin: f64) -> bool {
+        let mut rest = *piece;
+        let before = self.pieces.len();
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let outward = (to - from).cross(normal).normalize_or_zero();
+            if let Some([inside, outside]) = rest.cut(from + outward * margin, outward) {
+                self.pieces.push(outside);
+                rest = inside;
+            }
         }
+        let is_cut = self.pieces.len() > before;
+        if is_cut {
+            self.pieces.push(rest);
+        }
+        is_cut
     }
 }
 
