@@ -14,7 +14,7 @@ use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::{Advance, Pipeline};
-use crate::pipeline::settings::{Boundary, Decimation, Keep, Settings, Smoothing, Target, Window};
+use crate::pipeline::settings::{Boundary, Decimation, Keep, Method, Settings, Smoothing, Target, Window};
 use crate::pipeline::task::Budget;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
@@ -44,6 +44,9 @@ pub struct Optimise {
     /// --reduction: as few triangles as stay within it
     #[arg(long, value_name = "MM", value_parser = micrometres, conflicts_with_all = ["reduction", "triangles"])]
     max_deviation: Option<u32>,
+    /// How to reduce
+    #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Method::default())]
+    method: Method,
     /// Edges sharper than this are kept as edges, degrees, 0 to 180
     #[arg(long, value_name = "DEG", default_value_t = Decimation::default().feature_angle)]
     feature_angle: f64,
@@ -59,6 +62,16 @@ pub struct Optimise {
 }
 
 impl ValueEnum for Window {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        Some(clap::builder::PossibleValue::new(self.name().to_lowercase()))
+    }
+}
+
+impl ValueEnum for Method {
     fn value_variants<'a>() -> &'a [Self] {
         &Self::ALL
     }
@@ -100,7 +113,7 @@ impl Optimise {
                 iterations: self.iterations,
                 boundary: Boundary::default(),
             },
-            decimation: Decimation { feature_angle: self.feature_angle },
+            decimation: Decimation { method: self.method, feature_angle: self.feature_angle },
             target: match (self.triangles, self.max_deviation) {
                 (Some(count), _) => Target::Triangles(count),
                 (None, Some(bound)) => Target::Deviation(bound),

@@ -53,6 +53,8 @@ pub struct BoundTask {
     build: IndexBuild,
     fine: Option<Arc<SurfaceIndex>>,
     history: History,
+    /// Whether each node is a vertex of the finest level.
+    is_vertex: Vec<bool>,
     memory: Memory,
     work: Work,
     /// What rules out the level one step coarser than the one at work.
@@ -80,6 +82,7 @@ impl BoundTask {
         Self {
             work: Work::Begin(progressive.errors.len() as u32),
             memory: Memory::new(finest.triangles.len()),
+            is_vertex: is_vertex(&progressive),
             progressive,
             finest,
             bound,
@@ -119,7 +122,8 @@ impl BoundTask {
                 self.work = Work::Trial(Box::new(Trial::new(&self.progressive, *steps, self.bound)));
             }
             Work::Trial(trial) => {
-                let all = Surfaces { progressive: &self.progressive, finest: &self.finest, fine };
+                let all =
+                    Surfaces { progressive: &self.progressive, finest: &self.finest, fine, is_vertex: &self.is_vertex };
                 let steps = trial.steps;
                 match trial.advance(&all, &mut self.memory) {
                     Poll::Pending => {}
@@ -179,6 +183,13 @@ impl BoundTask {
     }
 }
 
+/// Whether each node is a vertex of the finest level.
+fn is_vertex(mesh: &ProgressiveMesh) -> Vec<bool> {
+    let mut is_vertex = vec![false; mesh.positions.len()];
+    mesh.triangles.as_flattened().iter().for_each(|&node| is_vertex[node as usize] = true);
+    is_vertex
+}
+
 /// Leaves out the points that are near to a triangle that comes back between `steps` + 1 steps and `steps`; the last of
 /// them, if none is left.
 fn step_back(
@@ -227,11 +238,15 @@ mod tests {
     use crate::phantom::{Sample, generate};
     use crate::pipeline::decimation::decimate;
     use crate::pipeline::deviation::deviation;
-    use crate::pipeline::settings::Decimation;
+    use crate::pipeline::settings::{Decimation, Method};
 
     fn levels(mesh: &TriMesh) -> Arc<ProgressiveMesh> {
+        levels_by(mesh, Method::default())
+    }
+
+    fn levels_by(mesh: &TriMesh, method: Method) -> Arc<ProgressiveMesh> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        Arc::new(decimate(mesh, &topology, &Decimation::default()))
+        Arc::new(decimate(mesh, &topology, &Decimation { method, ..Decimation::default() }))
     }
 
     fn search(levels: &Arc<ProgressiveMesh>, bound: f64) -> Bound {
@@ -245,8 +260,12 @@ mod tests {
 
     #[test]
     fn the_level_found_is_within_by_samples_and_the_next_is_not() {
-        for (sample, triangles) in [(Sample::Aorta, 3_000), (Sample::Coronary, 8_000)] {
-            let levels = levels(&generate(sample, triangles).unwrap());
+        for (sample, triangles, method) in [
+            (Sample::Aorta, 3_000, Method::Schroeder),
+            (Sample::Aorta, 3_000, Method::Quadric),
+            (Sample::Coronary, 8_000, Method::Schroeder),
+        ] {
+            let levels = levels_by(&generate(sample, triangles).unwrap(), method);
             for bound in [0.02, 0.1, 0.5, 2.0, 8.0] {
                 let found = search(&levels, bound);
                 let measured = largest(&levels, found.steps, 50_000);

@@ -55,6 +55,8 @@ pub(super) struct Surfaces<'a> {
     pub(super) progressive: &'a ProgressiveMesh,
     pub(super) finest: &'a TriMesh,
     pub(super) fine: &'a SurfaceIndex,
+    /// Whether each node is a vertex of the finest level; a method may make others.
+    pub(super) is_vertex: &'a [bool],
 }
 
 /// A level that is being tried.
@@ -79,7 +81,7 @@ pub(super) struct Trial {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stage {
     Index,
-    /// Nodes that are gone.
+    /// Vertices that are gone.
     Nodes,
     /// Corners, middles of sides and centroids of the level's triangles.
     Points,
@@ -149,13 +151,15 @@ impl Trial {
         Poll::Pending
     }
 
-    /// Nodes that are gone, the first to go first: they rule out most levels. (Those of the level are on it.)
+    /// Vertices that are gone, the first to go first: they rule out most levels. (Those of the level are on it.)
     fn nodes(&mut self, all: &Surfaces<'_>) -> Poll<Option<Witness>> {
         let ProgressiveMesh { positions, node_ends, .. } = all.progressive;
-        let gone = &positions[node_ends.partition_point(|&end| end >= self.steps)..];
+        let alive = node_ends.partition_point(|&end| end >= self.steps);
+        let gone = &positions[alive..];
         let end = gone.len().min(self.next + QUERIES);
-        for &p in gone.iter().rev().skip(self.next).take(QUERIES) {
-            if p.is_finite() && !self.index.is_within(p, self.bound as f32) {
+        let vertices = gone.iter().zip(&all.is_vertex[alive..]).rev();
+        for (&p, &is_vertex) in vertices.skip(self.next).take(QUERIES) {
+            if is_vertex && p.is_finite() && !self.index.is_within(p, self.bound as f32) {
                 self.beyond.push(p);
             }
         }
@@ -175,8 +179,8 @@ impl Trial {
             }
             let [a, b, c] = self.level[t].map(|v| all.progressive.positions[v as usize]);
             let points = [(a + b + c) / 3.0, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, a, b, c];
-            // Only a method that places new vertices has corners that are not on the finest level.
-            let points = &points[..if all.finest.positions.len() == all.progressive.positions.len() { 4 } else { 7 }];
+            let is_new = self.level[t].iter().any(|&v| !all.is_vertex[v as usize]);
+            let points = &points[..if is_new { 7 } else { 4 }];
             match points.iter().find(|&&p| !all.fine.is_within(p, self.bound as f32)) {
                 None => memory.seen[t] = self.births[t],
                 Some(&p) => self.offer(t, distance(all.fine, p)),
