@@ -7,7 +7,7 @@ use std::time::Duration;
 use lumen::mesh::{TriMesh, Vec3};
 use lumen::pipeline::report::Report;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Boundary, Keep, Settings, SettingsError, Target, Window};
+use lumen::pipeline::settings::{Boundary, Keep, Method, Settings, SettingsError, Target, Window};
 
 /// What one surface may take through all stages under all settings tried; most take milliseconds.
 const LIMIT: Duration = Duration::from_secs(120);
@@ -41,7 +41,10 @@ fn all_settings() -> Vec<Settings> {
             settings.smoothing.iterations = if keep == Keep::All { 20 } else { 0 };
             settings.smoothing.boundary = if keep == Keep::All { Boundary::Vtk15 } else { Boundary::Loop };
             settings.smoothing.window = if target == Target::Reduction(0) { Window::Nuttall } else { Window::Hamming };
-            list.push(settings);
+            for method in Method::ALL {
+                settings.decimation.method = method;
+                list.push(settings.clone());
+            }
         }
     }
     list
