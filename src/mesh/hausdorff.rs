@@ -154,13 +154,15 @@ impl Reach {
         self.pieces.extend(piece.halves());
     }
 
-    /// Cuts a piece `margin` beside the sides of a triangle; whether that took anything off.
+    /// Cuts a piece `margin` beside the sides of a triangle; whether that took anything off. With a margin, which differs
+    /// from piece to piece, only cuts count that get on; the sides themselves cut a piece once.
     fn cut_off(&mut self, piece: &Piece, [a, b, c]: [DVec3; 3], normal: DVec3, margin: f64) -> bool {
         let mut rest = *piece;
         let before = self.pieces.len();
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let outward = (to - from).cross(normal).normalize_or_zero();
-            if let Some([inside, outside]) = rest.cut(from + outward * margin, outward) {
+            let least = if margin > 0.0 { 0.1 } else { 1e-6 };
+            if let Some([inside, outside]) = rest.cut(from + outward * margin, outward, least) {
                 self.pieces.push(outside);
                 rest = inside;
             }
@@ -203,9 +205,9 @@ impl Piece {
         self.count += 1;
     }
 
-    /// The parts below and above the plane through `origin` with unit normal `up`; `None` where one of them would be
-    /// of no account, or the piece has too many corners to be cut.
-    fn cut(&self, origin: DVec3, up: DVec3) -> Option<[Self; 2]> {
+    /// The parts below and above the plane through `origin` with unit normal `up`; `None` where one of them would have
+    /// less than the part `least` of the height, or the piece has too many corners to be cut.
+    fn cut(&self, origin: DVec3, up: DVec3, least: f64) -> Option<[Self; 2]> {
         if self.count == CORNERS {
             return None;
         }
@@ -215,7 +217,10 @@ impl Piece {
             low = low.min(height(i));
             high = high.max(height(i));
         }
-        let slight = 1e-6 * (high - low);
+        // What lies along the plane is on both sides of it by rounding alone.
+        let first = self.corners[0];
+        let size = self.corners().iter().map(|p| p.distance_squared(first)).fold(0.0, f64::max).sqrt();
+        let slight = (least * (high - low)).max(1e-9 * size).max(1e-14 * first.abs().max_element());
         if !(low < -slight && high > slight) {
             return None;
         }
@@ -326,6 +331,35 @@ mod tests {
             let (found, pieces) = beyond(&large, &grid, bound);
             assert_eq!(found, None, "{bound}");
             assert!(pieces < 20 * grid.triangles.len(), "{bound}: {pieces}");
+        }
+    }
+
+    #[test]
+    fn a_needle_along_the_sides_of_triangles_comes_to_an_end() {
+        // Thinner than rounding, along an edge of a roof: cut by that edge's planes it would stay as it is for ever.
+        for height in [0.0, 0.1, 1.0] {
+            let roof = TriMesh {
+                positions: vec![
+                    Vec3::ZERO,
+                    Vec3::new(3.1, 4.7, 0.3),
+                    Vec3::new(5.0, -2.0, height),
+                    Vec3::new(-4.0, 3.0, height),
+                ],
+                triangles: vec![[0, 2, 1], [0, 1, 3]],
+            };
+            let tip = Vec3::new(3.1, 4.7, 0.3);
+            let needle = TriMesh {
+                positions: vec![Vec3::ZERO, tip, tip * 0.37 + Vec3::new(1e-7, 0.0, 0.0)],
+                triangles: vec![[0, 1, 2]],
+            };
+            for lift in [0.0, 0.01, 0.5] {
+                let mut lifted = needle.clone();
+                lifted.positions.iter_mut().for_each(|p| p.z += lift);
+                for bound in [0.3, 0.05, 0.0101] {
+                    let (found, pieces) = beyond(&lifted, &roof, bound);
+                    assert!(pieces < 100_000, "{height}, {lift}, {bound}: {found:?} after {pieces}");
+                }
+            }
         }
     }
 
