@@ -18,6 +18,7 @@ mod topology;
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
 pub use closest_point::distance_to_triangle;
+pub(crate) use closest_point::foot_on_triangle;
 pub use components::{Components, components};
 pub use glam::Vec3;
 pub use hausdorff::{Beyond, Reach, TOLERANCE};

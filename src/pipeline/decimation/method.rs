@@ -70,8 +70,12 @@ pub(super) trait Method {
     /// triangle.
     fn shape_cost(&self, star: &Star, cost: f32) -> f32;
 
-    /// `v` is about to go to `u`, which is at `way` from it and moves to `place`, if to anywhere.
-    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>);
+    /// The priority of a vertex of that distance.
+    fn priority(&self, distance: f32) -> f32;
+
+    /// `v` is about to go to `u`, which is at `way` from it and moves to `place`, if to anywhere; `tip` is the distance that
+    /// its planes do not know of.
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>, tip: f32);
 
     /// Only the slots in `kept` are left, renumbered in this order.
     fn compact(&mut self, kept: &[u32]);

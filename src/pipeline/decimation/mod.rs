@@ -76,6 +76,19 @@ const FEW: usize = 4096;
 /// Vertices between two looks at the clock.
 const CHUNK: usize = 64;
 
+/// A star of less flatness may be the end of something thin: no plane says how far it reaches.
+const FLAT: f32 = 0.8;
+/// What the distance of such a vertex from what it leaves behind counts for, beside the mean distance of a star.
+const TIP: f32 = 0.5;
+
+/// Why a vertex does not go.
+enum Refusal {
+    /// It cannot.
+    Stuck(Stuck),
+    /// Its distance is larger than it was judged.
+    Later(f32),
+}
+
 /// Why a vertex could not go when it was last tried.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Stuck {
@@ -249,11 +262,12 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
             return;
         }
         match self.way(v, &judged, limits) {
-            Ok(candidate) => self.collapse(v, candidate, judged.distance),
-            Err(stuck) if self.is_eased(v, &judged, stuck) => {
+            Ok((candidate, tip)) => self.collapse(v, candidate, judged.distance, tip),
+            Err(Refusal::Later(key)) => self.keys[v as usize] = key,
+            Err(Refusal::Stuck(stuck)) if self.is_eased(v, &judged, stuck) => {
                 self.keys[v as usize] = judged.priority * self.limits(v).price;
             }
-            Err(stuck) => self.set_stuck(v, stuck),
+            Err(Refusal::Stuck(stuck)) => self.set_stuck(v, stuck),
         }
     }
 
@@ -268,8 +282,8 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         true
     }
 
-    /// The cheapest way for `v` to go that passes every test.
-    fn way(&mut self, v: u32, judged: &Judged, limits: Strictness) -> Result<Candidate, Stuck> {
+    /// The cheapest way for `v` to go that passes every test, and how far it reaches out of what it leaves behind.
+    fn way(&mut self, v: u32, judged: &Judged, limits: Strictness) -> Result<(Candidate, f32), Refusal> {
         self.star.span();
         self.candidates.clear();
         self.method.offer(&self.star, v, judged, &mut self.candidates);
@@ -278,14 +292,20 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
             let candidate = self.candidates[i];
             let u = neighbour(self.star.entries()[candidate.to]);
             if !self.is_hub(u) && self.rings.may_collapse(v, u) {
-                if self.is_clear(v, u, &candidate) {
-                    return Ok(candidate);
+                let at = candidate.place.and_then(|_| self.load_other(v, u));
+                let tip = self.tip(&candidate, at);
+                let key = self.method.priority(tip) * limits.price;
+                if key > self.threshold {
+                    return Err(Refusal::Later(key));
+                }
+                if self.is_clear(v, u, &candidate, at) {
+                    return Ok((candidate, tip));
                 }
                 stuck = Stuck::Geometry;
             }
             self.candidates[i].cost = f32::INFINITY;
         }
-        Err(stuck)
+        Err(Refusal::Stuck(stuck))
     }
 
     /// The candidate of least cost, shape included; those that fold or make a sliver are struck out.
@@ -322,29 +342,44 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         if self.rings.stays(u) || self.is_hub(u) {
             return None;
         }
-        self.other.load(&self.rings, u);
-        self.other.span();
-        let at = self.other.position(v)?;
+        let at = self.load_other(v, u)?;
         Some(worst.min(self.other.worst_after(place - edge, at, turn, quality)?))
     }
 
-    /// Whether no triangle would run into another.
-    fn is_clear(&mut self, v: u32, u: u32, candidate: &Candidate) -> bool {
-        let mut other = None;
-        if candidate.place.is_some() {
-            self.other.load(&self.rings, u);
-            self.other.span();
-            other = self.other.position(v).map(|at| (&self.other, at));
+    /// Loads the star of `u`, and says where `v` stands in it.
+    fn load_other(&mut self, v: u32, u: u32) -> Option<usize> {
+        self.other.load(&self.rings, u);
+        self.other.span();
+        self.other.position(v)
+    }
+
+    /// The distance that a vertex which goes has, by its reach alone, from what it leaves behind; 0 where its planes say
+    /// it. `at` is where the vertex stands in the other's star, if both go.
+    fn tip(&self, candidate: &Candidate, at: Option<usize>) -> f32 {
+        let reach = |star: &Star, way: Vec3A, j: usize| {
+            if star.flatness() >= FLAT { 0.0 } else { TIP * star.distance_to_patch(way, j) }
+        };
+        let edge = self.star.edge(candidate.to);
+        let own = reach(&self.star, candidate.place.unwrap_or(edge), candidate.to);
+        match (at, candidate.place) {
+            (Some(at), Some(place)) => own.max(reach(&self.other, place - edge, at)),
+            _ => own,
         }
+    }
+
+    /// Whether no triangle would run into another.
+    fn is_clear(&mut self, v: u32, u: u32, candidate: &Candidate, at: Option<usize>) -> bool {
+        let other = at.map(|at| (&self.other, at));
         let end = candidate.place.map_or(self.rings.at(u), |place| self.rings.at(v) + place);
         let planned = Planned { v, u, to: candidate.to, end, star: &self.star, other };
         self.guard.allows(&self.rings, &self.mesh, &planned)
     }
 
-    fn collapse(&mut self, v: u32, candidate: Candidate, distance: f32) {
+    fn collapse(&mut self, v: u32, candidate: Candidate, distance: f32, tip: f32) {
+        let distance = distance.max(tip);
         let u = neighbour(self.star.entries()[candidate.to]);
         let way = self.star.edge(candidate.to);
-        self.method.merge(v, u, way, candidate.place);
+        self.method.merge(v, u, way, candidate.place, tip);
         let (gone, kept) = (self.rings.nodes[v as usize], self.rings.nodes[u as usize]);
         let end = candidate.place.map(|place| self.rings.at(v) + place);
         self.rings.collapse(v, u);

@@ -40,7 +40,11 @@ impl Form {
 
     fn times(&self, x: DVec3) -> DVec3 {
         let [xx, xy, xz, yy, yz, zz] = self.a;
-        DVec3::new(xx * x.x + xy * x.y + xz * x.z, xy * x.x + yy * x.y + yz * x.z, xz * x.x + yz * x.y + zz * x.z)
+        DVec3::new(
+            xx * x.x + xy * x.y + xz * x.z,
+            xy * x.x + yy * x.y + yz * x.z,
+            xz * x.x + yz * x.y + zz * x.z,
+        )
     }
 
     fn at(&self, x: DVec3) -> f64 {
@@ -89,6 +93,9 @@ impl Form {
 /// The method's state: for each slot its form.
 pub(super) struct Quadric {
     forms: Vec<Form>,
+    /// The area of all, and how many vertices share it.
+    area: f64,
+    vertices: f64,
     /// Of the vertex judged last.
     candidates: Vec<Candidate>,
     pull: f64,
@@ -97,13 +104,14 @@ pub(super) struct Quadric {
 }
 impl Default for Quadric {
     fn default() -> Self {
-        Self {
-            forms: Vec::new(),
-            candidates: Vec::new(),
-            pull: var("P", PULL),
-            shape: var("QS", 0.5) as f32,
-            mode: var("QM", 0.0),
-        }
+        Self { area: 0.0, vertices: 0.0, forms: Vec::new(), candidates: Vec::new(), pull: var("P", PULL), shape: var("QS", 0.5) as f32, mode: var("QM", 0.0) }
+    }
+}
+
+impl Quadric {
+    /// The area that a vertex stands for, on average.
+    fn mean_area(&self) -> f64 {
+        self.area / self.vertices.max(1.0)
     }
 }
 
@@ -127,6 +135,8 @@ impl Method for Quadric {
                 form.add_plane(edge.cross(normal), BOUNDARY * edge.length_squared());
             }
         }
+        self.area += form.area;
+        self.vertices += 1.0;
         self.forms[v as usize] = form;
     }
 
@@ -169,16 +179,26 @@ impl Method for Quadric {
     }
 
     fn shape_cost(&self, star: &Star, cost: f32) -> f32 {
-        if self.mode == 0.0 {
-            self.shape * cost
-        } else {
-            self.shape * cost + 1e-4 * self.mode as f32 * star.area() * star.area()
-        }
+        if self.mode == 0.0 { self.shape * cost } else { self.shape * cost + 1e-4 * self.mode as f32 * star.area() * star.area() }
     }
 
-    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>) {
+    fn priority(&self, distance: f32) -> f32 {
+        distance * self.mean_area().sqrt() as f32
+    }
+
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>, tip: f32) {
         let end = place.unwrap_or(way).as_dvec3();
-        let (v, u) = (self.forms[v as usize], &mut self.forms[u as usize]);
+        let mut v = self.forms[v as usize];
+        let reach = end.length_squared();
+        if tip > 0.0 && reach > 0.0 {
+            // The tip counts as a point that the surface should come near to.
+            let weight = self.mean_area() * f64::from(tip * tip) / reach;
+            for i in [0, 3, 5] {
+                v.a[i] += weight;
+            }
+        }
+        self.vertices -= 1.0;
+        let u = &mut self.forms[u as usize];
         *u = u.seen_from(end - way.as_dvec3()).plus(&v.seen_from(end));
     }
 

@@ -123,8 +123,20 @@ impl Method for Schroeder {
         SHAPE_COST * star.area().sqrt()
     }
 
-    fn merge(&mut self, v: u32, u: u32, way: Vec3A, _: Option<Vec3A>) {
-        let (planes, own) = (self.planes[v as usize], self.own[v as usize]);
+    fn priority(&self, distance: f32) -> f32 {
+        distance
+    }
+
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, _: Option<Vec3A>, tip: f32) {
+        let (mut planes, own) = (self.planes[v as usize], self.own[v as usize]);
+        let reach = way.length_squared();
+        if tip > 0.0 && reach > 0.0 {
+            // The tip counts as a point that the surface should come near to.
+            let weight = own.area * tip * tip / reach;
+            for i in [0, 3, 5] {
+                planes.a[i] += weight;
+            }
+        }
         let turned = planes.times(way);
         let kept = &mut self.planes[u as usize];
         kept.a.iter_mut().zip(planes.a).for_each(|(sum, part)| *sum += part);
