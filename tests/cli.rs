@@ -102,6 +102,30 @@ fn a_count_can_be_asked_for_and_every_piece_kept() {
 }
 
 #[test]
+fn a_deviation_can_be_asked_for_and_is_kept() {
+    let folder = Folder::new("deviation");
+    let (out, report) = (folder.file("out.stl"), folder.file("report.json"));
+    let mut before = f64::INFINITY;
+    for asked in ["0.05", "0.5", "3mm"] {
+        let arguments = ["optimise", "sample:aorta", "-o", &out, "--max-deviation", asked, "--report", &report];
+        let table = succeed(&arguments);
+        assert!(table.contains("next coarser level"), "{table}");
+        let report = json(&report);
+        let bound = report["bound"]["max_deviation_mm"].as_f64().unwrap();
+        assert!((bound - asked.trim_end_matches("mm").parse::<f64>().unwrap()).abs() < 1e-9);
+        assert!(report["deviation_mm"]["max"].as_f64().unwrap() <= bound, "{report}");
+        assert!(report["bound"]["next_coarser_mm"].as_f64().unwrap() > 0.998 * bound, "{report}");
+        let count = report["output"]["triangles"].as_f64().unwrap();
+        assert!(count < before && report["bound"]["steps"].is_u64(), "{report}");
+        before = count;
+        assert!(report["stages_ms"]["bound"].as_f64().is_some_and(|ms| ms > 0.0));
+    }
+    let other = ["optimise", "sample:aorta", "-o", &out, "--report", &report, "--iterations", "0"];
+    succeed(&other);
+    assert!(json(&report)["bound"].is_null());
+}
+
+#[test]
 fn the_same_input_and_settings_give_the_same_bytes() {
     let folder = Folder::new("same");
     let files = ["a.stl", "b.stl"].map(|name| folder.file(name));
@@ -149,6 +173,11 @@ fn a_command_line_without_sense_ends_with_two() {
         &["optimise", "sample:aorta", "-o", "x.stl", "--iterations", "201"],
         &["optimise", "sample:aorta", "-o", "x.stl", "--feature-angle", "181"],
         &["optimise", "sample:aorta", "-o", "x.stl", "--triangles", "0"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--max-deviation", "0"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--max-deviation", "-0.1"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--max-deviation", "NaN"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--max-deviation", "1", "--reduction", "50"],
+        &["optimise", "sample:aorta", "-o", "x.stl", "--max-deviation", "1", "--triangles", "50"],
         &["optimise", "sample:aorta", "-o", "x.docx"],
         &["phantom", "aorta", "-o", "x.stl", "--triangles", "100"],
         &["optimise", "sample:aorta", "-o", "x.stl", "--window", "boxcar"],

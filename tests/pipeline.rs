@@ -7,11 +7,14 @@ use std::sync::Arc;
 
 use libtest_mimic::{Failed, Trial};
 use lumen::io::{ImportOptions, read};
-use lumen::mesh::{Topology, TriMesh, boundary_loops, components};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 
 mod common;
+#[path = "common/shape.rs"]
+mod shape;
+
+use shape::Shape;
 
 const FILES: [&str; 11] = [
     "bench/aorta74k.ply",
@@ -44,50 +47,6 @@ fn main() {
         };
         FILES.into_iter().map(trial).collect()
     })
-}
-
-/// What decimation must not change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Shape {
-    components: usize,
-    /// Connected pieces of the boundary: its loops, where none of them touch.
-    boundaries: usize,
-    euler: i64,
-    non_manifold: usize,
-    flipped: usize,
-}
-
-impl Shape {
-    fn of(mesh: &TriMesh) -> Self {
-        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let counts = topology.edge_counts();
-        Self {
-            components: components(mesh.positions.len(), &mesh.triangles).count(),
-            boundaries: boundaries(&topology),
-            euler: mesh.positions.len() as i64 - counts.edges as i64 + mesh.triangles.len() as i64,
-            non_manifold: counts.non_manifold,
-            flipped: counts.flipped,
-        }
-    }
-}
-
-/// Loops of the boundary, those that touch in a vertex counted as one: which of two such loops a chain belongs to is a
-/// matter of taste.
-fn boundaries(topology: &Topology) -> usize {
-    let loops = boundary_loops(topology);
-    let mut sets: Vec<std::collections::BTreeSet<u32>> = Vec::new();
-    for chain in loops {
-        let mut set: std::collections::BTreeSet<u32> = chain.into_iter().collect();
-        sets.retain(|other| {
-            let apart = other.is_disjoint(&set);
-            if !apart {
-                set.extend(other);
-            }
-            apart
-        });
-        sets.push(set);
-    }
-    sets.len()
 }
 
 fn check(path: &Path) -> Result<(), Failed> {

@@ -71,6 +71,8 @@ pub struct Document {
     pub shown: Option<Shown>,
     /// The newest numbers.
     pub measured: Option<Measured>,
+    /// The level of these levels, in steps, that the engine has found for a bound on the deviation.
+    found: Option<(Target, u32)>,
     /// Counts up whenever the opened surface, the levels, the shown level and the numbers change: what is drawn
     /// compares them with those it was drawn from.
     pub revision: Revision,
@@ -104,6 +106,7 @@ impl Document {
             levels: None,
             shown: None,
             measured: None,
+            found: None,
             revision: Revision { document: id, ..Revision::default() },
         }
     }
@@ -120,13 +123,31 @@ impl Document {
     pub fn set_levels(&mut self, reduced: Reduced, target: Target) {
         self.levels = Some((reduced.keep, reduced.mesh));
         self.revision.levels += 1;
+        self.found = None;
+        self.shown = None;
         self.show(target);
     }
 
-    /// Shows the level that `target` asks for. Takes a millisecond or so.
+    /// Shows the level that `target` asks for. Takes a millisecond or so. Which one that is for a bound on the
+    /// deviation the engine has to find: until then what is shown stays, or is an estimate for new levels.
     pub fn show(&mut self, target: Target) {
         let Some((_, levels)) = &self.levels else { return };
-        let level = levels.level(target);
+        match self.found {
+            Some((of, steps)) if of == target => self.set_shown(levels.level_after(steps)),
+            _ if target.deviation_mm().is_some() && self.shown.is_some() => {}
+            _ => self.set_shown(levels.level(target)),
+        }
+    }
+
+    /// Shows the level that the engine has found for the newest bound on the deviation that it knows of.
+    pub fn show_found(&mut self) {
+        if let Some((target, _)) = self.found {
+            self.show(target);
+        }
+    }
+
+    fn set_shown(&mut self, level: Level) {
+        let Some((_, levels)) = &self.levels else { return };
         if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
             let vertices = nodes_in_use(&level.triangles, levels.positions.len());
             self.shown = Some(Shown { level, vertices });
@@ -136,6 +157,9 @@ impl Document {
 
     /// Takes numbers.
     pub fn set_measured(&mut self, measured: Measured) {
+        if let Some(bound) = measured.report.bound {
+            self.found = Some((measured.report.settings.target, bound.steps));
+        }
         self.measured = Some(measured);
         self.revision.measured += 1;
     }

@@ -183,6 +183,100 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
 
 fn reduce(ui: &mut Ui, state: &mut State) {
     step(ui, 3, "Reduce", "Removes what matters least; topology stays.");
+    stop_list(ui, state);
+    if state.settings.target.deviation_mm().is_some() {
+        largest_deviation(ui, state);
+    } else {
+        rate_or_count(ui, state);
+    }
+    let decimation = &mut state.settings.decimation;
+    let angle = Setting {
+        name: "Feature angle",
+        help: "Edges sharper than this are kept as edges.",
+        unit: "°",
+        range: 0.0..=180.0,
+        default: crate::pipeline::settings::Decimation::default().feature_angle,
+        decimals: 0,
+        logarithmic: false,
+    };
+    angle.show(ui, &mut decimation.feature_angle);
+    let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
+    if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
+        let text = RichText::new(format!("{shortfall}.")).small();
+        ui.add(egui::Label::new(text).wrap());
+    }
+}
+
+/// What the reduction stops at; another choice goes on from the level that is shown.
+fn stop_list(ui: &mut Ui, state: &mut State) {
+    let by_deviation = state.settings.target.deviation_mm().is_some();
+    let mut chosen = by_deviation;
+    ui.horizontal(|ui| {
+        ui.label("Stop at").on_hover_text("What says how far the reduction goes");
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let names = |by_deviation: bool| if by_deviation { "Deviation" } else { "Rate or count" };
+            let list = ComboBox::from_id_salt("stop").selected_text(names(by_deviation));
+            let response = list.show_ui(ui, |ui| {
+                for choice in [false, true] {
+                    ui.selectable_value(&mut chosen, choice, names(choice));
+                }
+            });
+            name(&response.response, Role::ComboBox, "Stop at");
+        });
+    });
+    if chosen != by_deviation {
+        state.settings.target = if chosen { deviation_shown(state) } else { rate_shown(state) };
+    }
+}
+
+/// The bound that the shown level just meets, if its deviation is known.
+fn deviation_shown(state: &State) -> Target {
+    let largest = measured(state.document.as_ref()).and_then(|report| Some(report.deviation_mm?.max));
+    let range = Target::DEVIATION;
+    largest.map_or(DEFAULT_BOUND, |mm| {
+        Target::Deviation(((mm * 1000.0).ceil() as u32).clamp(*range.start(), LARGEST_BOUND))
+    })
+}
+
+/// The rate of the shown level.
+fn rate_shown(state: &State) -> Target {
+    let counts = state.document.as_ref().and_then(|document| {
+        Some((document.levels.as_ref()?.1.triangles.len(), document.shown.as_ref()?.level.triangles.len()))
+    });
+    counts.map_or(Target::default(), |(before, after)| {
+        let per_mille = (reduction_percent(before, after) * 10.0).round() as u32;
+        Target::Reduction(per_mille.min(Target::MAX_PER_MILLE))
+    })
+}
+
+/// The bound that a reset goes back to: 0.1 mm.
+const DEFAULT_BOUND: Target = Target::Deviation(100);
+/// The largest bound of the slider, in thousandths of a mm.
+const LARGEST_BOUND: u32 = 10_000;
+
+fn largest_deviation(ui: &mut Ui, state: &mut State) {
+    let mut bound = state.settings.target.deviation_mm().unwrap_or_default();
+    let setting = Setting {
+        name: "Largest deviation",
+        help: "As few triangles as stay within this of the smoothed surface everywhere, both ways.",
+        unit: " mm",
+        range: 0.001..=f64::from(LARGEST_BOUND) / 1000.0,
+        default: DEFAULT_BOUND.deviation_mm().unwrap_or_default(),
+        decimals: 3,
+        logarithmic: true,
+    };
+    if setting.show(ui, &mut bound) {
+        state.settings.target = Target::Deviation((bound * 1000.0).round() as u32);
+    }
+    let found = measured(state.document.as_ref())
+        .filter(|report| report.settings.target == state.settings.target)
+        .and_then(|report| report.bound);
+    let next = found.map(|found| found.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.3} mm")));
+    let help = "A deviation that was found in the level with one step more";
+    number(ui, "Next coarser level", next.as_deref().unwrap_or("–"), help);
+}
+
+fn rate_or_count(ui: &mut Ui, state: &mut State) {
     let entering = state.document.as_ref().and_then(|d| Some(d.levels.as_ref()?.1.triangles.len()));
     let mut rate = state.settings.target.percent(entering.unwrap_or(0));
     let reduction = Setting {
@@ -211,22 +305,6 @@ fn reduce(ui: &mut Ui, state: &mut State) {
                 }
             });
         });
-    }
-    let decimation = &mut state.settings.decimation;
-    let angle = Setting {
-        name: "Feature angle",
-        help: "Edges sharper than this are kept as edges.",
-        unit: "°",
-        range: 0.0..=180.0,
-        default: crate::pipeline::settings::Decimation::default().feature_angle,
-        decimals: 0,
-        logarithmic: false,
-    };
-    angle.show(ui, &mut decimation.feature_angle);
-    let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
-    if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
-        let text = RichText::new(format!("{shortfall}.")).small();
-        ui.add(egui::Label::new(text).wrap());
     }
 }
 
@@ -270,6 +348,7 @@ fn result(ui: &mut Ui, state: &State) {
             ("Connectivity", ms.connectivity),
             ("Smoothing", ms.smoothing),
             ("Decimation, all rates", ms.decimation),
+            ("Finding the level", ms.bound),
             ("Level", ms.level),
             ("Normals", ms.normals),
             ("Deviation", ms.deviation),

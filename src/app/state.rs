@@ -251,6 +251,10 @@ impl State {
                 }
                 if let Some(document) = &mut self.document {
                     document.set_measured(Measured { generation, report: *report, deviation });
+                    // Of an older bound too: the view follows the slider as fast as levels are found.
+                    if self.settings.target.deviation_mm().is_some() {
+                        document.show_found();
+                    }
                 }
             }
             Event::Cancelled { generation, settings } => self.receive_cancelled(generation, settings),

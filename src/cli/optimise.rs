@@ -40,6 +40,10 @@ pub struct Optimise {
     /// How many triangles to keep, in place of --reduction
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     triangles: Option<u32>,
+    /// The farthest that the result may be from the smoothed surface, both ways, in mm, 0.001 to 1000, in place of
+    /// --reduction: as few triangles as stay within it
+    #[arg(long, value_name = "MM", value_parser = micrometres, conflicts_with_all = ["reduction", "triangles"])]
+    max_deviation: Option<u32>,
     /// How to reduce
     #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Method::default())]
     method: Method,
@@ -85,6 +89,20 @@ fn percent(text: &str) -> Result<f64, String> {
     if (0.0..=most).contains(&value) { Ok(value) } else { Err(format!("{text} is not between 0 and {most} %")) }
 }
 
+/// A length in mm as thousandths, rounded down: what is within them is within the length.
+fn micrometres(text: &str) -> Result<u32, String> {
+    let number = text.trim().trim_end_matches("mm").trim_end();
+    let value: f64 = number.parse().map_err(|_| format!("{text} is not a length in mm"))?;
+    // The nearest binary fraction of 0.29 is a little less than 0.29.
+    let thousandths = (value * 1000.0 + 1e-6).floor();
+    let range = f64::from(*Target::DEVIATION.start())..=f64::from(*Target::DEVIATION.end());
+    if range.contains(&thousandths) {
+        Ok(thousandths as u32)
+    } else {
+        Err(format!("{text} is not between 0.001 and 1000 mm"))
+    }
+}
+
 impl Optimise {
     fn settings(&self) -> Settings {
         Settings {
@@ -96,9 +114,10 @@ impl Optimise {
                 boundary: Boundary::default(),
             },
             decimation: Decimation { method: self.method, feature_angle: self.feature_angle },
-            target: match self.triangles {
-                Some(count) => Target::Triangles(count),
-                None => Target::Reduction((self.reduction * 10.0).round() as u32),
+            target: match (self.triangles, self.max_deviation) {
+                (Some(count), _) => Target::Triangles(count),
+                (None, Some(bound)) => Target::Deviation(bound),
+                (None, None) => Target::Reduction((self.reduction * 10.0).round() as u32),
             },
         }
     }
@@ -147,6 +166,11 @@ impl Optimise {
         );
         row("output", format!("{} triangles, {} vertices", output.triangles, output.vertices));
         row("reduction", format!("{:.2} %", report.reduction_percent));
+        if let Some(bound) = report.bound {
+            row("deviation asked for", format!("{} mm at most", bound.max_deviation_mm));
+            let next = bound.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.4} mm"));
+            row("next coarser level", next);
+        }
         if let Some(deviation) = report.deviation_mm {
             row("deviation, mean", format!("{:.4} mm", deviation.mean));
             row("deviation, max", format!("{:.4} mm", deviation.max));
@@ -210,7 +234,14 @@ fn milliseconds(duration: Duration) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::percent;
+    use super::{micrometres, percent};
+
+    #[test]
+    fn a_length_becomes_as_many_thousandths_as_it_holds() {
+        let lengths = ["0.1", "0.29", "1.0009", "0.001", "1000", "0.25 mm"];
+        assert_eq!(lengths.map(micrometres), [100, 290, 1000, 1, 1_000_000, 250].map(Ok));
+        assert!(["0", "-1", "nan", "inf", "0.0009", "1001", "", "mm"].iter().all(|text| micrometres(text).is_err()));
+    }
 
     #[test]
     fn a_percentage_is_what_is_removed_with_or_without_its_sign() {

@@ -33,6 +33,12 @@ impl Foot {
     }
 }
 
+/// Distance of `p` from a triangle in mm.
+pub fn distance_to_triangle(p: Vec3, corners: [Vec3; 3]) -> f64 {
+    let foot = if is_sliver(corners) { foot_on_sliver(p, corners) } else { foot_on_triangle(p, corners) };
+    foot.squared.sqrt()
+}
+
 /// Whether the triangle needs [`foot_on_sliver`].
 pub(super) fn is_sliver(corners: [Vec3; 3]) -> bool {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
@@ -41,9 +47,9 @@ pub(super) fn is_sliver(corners: [Vec3; 3]) -> bool {
 
 /// The closest point of a triangle that is no sliver.
 #[inline]
-pub(crate) fn foot_on_triangle(p: Vec3, corners: [Vec3; 3]) -> Foot {
+pub(crate) fn foot_on_triangle(p: impl Into<DVec3>, corners: [Vec3; 3]) -> Foot {
     let a = corners[0].as_dvec3();
-    let (ap, ab, ac) = (p.as_dvec3() - a, corners[1].as_dvec3() - a, corners[2].as_dvec3() - a);
+    let (ap, ab, ac) = (p.into() - a, corners[1].as_dvec3() - a, corners[2].as_dvec3() - a);
     let (v, w) = region(ap, ab, ac);
     Foot::at(ap, ab, ac, v, w)
 }
@@ -85,9 +91,9 @@ fn region(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64) {
 
 /// The closest point of any triangle, however thin, down to a single point.
 #[cold]
-pub(super) fn foot_on_sliver(p: Vec3, corners: [Vec3; 3]) -> Foot {
+pub(super) fn foot_on_sliver(p: impl Into<DVec3>, corners: [Vec3; 3]) -> Foot {
     let a = corners[0].as_dvec3();
-    let (ap, ab, ac) = (p.as_dvec3() - a, corners[1].as_dvec3() - a, corners[2].as_dvec3() - a);
+    let (ap, ab, ac) = (p.into() - a, corners[1].as_dvec3() - a, corners[2].as_dvec3() - a);
     let t = along(ap - ab, ac - ab);
     let mut best = Foot::at(ap, ab, ac, along(ap, ab), 0.0);
     let mut consider = |v: f64, w: f64| {

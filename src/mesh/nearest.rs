@@ -31,7 +31,7 @@ pub struct Nearest {
     pub distance: f32,
     /// Weights of the triangle's corners at the point: each 0 or more, with sum 1.
     pub barycentric: [f32; 3],
-    slot: u32,
+    pub(super) slot: u32,
 }
 
 /// An index over the triangles of a surface that answers nearest-point queries. It holds its own copy of the corners.
@@ -89,7 +89,7 @@ pub(super) struct Leaf {
 
 impl Leaf {
     #[inline]
-    fn foot(&self, p: Vec3) -> Foot {
+    pub(super) fn foot(&self, p: impl Into<glam::DVec3>) -> Foot {
         if self.is_sliver { foot_on_sliver(p, self.corners) } else { foot_on_triangle(p, self.corners) }
     }
 }
@@ -146,6 +146,11 @@ impl SurfaceIndex {
     /// Whether there is nothing to be near to.
     pub fn is_empty(&self) -> bool {
         self.leaves.is_empty()
+    }
+
+    /// Numbers of the triangles in the order of the tree, in which neighbours are mostly neighbours in space too.
+    pub fn triangles(&self) -> impl Iterator<Item = u32> {
+        self.leaves.iter().map(|leaf| leaf.triangle)
     }
 
     /// The nearest point of the surface to `p`; `None` for an empty surface or a query that is not finite.

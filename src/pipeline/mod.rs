@@ -3,6 +3,7 @@
 //! Each stage is a file; [`run`] puts them in order and remembers what each made, so that a change of a setting
 //! recomputes from the first stage that it touches.
 
+pub mod bound;
 pub mod connectivity;
 pub mod decimation;
 pub mod deviation;

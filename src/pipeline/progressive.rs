@@ -203,8 +203,12 @@ impl ProgressiveMesh {
         }
     }
 
-    /// The level that meets `target`, or the coarsest there is together with why.
+    /// The level that meets `target`, or the coarsest there is together with why. For a bound on the deviation it is
+    /// the one that the method's own errors point at, an estimate: `super::bound` finds the level.
     pub fn level(&self, target: Target) -> Level {
+        if let Some(bound) = target.deviation_mm() {
+            return self.level_after(self.errors.partition_point(|&error| f64::from(error) <= bound) as u32);
+        }
         let wanted = target.triangles(self.triangles.len());
         let steps = self.steps_to(wanted);
         let triangles = self.triangles_at(steps);
@@ -215,6 +219,11 @@ impl ProgressiveMesh {
             limit: self.limit,
         });
         Level { steps, triangles, shortfall }
+    }
+
+    /// The level after `steps` steps.
+    pub fn level_after(&self, steps: u32) -> Level {
+        Level { steps, triangles: self.triangles_at(steps), shortfall: None }
     }
 
     /// The triangles after `steps` steps, over the nodes. Linear in nodes and triangles of the level.

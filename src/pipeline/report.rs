@@ -30,6 +30,18 @@ impl Counts {
     }
 }
 
+/// What a bound on the deviation led to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoundReport {
+    /// The bound that was asked for: no point of the output is farther from the smoothed surface, nor the other way.
+    pub max_deviation_mm: f64,
+    /// Steps from the smoothed surface to the output.
+    pub steps: u32,
+    /// A distance that was found between the next coarser level and the smoothed surface: more than the bound, or less
+    /// by no more than a thousandth part; null where there is no coarser level.
+    pub next_coarser_mm: Option<f64>,
+}
+
 /// What the pipeline made of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
@@ -51,6 +63,9 @@ pub struct Report {
     pub reduction_percent: f64,
     /// Why the target was not met; null where it was.
     pub shortfall: Option<String>,
+    /// What the bound on the deviation led to; null for another target.
+    #[serde(default)]
+    pub bound: Option<BoundReport>,
     /// With so few iterations the filter either misses its pass band by more than 1e-3 or lets everything through.
     pub pass_band_missed: bool,
     /// Milliseconds a stage.
@@ -97,6 +112,11 @@ impl Report {
             settings: pipeline.settings().clone(),
             reduction_percent: reduction_percent(kept.mesh.triangles.len(), reduced.mesh.triangles.len()),
             shortfall: reduced.level.shortfall.as_ref().map(Shortfall::to_string),
+            bound: pipeline.bound().zip(pipeline.settings().target.deviation_mm()).map(|(found, asked)| BoundReport {
+                max_deviation_mm: asked,
+                steps: found.steps,
+                next_coarser_mm: found.next_coarser_mm,
+            }),
             pass_band_missed: smoothed.filter.as_ref().is_some_and(|filter| !filter.keeps_promise(pass_band)),
             stages_ms: pipeline.times(),
             deviation_mm: comparison(true),

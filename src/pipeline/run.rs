@@ -4,6 +4,8 @@
 //! opened --connectivity--> kept --smoothing--> smoothed --decimation--> progressive --level--> Level --> Deviations
 //! ```
 //!
+//! Where the target is a bound on the deviation, the level that meets it is found before it is taken.
+//!
 //! [`Pipeline::set`] drops what a change of settings makes stale, from the first stage that it touches;
 //! [`Pipeline::advance`] works on the first stage that is missing. A change of the reduction rate alone costs a
 //! level and its deviation.
@@ -14,6 +16,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use web_time::Instant;
 
+use super::bound::{Bound, BoundTask};
 use super::connectivity::Connectivity;
 use super::decimation::DecimationTask;
 use super::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
@@ -34,6 +37,8 @@ pub enum Stage {
     Smoothing,
     /// The run that makes the progressive mesh.
     Decimation,
+    /// Which level stays within the bound on the deviation, if there is one.
+    Bound,
     /// One level of it.
     Level,
     /// Its normals.
@@ -49,6 +54,7 @@ impl Stage {
             Self::Connectivity => "Finding pieces",
             Self::Smoothing => "Smoothing",
             Self::Decimation => "Reducing",
+            Self::Bound => "Finding the level",
             Self::Level => "Taking the level",
             Self::Normals => "Computing normals",
             Self::Deviation => "Measuring deviation",
@@ -67,6 +73,9 @@ pub struct StageTimes {
     pub smoothing: f64,
     /// All levels.
     pub decimation: f64,
+    /// Finding the level for a bound on the deviation; 0 for another target.
+    #[serde(default)]
+    pub bound: f64,
     /// One level.
     pub level: f64,
     /// Vertex normals of the level.
@@ -83,6 +92,7 @@ impl StageTimes {
             Stage::Connectivity => &mut self.connectivity,
             Stage::Smoothing => &mut self.smoothing,
             Stage::Decimation => &mut self.decimation,
+            Stage::Bound => &mut self.bound,
             Stage::Level => &mut self.level,
             Stage::Normals => &mut self.normals,
             Stage::Deviation => &mut self.deviation,
@@ -151,6 +161,7 @@ pub enum Advance {
 enum Running {
     Smoothing(SmoothingTask, Filter),
     Decimation(DecimationTask<Arc<TriMesh>>),
+    Bound(Box<BoundTask>),
     Deviation(Box<DeviationRun>),
 }
 
@@ -169,6 +180,7 @@ struct Results {
     progressive: Option<Arc<ProgressiveMesh>>,
     /// The smoothed surface over the nodes of the progressive mesh.
     finest: Option<Arc<TriMesh>>,
+    bound: Option<Bound>,
     reduced: Option<Arc<Reduced>>,
     deviations: Option<Arc<Deviations>>,
     /// Of `finest` and the kept surface, for the next level.
@@ -190,7 +202,8 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// A pipeline for an opened surface. Triangles must not repeat a vertex (`io` sees to that).
+    /// A pipeline for an opened surface. Triangles must not repeat a vertex, coordinates must be finite (`io` sees to
+    /// both).
     pub fn new(opened: Arc<TriMesh>, settings: Settings) -> Self {
         let now = Results { settings, ..Results::default() };
         Self {
@@ -245,13 +258,15 @@ impl Pipeline {
             self.now.progressive = None;
         }
         if level {
+            self.now.bound = None;
+            self.now.times.bound = 0.0;
             self.now.reduced = None;
             self.now.deviations = None;
         }
         let stale = match &self.running {
             Some(Running::Smoothing(..)) => smoothing,
             Some(Running::Decimation(_)) => decimation,
-            Some(Running::Deviation(_)) => level,
+            Some(Running::Bound(_) | Running::Deviation(_)) => level,
             None => false,
         };
         if stale {
@@ -277,7 +292,7 @@ impl Pipeline {
     /// Works until `budget` is spent or a stage is finished.
     ///
     /// # Errors
-    /// When the settings name a component that the surface does not have.
+    /// When a setting is out of range or names a component that the surface does not have.
     pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
@@ -292,7 +307,7 @@ impl Pipeline {
     /// Runs all stages to the end.
     ///
     /// # Errors
-    /// When the settings name a component that the surface does not have.
+    /// When a setting is out of range or names a component that the surface does not have.
     pub fn finish(&mut self) -> Result<(), SettingsError> {
         while self.advance(Budget::UNLIMITED)? != Advance::Idle {}
         Ok(())
@@ -306,6 +321,8 @@ impl Pipeline {
             Some(Stage::Smoothing)
         } else if self.now.progressive.is_none() {
             Some(Stage::Decimation)
+        } else if self.now.bound.is_none() && self.now.settings.target.deviation_mm().is_some() {
+            Some(Stage::Bound)
         } else if self.now.reduced.is_none() {
             Some(Stage::Level)
         } else if self.now.deviations.is_none() {
@@ -318,13 +335,14 @@ impl Pipeline {
     fn work(&mut self, stage: Stage, budget: Budget) -> Result<Advance, SettingsError> {
         match stage {
             Stage::Connectivity => {
+                self.now.settings.check()?;
                 if let Some(fraction) = self.connect()? {
                     return Ok(Advance::Working(stage, fraction));
                 }
             }
             Stage::Level | Stage::Normals => self.take_level(),
             Stage::Smoothing if self.now.settings.smoothing.iterations == 0 => self.skip_smoothing(),
-            Stage::Smoothing | Stage::Decimation | Stage::Deviation => {
+            Stage::Smoothing | Stage::Decimation | Stage::Bound | Stage::Deviation => {
                 if self.running.is_none() {
                     self.running = self.start(stage);
                 }
@@ -362,7 +380,10 @@ impl Pipeline {
     fn take_level(&mut self) {
         let Some(progressive) = &self.now.progressive else { return };
         let start = Instant::now();
-        let level = progressive.level(self.now.settings.target);
+        let level = match &self.now.bound {
+            Some(bound) => progressive.level_after(bound.steps),
+            None => progressive.level(self.now.settings.target),
+        };
         let mesh = Arc::new(progressive.extract(&level.triangles));
         let taken = start.elapsed();
         let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
@@ -386,6 +407,15 @@ impl Pipeline {
                 let smoothed = self.now.smoothed.as_ref()?;
                 let task = DecimationTask::new(smoothed.mesh.clone(), &kept.topology, &self.now.settings.decimation);
                 Running::Decimation(task)
+            }
+            Stage::Bound => {
+                let (progressive, finest) = (self.now.progressive.as_ref()?, self.now.finest.as_ref()?);
+                let bound = self.now.settings.target.deviation_mm()?;
+                let task = BoundTask::new(progressive.clone(), finest.clone(), bound);
+                Running::Bound(Box::new(match &self.now.indices[0] {
+                    Some(index) => task.with_index(index.clone()),
+                    None => task,
+                }))
             }
             _ => {
                 let (finest, reduced) = (self.now.finest.as_ref()?, self.now.reduced.as_ref()?);
@@ -421,6 +451,13 @@ impl Pipeline {
                 Progress::Done(progressive) => {
                     self.now.finest = Some(Arc::new(progressive.finest()));
                     self.now.progressive = Some(Arc::new(progressive));
+                }
+            },
+            Running::Bound(task) => match task.advance(budget) {
+                Progress::Working(fraction) => return Some(fraction),
+                Progress::Done(bound) => {
+                    self.now.indices[0] = task.index().cloned();
+                    self.now.bound = Some(bound);
                 }
             },
             Running::Deviation(run) => {
@@ -485,6 +522,11 @@ impl Pipeline {
     /// Every level.
     pub fn progressive(&self) -> Option<&Arc<ProgressiveMesh>> {
         self.now.progressive.as_ref()
+    }
+
+    /// What the bound on the deviation led to, where the settings have one.
+    pub fn bound(&self) -> Option<Bound> {
+        self.now.bound
     }
 
     /// The level that the settings ask for.

@@ -140,6 +140,8 @@ pub enum Target {
     Reduction(u32),
     /// A number of triangles.
     Triangles(u32),
+    /// As few as stay within this distance of the surface that enters the stage, both ways, in thousandths of a mm.
+    Deviation(u32),
 }
 
 impl Default for Target {
@@ -152,12 +154,25 @@ impl Target {
     /// The largest reduction rate that can be asked for: 99.9 %.
     pub const MAX_PER_MILLE: u32 = 999;
 
-    /// The number of triangles wanted of `n`: `n (1000 - r) / 1000` in integers.
+    /// The bounds on the deviation that can be asked for, in thousandths of a mm.
+    pub const DEVIATION: std::ops::RangeInclusive<u32> = 1..=1_000_000;
+
+    /// The bound on the deviation in mm, if that is what is asked for.
+    pub fn deviation_mm(self) -> Option<f64> {
+        match self {
+            Self::Deviation(micrometres) => Some(f64::from(micrometres) / 1000.0),
+            Self::Reduction(_) | Self::Triangles(_) => None,
+        }
+    }
+
+    /// The number of triangles wanted of `n`: `n (1000 - r) / 1000` in integers. All of them for a bound on the
+    /// deviation, which says nothing on their number.
     pub fn triangles(self, n: usize) -> usize {
         match self {
             // In u64: five million triangles times a thousand are more than wasm's usize holds.
             Self::Reduction(per_mille) => (n as u64 * u64::from(1000 - per_mille.min(1000)) / 1000) as usize,
             Self::Triangles(count) => n.min(count as usize),
+            Self::Deviation(_) => n,
         }
     }
 
@@ -165,7 +180,7 @@ impl Target {
     pub fn percent(self, n: usize) -> f64 {
         match self {
             Self::Reduction(per_mille) => f64::from(per_mille) / 10.0,
-            Self::Triangles(count) => reduction_percent(n, n.min(count as usize)),
+            Self::Triangles(_) | Self::Deviation(_) => reduction_percent(n, self.triangles(n)),
         }
     }
 }
@@ -190,6 +205,9 @@ pub enum SettingsError {
     /// The reduction rate is above 99.9 %.
     #[error("the reduction rate must lie between 0 and 99.9 %, not {0} %")]
     Reduction(f64),
+    /// The bound on the deviation is too small or too large.
+    #[error("the largest deviation must lie between 0.001 and 1000 mm, not {0} mm")]
+    Deviation(f64),
     /// There is no such component.
     #[error("there is no component {wanted}: the surface has {count}")]
     Component {
@@ -217,6 +235,9 @@ impl Settings {
         }
         match self.target {
             Target::Reduction(r) if r > Target::MAX_PER_MILLE => Err(SettingsError::Reduction(f64::from(r) / 10.0)),
+            Target::Deviation(bound) if !Target::DEVIATION.contains(&bound) => {
+                Err(SettingsError::Deviation(f64::from(bound) / 1000.0))
+            }
             _ => Ok(()),
         }
     }
@@ -244,6 +265,8 @@ mod tests {
         assert!(matches!(settings.check(), Err(SettingsError::PassBand(_))));
         settings = Settings { target: Target::Reduction(1000), ..Settings::default() };
         assert!(matches!(settings.check(), Err(SettingsError::Reduction(_))));
+        settings = Settings { target: Target::Deviation(0), ..Settings::default() };
+        assert!(matches!(settings.check(), Err(SettingsError::Deviation(_))));
         settings =
             Settings { decimation: Decimation { feature_angle: -1.0, ..Decimation::default() }, ..Settings::default() };
         assert!(matches!(settings.check(), Err(SettingsError::FeatureAngle(_))));

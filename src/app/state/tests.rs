@@ -262,3 +262,62 @@ fn a_broken_file_opened_with_the_first_surface_is_not_passed_over() {
     agrees(&state);
     assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.starts_with("b.stl: ")));
 }
+
+/// Triangles of the level that is shown.
+fn shown(state: &State) -> usize {
+    state.document.as_ref().unwrap().shown.as_ref().unwrap().level.triangles.len()
+}
+
+#[test]
+fn the_level_for_a_bound_on_the_deviation_comes_with_the_answer() {
+    let (mut state, mut line) = start();
+    let before = shown(&state);
+    let mut counts = Vec::new();
+    for bound in [100, 1_000, 5_000] {
+        state.settings.target = Target::Deviation(bound);
+        let last = shown(&state);
+        state.follow(false, &mut line);
+        assert_eq!(shown(&state), last, "nothing is guessed");
+        settle(&mut state, &mut line);
+        agrees(&state);
+        let report = &state.document.as_ref().unwrap().measured.as_ref().unwrap().report;
+        assert_eq!(shown(&state), report.output.triangles);
+        assert!(report.deviation_mm.unwrap().max <= f64::from(bound) / 1000.0 + 1e-5);
+        counts.push(shown(&state));
+    }
+    assert!(counts.is_sorted_by(|a, b| a > b), "{counts:?}");
+    // Other levels under the same bound, and the way back.
+    state.settings.smoothing.iterations = 20;
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    agrees(&state);
+    let report = &state.document.as_ref().unwrap().measured.as_ref().unwrap().report;
+    assert_eq!(shown(&state), report.output.triangles);
+    while state.history.can_undo() {
+        state.undo();
+        state.follow(false, &mut line);
+        settle(&mut state, &mut line);
+        agrees(&state);
+    }
+    assert_eq!(shown(&state), before);
+}
+
+#[test]
+fn a_cancelled_bound_leaves_the_level_that_was_shown() {
+    let (mut state, mut line) = start();
+    for target in [Target::Reduction(700), Target::Deviation(1_000)] {
+        state.settings.target = target;
+        state.follow(false, &mut line);
+        settle(&mut state, &mut line);
+        let before = shown(&state);
+        state.settings.target = Target::Deviation(20);
+        state.follow(false, &mut line);
+        line.deliver();
+        line.engine.advance(Duration::ZERO);
+        hear(&mut state, &mut line);
+        assert!(state.is_busy());
+        state.cancel(&mut line);
+        settle(&mut state, &mut line);
+        assert_eq!((state.settings.target, shown(&state)), (target, before));
+    }
+}

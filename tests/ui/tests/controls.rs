@@ -77,6 +77,51 @@ fn a_typed_rate_and_a_typed_count_are_met() {
 }
 
 #[test]
+fn a_deviation_to_stop_at_is_chosen_set_and_left_again() {
+    let mut harness = open();
+    let largest = |harness: &Harness<'_, LumenApp>| {
+        let measured = harness.state().state().document.as_ref().unwrap().measured.as_ref().unwrap();
+        measured.report.deviation_mm.unwrap().max
+    };
+    let (before, deviation) = (shown(&harness), largest(&harness));
+    choose(&mut harness, "Stop at", "Deviation");
+    let bound = harness.state().state().settings.target.deviation_mm().unwrap();
+    assert!((bound - deviation).abs() <= 1e-3, "it goes on from what is shown: {bound} beside {deviation}");
+    assert!(harness.query_by_role_and_label(Role::Slider, "Reduction").is_none());
+    for (typed, part) in [("0.3", 0.2), ("2", 0.6)] {
+        type_into(&mut harness, "Largest deviation value", typed);
+        settle(&mut harness);
+        assert_eq!(harness.state().state().settings.target.deviation_mm(), typed.parse().ok());
+        assert!(largest(&harness) <= typed.parse::<f64>().unwrap());
+        let fine = shown(&harness);
+        press_at(&mut harness, "Largest deviation", part + 0.3);
+        settle(&mut harness);
+        assert!(shown(&harness) < fine, "a larger bound needs fewer triangles");
+    }
+    let found = shown(&harness);
+    choose(&mut harness, "Stop at", "Rate or count");
+    let rate = harness.state().state().settings.target;
+    assert!(matches!(rate, Target::Reduction(_)) && rate.triangles(74_307).abs_diff(found) <= 75, "{rate:?}, {found}");
+    for _ in 0..8 {
+        if harness.state().state().settings.target == Target::default() {
+            break;
+        }
+        harness.get_by_role_and_label(Role::Button, "Undo").click();
+        harness.run_steps(2);
+    }
+    settle(&mut harness);
+    assert_eq!(shown(&harness), before);
+}
+
+/// Chooses from a list.
+fn choose(harness: &mut Harness<'_, LumenApp>, list: &str, choice: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, list).click();
+    harness.run_steps(2);
+    harness.get_by_label(choice).click();
+    harness.run_steps(2);
+}
+
+#[test]
 fn smoothing_is_set_by_slider_field_and_list_and_goes_back() {
     let mut harness = open();
     press_at(&mut harness, "Pass band", 0.9);

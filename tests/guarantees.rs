@@ -1,0 +1,282 @@
+//! What decimation promises, over random settings on phantoms and on surfaces of known shape, and at the paper's five
+//! rates on real vessels: exact counts, the same topology, levels that nest, and no face through another that was not
+//! through one before.
+
+use std::collections::HashSet;
+use std::path::Path;
+use std::sync::Arc;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use lumen::io::{ImportOptions, read};
+use lumen::mesh::{Topology, TriMesh, Vec3, volume};
+use lumen::phantom::{Sample, generate};
+use lumen::pipeline::deviation::deviation;
+use lumen::pipeline::run::Pipeline;
+use lumen::pipeline::settings::{Boundary, Method, Settings, Smoothing, Target, Window};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed, TestRunner};
+
+#[path = "common/crossings.rs"]
+mod crossings;
+#[path = "common/data.rs"]
+mod data;
+#[path = "common/shape.rs"]
+mod shape;
+
+use crossings::crossing_faces;
+use shape::Shape;
+
+/// Table II of the paper, in tenths of a percent.
+const RATES: [u32; 5] = [100, 500, 750, 900, 990];
+
+/// Triangles below which a target may be out of reach: a torus cannot do with fewer than 14, and each further handle
+/// and open end needs some of its own.
+fn fewest(shape: &Shape) -> usize {
+    let handles = (2 * shape.components as i64 - shape.boundaries as i64 - shape.euler).max(0) as usize / 2;
+    64 + 24 * handles + 12 * shape.boundaries
+}
+
+/// Random settings tried on each surface.
+const CASES: u32 = 12;
+
+const FILES: [&str; 11] = [
+    "bench/aorta74k.ply",
+    "real/aorta-surface-open-ends.stl",
+    "real/aorta-surface-segment-2.stl",
+    "real/beamadapter_carotids.stl",
+    "real/beamadapter_phantom.obj",
+    "real/cathsim_low_tort_arch.stl",
+    "real/matteopescio_abdominal_aorta_phantom.stl",
+    "real/steve_mechanical_thrombectomy.obj",
+    "real/steve_vessel_architecture.obj",
+    "real/vmtk_aorta_mra_iso1000.ply",
+    "real/vmtk_aorta_mra_iso800.stl",
+];
+
+fn main() {
+    let mut trials = vec![Trial::test("the counter of crossings counts", the_counter_counts)];
+    for (name, mesh) in surfaces() {
+        let mesh = Arc::new(mesh);
+        let (for_settings, for_crossings, for_bounds) = (mesh.clone(), mesh.clone(), mesh);
+        trials.push(Trial::test(format!("{name}: any settings"), move || any_settings(&for_settings)));
+        trials.push(Trial::test(format!("{name}: a bound is kept"), move || any_bound(&for_bounds)));
+        trials.push(Trial::test(format!("{name}: nothing new crosses"), move || no_crossings(&for_crossings)));
+    }
+    match data::data() {
+        Some(folder) => trials.extend(FILES.map(|file| {
+            let path = folder.join(file);
+            Trial::test(format!("{file}: nothing new crosses"), move || no_crossings(&Arc::new(open(&path)?)))
+        })),
+        None => trials.push(Trial::test("real vessels", || Ok(())).with_ignored_flag(true)),
+    }
+    libtest_mimic::run(&Arguments::from_args(), trials).exit()
+}
+
+fn open(path: &Path) -> Result<TriMesh, Failed> {
+    Ok(read(&std::fs::read(path)?, &path.to_string_lossy(), &ImportOptions::default())?.mesh)
+}
+
+/// Phantoms, and surfaces whose topology is known.
+fn surfaces() -> Vec<(&'static str, TriMesh)> {
+    let turn = std::f32::consts::TAU;
+    let torus = |u: f32, v: f32| {
+        let (u, v) = (u * turn, v * turn);
+        let ring = 20.0 + 6.0 * v.cos();
+        Vec3::new(ring * u.cos(), ring * u.sin(), 6.0 * v.sin())
+    };
+    // A bent vessel of 1.5 mm that tapers, both ends open.
+    let tube = |u: f32, v: f32| {
+        let (angle, radius) = (v * turn, 0.75 - 0.35 * u);
+        let around = 15.0 + radius * angle.cos();
+        let bend = u * 3.0;
+        Vec3::new(around * bend.cos(), around * bend.sin(), radius * angle.sin() + 3.0 * u)
+    };
+    // A square duct: four feature edges from end to end.
+    let duct = |u: f32, v: f32| {
+        let (side, along) = ((v * 4.0).floor(), (v * 4.0).fract() * 8.0 - 4.0);
+        let (x, y) = [(along, -4.0), (4.0, along), (-along, 4.0), (-4.0, -along)][side as usize % 4];
+        Vec3::new(x, y, 60.0 * u)
+    };
+    let made = |sample, triangles| generate(sample, triangles).expect("the count is one of those that can be made");
+    vec![
+        ("aorta", made(Sample::Aorta, 4_000)),
+        ("coronary arteries", made(Sample::Coronary, 10_000)),
+        ("torus", grid(60, 24, true, torus)),
+        ("thin tube", grid(160, 16, false, tube)),
+        ("square duct", grid(60, 32, false, duct)),
+    ]
+}
+
+/// A surface over `around` cells in v, which closes, and `along` cells in u, which closes if `is_ring`.
+fn grid(along: u32, around: u32, is_ring: bool, at: impl Fn(f32, f32) -> Vec3) -> TriMesh {
+    let rows = if is_ring { along } else { along + 1 };
+    let positions = (0..rows * around)
+        .map(|i| at((i / around) as f32 / along as f32, (i % around) as f32 / around as f32))
+        .collect();
+    let triangles = (0..along * around).flat_map(|i| {
+        let (row, column) = (i / around, i % around);
+        let corner = |r: u32, c: u32| (r % rows) * around + c % around;
+        let [a, b] = [corner(row, column), corner(row + 1, column)];
+        let [c, d] = [corner(row + 1, column + 1), corner(row, column + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    TriMesh { positions, triangles: triangles.collect() }
+}
+
+fn settings() -> impl Strategy<Value = Settings> {
+    let window = prop::sample::select(Window::ALL.to_vec());
+    let method = prop::sample::select(Method::ALL.to_vec());
+    let boundary = prop::sample::select(vec![Boundary::Loop, Boundary::Vtk15]);
+    let pass_band = (-3.0f64..0.3).prop_map(|power| libm::pow(10.0, power).clamp(0.001, 2.0));
+    let rate = prop_oneof![prop::sample::select(RATES.to_vec()), 0u32..=999];
+    (window, pass_band, 0u32..=120, boundary, method, 0.0f64..=180.0, rate).prop_map(
+        |(window, pass_band, iterations, boundary, method, feature_angle, rate)| {
+            let mut settings = Settings { target: Target::Reduction(rate), ..Settings::default() };
+            settings.smoothing = Smoothing { window, pass_band, iterations, boundary };
+            settings.decimation.method = method;
+            settings.decimation.feature_angle = feature_angle;
+            settings
+        },
+    )
+}
+
+/// A runner that tries the same settings each time and keeps no files.
+fn runner(cases: u32) -> TestRunner {
+    TestRunner::new(Config { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(3), ..Config::default() })
+}
+
+fn any_settings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
+    let tried = runner(CASES).run(&settings(), |settings| {
+        let mut pipeline = Pipeline::new(mesh.clone(), settings).with_samples(1);
+        check(&mut pipeline).map_err(TestCaseError::fail)
+    });
+    tried.map_err(|error| Failed::from(error.to_string()))
+}
+
+/// All that holds of any level under any settings.
+fn check(pipeline: &mut Pipeline) -> Result<(), String> {
+    let first = pipeline.settings().clone();
+    let angle = first.decimation.feature_angle;
+    let mut finer: Option<HashSet<[u32; 3]>> = None;
+    for rate in [first.target, Target::Reduction(950), Target::Reduction(990), Target::Triangles(1)] {
+        pipeline.set(Settings { target: rate, ..first.clone() }).map_err(|error| error.to_string())?;
+        pipeline.finish().map_err(|error| error.to_string())?;
+        let (Some(smoothed), Some(reduced), Some(levels)) =
+            (pipeline.smoothed(), pipeline.reduced(), pipeline.progressive())
+        else {
+            return Err("no result".to_owned());
+        };
+        levels.assert_well_formed();
+        let (before, after) = (Shape::of(&smoothed.mesh), Shape::of(&reduced.mesh));
+        if before != after {
+            return Err(format!("{rate:?}: {before:?} became {after:?}"));
+        }
+        let (wanted, count) = (rate.triangles(smoothed.mesh.triangles.len()), reduced.mesh.triangles.len());
+        match &reduced.level.shortfall {
+            None if count <= wanted && count + 2 > wanted => {}
+            // Where almost every edge is a feature there may be nothing left that can go.
+            Some(shortfall)
+                if count > wanted && (wanted < fewest(&before) || before.non_manifold > 0 || angle < 30.0) =>
+            {
+                let told = shortfall.reached as usize == count && shortfall.wanted as usize == wanted;
+                if !told || shortfall.to_string().is_empty() {
+                    return Err(format!("{rate:?}: {count} triangles, but {shortfall:?}"));
+                }
+            }
+            shortfall => return Err(format!("{rate:?}: {count} triangles, {wanted} wanted: {shortfall:?}")),
+        }
+        if first.decimation == Settings::default().decimation && before.boundaries == 0 && count > 200 {
+            let of = |mesh: &TriMesh| volume(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+            let (before, after) = (of(&smoothed.mesh), of(&reduced.mesh));
+            if before.signum().to_bits() != after.signum().to_bits() {
+                return Err(format!("{rate:?}: the volume went from {before} to {after} mm3"));
+            }
+        }
+        if first.decimation.method != Method::Schroeder {
+            continue;
+        }
+        // A vertex of a level is one of every finer level, up to the smoothed surface.
+        let places = |mesh: &TriMesh| mesh.positions.iter().map(|p| p.to_array().map(f32::to_bits)).collect();
+        let these: HashSet<[u32; 3]> = places(&reduced.mesh);
+        let outer: HashSet<[u32; 3]> = places(&smoothed.mesh);
+        if !these.is_subset(&outer) {
+            return Err(format!("{rate:?}: a vertex is none of the smoothed surface's"));
+        }
+        let is_coarser = finer.as_ref().is_none_or(|finer| finer.len() >= these.len());
+        if let Some(finer) = finer.as_ref().filter(|_| is_coarser)
+            && !these.is_subset(finer)
+        {
+            return Err(format!("{rate:?}: a vertex is none of the finer level's"));
+        }
+        finer = Some(these);
+    }
+    Ok(())
+}
+
+/// A bound that is asked for is kept by samples of both surfaces, and the next coarser level is said to break it.
+fn any_bound(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
+    let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_samples(1);
+    let bounds = [5, 40, 220, 1_700, 9_000];
+    for (method, micrometres) in Method::ALL.into_iter().flat_map(|method| bounds.map(|bound| (method, bound))) {
+        let target = Target::Deviation(micrometres);
+        let mut settings = Settings { target, ..Settings::default() };
+        settings.decimation.method = method;
+        pipeline.set(settings)?;
+        pipeline.finish()?;
+        let (Some(smoothed), Some(reduced), Some(found), Some(bound)) =
+            (pipeline.smoothed(), pipeline.reduced(), pipeline.bound(), target.deviation_mm())
+        else {
+            return Err("no result".into());
+        };
+        let measured = deviation(&smoothed.mesh, &reduced.mesh, 100_000).ok_or("no area")?.max;
+        // A sample is rounded to f32.
+        if measured > bound + 1e-5 {
+            return Err(format!("{bound} mm: {found:?} is {measured} mm away").into());
+        }
+        if found.next_coarser_mm.is_some_and(|next| next < 0.998 * bound) {
+            return Err(format!("{bound} mm: {found:?} is not the coarsest").into());
+        }
+    }
+    Ok(())
+}
+
+/// At the five rates no more faces cross others than did on the smoothed surface.
+fn no_crossings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
+    let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_samples(1);
+    let mut failures = Vec::new();
+    for (method, rate) in Method::ALL.into_iter().flat_map(|method| RATES.map(|rate| (method, rate))) {
+        let mut settings = Settings { target: Target::Reduction(rate), ..Settings::default() };
+        settings.decimation.method = method;
+        pipeline.set(settings)?;
+        pipeline.finish()?;
+        let (Some(smoothed), Some(reduced)) = (pipeline.smoothed(), pipeline.reduced()) else {
+            return Err("no result".into());
+        };
+        let (before, after) = (crossing_faces(&smoothed.mesh), crossing_faces(&reduced.mesh));
+        if after > before {
+            failures.push(format!("{method:?}, {} %: {after} faces cross, {before} before", f64::from(rate) / 10.0));
+        }
+    }
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("; ").into()) }
+}
+
+/// Counts that can be told by eye.
+fn the_counter_counts() -> Result<(), Failed> {
+    let at = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
+    let floor = [at(0.0, 0.0, 0.0), at(4.0, 0.0, 0.0), at(0.0, 4.0, 0.0)];
+    // Through the floor, beside it, standing on it, and a fold that goes through it from a corner of its own.
+    let through = [at(1.0, 1.0, -1.0), at(1.0, 1.0, 1.0), at(1.0, 2.0, 2.0)];
+    let beside = through.map(|p| p + Vec3::X * 5.0);
+    let standing = [at(1.0, 1.0, 0.0), at(1.0, 1.0, 1.0), at(1.0, 2.0, 2.0)];
+    let fold = [at(2.0, 1.0, -1.0), at(0.5, 2.0, 1.0)];
+    for (name, third, expected) in [("through", through, 2), ("beside", beside, 0), ("standing", standing, 0)] {
+        let mesh = TriMesh { positions: [floor, third].concat(), triangles: vec![[0, 1, 2], [3, 4, 5]] };
+        let count = crossing_faces(&mesh);
+        if count != expected {
+            return Err(format!("{name}: {count} faces, not {expected}").into());
+        }
+    }
+    let shared = TriMesh { positions: [&floor[..], &fold].concat(), triangles: vec![[0, 1, 2], [0, 3, 4]] };
+    let count = crossing_faces(&shared);
+    if count == 2 { Ok(()) } else { Err(format!("the fold: {count} faces, not 2").into()) }
+}
