@@ -6,7 +6,9 @@
 mod inspect;
 mod optimise;
 mod phantom;
+mod sheet;
 mod source;
+mod tables;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -40,6 +42,8 @@ pub enum Command {
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
     Phantom(phantom::Phantom),
+    /// Make Tables I and II of the paper for a surface, the paper's numbers beside them
+    Tables(tables::Tables),
 }
 
 impl Command {
@@ -49,6 +53,7 @@ impl Command {
             Self::Inspect(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
+            Self::Tables(command) => command.run(),
         };
         match result {
             Ok(()) => ExitCode::SUCCESS,
