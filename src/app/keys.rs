@@ -46,6 +46,9 @@ pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action
     if pressed(Key::F) {
         return Some(Action::Fit);
     }
+    if pressed(Key::C) {
+        return Some(Action::Compare);
+    }
     if pressed(Key::T) {
         return Some(Action::Theme);
     }

@@ -19,6 +19,9 @@ pub(super) struct Writing<'a> {
 
 const MARGIN: f32 = 12.0;
 
+/// What stands in every picture.
+pub(super) const NOT_CLINICAL: &str = "Not for clinical decisions";
+
 /// Writes over the view in `rect`.
 pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     let painter = ui.painter_at(rect);
@@ -32,10 +35,17 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
         orientation(&painter, inner, writing.camera, text);
     }
-    painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, "Not for clinical decisions", small, weak);
+    painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, small, weak);
     if let Some(map) = writing.map {
         legend(&painter, inner, map, text);
     }
+}
+
+/// Draws a scale bar and the patient's axes over a picture, and nothing else.
+pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera) {
+    let (painter, inner, text) = (ui.painter_at(rect), rect.shrink(MARGIN), ui.visuals().text_color());
+    scale_bar(&painter, inner, rect.height(), camera, text);
+    orientation(&painter, inner, camera, text);
 }
 
 /// A bar of a round number of millimetres, about a fifth of the view long.

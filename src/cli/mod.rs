@@ -3,6 +3,8 @@
 //! Results go to standard output, progress and warnings to standard error. The exit status is 0 when it is done, 1
 //! when it failed, 2 when the command line makes no sense.
 
+#[cfg(feature = "gui")]
+mod figures;
 mod inspect;
 mod optimise;
 mod phantom;
@@ -36,6 +38,9 @@ pub struct Arguments {
 /// A subcommand.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Draw Figures 6 and 7 of the paper for a surface, as PNG
+    #[cfg(feature = "gui")]
+    Figures(figures::Figures),
     /// Say what is in a surface file
     Inspect(inspect::Inspect),
     /// Keep the largest piece, smooth it, reduce it, and write the result
@@ -50,6 +55,8 @@ impl Command {
     /// Runs the subcommand and reports a failure on standard error.
     pub fn run(&self) -> ExitCode {
         let result = match self {
+            #[cfg(feature = "gui")]
+            Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
