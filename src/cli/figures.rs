@@ -1,6 +1,6 @@
 //! `lumen figures`: Figures 6 and 7 of the paper, made again for any surface and drawn without a window.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result};
@@ -11,6 +11,7 @@ use super::{row, source, write_whole};
 use crate::app::compare::figure::{Figure, Studio};
 use crate::app::compare::{Arrangement, Made};
 use crate::io::Unit;
+use crate::phantom::Sample;
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::paper;
 use crate::pipeline::report::{DISCLAIMER, Report};
@@ -42,22 +43,22 @@ impl Figures {
         let studio = Studio::open()?;
         let imported = source::read(&self.file, self.unit)?;
         std::fs::create_dir_all(&self.output).with_context(|| format!("cannot make {}", self.output.display()))?;
-        let name =
-            std::path::Path::new(&self.file).file_name().map_or(self.file.clone(), |n| n.to_string_lossy().into());
+        let name = shown_name(&self.file);
         let settings = Settings { keep: Keep::Largest, ..Settings::default() };
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         let figures = [
-            (
-                "figure-7.png",
-                "Figure 7. Effect of the reduction rate",
-                paper::figure_7(Keep::Largest),
-                Arrangement::Stacked,
-            ),
+            // The last of these is smoothed as those of Figure 7 are.
             (
                 "figure-6.png",
                 "Figure 6. Effect of pass band and iterations",
                 paper::figure_6(Keep::Largest),
                 Arrangement::Shaded,
+            ),
+            (
+                "figure-7.png",
+                "Figure 7. Effect of the reduction rate",
+                paper::figure_7(Keep::Largest),
+                Arrangement::Stacked,
             ),
         ];
         for (file, title, settings, arrangement) in figures {
@@ -78,6 +79,16 @@ impl Figures {
         let report = Report::new(&self.file, pipeline).context("the pipeline ended without a result")?;
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         Ok(Made { report, mesh: reduced.mesh.clone() })
+    }
+}
+
+/// What a file or sample is called in a picture.
+fn shown_name(file: &str) -> String {
+    let sample = file.strip_prefix("sample:").and_then(|sample| sample.parse::<Sample>().ok());
+    match (sample, Path::new(file).file_name()) {
+        (Some(sample), _) => format!("{} (sample)", sample.label()),
+        (None, Some(name)) => name.to_string_lossy().into_owned(),
+        (None, None) => file.to_owned(),
     }
 }
 
