@@ -31,6 +31,14 @@ impl Comparing {
         Self { id, total: waiting.len(), waiting, running: None, last: None }
     }
 
+    /// Goes on with what `before`, on the same surface, has under way.
+    pub(super) fn after(mut self, before: Self) -> Self {
+        let first = self.waiting.front();
+        self.running = before.running.filter(|run| first.is_some_and(|(_, settings)| settings == run.settings()));
+        self.last = before.last;
+        self
+    }
+
     /// Works for about `budget`; `main` has the settings in force, `name` is the surface's. Whether there is more to do.
     pub(super) fn advance(
         &mut self,
@@ -203,6 +211,26 @@ mod tests {
         engine.advance(SLICE);
         engine.handle(Command::Cancel);
         assert!(!engine.advance(SLICE) && answers(&mut engine).is_empty());
+    }
+
+    #[test]
+    fn a_setting_that_is_asked_for_again_goes_on_where_it_was() {
+        let mut engine = open();
+        let mut settings = paper::figure_6(Keep::Largest);
+        engine.handle(Command::Compare { id: 2, settings: settings.clone() });
+        let running = |engine: &Engine| engine.comparing.as_ref()?.running.as_ref()?.next_stage();
+        while running(&engine) < Some(Stage::Decimation) {
+            assert!(engine.advance(Duration::ZERO));
+        }
+        let answered = answers(&mut engine).len();
+        settings.drain(..answered);
+        settings.push(Settings::default());
+        engine.handle(Command::Compare { id: 3, settings: settings.clone() });
+        assert_eq!(running(&engine), Some(Stage::Decimation), "the smoothing is not made again");
+        while engine.advance(SLICE) {}
+        let found = answers(&mut engine);
+        assert!(found.iter().zip(&settings).all(|(one, settings)| one.id == 3 && one.report.settings == *settings));
+        assert_eq!(found.len(), settings.len());
     }
 
     #[test]

@@ -84,7 +84,15 @@ impl Engine {
                     current.waiting = Some((generation, settings));
                 }
             }
-            Command::Compare { id, settings } => self.comparing = Some(Comparing::new(id, settings)),
+            Command::Compare { id, settings } => {
+                let comparing = Comparing::new(id, settings);
+                // A surface that is on its way in would be another than that of the work so far.
+                let before = self.comparing.take().filter(|_| self.opening.is_empty());
+                self.comparing = Some(match before {
+                    Some(before) => comparing.after(before),
+                    None => comparing,
+                });
+            }
             Command::Cancel => self.cancel(),
             Command::Write { name, format, mesh } => self.writing.push_back((name, format, mesh)),
         }
