@@ -125,9 +125,10 @@ impl CompareView {
                 let corner = whole.min + vec2(width * (i % columns) as f32, height * (i / columns) as f32);
                 let rect = Rect::from_min_size(corner, vec2(width, height)).shrink(0.5);
                 let is_current = cell.settings == *settings;
+                let camera = views.camera;
                 let manner = Manner {
                     arrangement: comparison.arrangement,
-                    camera: &views.camera.clone(),
+                    camera: &camera,
                     flat: views.flat,
                     style: theme::style(ui.visuals()),
                 };

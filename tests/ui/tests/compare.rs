@@ -245,7 +245,10 @@ fn pictures_of_the_compare_view() {
                 let picture = harness.render().unwrap();
                 let colours: std::collections::BTreeSet<_> = picture.pixels().map(|pixel| pixel.0).collect();
                 assert!(colours.len() > 200, "{}", colours.len());
-                picture.save(path).unwrap();
+                let mut encoder =
+                    png::Encoder::new(std::fs::File::create(path).unwrap(), picture.width(), picture.height());
+                encoder.set_color(png::ColorType::Rgba);
+                encoder.write_header().unwrap().write_image_data(picture.as_raw()).unwrap();
             }
         }
     }
