@@ -109,15 +109,17 @@ impl Studio {
     }
 
     /// Uploads what the window library wrote to its textures: letters.
-    fn take_textures(&self, delta: egui::TexturesDelta) {
+    fn take_textures(&self, mut delta: egui::TexturesDelta) {
         let mut renderer = self.state.renderer.write();
-        let mut changed: Vec<_> = delta.set.into_iter().collect();
+        let mut changed: Vec<_> = delta.set.drain().collect();
         changed.sort_by_key(|(id, _)| *id);
         for (id, parts) in changed {
             for part in parts {
                 renderer.update_texture(&self.state.device, &self.state.queue, id, &part);
             }
         }
+        // Nothing is let go before the picture is painted; all of it is with the renderer.
+        delta.free.clear();
     }
 
     fn paint(

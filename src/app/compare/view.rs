@@ -156,9 +156,9 @@ impl CompareView {
     ) -> Shown {
         const ROOM: f32 = 28.0;
         let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - cell::caption_height(rect.width()));
-        let picture = ui.interact(above, ui.id().with("picture"), Sense::click_and_drag());
+        let picture = ui.interact(above, ui.scope_id().with("picture"), Sense::click_and_drag());
         picture.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_current, title));
-        let words = ui.interact(below, ui.id().with("words"), Sense::CLICK);
+        let words = ui.interact(below, ui.scope_id().with("words"), Sense::CLICK);
         let mut deed = None;
         match (&cell.outcome, &mut self.scene) {
             (Outcome::Done(made), Some(scene)) => {
