@@ -86,7 +86,7 @@ const MARGIN: f32 = 8.0;
 
 /// The height that the words below a picture take in a cell of this width.
 pub(super) fn caption_height(width: f32) -> f32 {
-    let lines = if width >= WIDE { 3 } else { 5 };
+    let lines = if width >= WIDE { 3 } else { 6 };
     2.0 * MARGIN + 22.0 + LINE * lines as f32
 }
 
@@ -123,9 +123,9 @@ pub(super) fn pictures(
 pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, room: f32) {
     let inner = rect.shrink(MARGIN);
     let line = |top: f32, left: f32, width: f32| Rect::from_min_size(pos2(left, top), vec2(width, LINE));
-    let head = line(inner.top(), inner.left(), inner.width() - room);
+    let title_line = line(inner.top(), inner.left(), inner.width() - room);
     let text = egui::Label::new(RichText::new(title).strong()).truncate();
-    place(ui, head, Layout::left_to_right(Align::Center), |ui| ui.add(text)).on_hover_text(title);
+    place(ui, title_line, Layout::left_to_right(Align::Center), |ui| ui.add(text)).on_hover_text(title);
     let top = inner.top() + 22.0;
     let report = match outcome {
         Outcome::Done(made) => &made.report,
@@ -138,21 +138,20 @@ pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, r
         }
     };
     let numbers = words::numbers(report);
+    let (counts, deviations) = numbers.split_at(3);
+    let head = Number { what: "Deviation", how_much: "mean / max".to_owned(), help: "" };
+    let column = |ui: &mut Ui, left: f32, width: f32, top: f32, numbers: &mut dyn Iterator<Item = &Number>| {
+        for (i, number) in numbers.enumerate() {
+            row(ui, line(top + LINE * i as f32, left, width), number);
+        }
+    };
+    let deviations = || std::iter::once(&head).chain(deviations);
     if rect.width() >= WIDE {
         let left = inner.width() * 0.42 - MARGIN;
-        for (i, number) in numbers[..3].iter().enumerate() {
-            row(ui, line(top + LINE * i as f32, inner.left(), left), number);
-        }
-        let (start, width) = (inner.left() + left + 2.0 * MARGIN, inner.width() - left - 2.0 * MARGIN);
-        let heads = Number { what: "Deviation", how_much: "mean / max".to_owned(), help: "" };
-        row(ui, line(top, start, width), &heads);
-        for (i, number) in numbers[3..].iter().enumerate() {
-            row(ui, line(top + LINE * (i + 1) as f32, start, width), number);
-        }
+        column(ui, inner.left(), left, top, &mut counts.iter());
+        column(ui, inner.left() + left + 2.0 * MARGIN, inner.width() - left - 2.0 * MARGIN, top, &mut deviations());
     } else {
-        for (i, number) in numbers.iter().enumerate() {
-            row(ui, line(top + LINE * i as f32, inner.left(), inner.width()), number);
-        }
+        column(ui, inner.left(), inner.width(), top, &mut counts.iter().chain(deviations()));
     }
 }
 

@@ -35,8 +35,8 @@ pub struct Figure<'a> {
 pub enum FigureError {
     /// Nothing to draw with.
     #[error(
-        "there is no graphics device to draw with, not even in software (a Vulkan or OpenGL driver is missing, such as \
-         Debian's mesa-vulkan-drivers): {0}"
+        "there is no graphics device to draw with, not even in software: a Vulkan or OpenGL driver is missing, such as \
+         Debian's mesa-vulkan-drivers"
     )]
     Device(#[from] egui_wgpu::WgpuError),
     /// The picture is larger than the device allows.
