@@ -79,7 +79,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool
             let can_redo = state.history.can_redo();
             ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
-            before_button(ui, views);
+            ui.add_enabled_ui(!state.comparison.is_open(), |ui| before_button(ui, views));
             let compare = Button::new("Compare").selected(state.comparison.is_open());
             ask(ui.add(compare).on_hover_text("Several settings side by side (C)").clicked(), Action::Compare);
             ui.menu_button("View", |ui| view_menu(ui, views, &mut ask));

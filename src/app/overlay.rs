@@ -60,8 +60,10 @@ fn scale_bar(painter: &Painter, inner: Rect, height: f32, camera: &Camera, colou
         painter.line_segment([pos2(x, y - 4.0), pos2(x, y + 4.0)], stroke);
     }
     let label = if mm >= 1.0 { format!("{mm:.0} mm") } else { format!("{mm} mm") };
-    let at = pos2(left + length / 2.0, y - 6.0);
-    painter.text(at, Align2::CENTER_BOTTOM, label, FontId::proportional(12.0), colour);
+    // A label that is longer than its bar begins where the bar does.
+    let text = painter.layout_no_wrap(label, FontId::proportional(12.0), colour);
+    let at = pos2(left + ((length - text.size().x) / 2.0).max(0.0), y - 6.0 - text.size().y);
+    painter.galley(at, text, colour);
 }
 
 /// The largest of 1, 2, 5, 10, 20, ... that is not above `mm`.

@@ -80,6 +80,8 @@ pub(super) struct Manner<'a> {
 const PICTURES: usize = 2;
 /// Above this width of a cell, in points, its numbers stand in two columns.
 const WIDE: f32 = 308.0;
+/// Below this width its title may take two lines.
+const NARROW: f32 = 240.0;
 /// Height of a line of numbers, in points.
 const LINE: f32 = 17.0;
 const MARGIN: f32 = 8.0;
@@ -87,7 +89,12 @@ const MARGIN: f32 = 8.0;
 /// The height that the words below a picture take in a cell of this width.
 pub(super) fn caption_height(width: f32) -> f32 {
     let lines = if width >= WIDE { 3 } else { 6 };
-    2.0 * MARGIN + 22.0 + LINE * lines as f32
+    2.0 * MARGIN + title_height(width) + LINE * lines as f32
+}
+
+/// The height of a title: of two lines where a cell is narrow.
+fn title_height(width: f32) -> f32 {
+    if width >= NARROW { 22.0 } else { 36.0 }
 }
 
 /// The pictures of cell `index` into `rect`; an even background until there is a result.
@@ -123,10 +130,11 @@ pub(super) fn pictures(
 pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, room: f32) {
     let inner = rect.shrink(MARGIN);
     let line = |top: f32, left: f32, width: f32| Rect::from_min_size(pos2(left, top), vec2(width, LINE));
-    let title_line = line(inner.top(), inner.left(), inner.width() - room);
-    let text = egui::Label::new(RichText::new(title).strong()).truncate();
-    place(ui, title_line, Layout::left_to_right(Align::Center), |ui| ui.add(text)).on_hover_text(title);
-    let top = inner.top() + 22.0;
+    let top = inner.top() + title_height(rect.width());
+    let above = Rect::from_min_max(inner.min, pos2(inner.right() - room, top));
+    let text = egui::Label::new(RichText::new(title).strong());
+    let text = if rect.width() >= NARROW { text.truncate() } else { text.wrap() };
+    place(ui, above, Layout::top_down(Align::LEFT), |ui| ui.add(text)).on_hover_text(title);
     let report = match outcome {
         Outcome::Done(made) => &made.report,
         Outcome::Waiting | Outcome::Failed(_) => {
@@ -139,7 +147,7 @@ pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, r
     };
     let numbers = words::numbers(report);
     let (counts, deviations) = numbers.split_at(3);
-    let head = Number { what: "Deviation", how_much: "mean / max".to_owned(), help: "" };
+    let head = Number { what: "Deviation", how_much: "mean / max, mm".to_owned(), help: "" };
     let column = |ui: &mut Ui, left: f32, width: f32, top: f32, numbers: &mut dyn Iterator<Item = &Number>| {
         for (i, number) in numbers.enumerate() {
             row(ui, line(top + LINE * i as f32, left, width), number);
@@ -147,7 +155,7 @@ pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, r
     };
     let deviations = || std::iter::once(&head).chain(deviations);
     if rect.width() >= WIDE {
-        let left = inner.width() * 0.42 - MARGIN;
+        let left = inner.width() * 0.38 - MARGIN;
         column(ui, inner.left(), left, top, &mut counts.iter());
         column(ui, inner.left() + left + 2.0 * MARGIN, inner.width() - left - 2.0 * MARGIN, top, &mut deviations());
     } else {

@@ -17,7 +17,7 @@ use crate::pipeline::settings::Settings;
 
 /// A picture is at least this high, in points; a grid that does not fit scrolls.
 const LEAST_PICTURE: f32 = 132.0;
-/// Above this many triangles a surface may turn jerkily.
+/// Cells of more triangles may turn jerkily.
 const MANY: usize = 300_000;
 
 /// The view: what of it stands in GPU memory.
@@ -64,6 +64,7 @@ impl CompareView {
             scene.keep_only(made);
         }
         let fill = ui.visuals().panel_fill;
+        ui.spacing_mut().item_spacing.y = 1.0;
         Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 6)).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
             bar(ui, comparison, settings, is_narrow);
@@ -76,7 +77,7 @@ impl CompareView {
         ui.painter().rect_filled(foot, 0.0, fill);
         let name = document.map_or("", |document| document.name.as_str());
         ui.scope_builder(UiBuilder::new().max_rect(foot.shrink2(vec2(12.0, 4.0))), |ui| {
-            footer(ui, name, &shared, many(comparison), is_narrow);
+            footer(ui, name, &shared, slow(comparison), is_narrow);
         });
         ui.scope_builder(UiBuilder::new().max_rect(grid), |ui| {
             let deed = self.grid(ui, comparison, &titles, views, settings, document, is_narrow);
@@ -113,12 +114,13 @@ impl CompareView {
         let rows = count.div_ceil(columns);
         let width = area.width() / columns as f32;
         let least = cell::caption_height(width) + LEAST_PICTURE * comparison.arrangement.rows() as f32;
-        let height = (area.height() / rows as f32).max(least);
+        let height = (area.height() / rows as f32).floor().max(least);
         let source =
             egui::containers::scroll_area::ScrollSource { mouse_wheel: !self.over_picture, ..Default::default() };
         let mut deed = None;
         let mut over_picture = false;
         ScrollArea::vertical().auto_shrink(false).scroll_source(source).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
             let (whole, _) = ui.allocate_exact_size(vec2(area.width(), height * rows as f32), Sense::hover());
             ui.painter().rect_filled(whole, 0.0, ui.visuals().panel_fill);
             for (i, (cell, title)) in comparison.cells().iter().zip(titles).enumerate() {
@@ -265,24 +267,15 @@ fn bar(ui: &mut Ui, comparison: &mut Comparison, settings: &Settings, is_narrow:
     });
 }
 
-/// How many triangles there are to draw, where that is many.
-fn many(comparison: &Comparison) -> Option<usize> {
-    let count = |cell: &Cell| if let Outcome::Done(made) = &cell.outcome { made.mesh.triangles.len() } else { 0 };
-    let total = comparison.cells().iter().map(count).sum();
-    (total > MANY).then_some(total)
+/// A word on cells that are slow to draw, if there are any.
+fn slow(comparison: &Comparison) -> &'static str {
+    let is_large = |cell: &Cell| matches!(&cell.outcome, Outcome::Done(made) if made.mesh.triangles.len() > MANY);
+    if comparison.cells().iter().any(is_large) { "more than 300,000 triangles a cell: turning may be slow" } else { "" }
 }
 
 /// What all cells share, and what stands in every picture.
-fn footer(ui: &mut Ui, document: &str, shared: &str, many: Option<usize>, is_narrow: bool) {
-    let mut text = document.to_owned();
-    for part in [
-        shared.to_owned(),
-        many.map_or(String::new(), |n| format!("{:.1} M triangles drawn: turning may be slow", n as f64 / 1e6)),
-    ] {
-        if !part.is_empty() {
-            text = format!("{text}  ·  {part}");
-        }
-    }
+fn footer(ui: &mut Ui, document: &str, shared: &str, slow: &str, is_narrow: bool) {
+    let text = [document, shared, slow].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ");
     let layout = if is_narrow {
         egui::Layout::top_down(egui::Align::LEFT)
     } else {

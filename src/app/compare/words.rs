@@ -54,7 +54,7 @@ pub(super) struct Number {
 pub(super) fn numbers(report: &Report) -> [Number; 5] {
     let dash = || "–".to_owned();
     let deviation = |found: Option<crate::pipeline::deviation::Deviation>| {
-        found.map_or_else(dash, |d| format!("{:.3} / {:.3} mm", d.mean, d.max))
+        found.map_or_else(dash, |d| format!("{:.3} / {:.3}", d.mean, d.max))
     };
     let percent = |change: Option<f64>| change.map_or_else(dash, |change| format!("{change:+.2} %"));
     [
@@ -72,12 +72,12 @@ pub(super) fn numbers(report: &Report) -> [Number; 5] {
         Number {
             what: "From smoothed",
             how_much: deviation(report.deviation_mm),
-            help: "Deviation from the smoothed surface, mean and maximum, measured both ways",
+            help: "Deviation from the smoothed surface in mm, mean and maximum, measured both ways",
         },
         Number {
             what: "From original",
             how_much: deviation(report.deviation_from_original_mm),
-            help: "Deviation from the kept pieces as opened, mean and maximum, measured both ways",
+            help: "Deviation from the kept pieces as opened in mm, mean and maximum, measured both ways",
         },
     ]
 }
