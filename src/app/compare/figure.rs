@@ -76,18 +76,27 @@ impl Studio {
         Ok(Self { state: pollster::block_on(state)? })
     }
 
-    /// Draws a figure `width` pixels wide; its height follows from the surface's form.
+    /// Draws a figure `width` pixels wide; its height follows from the surface's form. Where the device allows, it is
+    /// drawn twice as large and averaged, so that thin vessels and dense edges come out as shades.
     ///
     /// # Errors
     /// When the device does not allow a picture or a surface of that size.
     pub fn draw(&self, figure: &Figure<'_>, width: u32) -> Result<Picture, FigureError> {
-        let scale = width as f32 / WIDTH;
-        let layout = Plan::new(figure);
-        let height = (layout.height * scale).round() as u32;
+        let plan = Plan::new(figure);
+        let height = (plan.height * width as f32 / WIDTH).round() as u32;
         let limit = self.state.device.limits().max_texture_dimension_2d;
         if width.max(height) > limit {
             return Err(FigureError::TooLarge { width, height, limit });
         }
+        if 2 * width.max(height) > limit {
+            return self.draw_once(figure, &plan, [width, height]);
+        }
+        Ok(halved(&self.draw_once(figure, &plan, [2 * width, 2 * height])?))
+    }
+
+    fn draw_once(&self, figure: &Figure<'_>, plan: &Plan, size: [u32; 2]) -> Result<Picture, FigureError> {
+        let limit = self.state.device.limits().max_texture_dimension_2d;
+        let scale = size[0] as f32 / WIDTH;
         let ctx = egui::Context::default();
         theme::apply(&ctx);
         ctx.set_theme(egui::Theme::Light);
@@ -96,16 +105,15 @@ impl Studio {
         let mut shapes = Vec::new();
         // What is measured in the first pass is in its place in the second.
         for _ in 0..2 {
-            let output = ctx.run_ui(input(layout.height, scale, limit), |ui| {
-                drawn = show(ui, &mut scene, figure, &layout);
+            let output = ctx.run_ui(input(plan.height, scale, limit), |ui| {
+                drawn = show(ui, &mut scene, figure, plan);
             });
             self.take_textures(output.textures_delta);
             shapes = output.shapes;
         }
         drawn?;
         let jobs = ctx.tessellate(shapes, scale);
-        Ok(self
-            .paint(&jobs, egui_wgpu::ScreenDescriptor { size_in_pixels: [width, height], pixels_per_point: scale })?)
+        Ok(self.paint(&jobs, egui_wgpu::ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale })?)
     }
 
     /// Uploads what the window library wrote to its textures: letters.
@@ -163,6 +171,21 @@ impl Studio {
         queue.submit(uploads.into_iter().chain([encoder.finish()]));
         Picture::read_texture_now(&texture, device, queue)
     }
+}
+
+/// A picture of half the width and height: each pixel the mean of four, as they are encoded (see `render` on colours).
+fn halved(picture: &Picture) -> Picture {
+    let (width, height) = (picture.width / 2, picture.height / 2);
+    let row = 4 * picture.width as usize;
+    let mut rgba = Vec::with_capacity(4 * width as usize * height as usize);
+    for rows in picture.rgba.chunks_exact(2 * row) {
+        let (above, below) = rows.split_at(row);
+        for (above, below) in above.chunks_exact(8).zip(below.chunks_exact(8)) {
+            let sum = |k: usize| [above[k], above[k + 4], below[k], below[k + 4]].map(u16::from).iter().sum::<u16>();
+            rgba.extend((0..4).map(|k| ((sum(k) + 2) / 4) as u8));
+        }
+    }
+    Picture { width, height, rgba }
 }
 
 fn input(height: f32, scale: f32, limit: u32) -> RawInput {
@@ -269,4 +292,18 @@ fn part(ui: &mut Ui, rect: Rect, show: impl FnOnce(&mut Ui)) {
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::LEFT)));
     child.spacing_mut().item_spacing = vec2(GAP, 2.0);
     show(&mut child);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_pixels_become_their_mean() {
+        let grey = |v: u8| [v, v, v, 255];
+        let rgba = [0, 255, 10, 20, 255, 0, 30, 40].map(grey).concat();
+        let found = halved(&Picture { width: 4, height: 2, rgba });
+        assert_eq!((found.width, found.height), (2, 1));
+        assert_eq!(found.rgba, [grey(128), grey(25)].concat());
+    }
 }
