@@ -15,7 +15,7 @@
 //! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
 //! - `app`: the window's content, the same on the desktop and in the browser (feature `gui`).
 //! - `desktop`: what the desktop gives the app: files and threads (feature `gui`).
-//! - `cli`: the subcommands.
+//! - `cli`: the subcommands; the figures among them are `app`'s compare view, drawn off screen.
 
 #[cfg(feature = "gui")]
 pub mod app;

@@ -28,6 +28,8 @@ pub enum Action {
     Fit,
     /// Look from a side.
     View(crate::render::StandardView),
+    /// Show or leave the compare view.
+    Compare,
     /// The other theme.
     Theme,
     /// Show or hide the keys.
@@ -77,7 +79,9 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool
             let can_redo = state.history.can_redo();
             ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
-            before_button(ui, views);
+            ui.add_enabled_ui(!state.comparison.is_open(), |ui| before_button(ui, views));
+            let compare = Button::new("Compare").selected(state.comparison.is_open());
+            ask(ui.add(compare).on_hover_text("Several settings side by side (C)").clicked(), Action::Compare);
             ui.menu_button("View", |ui| view_menu(ui, views, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ask(ui.button("About").clicked(), Action::About);
@@ -113,6 +117,7 @@ fn more(ui: &mut Ui, state: &State, views: &mut Views, ask: &mut impl FnMut(bool
     ask(ui.add_enabled(state.history.can_undo(), Button::new("Undo")).clicked(), Action::Undo);
     ask(ui.add_enabled(state.history.can_redo(), Button::new("Redo")).clicked(), Action::Redo);
     ui.checkbox(&mut views.before_is_on, "Show before");
+    ask(ui.add(Button::new("Compare").selected(state.comparison.is_open())).clicked(), Action::Compare);
     ui.menu_button("View", |ui| view_menu(ui, views, ask));
     ask(ui.button("Theme").clicked(), Action::Theme);
     ask(ui.button("Help").clicked(), Action::Help);

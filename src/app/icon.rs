@@ -19,11 +19,13 @@ pub(super) enum Icon {
     Theme,
     /// Three lines.
     Menu,
+    /// A cross.
+    Close,
 }
 
 /// A button that is an icon. `label` is its name for assistive tools, `help` what it does.
 pub(super) fn button(ui: &mut Ui, icon: Icon, enabled: bool, label: &str, help: &str) -> Response {
-    let size = if icon == Icon::Reset { 20.0 } else { ui.spacing().interact_size.y };
+    let size = if matches!(icon, Icon::Reset | Icon::Close) { 20.0 } else { ui.spacing().interact_size.y };
     let sense = if enabled { Sense::click() } else { Sense::hover() };
     let (rect, response) = ui.allocate_exact_size(vec2(size, size), sense);
     let visuals = ui.style().interact(&response);
@@ -57,6 +59,11 @@ fn draw(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             painter.circle_stroke(middle, radius, stroke);
             let half: Vec<Pos2> = (0..=16).map(|i| on_circle(-PI / 2.0 + PI * i as f32 / 16.0)).collect();
             painter.add(Shape::convex_polygon(half, colour, Stroke::NONE));
+        }
+        Icon::Close => {
+            for side in [-1.0, 1.0] {
+                painter.line_segment([middle + vec2(-4.5, -4.5 * side), middle + vec2(4.5, 4.5 * side)], stroke);
+            }
         }
         Icon::Menu => {
             for y in [-5.0, 0.0, 5.0] {

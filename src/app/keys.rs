@@ -25,7 +25,7 @@ pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action
             return Some(action);
         }
     }
-    if ui.ctx().egui_wants_keyboard_input() {
+    if ui.ctx().text_edit_focused() {
         return None;
     }
     if is_busy && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
@@ -45,6 +45,9 @@ pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action
     }
     if pressed(Key::F) {
         return Some(Action::Fit);
+    }
+    if pressed(Key::C) {
+        return Some(Action::Compare);
     }
     if pressed(Key::T) {
         return Some(Action::Theme);

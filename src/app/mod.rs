@@ -3,9 +3,11 @@
 //!
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
 //! - `panel`, `bar`, `sheets`, `keys`: the controls; `control` is a row of the panel, `icon` its icons, `theme` the look.
+//! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - `views`: the two 3-D views; `scene` what stands in GPU memory, `overlay` what is written over them.
 
 mod bar;
+pub mod compare;
 mod control;
 pub mod document;
 pub mod history;
@@ -42,6 +44,7 @@ const LISTEN: Duration = Duration::from_millis(16);
 pub struct LumenApp {
     state: State,
     views: Views,
+    compare: compare::CompareView,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
     /// The views find a new surface when they are next shown: their shape is known by then.
@@ -58,7 +61,14 @@ impl LumenApp {
         theme::apply(ctx);
         let mut state = State::default();
         state.open_sample(Sample::Aorta, platform.link());
-        Self { state, views: Views::new(render_state), platform, sheet: None, look_next: false }
+        Self {
+            state,
+            views: Views::new(render_state),
+            compare: compare::CompareView::new(render_state),
+            platform,
+            sheet: None,
+            look_next: false,
+        }
     }
 
     /// What the app knows.
@@ -102,6 +112,7 @@ impl LumenApp {
             Action::Cancel => state.cancel(self.platform.link()),
             Action::Fit => self.views.fit(state.document.as_ref(), keep),
             Action::View(view) => self.views.look_from(view, state.document.as_ref(), keep),
+            Action::Compare => state.toggle_comparison(),
             Action::Theme => {
                 let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
                 ctx.set_theme(other);
@@ -141,9 +152,14 @@ impl LumenApp {
         let clicked = CentralPanel::default()
             .frame(Frame::new().fill(ui.visuals().widgets.noninteractive.bg_stroke.color))
             .show(ui, |ui| {
-                let document = self.state.document.as_ref();
+                let State { document, comparison, settings, .. } = &mut self.state;
+                let document = document.as_ref();
                 if std::mem::take(&mut self.look_next) {
                     self.views.look_first(document, keep);
+                }
+                if comparison.is_open() {
+                    self.compare.show(ui, comparison, &mut self.views, settings, document, is_narrow);
+                    return None;
                 }
                 self.views.show(ui, document, keep, is_narrow)
             });

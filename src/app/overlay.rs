@@ -19,6 +19,9 @@ pub(super) struct Writing<'a> {
 
 const MARGIN: f32 = 12.0;
 
+/// What stands in every picture.
+pub(super) const NOT_CLINICAL: &str = "Not for clinical decisions";
+
 /// Writes over the view in `rect`.
 pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     let painter = ui.painter_at(rect);
@@ -32,10 +35,17 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
         orientation(&painter, inner, writing.camera, text);
     }
-    painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, "Not for clinical decisions", small, weak);
+    painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, small, weak);
     if let Some(map) = writing.map {
         legend(&painter, inner, map, text);
     }
+}
+
+/// Draws a scale bar and the patient's axes over a picture, and nothing else.
+pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera) {
+    let (painter, inner, text) = (ui.painter_at(rect), rect.shrink(MARGIN), ui.visuals().text_color());
+    scale_bar(&painter, inner, rect.height(), camera, text);
+    orientation(&painter, inner, camera, text);
 }
 
 /// A bar of a round number of millimetres, about a fifth of the view long.
@@ -50,8 +60,10 @@ fn scale_bar(painter: &Painter, inner: Rect, height: f32, camera: &Camera, colou
         painter.line_segment([pos2(x, y - 4.0), pos2(x, y + 4.0)], stroke);
     }
     let label = if mm >= 1.0 { format!("{mm:.0} mm") } else { format!("{mm} mm") };
-    let at = pos2(left + length / 2.0, y - 6.0);
-    painter.text(at, Align2::CENTER_BOTTOM, label, FontId::proportional(12.0), colour);
+    // A label that is longer than its bar begins where the bar does.
+    let text = painter.layout_no_wrap(label, FontId::proportional(12.0), colour);
+    let at = pos2(left + ((length - text.size().x) / 2.0).max(0.0), y - 6.0 - text.size().y);
+    painter.galley(at, text, colour);
 }
 
 /// The largest of 1, 2, 5, 10, 20, ... that is not above `mm`.

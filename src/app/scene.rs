@@ -214,7 +214,8 @@ fn faint(style: &Style) -> Colour {
     Colour(std::array::from_fn(|i| ((u16::from(a[i]) * 5 + u16::from(b[i]) * 3) / 8) as u8))
 }
 
-fn upload(
+/// Uploads a surface with all of its triangles.
+pub(super) fn upload(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     surface: &mut GpuSurface,

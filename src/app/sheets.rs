@@ -13,7 +13,7 @@ pub enum Sheet {
     About,
 }
 
-const KEYS: [(&str, &str); 17] = [
+const KEYS: [(&str, &str); 18] = [
     ("Drag", "Turn"),
     ("Shift or right button + drag, two fingers", "Move"),
     ("Wheel, pinch", "Zoom towards the pointer"),
@@ -23,6 +23,7 @@ const KEYS: [(&str, &str); 17] = [
     ("B, held", "The surface as it was opened"),
     ("L", "Show what is left out; click a piece to keep it"),
     ("D", "Colour by deviation"),
+    ("C", "Compare several settings; Enter takes the focused one"),
     ("Ctrl+O", "Open"),
     ("Ctrl+S", "Save as STL"),
     ("Ctrl+Z", "Undo"),

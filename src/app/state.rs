@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use super::compare::Comparison;
 use super::document::{Document, Measured};
 use super::history::History;
 use crate::engine::{Command, Event, Link, Source, Work};
 use crate::io::{Format, ImportOptions, Unit};
 use crate::phantom::Sample;
+use crate::pipeline::paper;
 use crate::pipeline::settings::{Keep, Settings};
 
 /// A sentence for the user.
@@ -26,6 +28,8 @@ pub struct State {
     pub history: History<Settings>,
     /// The surface that is open.
     pub document: Option<Document>,
+    /// Settings that are compared.
+    pub comparison: Comparison,
     /// Surfaces that are on their way in, the newest last; the one that is open stays until one of them has something
     /// to show.
     opening: Vec<Opening>,
@@ -79,6 +83,7 @@ impl Default for State {
             sent: settings.clone(),
             settings,
             document: None,
+            comparison: Comparison::default(),
             opening: Vec::new(),
             work: None,
             notice: None,
@@ -134,6 +139,7 @@ impl State {
     /// Stops what the engine does and goes back to the last result.
     pub fn cancel(&mut self, link: &mut dyn Link) {
         if self.opening.is_empty() {
+            self.comparison.stop("Cancelled.");
             link.send(Command::Cancel);
             self.is_cancelling = true;
         } else {
@@ -150,6 +156,7 @@ impl State {
     fn reopen(&mut self, link: &mut dyn Link) {
         link.restart();
         self.is_cancelling = false;
+        self.comparison.forget_request();
         if let Some(document) = &self.document {
             self.number += 1;
             self.generation = self.number;
@@ -198,19 +205,43 @@ impl State {
         if !is_held {
             self.history.record(&self.settings);
         }
-        if self.settings == self.sent {
-            return;
-        }
         if let Some(document) = self.document.as_mut().filter(|_| self.settings.target != self.sent.target) {
             document.show(self.settings.target);
         }
-        if self.document.is_none() || !self.opening.is_empty() || self.is_cancelling {
+        let Some(document) = self.document.as_ref().filter(|_| self.opening.is_empty() && !self.is_cancelling) else {
             return;
+        };
+        let subject = (document.revision.document, self.settings.keep);
+        if self.settings != self.sent {
+            self.number += 1;
+            self.generation = self.number;
+            link.send(Command::Set { generation: self.generation, settings: self.settings.clone() });
+            self.sent = self.settings.clone();
         }
-        self.number += 1;
-        self.generation = self.number;
-        link.send(Command::Set { generation: self.generation, settings: self.settings.clone() });
-        self.sent = self.settings.clone();
+        if let Some(settings) = self.comparison.request(subject, self.number + 1) {
+            self.number += 1;
+            link.send(Command::Compare { id: self.number, settings });
+            self.rest();
+        }
+    }
+
+    /// Says what the engine does once it is done with the settings in force: the comparison, or nothing.
+    fn rest(&mut self) {
+        self.work = match self.work {
+            Some((Work::Comparing, _)) if !self.comparison.is_busy() => None,
+            None if self.comparison.is_busy() => Some((Work::Comparing, 0.0)),
+            work => work,
+        };
+    }
+
+    /// Shows the compare view or leaves it. The first time it has the settings of the paper's Figure 7, which need no
+    /// more than three levels of what is there.
+    pub fn toggle_comparison(&mut self) {
+        let is_open = !self.comparison.is_open();
+        self.comparison.set_open(is_open);
+        if is_open && self.comparison.cells().is_empty() {
+            self.comparison.set(paper::figure_7(self.settings.keep));
+        }
     }
 
     /// Hears what the engine has to say. Events that belong to a surface which was given up are passed over.
@@ -232,7 +263,17 @@ impl State {
                     document.set_pieces(labels, components);
                 }
             }
+            // The comparison may have been given up meanwhile.
+            Event::Progress { work: Work::Comparing, .. } if !self.comparison.is_busy() => {}
             Event::Progress { work, fraction } => self.work = Some((work, fraction)),
+            Event::Compared(compared) => {
+                self.comparison.receive(*compared);
+                self.rest();
+            }
+            Event::NotCompared { id, index, message } => {
+                self.comparison.receive_failure(id, index, &sentence(&message));
+                self.rest();
+            }
             Event::Reduced(reduced) => {
                 let target = self.settings.target;
                 let arrived = self.arrive();
@@ -247,6 +288,7 @@ impl State {
                     // Numbers of older settings, or of the surface before, end no work on newer ones.
                     if self.opening.is_empty() && generation == self.generation {
                         self.work = None;
+                        self.rest();
                     }
                 }
                 if let Some(document) = &mut self.document {
@@ -261,6 +303,7 @@ impl State {
             Event::Written { name, bytes } => return Some(Effect::Offer { name, bytes }),
             Event::Failed { message } => {
                 self.work = None;
+                self.comparison.forget_request();
                 self.warn(&sentence(&message));
             }
         }
@@ -324,6 +367,7 @@ impl State {
         self.failures += 1;
         self.work = None;
         self.is_cancelling = false;
+        self.comparison.stop("The computation stopped.");
         let opening = std::mem::take(&mut self.opening).pop();
         if self.failures > PATIENCE {
             self.warn(&format!(

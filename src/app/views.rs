@@ -33,6 +33,8 @@ pub struct Views {
     /// Why there is nothing to see.
     failure: Option<String>,
     aspect: f32,
+    /// The camera as it was last fitted, while the user has not moved it.
+    fitted: Option<Camera>,
     /// Frames a second while something moves.
     frames_per_second: Option<f32>,
 }
@@ -58,6 +60,7 @@ impl Views {
             scene,
             failure,
             aspect: 1.0,
+            fitted: None,
             frames_per_second: None,
         }
     }
@@ -66,14 +69,25 @@ impl Views {
     pub fn fit(&mut self, document: Option<&Document>, keep: Keep) {
         if let Some(document) = document {
             self.camera.fit(&document.bounds(keep), self.aspect);
+            self.fitted = Some(self.camera);
         }
     }
 
-    /// Looks at a new surface: from the front, unless it lies on its back, as some scans are stored.
+    /// Takes the shape of a picture, `rows` of which stand in `rect`, for the next fit; fits anew where the picture is
+    /// of another shape and the user has not moved the camera since it was fitted.
+    pub(super) fn take_shape(&mut self, rect: Rect, rows: usize, document: Option<&Document>, keep: Keep) {
+        let aspect = rect.width() * rows as f32 / rect.height().max(1.0);
+        let changes = (aspect / self.aspect - 1.0).abs() > 1e-3;
+        self.aspect = aspect;
+        if changes && self.fitted == Some(self.camera) {
+            self.fit(document, keep);
+        }
+    }
+
+    /// Looks at a new surface.
     pub fn look_first(&mut self, document: Option<&Document>, keep: Keep) {
         let size = document.map_or(glam::Vec3::ZERO, |document| document.bounds(keep).size());
-        let lies = size.y > size.z && size.y > size.x;
-        self.look_from(if lies { StandardView::Superior } else { StandardView::Anterior }, document, keep);
+        self.look_from(first_view(size), document, keep);
     }
 
     /// Looks from a side.
@@ -99,7 +113,7 @@ impl Views {
         let area = ui.available_rect_before_wrap();
         let (first, second) =
             if is_narrow { area.split_top_bottom_at_fraction(0.5) } else { area.split_left_right_at_fraction(0.5) };
-        self.aspect = first.width() / first.height().max(1.0);
+        self.take_shape(first, 1, document, keep);
         let shaded = if self.flat { Look::Flat } else { Look::Shaded };
         let lines = if self.see_through { Look::SeeThrough } else { Look::Wireframe };
         let mut clicked = None;
@@ -179,7 +193,7 @@ impl Views {
         document.pieces.labels.get(hit.triangle).copied()
     }
 
-    fn steer(&mut self, ui: &Ui, response: &egui::Response, document: Option<&Document>, keep: Keep) {
+    pub(super) fn steer(&mut self, ui: &Ui, response: &egui::Response, document: Option<&Document>, keep: Keep) {
         let rect = response.rect;
         let height = rect.height().max(1.0);
         let fraction = |v: egui::Vec2| Vec2::new(v.x / height, v.y / height);
@@ -226,6 +240,11 @@ impl Views {
             ui.ctx().request_repaint();
         }
     }
+}
+
+/// From where a surface of this size is first seen: from the front, unless it lies on its back, as some scans are stored.
+pub(super) fn first_view(size: glam::Vec3) -> StandardView {
+    if size.y > size.z && size.y > size.x { StandardView::Superior } else { StandardView::Anterior }
 }
 
 /// A point of the window in normalised device coordinates of a view: -1 to 1, y up.

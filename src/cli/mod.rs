@@ -3,10 +3,14 @@
 //! Results go to standard output, progress and warnings to standard error. The exit status is 0 when it is done, 1
 //! when it failed, 2 when the command line makes no sense.
 
+#[cfg(feature = "gui")]
+mod figures;
 mod inspect;
 mod optimise;
 mod phantom;
+mod sheet;
 mod source;
+mod tables;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -34,21 +38,29 @@ pub struct Arguments {
 /// A subcommand.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Draw Figures 6 and 7 of the paper for a surface, as PNG
+    #[cfg(feature = "gui")]
+    Figures(figures::Figures),
     /// Say what is in a surface file
     Inspect(inspect::Inspect),
     /// Keep the largest piece, smooth it, reduce it, and write the result
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
     Phantom(phantom::Phantom),
+    /// Make Tables I and II of the paper for a surface, the paper's numbers beside them
+    Tables(tables::Tables),
 }
 
 impl Command {
     /// Runs the subcommand and reports a failure on standard error.
     pub fn run(&self) -> ExitCode {
         let result = match self {
+            #[cfg(feature = "gui")]
+            Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
+            Self::Tables(command) => command.run(),
         };
         match result {
             Ok(()) => ExitCode::SUCCESS,

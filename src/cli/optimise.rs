@@ -204,12 +204,12 @@ impl Optimise {
 }
 
 /// Whether both names are of one file that is there.
-fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
+pub(super) fn same_file(a: &std::path::Path, b: &std::path::Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Runs all stages and shows how far they are, on standard error.
-fn advance(pipeline: &mut Pipeline) -> Result<()> {
+pub(super) fn advance(pipeline: &mut Pipeline) -> Result<()> {
     let is_terminal = std::io::stderr().is_terminal();
     let bar = if is_terminal { ProgressBar::new(1000) } else { ProgressBar::hidden() };
     bar.set_style(ProgressStyle::with_template("{msg:<24} {wide_bar} {percent:>3} %")?);

@@ -69,6 +69,14 @@ pub enum Command {
         /// All of them.
         settings: Settings,
     },
+    /// Run the pipeline at several settings of the open surface beside the ones in force, once these are done with,
+    /// in place of what was compared before. Forgotten when another surface is opened, and by a cancel.
+    Compare {
+        /// Comes back with the answers; counted with the generations.
+        id: u64,
+        /// The settings, each of which is answered once; none to stop.
+        settings: Vec<Settings>,
+    },
     /// Stop, and go back to the last result; nothing goes on until there are other settings.
     Cancel,
     /// Turn a surface into a file.
@@ -89,6 +97,8 @@ pub enum Work {
     Reading,
     /// A stage of the pipeline.
     Stage(Stage),
+    /// The pipeline at several settings.
+    Comparing,
 }
 
 impl Work {
@@ -97,6 +107,7 @@ impl Work {
         match self {
             Self::Reading => "Reading",
             Self::Stage(stage) => stage.label(),
+            Self::Comparing => "Comparing",
         }
     }
 }
@@ -123,6 +134,19 @@ pub struct Reduced {
     pub keep: Keep,
     /// The levels.
     pub mesh: Arc<ProgressiveMesh>,
+}
+
+/// What the pipeline made at one of the settings to compare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// That of the command.
+    pub id: u64,
+    /// Which of its settings.
+    pub index: u32,
+    /// The numbers, deviations among them.
+    pub report: Report,
+    /// The level, over its own vertices.
+    pub mesh: Arc<TriMesh>,
 }
 
 /// What the engine has to say.
@@ -173,6 +197,17 @@ pub enum Event {
         generation: u64,
         /// All of them.
         settings: Settings,
+    },
+    /// One of the settings to compare is done with.
+    Compared(Box<Compared>),
+    /// One of the settings to compare cannot be worked on.
+    NotCompared {
+        /// That of the command.
+        id: u64,
+        /// Which of its settings.
+        index: u32,
+        /// One plain sentence.
+        message: String,
     },
     /// A file is ready.
     Written {

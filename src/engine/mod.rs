@@ -8,7 +8,10 @@
 //! The newest settings win. Those that arrive while older ones are being worked on wait until that result is out,
 //! so that a slider being dragged shows one result after another; but no longer than [`PATIENCE`], after which the
 //! older work is dropped.
+//!
+//! Settings to compare ([`Command::Compare`]) are worked on while nothing else is to be done.
 
+mod compare;
 mod message;
 pub mod wire;
 
@@ -18,7 +21,8 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-pub use self::message::{Command, Event, Link, Opened, Reduced, Source, Work};
+use self::compare::Comparing;
+pub use self::message::{Command, Compared, Event, Link, Opened, Reduced, Source, Work};
 use crate::io::{self, Imported};
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom;
@@ -40,6 +44,8 @@ pub struct Engine {
     /// Files to be opened, with the settings to begin with: the newest is, those before it only if it cannot be read.
     opening: Vec<(u64, Source, Settings)>,
     current: Option<Current>,
+    /// Settings to compare on the surface that is open, or is opened next.
+    comparing: Option<Comparing>,
     writing: VecDeque<(String, io::Format, TriMesh)>,
     events: VecDeque<Event>,
 }
@@ -78,6 +84,15 @@ impl Engine {
                     current.waiting = Some((generation, settings));
                 }
             }
+            Command::Compare { id, settings } => {
+                let comparing = Comparing::new(id, settings);
+                // A surface that is on its way in would be another than that of the work so far.
+                let before = self.comparing.take().filter(|_| self.opening.is_empty());
+                self.comparing = Some(match before {
+                    Some(before) => comparing.after(before),
+                    None => comparing,
+                });
+            }
             Command::Cancel => self.cancel(),
             Command::Write { name, format, mesh } => self.writing.push_back((name, format, mesh)),
         }
@@ -85,6 +100,7 @@ impl Engine {
 
     fn cancel(&mut self) {
         self.opening.clear();
+        self.comparing = None;
         if let Some(current) = &mut self.current {
             current.waiting = None;
             current.pipeline.cancel();
@@ -111,7 +127,8 @@ impl Engine {
             loop {
                 match current.advance(budget, &mut self.events) {
                     Ok(true) if !budget.is_spent() => {}
-                    Ok(more) => return more || !self.writing.is_empty(),
+                    Ok(true) => return true,
+                    Ok(false) => break,
                     Err(message) => {
                         self.cancel();
                         self.events.push_back(Event::Failed { message });
@@ -119,8 +136,18 @@ impl Engine {
                     }
                 }
             }
+            return self.compare(budget) || !self.writing.is_empty();
         }
         !self.opening.is_empty() || self.current.is_some() || !self.writing.is_empty()
+    }
+
+    /// Goes on with the settings to compare; whether there is more to do.
+    fn compare(&mut self, budget: Budget) -> bool {
+        let (Some(current), Some(comparing)) = (&self.current, &mut self.comparing) else { return false };
+        if !comparing.advance(&current.pipeline, &current.name, budget, &mut self.events) {
+            self.comparing = None;
+        }
+        self.comparing.is_some()
     }
 
     /// The next event.
@@ -148,6 +175,8 @@ impl Engine {
                     self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
                     return;
                 }
+                // Those that were asked for before belong to the surface before.
+                self.comparing.take_if(|comparing| comparing.id < id);
                 let read_ms = start.elapsed().as_secs_f64() * 1e3;
                 let since = Instant::now();
                 self.current = Some(Current {
@@ -179,6 +208,15 @@ fn read(source: Source) -> Result<Imported, String> {
     }
 }
 
+/// Says how far the work is; of several words in a row only the last is kept.
+fn tell_progress(work: Work, fraction: f32, events: &mut VecDeque<Event>) {
+    let event = Event::Progress { work, fraction };
+    match events.back_mut() {
+        Some(last @ Event::Progress { .. }) => *last = event,
+        _ => events.push_back(event),
+    }
+}
+
 impl Current {
     /// One step; whether there is more to do.
     fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> Result<bool, String> {
@@ -190,11 +228,7 @@ impl Current {
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
             Advance::Idle => return Ok(false),
             Advance::Working(stage, fraction) => {
-                let event = Event::Progress { work: Work::Stage(stage), fraction };
-                match events.back_mut() {
-                    Some(last @ Event::Progress { .. }) => *last = event,
-                    _ => events.push_back(event),
-                }
+                tell_progress(Work::Stage(stage), fraction, events);
             }
             Advance::Finished(Stage::Decimation) => self.has_new_levels = true,
             Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable, cast_slice, cast_slice_mut};
 use serde::{Deserialize, Serialize};
 
-use super::message::{Command, Event, Opened, Reduced, Source, Work};
+use super::message::{Command, Compared, Event, Opened, Reduced, Source, Work};
 use crate::io::{Format, ImportOptions, ImportReport};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
@@ -60,6 +60,7 @@ enum CommandHeader {
     OpenFile { id: u64, name: String, options: ImportOptions, settings: Settings },
     OpenSample { id: u64, sample: Sample, triangles: u32, settings: Settings },
     Set { generation: u64, settings: Settings },
+    Compare { id: u64, settings: Vec<Settings> },
     Cancel,
     Write { name: String, format: Format },
 }
@@ -73,6 +74,8 @@ enum EventHeader {
     Reduced { generation: u64, keep: Keep, limit: Limit },
     Measured { generation: u64, complete: bool, report: Box<Report> },
     Cancelled { generation: u64, settings: Settings },
+    Compared { id: u64, index: u32, report: Box<Report> },
+    NotCompared { id: u64, index: u32, message: String },
     Written { name: String },
     Failed { message: String },
 }
@@ -97,6 +100,7 @@ pub fn encode_command(command: &Command) -> Encoded<'_> {
         Command::Set { generation, settings } => {
             (CommandHeader::Set { generation: *generation, settings: settings.clone() }, vec![])
         }
+        Command::Compare { id, settings } => (CommandHeader::Compare { id: *id, settings: settings.clone() }, vec![]),
         Command::Cancel => (CommandHeader::Cancel, vec![]),
         Command::Write { name, format, mesh } => {
             (CommandHeader::Write { name: name.clone(), format: *format }, mesh_buffers(mesh))
@@ -119,6 +123,7 @@ pub fn decode_command(header: &str, buffers: &impl Buffers) -> Result<Command, W
             Command::Open { id, source: Source::Sample { sample, triangles }, settings }
         }
         CommandHeader::Set { generation, settings } => Command::Set { generation, settings },
+        CommandHeader::Compare { id, settings } => Command::Compare { id, settings },
         CommandHeader::Cancel => Command::Cancel,
         CommandHeader::Write { name, format } => Command::Write { name, format, mesh: mesh(buffers)? },
     })
@@ -158,6 +163,14 @@ pub fn encode_event(event: &Event) -> Encoded<'_> {
         Event::Cancelled { generation, settings } => {
             (EventHeader::Cancelled { generation: *generation, settings: settings.clone() }, vec![])
         }
+        Event::Compared(compared) => {
+            let Compared { id, index, report, mesh } = &**compared;
+            let header = EventHeader::Compared { id: *id, index: *index, report: Box::new(report.clone()) };
+            (header, mesh_buffers(mesh))
+        }
+        Event::NotCompared { id, index, message } => {
+            (EventHeader::NotCompared { id: *id, index: *index, message: message.clone() }, vec![])
+        }
         Event::Written { name, bytes } => (EventHeader::Written { name: name.clone() }, vec![&bytes[..]]),
         Event::Failed { message } => (EventHeader::Failed { message: message.clone() }, vec![]),
     };
@@ -192,6 +205,10 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<Event, WireE
             Event::Measured { generation, complete, report, deviation: array(buffers, 0)? }
         }
         EventHeader::Cancelled { generation, settings } => Event::Cancelled { generation, settings },
+        EventHeader::Compared { id, index, report } => {
+            Event::Compared(Box::new(Compared { id, index, report: *report, mesh: Arc::new(mesh(buffers)?) }))
+        }
+        EventHeader::NotCompared { id, index, message } => Event::NotCompared { id, index, message },
         EventHeader::Written { name } => Event::Written { name, bytes: array(buffers, 0)? },
         EventHeader::Failed { message } => Event::Failed { message },
     })
@@ -244,19 +261,21 @@ mod tests {
         let source = Source::File { name: "a.stl".into(), bytes: stl, options: ImportOptions::default() };
         let bad = Source::File { name: "b.stl".into(), bytes: Arc::new(vec![0; 3]), options: ImportOptions::default() };
         let settings = Settings::default();
+        let impossible = Settings { keep: Keep::Component(10_000), ..Settings::default() };
         let commands = [
             Command::Open { id: 1, source, settings: settings.clone() },
             Command::Open { id: 2, source: bad, settings: settings.clone() },
             Command::Write { name: "c.stl".into(), format: Format::Stl, mesh },
             Command::Set { generation: 3, settings: settings.clone() },
+            Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },
             Command::Cancel,
-            Command::Open { id: 4, source: Source::sample(Sample::Coronary), settings },
+            Command::Open { id: 5, source: Source::sample(Sample::Coronary), settings },
         ];
         let mut kinds = std::collections::BTreeSet::new();
         for command in commands {
             let (header, buffers) = owned(encode_command(&command));
             assert_eq!(decode_command(&header, &buffers).unwrap(), command);
-            if matches!(command, Command::Open { id: 4, .. }) {
+            if matches!(command, Command::Open { id: 5, .. }) {
                 break;
             }
             engine.handle(command);
@@ -267,7 +286,17 @@ mod tests {
                 assert_eq!(decode_event(&header, &buffers).unwrap(), event);
             }
         }
-        let expected = ["Cancelled", "Measured", "OpenFailed", "Opened", "Pieces", "Reduced", "Written"];
+        let expected = [
+            "Cancelled",
+            "Compared",
+            "Measured",
+            "NotCompared",
+            "OpenFailed",
+            "Opened",
+            "Pieces",
+            "Reduced",
+            "Written",
+        ];
         assert!(expected.iter().all(|kind| kinds.contains(*kind)), "{kinds:?}");
     }
 

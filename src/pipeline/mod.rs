@@ -9,6 +9,7 @@ pub mod decimation;
 pub mod deviation;
 pub mod filter;
 pub mod normals;
+pub mod paper;
 pub mod progressive;
 pub mod report;
 pub mod run;

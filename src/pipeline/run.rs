@@ -192,7 +192,7 @@ struct Results {
 pub struct Pipeline {
     opened: Arc<TriMesh>,
     samples: usize,
-    connectivity: Option<Connectivity>,
+    connectivity: Option<Arc<Connectivity>>,
     /// The pieces that go on, before they are measured.
     adjacent: Option<(Arc<TriMesh>, Topology)>,
     now: Results,
@@ -222,6 +222,21 @@ impl Pipeline {
     pub fn with_samples(mut self, samples: usize) -> Self {
         self.samples = samples;
         self
+    }
+
+    /// Another pipeline for the same surface, with all that this one has made and nothing under way: the results are
+    /// shared, not copied.
+    #[must_use]
+    pub fn fork(&self) -> Self {
+        Self {
+            opened: self.opened.clone(),
+            samples: self.samples,
+            connectivity: self.connectivity.clone(),
+            adjacent: None,
+            now: self.now.clone(),
+            last: None,
+            running: None,
+        }
     }
 
     /// Changes the settings; what they made stale is dropped.
@@ -357,7 +372,7 @@ impl Pipeline {
     /// One of the three parts of the first stage; `None` when it was the last.
     fn connect(&mut self) -> Result<Option<f32>, SettingsError> {
         let Some(found) = &self.connectivity else {
-            self.connectivity = Some(Connectivity::of(&self.opened));
+            self.connectivity = Some(Arc::new(Connectivity::of(&self.opened)));
             return Ok(Some(0.3));
         };
         let Some((mesh, topology)) = self.adjacent.take() else {
@@ -506,7 +521,7 @@ impl Pipeline {
 
     /// The pieces that were found.
     pub fn connectivity(&self) -> Option<&Connectivity> {
-        self.connectivity.as_ref()
+        self.connectivity.as_deref()
     }
 
     /// The part of the surface that goes on.
@@ -563,6 +578,22 @@ mod tests {
         let mut pipeline = Pipeline::new(opened, Settings::default()).with_samples(2_000);
         pipeline.finish().unwrap();
         pipeline
+    }
+
+    #[test]
+    fn a_fork_shares_what_is_made_and_goes_its_own_way() {
+        let pipeline = finished();
+        let mut fork = pipeline.fork();
+        assert_eq!(fork.next_stage(), None);
+        let rough = Smoothing { iterations: 20, ..Smoothing::default() };
+        fork.set(Settings { smoothing: rough, ..Settings::default() }).unwrap();
+        fork.finish().unwrap();
+        assert!(Arc::ptr_eq(pipeline.kept().unwrap(), fork.kept().unwrap()), "the surface itself is shared");
+        assert_ne!(fork.smoothed().unwrap().mesh, pipeline.smoothed().unwrap().mesh);
+        assert_eq!((pipeline.next_stage(), pipeline.settings()), (None, &Settings::default()));
+        fork.set(Settings::default()).unwrap();
+        fork.finish().unwrap();
+        assert_eq!(fork.reduced().unwrap().mesh, pipeline.reduced().unwrap().mesh);
     }
 
     #[test]

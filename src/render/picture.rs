@@ -42,7 +42,17 @@ impl Picture {
         queue: &wgpu::Queue,
         then: impl FnOnce(Result<Self, PictureError>) + wgpu::WasmNotSend + 'static,
     ) {
-        let [width, height] = target.size();
+        Self::read_texture(&target.resolved, device, queue, then);
+    }
+
+    /// As [`Self::read`], of a texture in [`ViewTarget::FORMAT`] that can be copied from.
+    fn read_texture(
+        texture: &wgpu::Texture,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        then: impl FnOnce(Result<Self, PictureError>) + wgpu::WasmNotSend + 'static,
+    ) {
+        let (width, height) = (texture.width(), texture.height());
         let row = width * 4;
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -53,7 +63,7 @@ impl Picture {
         });
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
         encoder.copy_texture_to_buffer(
-            target.resolved.as_image_copy(),
+            texture.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
                 buffer: &buffer,
                 layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
@@ -78,9 +88,22 @@ impl Picture {
     /// When the GPU does not hand over the memory.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn read_now(target: &ViewTarget, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, PictureError> {
+        Self::read_texture_now(&target.resolved, device, queue)
+    }
+
+    /// As [`Self::read_now`], of a texture in [`ViewTarget::FORMAT`] that can be copied from.
+    ///
+    /// # Errors
+    /// When the GPU does not hand over the memory.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn read_texture_now(
+        texture: &wgpu::Texture,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Self, PictureError> {
         let (sender, receiver) = std::sync::mpsc::channel();
         // The receiver outlives the call, or nobody waits any more.
-        Self::read(target, device, queue, move |result| drop(sender.send(result)));
+        Self::read_texture(texture, device, queue, move |result| drop(sender.send(result)));
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
         // Another thread that polls the same device may be the one to deliver the picture, a moment after this poll.
         receiver.recv().map_err(|_| PictureError::Lost)?

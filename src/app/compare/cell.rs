@@ -1,0 +1,187 @@
+//! One setting drawn: its picture or pictures, and below them what it is and what came of it. The same in the window
+//! and in a figure.
+
+use egui::{Align, Color32, Layout, Rect, RichText, Ui, UiBuilder, pos2, vec2};
+
+use super::scene::{CompareScene, Shot};
+use super::words::{self, Number};
+use super::{Made, Outcome};
+use crate::app::overlay;
+use crate::render::{Camera, Look, Style, SurfaceError};
+
+/// How the pictures of a setting are arranged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// Shaded.
+    #[default]
+    Shaded,
+    /// Its edges.
+    Wireframe,
+    /// Edges over the shaded surface.
+    Both,
+    /// Shaded, and its edges in a second picture below.
+    Stacked,
+}
+
+impl Arrangement {
+    /// All, in the order of a menu.
+    pub const ALL: [Self; 4] = [Self::Shaded, Self::Wireframe, Self::Both, Self::Stacked];
+
+    /// What it is called.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Shaded => "Shaded",
+            Self::Wireframe => "Wireframe",
+            Self::Both => "Both",
+            Self::Stacked => "Stacked",
+        }
+    }
+
+    /// What it shows.
+    pub(super) fn help(self) -> &'static str {
+        match self {
+            Self::Shaded => "The surfaces",
+            Self::Wireframe => "Their edges",
+            Self::Both => "Edges over the surface",
+            Self::Stacked => "The surface above its edges",
+        }
+    }
+
+    /// The pictures of a setting, from the top, each of surfaces and lines over one another.
+    fn pictures(self, flat: bool) -> &'static [&'static [Look]] {
+        match (self, flat) {
+            (Self::Shaded, false) => &[&[Look::Shaded]],
+            (Self::Shaded, true) => &[&[Look::Flat]],
+            (Self::Wireframe, _) => &[&[Look::Wireframe]],
+            (Self::Both, false) => &[&[Look::Shaded, Look::Wireframe]],
+            (Self::Both, true) => &[&[Look::Flat, Look::Wireframe]],
+            (Self::Stacked, false) => &[&[Look::Shaded], &[Look::Wireframe]],
+            (Self::Stacked, true) => &[&[Look::Flat], &[Look::Wireframe]],
+        }
+    }
+
+    /// How many pictures stand one above the other.
+    pub(super) fn rows(self) -> usize {
+        self.pictures(false).len()
+    }
+}
+
+/// How all cells of a grid are drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Manner<'a> {
+    pub(super) arrangement: Arrangement,
+    pub(super) camera: &'a Camera,
+    /// Each triangle with its own normal.
+    pub(super) flat: bool,
+    pub(super) style: Style,
+}
+
+/// The most pictures that a cell has: the pictures of cell `i` are numbered from `i` times this.
+const PICTURES: usize = 2;
+/// Above this width of a cell, in points, its numbers stand in two columns.
+const WIDE: f32 = 308.0;
+/// Below this width its title may take two lines.
+const NARROW: f32 = 240.0;
+/// Height of a line of numbers, in points.
+const LINE: f32 = 17.0;
+const MARGIN: f32 = 8.0;
+
+/// The height that the words below a picture take in a cell of this width.
+pub(super) fn caption_height(width: f32) -> f32 {
+    let lines = if width >= WIDE { 3 } else { 6 };
+    2.0 * MARGIN + title_height(width) + LINE * lines as f32
+}
+
+/// The height of a title: of two lines where a cell is narrow.
+fn title_height(width: f32) -> f32 {
+    if width >= NARROW { 22.0 } else { 36.0 }
+}
+
+/// The pictures of cell `index` into `rect`; an even background until there is a result.
+///
+/// # Errors
+/// When the surface does not fit into the memory that the device allows.
+pub(super) fn pictures(
+    ui: &Ui,
+    scene: &mut CompareScene,
+    index: usize,
+    rect: Rect,
+    made: &Made,
+    manner: &Manner<'_>,
+) -> Result<(), SurfaceError> {
+    let looks = manner.arrangement.pictures(manner.flat);
+    let height = rect.height() / looks.len() as f32;
+    for (k, looks) in looks.iter().enumerate() {
+        let top = rect.top() + height * k as f32;
+        let rect = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), height));
+        let pixels = rect.size() * ui.ctx().pixels_per_point();
+        let size = [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32];
+        let shot = Shot { camera: *manner.camera, size, looks, style: manner.style };
+        let texture = scene.draw(index * PICTURES + k, &made.mesh, &shot)?;
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
+        overlay::scale_and_axes(ui, rect, manner.camera);
+    }
+    Ok(())
+}
+
+/// The words below the pictures: a title and the numbers, or why there are none. `room` is kept free at the right of the
+/// title, in points.
+pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, room: f32) {
+    let inner = rect.shrink(MARGIN);
+    let line = |top: f32, left: f32, width: f32| Rect::from_min_size(pos2(left, top), vec2(width, LINE));
+    let top = inner.top() + title_height(rect.width());
+    let above = Rect::from_min_max(inner.min, pos2(inner.right() - room, top));
+    let text = egui::Label::new(RichText::new(title).strong());
+    let text = if rect.width() >= NARROW { text.truncate() } else { text.wrap() };
+    place(ui, above, Layout::top_down(Align::LEFT), |ui| ui.add(text)).on_hover_text(title);
+    let report = match outcome {
+        Outcome::Done(made) => &made.report,
+        Outcome::Waiting | Outcome::Failed(_) => {
+            let text = if let Outcome::Failed(reason) = outcome { reason } else { "Waiting for the engine" };
+            let rest = Rect::from_min_max(pos2(inner.left(), top), inner.max);
+            let text = egui::Label::new(RichText::new(text).small().weak()).wrap();
+            place(ui, rest, Layout::top_down(Align::LEFT), |ui| ui.add(text));
+            return;
+        }
+    };
+    let numbers = words::numbers(report);
+    let (counts, deviations) = numbers.split_at(3);
+    let head = Number { what: "Deviation", how_much: "mean / max, mm".to_owned(), help: "" };
+    let column = |ui: &mut Ui, left: f32, width: f32, top: f32, numbers: &mut dyn Iterator<Item = &Number>| {
+        for (i, number) in numbers.enumerate() {
+            row(ui, line(top + LINE * i as f32, left, width), number);
+        }
+    };
+    let deviations = || std::iter::once(&head).chain(deviations);
+    if rect.width() >= WIDE {
+        let left = inner.width() * 0.38 - MARGIN;
+        column(ui, inner.left(), left, top, &mut counts.iter());
+        column(ui, inner.left() + left + 2.0 * MARGIN, inner.width() - left - 2.0 * MARGIN, top, &mut deviations());
+    } else {
+        column(ui, inner.left(), inner.width(), top, &mut counts.iter().chain(deviations()));
+    }
+}
+
+/// What a number is on the left, how much on the right.
+fn row(ui: &mut Ui, rect: Rect, number: &Number) {
+    let response = place(ui, rect, Layout::left_to_right(Align::Center), |ui| {
+        ui.label(RichText::new(number.what).small().weak());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.add(egui::Label::new(RichText::new(&number.how_much).small()).truncate())
+        })
+        .inner
+    });
+    if !number.help.is_empty() {
+        response.on_hover_text(number.help);
+    }
+}
+
+/// Shows something in `rect` that does not change what stands around it.
+fn place<R>(ui: &mut Ui, rect: Rect, layout: Layout, show: impl FnOnce(&mut Ui) -> R) -> R {
+    let mut child = ui.new_child(UiBuilder::new().max_rect(rect).layout(layout));
+    child.spacing_mut().interact_size.y = LINE;
+    child.spacing_mut().item_spacing = vec2(MARGIN, 0.0);
+    child.set_clip_rect(rect.intersect(ui.clip_rect()));
+    show(&mut child)
+}

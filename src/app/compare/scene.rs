@@ -1,0 +1,98 @@
+//! What of a comparison is in GPU memory: a surface for each result, a target for each picture.
+
+use std::sync::Arc;
+
+use egui::TextureId;
+use egui::mutex::RwLock;
+
+use crate::app::scene::upload;
+use crate::mesh::TriMesh;
+use crate::render::{Camera, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError, ViewTarget};
+
+/// How a picture is taken.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shot {
+    /// From where.
+    pub camera: Camera,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// How the surface is shown, one over the other.
+    pub looks: &'static [Look],
+    /// The theme's colours.
+    pub style: Style,
+}
+
+/// GPU memory and what stands in it.
+pub(super) struct CompareScene {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    window: Arc<RwLock<egui_wgpu::Renderer>>,
+    renderer: Renderer,
+    surfaces: Vec<(Arc<TriMesh>, GpuSurface)>,
+    pictures: Vec<PictureSlot>,
+}
+
+struct PictureSlot {
+    target: ViewTarget,
+    texture: TextureId,
+    drawn: Option<(Arc<TriMesh>, Shot)>,
+}
+
+impl CompareScene {
+    /// An empty scene on the device of a window, or of none.
+    pub(super) fn new(state: &egui_wgpu::RenderState) -> Self {
+        let (device, queue) = (state.device.clone(), state.queue.clone());
+        let renderer = Renderer::new(&device, &queue);
+        Self { device, queue, window: state.renderer.clone(), renderer, surfaces: Vec::new(), pictures: Vec::new() }
+    }
+
+    /// Forgets all surfaces but these.
+    pub(super) fn keep_only<'a>(&mut self, meshes: impl Iterator<Item = &'a Arc<TriMesh>> + Clone) {
+        let is_kept = |mesh: &Arc<TriMesh>| meshes.clone().any(|kept| Arc::ptr_eq(kept, mesh));
+        self.surfaces.retain(|(mesh, _)| is_kept(mesh));
+        for slot in &mut self.pictures {
+            slot.drawn.take_if(|(mesh, _)| !is_kept(mesh));
+        }
+    }
+
+    /// Draws picture `index` of `mesh`, if it would look other than it does, and gives the texture that it is in.
+    ///
+    /// # Errors
+    /// When the surface does not fit into the memory that the device allows.
+    pub(super) fn draw(&mut self, index: usize, mesh: &Arc<TriMesh>, shot: &Shot) -> Result<TextureId, SurfaceError> {
+        while self.pictures.len() <= index {
+            let target = ViewTarget::new(&self.device, 1, 1);
+            let filter = wgpu::FilterMode::Linear;
+            let texture = self.window.write().register_native_texture(&self.device, target.view(), filter);
+            self.pictures.push(PictureSlot { target, texture, drawn: None });
+        }
+        let surface = self.surface(mesh)?;
+        let slot = &mut self.pictures[index];
+        if slot.drawn.as_ref().is_some_and(|(drawn, of)| Arc::ptr_eq(drawn, mesh) && of == shot) {
+            return Ok(slot.texture);
+        }
+        if slot.target.resize(&self.device, shot.size[0], shot.size[1]) {
+            let filter = wgpu::FilterMode::Linear;
+            let view = slot.target.view();
+            self.window.write().update_egui_texture_from_wgpu_texture(&self.device, view, filter, slot.texture);
+        }
+        let surface = &self.surfaces[surface].1;
+        let drawables: Vec<_> = shot.looks.iter().map(|&look| Drawable { surface, look, tint: None }).collect();
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("cell") });
+        self.renderer.draw(&self.device, &mut encoder, &slot.target, &shot.camera, &drawables, &shot.style);
+        self.queue.submit([encoder.finish()]);
+        slot.drawn = Some((mesh.clone(), shot.clone()));
+        Ok(slot.texture)
+    }
+
+    /// The place of `mesh` among the surfaces; it is uploaded the first time.
+    fn surface(&mut self, mesh: &Arc<TriMesh>) -> Result<usize, SurfaceError> {
+        if let Some(at) = self.surfaces.iter().position(|(known, _)| Arc::ptr_eq(known, mesh)) {
+            return Ok(at);
+        }
+        let mut surface = GpuSurface::new(&self.device, &self.queue, &[])?;
+        upload(&self.device, &self.queue, &mut surface, mesh)?;
+        self.surfaces.push((mesh.clone(), surface));
+        Ok(self.surfaces.len() - 1)
+    }
+}

@@ -1,0 +1,312 @@
+//! Tables of numbers beside the paper's, as aligned text, as CSV and as Markdown.
+
+use crate::pipeline::report::DISCLAIMER;
+
+/// All tables of one surface.
+pub(super) struct Sheet {
+    /// The surface: a file or a sample.
+    pub input: String,
+    /// What a reader has to know about all tables.
+    pub notes: Vec<String>,
+    /// The tables, in the paper's order.
+    pub tables: Vec<Table>,
+}
+
+/// One table of the paper.
+pub(super) struct Table {
+    /// Its number in the paper.
+    pub number: &'static str,
+    /// What it shows.
+    pub title: &'static str,
+    /// What its items are, at the head of their column.
+    pub of: &'static str,
+    /// Its rows, all with the same quantities.
+    pub items: Vec<Item>,
+    /// What a reader has to know about it.
+    pub notes: Vec<String>,
+}
+
+/// A row: what the numbers belong to, and the numbers.
+pub(super) struct Item {
+    /// What they belong to.
+    pub name: String,
+    /// One number a quantity.
+    pub entries: Vec<Entry>,
+}
+
+/// A quantity in the paper and here.
+pub(super) struct Entry {
+    quantity: &'static str,
+    unit: &'static str,
+    decimals: usize,
+    paper: Option<f64>,
+    lumen: Option<f64>,
+}
+
+impl Entry {
+    /// A count.
+    pub(super) fn count(quantity: &'static str, paper: Option<usize>, lumen: usize) -> Self {
+        Self { quantity, unit: "", decimals: 0, paper: paper.map(|n| n as f64), lumen: Some(lumen as f64) }
+    }
+
+    /// A number with a unit, shown with `decimals` digits after the point; `None` where there is none.
+    pub(super) fn number(
+        quantity: &'static str,
+        unit: &'static str,
+        decimals: usize,
+        paper: Option<f64>,
+        lumen: Option<f64>,
+    ) -> Self {
+        Self { quantity, unit, decimals, paper, lumen }
+    }
+
+    /// The difference of what is shown, so that a reader who takes one from the other finds it.
+    fn difference(&self) -> Option<f64> {
+        Some(self.rounded(self.lumen?) - self.rounded(self.paper?))
+    }
+
+    fn rounded(&self, value: f64) -> f64 {
+        let scale = libm::pow(10.0, self.decimals as f64);
+        (value * scale).round() / scale
+    }
+
+    /// For people: thousands in groups.
+    fn shown(&self, value: Option<f64>) -> String {
+        value.map_or("-".to_owned(), |value| grouped(&self.plain(value)))
+    }
+
+    fn shown_difference(&self) -> String {
+        self.difference().map_or("-".to_owned(), |value| {
+            let sign = if self.plain(value.abs()) == self.plain(0.0) {
+                ""
+            } else if value < 0.0 {
+                "-"
+            } else {
+                "+"
+            };
+            format!("{sign}{}", grouped(&self.plain(value.abs())))
+        })
+    }
+
+    /// For machines; never a negative nought.
+    fn plain(&self, value: f64) -> String {
+        format!("{:.*}", self.decimals, self.rounded(value) + 0.0)
+    }
+}
+
+/// The digits before the point in groups of three.
+fn grouped(number: &str) -> String {
+    let (sign, rest) = number.strip_prefix('-').map_or(("", number), |rest| ("-", rest));
+    let whole = rest.split('.').next().unwrap_or(rest);
+    let mut text = sign.to_owned();
+    for (i, digit) in whole.chars().enumerate() {
+        if i > 0 && (whole.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text + &rest[whole.len()..]
+}
+
+impl Table {
+    /// Two lines of heads, then a line an item. A quantity that the paper has takes three columns, others one.
+    fn cells(&self) -> (Vec<[String; 2]>, Vec<Vec<String>>) {
+        let of_paper = |i: usize| self.items.iter().any(|item| item.entries[i].paper.is_some());
+        let mut heads = vec![[self.of.to_owned(), String::new()]];
+        for (i, entry) in self.items.first().map_or(&[][..], |item| &item.entries).iter().enumerate() {
+            let unit = if entry.unit.is_empty() { String::new() } else { format!(" [{}]", entry.unit) };
+            if of_paper(i) {
+                heads.push([format!("{}{unit}", entry.quantity), "paper".to_owned()]);
+                heads.extend(["Lumen", "difference"].map(|column| [String::new(), column.to_owned()]));
+            } else {
+                heads.push([entry.quantity.to_owned(), format!("Lumen{unit}")]);
+            }
+        }
+        let row = |item: &Item| {
+            let mut cells = vec![item.name.clone()];
+            for (i, entry) in item.entries.iter().enumerate() {
+                if of_paper(i) {
+                    cells.extend([entry.shown(entry.paper), entry.shown(entry.lumen), entry.shown_difference()]);
+                } else {
+                    cells.push(entry.shown(entry.lumen));
+                }
+            }
+            cells
+        };
+        (heads, self.items.iter().map(row).collect())
+    }
+
+    fn text(&self, out: &mut String) {
+        let (heads, rows) = self.cells();
+        // A quantity's head stands over all of its columns: two spaces between these, three between quantities.
+        let starts: Vec<usize> = (1..heads.len()).filter(|&i| !heads[i][0].is_empty()).collect();
+        let ends = starts[1..].iter().copied().chain([heads.len()]);
+        let groups: Vec<_> = starts.iter().zip(ends).map(|(&start, end)| start..end).collect();
+        let mut widths: Vec<usize> = heads.iter().map(|head| head[1].len()).collect();
+        widths[0] = heads[0][0].len();
+        for row in &rows {
+            for (width, cell) in widths.iter_mut().zip(row) {
+                *width = (*width).max(cell.len());
+            }
+        }
+        let width_of = |widths: &[usize], group: &std::ops::Range<usize>| {
+            widths[group.clone()].iter().sum::<usize>() + 2 * (group.len() - 1)
+        };
+        for group in &groups {
+            widths[group.start] += heads[group.start][0].len().saturating_sub(width_of(&widths, group));
+        }
+        let mut line = format!("{:<width$}", heads[0][0], width = widths[0]);
+        for group in &groups {
+            line += &format!("   {:>width$}", heads[group.start][0], width = width_of(&widths, group));
+        }
+        let align = |cells: &mut dyn Iterator<Item = &String>| {
+            let mut line = String::new();
+            for (i, (cell, &width)) in cells.zip(&widths).enumerate() {
+                line += &match i {
+                    0 => format!("{cell:<width$}"),
+                    _ if starts.contains(&i) => format!("   {cell:>width$}"),
+                    _ => format!("  {cell:>width$}"),
+                };
+            }
+            line
+        };
+        let second = align(&mut heads.iter().map(|head| &head[1]));
+        *out += &format!("{line}\n{second}\n{}\n", "-".repeat(second.len()));
+        for row in &rows {
+            *out += &format!("{}\n", align(&mut row.iter()));
+        }
+    }
+
+    fn markdown(&self, out: &mut String) {
+        let (heads, rows) = self.cells();
+        let mut quantity = String::new();
+        let mut line = "|".to_owned();
+        let mut rule = "|".to_owned();
+        for (i, [over, head]) in heads.iter().enumerate() {
+            if i == 0 {
+                line += &format!(" {over} |");
+                rule += "---|";
+                continue;
+            }
+            if !over.is_empty() {
+                quantity.clone_from(over);
+            }
+            line += &format!(" {quantity}, {head} |");
+            rule += "---:|";
+        }
+        *out += &format!("{line}\n{rule}\n");
+        for row in &rows {
+            *out += &format!("| {} |\n", row.join(" | "));
+        }
+    }
+}
+
+impl Sheet {
+    fn heading(&self) -> String {
+        let tables: Vec<_> = self.tables.iter().map(|table| table.number).collect();
+        format!("Tables {} of the paper, made again for {}", tables.join(" and "), self.input)
+    }
+
+    fn footer() -> String {
+        format!("Lumen {}. {DISCLAIMER}", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// Aligned columns.
+    pub(super) fn text(&self) -> String {
+        let mut out = format!("{}\n{}\n", self.heading(), "=".repeat(self.heading().chars().count()));
+        self.notes.iter().for_each(|note| bullet(&mut out, note));
+        for table in &self.tables {
+            out += &format!("\nTable {}. {}\n\n", table.number, table.title);
+            table.text(&mut out);
+            out.push('\n');
+            table.notes.iter().for_each(|note| bullet(&mut out, note));
+        }
+        out += &format!("\n{}\n", Self::footer());
+        out
+    }
+
+    /// Tables for a document.
+    pub(super) fn markdown(&self) -> String {
+        let mut out = format!("# {}\n\n", self.heading());
+        self.notes.iter().for_each(|note| out += &format!("- {note}\n"));
+        for table in &self.tables {
+            out += &format!("\n## Table {}. {}\n\n", table.number, table.title);
+            table.markdown(&mut out);
+            out.push('\n');
+            table.notes.iter().for_each(|note| out += &format!("- {note}\n"));
+        }
+        out += &format!("\n{}\n", Self::footer());
+        out
+    }
+
+    /// One tidy table for machines: a line a number, with all that it needs to be understood alone (RFC 4180).
+    pub(super) fn csv(&self) -> String {
+        let mut out = "table,item,quantity,unit,paper,lumen,difference,input,version,disclaimer\r\n".to_owned();
+        for table in &self.tables {
+            for item in &table.items {
+                for entry in &item.entries {
+                    let number = |value: Option<f64>| value.map_or(String::new(), |value| entry.plain(value));
+                    let fields = [
+                        table.number,
+                        &item.name,
+                        entry.quantity,
+                        entry.unit,
+                        &number(entry.paper),
+                        &number(entry.lumen),
+                        &number(entry.difference()),
+                        &self.input,
+                        env!("CARGO_PKG_VERSION"),
+                        DISCLAIMER,
+                    ]
+                    .map(quoted);
+                    out += &format!("{}\r\n", fields.join(","));
+                }
+            }
+        }
+        out
+    }
+}
+
+/// A note as a point of a list, wrapped.
+fn bullet(out: &mut String, note: &str) {
+    const WIDTH: usize = 100;
+    let mut line = "-".to_owned();
+    for word in note.split(' ') {
+        if line.chars().count() + word.chars().count() >= WIDTH {
+            *out += &format!("{line}\n");
+            line = " ".to_owned();
+        }
+        line += &format!(" {word}");
+    }
+    *out += &format!("{line}\n");
+}
+
+/// A field of CSV, in quotes where it needs them.
+fn quoted(field: &str) -> String {
+    if field.contains(['"', ',', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_are_of_what_is_shown_and_nought_has_no_sign() {
+        let entry = |paper, lumen| Entry::number("x", "%", 2, Some(paper), Some(lumen));
+        assert_eq!(entry(10.0, 9.999).shown_difference(), "0.00");
+        assert_eq!(entry(10.0, 12.345_6).shown_difference(), "+2.35");
+        assert_eq!(entry(99.0, 98.004).shown_difference(), "-1.00");
+        assert_eq!(entry(0.0, -0.001).plain(-0.001), "0.00");
+        assert_eq!(Entry::number("x", "mm", 2, None, Some(1.0)).shown_difference(), "-");
+    }
+
+    #[test]
+    fn fields_with_commas_and_quotes_are_quoted() {
+        assert_eq!(["a b", "a,b", "5\" tube"].map(quoted), ["a b", "\"a,b\"", "\"5\"\" tube\""]);
+        assert_eq!(["743", "-66875", "1234567.50"].map(grouped), ["743", "-66,875", "1,234,567.50"]);
+    }
+}

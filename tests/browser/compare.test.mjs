@@ -1,0 +1,57 @@
+// Several settings side by side: computed by the Worker, drawn with WebGL2.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { grouped, settled } from "./app.mjs";
+import { eventually, frames, launch, openApp, picture, press, texts, twin } from "./browser.mjs";
+
+/** Table II of the paper at the rates of its Figure 7. */
+const PRINTED = [66_875, 7_430, 743];
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+/** Waits until `count` cells have their numbers. */
+const compared = (page, count) =>
+  eventually(
+    async () => ({ all: await texts(page), busy: await twin(page, "button", "Cancel").count() }),
+    ({ all, busy }) => !busy && all.filter((text) => text === "From original").length === count,
+    { timeout: 180_000, what: `the numbers of ${count} cells` },
+  ).then(({ all }) => all);
+
+/** Whether anything is drawn in a cell: pixels that are not as the one in its corner. */
+async function drawn(page, cell) {
+  const { width, height, data } = await picture(page, cell);
+  let count = 0;
+  for (let y = 8; y < height - 8; y++) {
+    const ground = (y * width + 8) * 4;
+    for (let x = 8; x < width - 8; x++) {
+      const at = (y * width + x) * 4;
+      if (Math.abs(data[at] - data[ground]) + Math.abs(data[at + 2] - data[ground + 2]) > 48) count++;
+    }
+  }
+  return count;
+}
+
+test("six settings are compared, and a click takes one", async (t) => {
+  const { page, wrong } = await openApp(t, browser);
+  await settled(page);
+  await press(page, "button", "Compare");
+  const seven = await compared(page, 3);
+  for (const count of PRINTED) {
+    assert([0, 1, 2].some((less) => seven.includes(grouped(count - less))), `${count} in ${seven.join("; ")}`);
+  }
+  await press(page, "button", "Figure 6");
+  await compared(page, 6);
+  const cells = twin(page, "radio", /^Pass band/);
+  assert.equal(await cells.count(), 6);
+  await page.mouse.move(2, 2);
+  await frames(page, 3);
+  for (let i = 0; i < 6; i++) assert((await drawn(page, cells.nth(i))) > 1000, `cell ${i} is empty`);
+  await press(page, "radio", "Pass band 0.1, 30 iterations");
+  const field = twin(page, "spinbutton", "Iterations value");
+  await eventually(() => field.getAttribute("aria-valuenow"), (now) => Number(now) === 30, { what: "the setting" });
+  await settled(page);
+  assert.deepEqual(wrong, []);
+});
