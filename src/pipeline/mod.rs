@@ -10,6 +10,7 @@ pub mod filter;
 pub mod normals;
 pub mod progressive;
 pub mod report;
+pub mod response;
 pub mod run;
 pub mod settings;
 pub mod smoothing;

@@ -20,10 +20,11 @@ use super::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
 use super::filter::Filter;
 use super::normals::{Weighting, vertex_normals};
 use super::progressive::{Level, ProgressiveMesh};
+use super::response::SmoothingResponse;
 use super::settings::{Settings, SettingsError, Smoothing};
-use super::smoothing::SmoothingTask;
+use super::smoothing::{KeptTerms, Preparation, SmoothingStage};
 use super::task::{Budget, Progress, Task};
-use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh, measures};
+use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh, measures, measures_within, oriented_loops};
 
 /// A stage of the pipeline, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -97,6 +98,8 @@ pub struct Surface {
     pub mesh: Arc<TriMesh>,
     /// Adjacency of its triangles.
     pub topology: Topology,
+    /// Its boundary loops; `None` where its windings do not agree.
+    pub loops: Option<Vec<Vec<u32>>>,
     /// Its area and volume.
     pub measures: Measures,
 }
@@ -108,6 +111,10 @@ pub struct Smoothed {
     pub mesh: Arc<TriMesh>,
     /// The filter that made it; `None` where smoothing was skipped.
     pub filter: Option<Filter>,
+    /// Which waves that filter leaves; `None` likewise.
+    pub response: Option<SmoothingResponse>,
+    /// Whether the volume was held to 0.01 %; `None` where that was not asked for.
+    pub volume_held: Option<bool>,
     /// Its area and volume.
     pub measures: Measures,
 }
@@ -149,7 +156,7 @@ pub enum Advance {
 }
 
 enum Running {
-    Smoothing(SmoothingTask, Filter),
+    Smoothing(Box<SmoothingStage>),
     Decimation(DecimationTask<Arc<TriMesh>>),
     Deviation(Box<DeviationRun>),
 }
@@ -187,6 +194,11 @@ pub struct Pipeline {
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
     running: Option<Running>,
+    /// What makes another pass band cheap; and its making, which waits for the stages.
+    terms: Option<KeptTerms>,
+    preparation: Option<Preparation>,
+    /// Whether the kept surface has been smoothed before: then it may well be again.
+    is_smoothed_again: bool,
 }
 
 impl Pipeline {
@@ -201,6 +213,9 @@ impl Pipeline {
             now,
             last: None,
             running: None,
+            terms: None,
+            preparation: None,
+            is_smoothed_again: false,
         }
     }
 
@@ -231,7 +246,13 @@ impl Pipeline {
         let smoothing = keep || !same_filter(&old.smoothing, &new.smoothing);
         let decimation = smoothing || old.decimation != new.decimation;
         let level = decimation || old.target != new.target;
+        self.is_smoothed_again |= smoothing && self.now.smoothed.is_some();
+        if smoothing {
+            self.preparation = None;
+        }
         if keep {
+            self.terms = None;
+            self.is_smoothed_again = false;
             self.adjacent = None;
             self.now.kept = None;
             self.now.indices[1] = None;
@@ -258,6 +279,28 @@ impl Pipeline {
             self.running = None;
         }
         Ok(())
+    }
+
+    /// Whether [`Self::prepare`] has something to do.
+    pub fn can_prepare(&self) -> bool {
+        let settings = &self.now.settings.smoothing;
+        let lacks_terms = |kept: &Arc<Surface>| {
+            KeptTerms::would_fit(kept, settings) && !self.terms.as_ref().is_some_and(|terms| terms.suit(kept, settings))
+        };
+        self.next_stage().is_none() && self.now.kept.as_ref().is_some_and(lacks_terms)
+    }
+
+    /// Works until `budget` is spent on what makes the next change of pass band or window cheap, while nothing else is
+    /// to be done: the filter's terms, up to 64 MB. Says whether there is more to do.
+    pub fn prepare(&mut self, budget: Budget) -> bool {
+        let Some(kept) = self.now.kept.as_ref().filter(|_| self.can_prepare()) else { return false };
+        let preparation =
+            self.preparation.take().unwrap_or_else(|| Preparation::new(kept, &self.now.settings.smoothing));
+        match preparation.advance(budget) {
+            Ok(terms) => self.terms = terms,
+            Err(preparation) => self.preparation = Some(preparation),
+        }
+        self.preparation.is_some()
     }
 
     /// Stops what is under way and goes back to the last settings that reached a level, with their results.
@@ -348,14 +391,20 @@ impl Pipeline {
             self.adjacent = Some((mesh, topology));
             return Ok(Some(0.8));
         };
-        let measures = measures(&mesh, &topology);
-        self.now.kept = Some(Arc::new(Surface { mesh, topology, measures }));
+        let loops = oriented_loops(&topology);
+        let measures = measures_within(&mesh, loops.as_deref());
+        self.now.kept = Some(Arc::new(Surface { mesh, topology, loops, measures }));
         Ok(None)
     }
 
     fn skip_smoothing(&mut self) {
-        let unchanged =
-            |kept: &Arc<Surface>| Smoothed { mesh: kept.mesh.clone(), filter: None, measures: kept.measures };
+        let unchanged = |kept: &Arc<Surface>| Smoothed {
+            mesh: kept.mesh.clone(),
+            filter: None,
+            response: None,
+            volume_held: None,
+            measures: kept.measures,
+        };
         self.now.smoothed = self.now.kept.as_ref().map(unchanged).map(Arc::new);
     }
 
@@ -377,10 +426,9 @@ impl Pipeline {
         let kept = self.now.kept.as_ref()?;
         Some(match stage {
             Stage::Smoothing => {
-                let filter = Filter::new(&self.now.settings.smoothing);
-                let boundary = self.now.settings.smoothing.boundary;
-                let task = SmoothingTask::new(&kept.mesh.positions, &kept.topology, boundary, &filter);
-                Running::Smoothing(task, filter)
+                let settings = self.now.settings.smoothing;
+                let stage = SmoothingStage::new(kept, settings, self.terms.as_ref(), self.is_smoothed_again);
+                Running::Smoothing(Box::new(stage))
             }
             Stage::Decimation => {
                 let smoothed = self.now.smoothed.as_ref()?;
@@ -406,13 +454,10 @@ impl Pipeline {
     /// Advances what is running; the fraction that is done, or `None` when all of it is and its result is stored.
     fn run(&mut self, budget: Budget) -> Option<f32> {
         match self.running.as_mut()? {
-            Running::Smoothing(task, filter) => match task.advance(budget) {
+            Running::Smoothing(stage) => match stage.advance(budget) {
                 Progress::Working(fraction) => return Some(fraction),
-                Progress::Done(positions) => {
-                    let kept = self.now.kept.as_ref()?;
-                    let mesh = TriMesh { positions, triangles: kept.mesh.triangles.clone() };
-                    let measures = measures(&mesh, &kept.topology);
-                    let smoothed = Smoothed { mesh: Arc::new(mesh), filter: Some(filter.clone()), measures };
+                Progress::Done(smoothed) => {
+                    self.terms = stage.terms.take().or(self.terms.take());
                     self.now.smoothed = Some(Arc::new(smoothed));
                 }
             },

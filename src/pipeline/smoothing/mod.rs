@@ -16,13 +16,16 @@
 //! another filter of the same degree or less is then but another sum of them.
 
 mod order;
+mod stage;
 mod stencil;
 mod strip;
 mod terms;
+mod volume;
 
 use glam::{Vec3, Vec4};
 
 use self::order::Order;
+pub(crate) use self::stage::{KeptTerms, Preparation, SmoothingStage};
 use self::stencil::Stencil;
 use self::strip::{Strip, Wave};
 pub use self::terms::Terms;
@@ -58,21 +61,25 @@ pub struct SmoothingTask {
 impl SmoothingTask {
     /// Starts smoothing `positions` (mm) with `filter`; `topology` is that of the surface.
     pub fn new(positions: &[Vec3], topology: &Topology, boundary: Boundary, filter: &Filter) -> Self {
-        let centre = Bounds::of(positions).centre();
-        let stencil = Stencil::new(positions, topology, boundary);
-        let order = Order::new(topology, &stencil);
+        Self::of_field(positions, topology, &Stencil::new(positions, topology, boundary), filter)
+    }
+
+    /// Starts smoothing any three numbers at each vertex.
+    fn of_field(values: &[Vec3], topology: &Topology, stencil: &Stencil, filter: &Filter) -> Self {
+        let centre = Bounds::of(values).centre();
+        let order = Order::new(topology, stencil);
         let chunks = order.chunks.len() - 1;
         let count = strip_count(chunks);
         let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);
         let depth = (CACHE / (widest * BYTES_A_VERTEX)).clamp(2, DEEPEST).min((chunks / count / 2).max(1));
         let own = |i: usize| i * chunks / count..(i + 1) * chunks / count;
-        let x0 = |v: u32| (positions[v as usize] - centre).extend(0.0);
+        let x0 = |v: u32| (values[v as usize] - centre).extend(0.0);
         let coefficients: Vec<f32> = filter.coefficients.iter().map(|&c| c as f32).collect();
-        let strip = |i| Strip::new(&order, &stencil, own(i), depth, coefficients[0], x0);
+        let strip = |i| Strip::new(&order, stencil, own(i), depth, coefficients[0], x0);
         let strips = parallel::map((0..count).collect(), strip);
-        let fixed = (0..positions.len() as u32).filter(|&v| stencil.stays(v));
+        let fixed = (0..values.len() as u32).filter(|&v| stencil.stays(v));
         let placement =
-            Placement { fixed: fixed.map(|v| (v, positions[v as usize])).collect(), places: order.places, centre };
+            Placement { fixed: fixed.map(|v| (v, values[v as usize])).collect(), places: order.places, centre };
         let mut task = Self {
             strips,
             coefficients,
@@ -89,10 +96,9 @@ impl SmoothingTask {
     /// Keeps the terms, for [`Self::into_terms`], if they take no more than `bytes`.
     #[must_use]
     pub fn keeping_terms(mut self, bytes: usize) -> Self {
-        let needed = self.placement.places.len() as u64 * self.coefficients.len() as u64 * 12;
-        self.keeps_terms = needed <= bytes as u64;
+        let degree = self.coefficients.len() - 1;
+        self.keeps_terms = Terms::bytes(self.placement.places.len(), degree) <= bytes as u64;
         if self.keeps_terms {
-            let degree = self.coefficients.len() - 1;
             self.strips.iter_mut().for_each(|strip| strip.keep_terms(degree));
         }
         self

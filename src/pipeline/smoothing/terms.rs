@@ -22,9 +22,14 @@ impl Terms {
         Self { blocks, degree, placement }
     }
 
-    /// Whether there are enough terms for `filter`.
-    pub fn suffice(&self, filter: &Filter) -> bool {
-        filter.coefficients.len() <= self.degree + 1
+    /// Bytes that the terms of a run take.
+    pub fn bytes(vertices: usize, degree: usize) -> u64 {
+        vertices as u64 * (degree as u64 + 1) * 12
+    }
+
+    /// The largest number of iterations that they suffice for.
+    pub fn degree(&self) -> usize {
+        self.degree
     }
 
     /// The smoothed positions by another filter, in mm: to the bit what a run of its own gives.
