@@ -7,11 +7,12 @@
 //!
 //! 1. The loss at a vertex is the part of its way `x - S x` along the smoothed surface's normal. Stair-steps are in it;
 //!    the same filter takes them out (Tukey's twicing, 1977, along the normals). The result is added.
-//! 2. What is still missing is spread as the filtered *length* of the way, so that no vertex moves where smoothing moved
-//!    none: `x = S x + n (loss + m way)`. The volume is a cubic polynomial in `m`; its root next to 0 is the answer.
+//! 2. What is still missing, or too much, is little. It is spread evenly over what smoothing moved:
+//!    `x = S x + n (loss + m share)`, with a `share` that falls from 1 to 0 where smoothing moved next to nothing. The
+//!    volume is a cubic polynomial in `m`; its root next to 0 is the answer.
 //!
-//! A vertex goes back by no more than about twice as far as smoothing had moved those around it. Vertices that smoothing
-//! fixes stay to the bit; those of a boundary loop move in the loop's plane.
+//! The even part is at most as large as the root mean square of the way; where that does not suffice the surface is left
+//! as the filter made it. Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane.
 
 use glam::{DVec3, Vec3};
 
@@ -25,8 +26,11 @@ use crate::pipeline::task::{Budget, Progress, Task};
 /// How near to the volume asked for counts as held, as a part of it.
 const TOLERANCE: f64 = 1e-4;
 
-/// The largest `|m|`.
+/// The largest `|m|`, in root mean squares of the way.
 const MOST: f64 = 1.0;
+
+/// A way of this part of the root mean square has half a share.
+const STILL: f64 = 1.0;
 
 /// The surface before smoothing.
 pub(super) struct Before<'a> {
@@ -71,44 +75,46 @@ impl VolumeTask {
     }
 
     fn place(&mut self, before: &Before, field: &[Vec3]) -> (Vec<Vec3>, bool) {
-        let directions = self.directions(before.loops);
         let smoothed = std::mem::take(&mut self.smoothed);
-        let at = |v: u32, m: f64| {
-            let (v, field) = (v as usize, field[v as usize].as_dvec3());
-            smoothed[v].as_dvec3() + directions[v] * (field.x + m * field.y.max(0.0))
-        };
+        let directions = directions(&smoothed, &self.normals, before.loops);
         let origin = before.mesh.bounds().centre().as_dvec3();
-        let missing = |m: f64| volume_of(&before.mesh.triangles, before.loops, |v| at(v, m) - origin) - before.volume;
-        let Some(m) = nearest_root([-1.0, 0.0, 1.0, 2.0].map(missing)).filter(|m| m.abs() <= MOST) else {
-            return (smoothed, false);
+        let way = |v: usize| f64::from(field[v].y.max(0.0));
+        let typical = (0..field.len()).map(|v| way(v) * way(v)).sum::<f64>() / field.len().max(1) as f64;
+        let typical = libm::sqrt(typical);
+        let at = |v: usize, m: f64| {
+            // Evenly, but for where smoothing moved next to nothing.
+            let share = if way(v) > 0.0 { way(v) / (way(v) + typical * STILL) } else { 0.0 };
+            smoothed[v].as_dvec3() + directions[v] * (f64::from(field[v].x) + m * typical * share)
         };
-        let placed = |v: usize| {
-            // What does not move keeps its bits.
-            if directions[v] == DVec3::ZERO || field[v] == Vec3::ZERO { smoothed[v] } else { at(v as u32, m).as_vec3() }
+        let missing = |at: &dyn Fn(usize) -> DVec3| {
+            volume_of(&before.mesh.triangles, before.loops, |v| at(v as usize) - origin) - before.volume
         };
+        let values = [-1.0, 0.0, 1.0, 2.0].map(|m| missing(&|v| at(v, m)));
+        let Some(m) = nearest_root(values).filter(|m| m.abs() <= MOST) else { return (smoothed, false) };
+        // What does not move keeps its bits.
+        let moves = |v: usize| directions[v] != DVec3::ZERO && field[v] != Vec3::ZERO;
+        let placed = |v: usize| if moves(v) { at(v, m).as_vec3() } else { smoothed[v] };
         let positions: Vec<Vec3> = (0..smoothed.len()).map(placed).collect();
-        let found = volume_of(&before.mesh.triangles, before.loops, |v| positions[v as usize].as_dvec3() - origin);
-        let held = (found - before.volume).abs() <= TOLERANCE * before.volume.abs();
-        if held { (positions, true) } else { (smoothed, false) }
+        let is_held = missing(&|v| positions[v].as_dvec3()).abs() <= TOLERANCE * before.volume.abs();
+        if is_held { (positions, true) } else { (smoothed, false) }
     }
+}
 
-    /// The directions in which vertices may move: along their normals, on a loop in its plane.
-    fn directions(&self, loops: &[Vec<u32>]) -> Vec<DVec3> {
-        let mut directions: Vec<DVec3> = self.normals.iter().map(|n| n.as_dvec3()).collect();
-        let at = |v: u32| self.smoothed[v as usize].as_dvec3();
-        for chain in loops {
-            let origin = at(chain[0]);
-            let pairs = chain.iter().zip(chain.iter().cycle().skip(1));
-            // Newell: the loop's area vector.
-            let across =
-                pairs.map(|(&a, &b)| (at(a) - origin).cross(at(b) - origin)).sum::<DVec3>().normalize_or_zero();
-            for &v in chain {
-                let n = directions[v as usize];
-                directions[v as usize] = if across == DVec3::ZERO { DVec3::ZERO } else { n - across * n.dot(across) };
-            }
+/// The directions in which vertices may move: along their normals, on a loop in its plane.
+fn directions(smoothed: &[Vec3], normals: &[Vec3], loops: &[Vec<u32>]) -> Vec<DVec3> {
+    let mut directions: Vec<DVec3> = normals.iter().map(|n| n.as_dvec3()).collect();
+    let at = |v: u32| smoothed[v as usize].as_dvec3();
+    for chain in loops {
+        let origin = at(chain[0]);
+        let pairs = chain.iter().zip(chain.iter().cycle().skip(1));
+        // Newell: the loop's area vector.
+        let across = pairs.map(|(&a, &b)| (at(a) - origin).cross(at(b) - origin)).sum::<DVec3>().normalize_or_zero();
+        for &v in chain {
+            let n = directions[v as usize];
+            directions[v as usize] = if across == DVec3::ZERO { DVec3::ZERO } else { n - across * n.dot(across) };
         }
-        directions
     }
+    directions
 }
 
 /// The root next to 0 of the cubic polynomial that has these values at -1, 0, 1 and 2, within -2 to 2.
