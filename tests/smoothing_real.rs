@@ -185,8 +185,8 @@ fn check_open_ends(path: &Path, ends: usize, voxel: f64) -> Result<(), Failed> {
                 let off = chain.iter().map(off).fold(0.0, f64::max);
                 ensure(off <= voxel / 2.0, || format!("{off} mm out of the plane, {smoothing:?}"))?;
                 let (before, after) = (turning(chain, &kept.mesh.positions), turning(chain, &smoothed.mesh.positions));
-                // Stairs turn to and fro; these ends are convex, and turn once around.
-                ensure(after.0 < 1.05 && after.1 < 15.0, || format!("{before:?} became {after:?}, {smoothing:?}"))?;
+                // Stairs turn to and fro, several times around in all; a smooth curve about once.
+                ensure(after.0 < 1.2 && after.1 < 15.0, || format!("{before:?} became {after:?}, {smoothing:?}"))?;
                 ensure(before.1 > 15.0, || format!("was there anything to smooth? {before:?}"))?;
             }
         }

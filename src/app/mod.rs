@@ -14,6 +14,7 @@ mod keys;
 mod overlay;
 mod panel;
 mod platform;
+mod response;
 mod scene;
 mod sheets;
 mod state;

@@ -11,13 +11,14 @@
 //!    `x = S x + n (loss + m share)`, with a `share` that falls from 1 to 0 where smoothing moved next to nothing. The
 //!    volume is a cubic polynomial in `m`; its root next to 0 is the answer.
 //!
-//! The even part is at most as large as the root mean square of the way; where that does not suffice the surface is left
+//! Where a vessel is drawn together to a line, its normals are noise; then those of the surface before smoothing, blurred,
+//! take their place. The even part is at most as large as the root mean square of the way; where that does not suffice the surface is left
 //! as the filter made it. Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane.
 
 use glam::{DVec3, Vec3};
 
 use super::{SmoothingTask, Stencil};
-use crate::mesh::{Topology, TriMesh, volume_of};
+use crate::mesh::{Topology, TriMesh, measures_within, volume_of};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::settings::Boundary;
@@ -28,9 +29,6 @@ const TOLERANCE: f64 = 1e-4;
 
 /// The largest `|m|`, in root mean squares of the way.
 const MOST: f64 = 1.0;
-
-/// A way of this part of the root mean square has half a share.
-const STILL: f64 = 1.0;
 
 /// The surface before smoothing.
 pub(super) struct Before<'a> {
@@ -45,19 +43,25 @@ pub(super) struct Before<'a> {
 /// Puts lost volume back, in slices.
 pub(super) struct VolumeTask {
     smoothed: Vec<Vec3>,
+    boundary: Boundary,
+    filter: Filter,
+    attempt: Attempt,
+}
+
+/// One choice of the normals along which vertices move.
+struct Attempt {
     normals: Vec<Vec3>,
     /// Filters (loss, length of the way, 0) at each vertex.
     field: SmoothingTask,
+    is_last: bool,
 }
 
 impl VolumeTask {
     /// Starts from `smoothed`, the result of `filter` on the surface `before`.
     pub(super) fn new(before: &Before, smoothed: Vec<Vec3>, boundary: Boundary, filter: &Filter) -> Self {
         let normals = vertex_normals(&smoothed, &before.mesh.triangles, Weighting::Area);
-        let ways = before.mesh.positions.iter().zip(&smoothed).map(|(&x, &s)| x - s);
-        let field: Vec<Vec3> = ways.zip(&normals).map(|(way, n)| Vec3::new(way.dot(*n), way.length(), 0.0)).collect();
-        let stencil = Stencil::new(&before.mesh.positions, before.topology, boundary);
-        Self { field: SmoothingTask::of_field(&field, before.topology, &stencil, filter), smoothed, normals }
+        let attempt = Attempt::new(before, &smoothed, normals, boundary, filter);
+        Self { smoothed, boundary, filter: filter.clone(), attempt }
     }
 
     /// The smoothed positions, as they came.
@@ -68,35 +72,78 @@ impl VolumeTask {
     /// Works until `budget` is spent or the volume is held. Gives the positions, and whether they hold it: where they
     /// cannot, they are the smoothed ones.
     pub(super) fn advance(&mut self, before: &Before, budget: Budget) -> Progress<(Vec<Vec3>, bool)> {
-        match self.field.advance(budget) {
-            Progress::Working(fraction) => Progress::Working(fraction),
-            Progress::Done(field) => Progress::Done(self.place(before, &field)),
+        let field = match self.attempt.field.advance(budget) {
+            Progress::Working(fraction) => return Progress::Working(fraction),
+            Progress::Done(field) => field,
+        };
+        if let Some(positions) = self.attempt.place(before, &self.smoothed, &field) {
+            return Progress::Done((positions, true));
         }
+        if self.attempt.is_last {
+            return Progress::Done((std::mem::take(&mut self.smoothed), false));
+        }
+        let normals = blurred_normals(before);
+        self.attempt = Attempt::new(before, &self.smoothed, normals, self.boundary, &self.filter);
+        self.attempt.is_last = true;
+        Progress::Working(0.0)
+    }
+}
+
+/// The normals of the surface before smoothing, each the mean of its neighbours' and itself time and again: without
+/// stairs, and where the filter has drawn a vessel together to a line still pointing out of it.
+fn blurred_normals(before: &Before) -> Vec<Vec3> {
+    const TIMES: usize = 10;
+    let mut normals = vertex_normals(&before.mesh.positions, &before.mesh.triangles, Weighting::Area);
+    for _ in 0..TIMES {
+        let blurred = |v: usize| {
+            let around = before.topology.neighbours(v as u32);
+            let sum: Vec3 = around.iter().map(|&n| normals[n as usize]).sum();
+            normals[v] + sum / around.len().max(1) as f32
+        };
+        normals = (0..normals.len()).map(blurred).collect();
+    }
+    normals.into_iter().map(Vec3::normalize_or_zero).collect()
+}
+
+impl Attempt {
+    fn new(before: &Before, smoothed: &[Vec3], normals: Vec<Vec3>, boundary: Boundary, filter: &Filter) -> Self {
+        let ways = before.mesh.positions.iter().zip(smoothed).map(|(&x, &s)| x - s);
+        let field: Vec<Vec3> = ways.zip(&normals).map(|(way, n)| Vec3::new(way.dot(*n), way.length(), 0.0)).collect();
+        let stencil = Stencil::new(&before.mesh.positions, before.topology, boundary);
+        let field = SmoothingTask::of_field(&field, before.topology, &stencil, filter);
+        Self { normals, field, is_last: false }
     }
 
-    fn place(&mut self, before: &Before, field: &[Vec3]) -> (Vec<Vec3>, bool) {
-        let smoothed = std::mem::take(&mut self.smoothed);
-        let directions = directions(&smoothed, &self.normals, before.loops);
+    /// The positions that hold the volume, if there are any.
+    fn place(&self, before: &Before, smoothed: &[Vec3], field: &[Vec3]) -> Option<Vec<Vec3>> {
+        let directions = directions(smoothed, &self.normals, before.loops);
         let origin = before.mesh.bounds().centre().as_dvec3();
         let way = |v: usize| f64::from(field[v].y.max(0.0));
-        let typical = (0..field.len()).map(|v| way(v) * way(v)).sum::<f64>() / field.len().max(1) as f64;
-        let typical = libm::sqrt(typical);
+        let squares = (0..field.len()).map(|v| way(v) * way(v)).sum::<f64>();
+        let typical = libm::sqrt(squares / field.len().max(1) as f64);
         let at = |v: usize, m: f64| {
             // Evenly, but for where smoothing moved next to nothing.
-            let share = if way(v) > 0.0 { way(v) / (way(v) + typical * STILL) } else { 0.0 };
+            let share = if way(v) > 0.0 { way(v) / (way(v) + typical) } else { 0.0 };
             smoothed[v].as_dvec3() + directions[v] * (f64::from(field[v].x) + m * typical * share)
         };
-        let missing = |at: &dyn Fn(usize) -> DVec3| {
-            volume_of(&before.mesh.triangles, before.loops, |v| at(v as usize) - origin) - before.volume
-        };
-        let values = [-1.0, 0.0, 1.0, 2.0].map(|m| missing(&|v| at(v, m)));
-        let Some(m) = nearest_root(values).filter(|m| m.abs() <= MOST) else { return (smoothed, false) };
+        let volume_at = |m: f64| volume_of(&before.mesh.triangles, before.loops, |v| at(v as usize, m) - origin);
+        let volumes = [-1.0, 0.0, 1.0, 2.0].map(volume_at);
         // What does not move keeps its bits.
         let moves = |v: usize| directions[v] != DVec3::ZERO && field[v] != Vec3::ZERO;
-        let placed = |v: usize| if moves(v) { at(v, m).as_vec3() } else { smoothed[v] };
-        let positions: Vec<Vec3> = (0..smoothed.len()).map(placed).collect();
-        let is_held = missing(&|v| positions[v].as_dvec3()).abs() <= TOLERANCE * before.volume.abs();
-        if is_held { (positions, true) } else { (smoothed, false) }
+        let placed = |v: usize, m: f64| if moves(v) { at(v, m).as_vec3() } else { smoothed[v] };
+        let mut target = before.volume;
+        // Where the boundary is no closed curve the volume depends a little on the origin: then it takes a second look.
+        for _ in 0..3 {
+            let m = nearest_root(volumes.map(|volume| volume - target)).filter(|m| m.abs() <= MOST)?;
+            let positions = (0..smoothed.len()).map(|v| placed(v, m)).collect();
+            let mesh = TriMesh { positions, triangles: before.mesh.triangles.clone() };
+            let missing = before.volume - measures_within(&mesh, Some(before.loops)).volume_mm3?;
+            if missing.abs() <= TOLERANCE / 2.0 * before.volume.abs() {
+                return Some(mesh.positions);
+            }
+            target += missing;
+        }
+        None
     }
 }
 
