@@ -39,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, edge_length: Option<f64>) 
 /// The filter for `settings`, made once.
 fn filter(ui: &Ui, settings: &Smoothing) -> Arc<Filter> {
     type Made = (Smoothing, Arc<Filter>);
-    let id = Id::new("smoothing response");
+    let id = Id::unique("smoothing response");
     if let Some((_, filter)) = ui.data(|data| data.get_temp::<Made>(id)).filter(|(of, _)| of == settings) {
         return filter;
     }
