@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::filter::Filter;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, Vec3};
 
 /// Where a filter cuts, without unit and in mm on one surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,7 +95,7 @@ pub fn wavelength(k: f64, edge_length: f64) -> Option<f64> {
 /// for a surface without triangles.
 pub fn edge_length(mesh: &TriMesh) -> f64 {
     let squares = (0..mesh.triangles.len()).map(|t| {
-        let [a, b, c] = mesh.corners(t).map(|p| p.as_dvec3());
+        let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
         (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared()
     });
     let sum: f64 = squares.sum();

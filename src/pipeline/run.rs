@@ -157,7 +157,7 @@ pub enum Advance {
 
 enum Running {
     Smoothing(Box<SmoothingStage>),
-    Decimation(DecimationTask<Arc<TriMesh>>),
+    Decimation(Box<DecimationTask<Arc<TriMesh>>>),
     Deviation(Box<DeviationRun>),
 }
 
@@ -294,13 +294,14 @@ impl Pipeline {
     /// to be done: the filter's terms, up to 64 MB. Says whether there is more to do.
     pub fn prepare(&mut self, budget: Budget) -> bool {
         let Some(kept) = self.now.kept.as_ref().filter(|_| self.can_prepare()) else { return false };
-        let preparation =
+        let mut preparation =
             self.preparation.take().unwrap_or_else(|| Preparation::new(kept, &self.now.settings.smoothing));
-        match preparation.advance(budget) {
-            Ok(terms) => self.terms = terms,
-            Err(preparation) => self.preparation = Some(preparation),
+        if preparation.advance(budget) {
+            self.terms = preparation.into_terms();
+            return false;
         }
-        self.preparation.is_some()
+        self.preparation = Some(preparation);
+        true
     }
 
     /// Stops what is under way and goes back to the last settings that reached a level, with their results.
@@ -433,7 +434,7 @@ impl Pipeline {
             Stage::Decimation => {
                 let smoothed = self.now.smoothed.as_ref()?;
                 let task = DecimationTask::new(smoothed.mesh.clone(), &kept.topology, &self.now.settings.decimation);
-                Running::Decimation(task)
+                Running::Decimation(Box::new(task))
             }
             _ => {
                 let (finest, reduced) = (self.now.finest.as_ref()?, self.now.reduced.as_ref()?);

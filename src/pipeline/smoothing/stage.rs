@@ -47,12 +47,14 @@ impl Preparation {
         Self { kept: kept.clone(), boundary: settings.boundary, task: keeping(kept, settings, &Filter::new(settings)) }
     }
 
-    /// The terms, when they are there.
-    pub(crate) fn advance(mut self, budget: Budget) -> Result<Option<KeptTerms>, Self> {
-        match self.task.advance(budget) {
-            Progress::Working(_) => Err(self),
-            Progress::Done(_) => Ok(kept_terms(self.task, self.kept, self.boundary)),
-        }
+    /// Works until `budget` is spent; whether all is done.
+    pub(crate) fn advance(&mut self, budget: Budget) -> bool {
+        matches!(self.task.advance(budget), Progress::Done(_))
+    }
+
+    /// The terms of a run that is done.
+    pub(crate) fn into_terms(self) -> Option<KeptTerms> {
+        kept_terms(self.task, self.kept, self.boundary)
     }
 }
 

@@ -158,9 +158,9 @@ impl Strip {
             let (next, sum) = (&mut previous[places.clone()], &mut self.sum[places.clone()]);
             let work = Work { rows, current, own: &current[places], c: coefficients[n] };
             if n == 1 {
-                work.dispatch::<true>(run.valence, next, sum)
+                work.dispatch::<true>(run.valence, next, sum);
             } else {
-                work.dispatch::<false>(run.valence, next, sum)
+                work.dispatch::<false>(run.valence, next, sum);
             }
         }
         if !self.terms.is_empty() {
