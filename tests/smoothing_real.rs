@@ -102,7 +102,7 @@ fn check_fixed(mesh: &TriMesh, topology: &Topology, settings: &Smoothing) -> Res
             || ends().count() > 2
             || settings.boundary == Boundary::Vtk15
                 && ends().count() == 2
-                && ends().last().zip(ends().next()).is_some_and(|(b, a)| {
+                && ends().next_back().zip(ends().next()).is_some_and(|(b, a)| {
                     // A little more than the rule's 15 degrees: not to argue over the last bit.
                     (at(v) - at(a)).angle_between(at(b) - at(v)).to_degrees() > 15.01
                 })
