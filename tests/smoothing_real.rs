@@ -70,7 +70,8 @@ fn check(path: &Path) -> Result<(), Failed> {
         let settings = Smoothing { window, ..Smoothing::default() };
         check_origin(&mesh, &topology, &settings)?;
         for boundary in [Boundary::Loop, Boundary::Vtk15] {
-            check_fixed(&mesh, &topology, &Smoothing { boundary, ..settings })?;
+            let after = run(&mesh, &topology, &Smoothing { boundary, ..settings });
+            check_fixed(&mesh, &topology, boundary, &after)?;
         }
     }
     check_threads_and_terms(&mesh, &topology)?;
@@ -92,23 +93,25 @@ fn check_origin(mesh: &TriMesh, topology: &Topology, settings: &Smoothing) -> Re
 }
 
 /// A vertex stays where edges are non-manifold, where loops meet, and by VTK's rule where the boundary turns.
-fn check_fixed(mesh: &TriMesh, topology: &Topology, settings: &Smoothing) -> Result<(), Failed> {
-    let after = run(mesh, topology, settings);
-    let stays = |v: u32| {
-        let uses = topology.edge_uses(v);
-        let ends = || topology.neighbours(v).iter().zip(uses).filter(|(_, edge)| edge.is_boundary()).map(|(&n, _)| n);
-        let at = |v: u32| mesh.positions[v as usize].as_dvec3();
-        uses.iter().copied().any(EdgeUse::is_non_manifold)
-            || ends().count() > 2
-            || settings.boundary == Boundary::Vtk15
-                && ends().count() == 2
-                && ends().next_back().zip(ends().next()).is_some_and(|(b, a)| {
-                    // A little more than the rule's 15 degrees: not to argue over the last bit.
-                    (at(v) - at(a)).angle_between(at(b) - at(v)).to_degrees() > 15.01
-                })
+fn stays(mesh: &TriMesh, topology: &Topology, boundary: Boundary, v: u32) -> bool {
+    let uses = topology.edge_uses(v);
+    let ends = || topology.neighbours(v).iter().zip(uses).filter(|(_, edge)| edge.is_boundary()).map(|(&n, _)| n);
+    let at = |v: u32| mesh.positions[v as usize].as_dvec3();
+    let turns = || {
+        ends().next_back().zip(ends().next()).is_some_and(|(b, a)| {
+            // A little more than the rule's 15 degrees: not to argue over the last bit.
+            (at(v) - at(a)).angle_between(at(b) - at(v)).to_degrees() > 15.01
+        })
     };
-    let moved = (0..after.len() as u32).find(|&v| stays(v) && after[v as usize] != mesh.positions[v as usize]);
-    ensure(moved.is_none(), || format!("vertex {moved:?} should stay, {settings:?}"))
+    uses.iter().copied().any(EdgeUse::is_non_manifold)
+        || ends().count() > 2
+        || boundary == Boundary::Vtk15 && ends().count() == 2 && turns()
+}
+
+fn check_fixed(mesh: &TriMesh, topology: &Topology, boundary: Boundary, after: &[Vec3]) -> Result<(), Failed> {
+    let moved = |&v: &u32| stays(mesh, topology, boundary, v) && after[v as usize] != mesh.positions[v as usize];
+    let moved = (0..after.len() as u32).find(moved);
+    ensure(moved.is_none(), || format!("vertex {moved:?} should stay, {boundary:?}"))
 }
 
 fn check_threads_and_terms(mesh: &TriMesh, topology: &Topology) -> Result<(), Failed> {
@@ -140,6 +143,7 @@ fn check_volume(mesh: TriMesh) -> Result<(), Failed> {
                 pipeline.advance(Budget::UNLIMITED)?;
             }
             let (Some(kept), Some(smoothed)) = (pipeline.kept(), pipeline.smoothed()) else { unreachable!() };
+            check_fixed(&kept.mesh, &kept.topology, Boundary::Loop, &smoothed.mesh.positions)?;
             let volumes = kept.measures.volume_mm3.zip(smoothed.measures.volume_mm3);
             match (smoothed.volume_held, volumes) {
                 (Some(true), Some((before, after))) => {

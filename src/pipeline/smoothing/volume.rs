@@ -8,12 +8,12 @@
 //! 1. The loss at a vertex is the part of its way `x - S x` along the smoothed surface's normal. Stair-steps are in it;
 //!    the same filter takes them out (Tukey's twicing, 1977, along the normals). The result is added.
 //! 2. What is still missing, or too much, is little. It is spread evenly over what smoothing moved:
-//!    `x = S x + n (loss + m share)`, with a `share` that falls from 1 to 0 where smoothing moved next to nothing. The
-//!    volume is a cubic polynomial in `m`; its root next to 0 is the answer.
+//!    `x = S x + n (loss + m rms share)`, with the root mean square of the way and a `share` that falls from 1 to 0
+//!    where smoothing moved next to nothing. The volume is a cubic polynomial in `m`; its root next to 0 is the answer.
 //!
-//! Where a vessel is drawn together to a line, its normals are noise; then those of the surface before smoothing, blurred,
-//! take their place. The even part is at most as large as the root mean square of the way; where that does not suffice the surface is left
-//! as the filter made it. Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane.
+//! Where a vessel is drawn together to a line, its normals are noise: then those of the surface before smoothing,
+//! blurred, take their place. `m` is 1 at most; where that does not suffice the surface is left as the filter made it.
+//! Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane.
 
 use glam::{DVec3, Vec3};
 
@@ -27,7 +27,7 @@ use crate::pipeline::task::{Budget, Progress, Task};
 /// How near to the volume asked for counts as held, as a part of it.
 const TOLERANCE: f64 = 1e-4;
 
-/// The largest `|m|`, in root mean squares of the way.
+/// The largest `|m|`.
 const MOST: f64 = 1.0;
 
 /// The surface before smoothing.
