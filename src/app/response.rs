@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Id, Label, RichText, Role, Stroke, Ui, Vec2, WidgetInfo};
+use egui::{Align2, CollapsingHeader, Id, Label, RichText, Role, Stroke, Ui, Vec2, WidgetInfo};
 use egui_plot::{
     AxisHints, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, Points, Text, VLine,
 };
@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, edge_length: Option<f64>) 
     let response = SmoothingResponse::new(&filter, settings.pass_band, edge_length.unwrap_or(0.0));
     let text = sentence(&response);
     ui.add(Label::new(RichText::new(&text).small()).wrap());
-    let head = ui.collapsing("Response", |ui| {
+    let head = CollapsingHeader::new("Response").show_unindented(ui, |ui| {
         let plot = picture(ui, &filter, &response, edge_length);
         plot.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
     });
@@ -114,9 +114,10 @@ fn picture(
         if let Some(half) = half {
             plot.points(Points::new("", [half, 0.5]).radius(4.0).color(accent).allow_hover(false));
             let label = response.wavelength_mm_at_half_gain.map_or("half".to_owned(), in_mm);
-            let (side, gap) = if half < -0.9 { (Align2::LEFT_CENTER, 0.08) } else { (Align2::RIGHT_CENTER, -0.08) };
+            // To the right of the fall, above the grid's line.
+            let (side, gap) = if half < -0.9 { (Align2::LEFT_BOTTOM, 0.1) } else { (Align2::RIGHT_BOTTOM, -0.1) };
             let label = small(label).color(ink);
-            plot.text(Text::new("", PlotPoint::new(half + gap, 0.5), label).anchor(side).allow_hover(false));
+            plot.text(Text::new("", PlotPoint::new(half + gap, 0.54), label).anchor(side).allow_hover(false));
         }
     });
     shown.response
@@ -131,7 +132,8 @@ fn marks(edge_length: Option<f64>) -> Vec<GridMark> {
         }
         None => vec![-3.0, -2.0, -1.0, 0.0],
     };
-    values.into_iter().map(|value| GridMark { value, step_size: 0.4 }).collect()
+    let shown = values.into_iter().filter(|value| (RANGE.0..=RANGE.1).contains(value));
+    shown.map(|value| GridMark { value, step_size: 0.4 }).collect()
 }
 
 fn axis_label(k: f64, edge_length: Option<f64>) -> String {
@@ -155,7 +157,7 @@ mod tests {
     fn the_axis_names_round_lengths_that_the_mesh_can_carry() {
         let names: Vec<String> =
             marks(Some(0.967)).iter().map(|mark| axis_label(libm::exp10(mark.value), Some(0.967))).collect();
-        assert_eq!(names, ["2", "3", "5", "10", "20", "50", "100", "200", "500", "1000", "2000"]);
+        assert_eq!(names, ["2", "3", "5", "10", "20", "50", "100"]);
         let bare: Vec<String> = marks(None).iter().map(|mark| axis_label(libm::exp10(mark.value), None)).collect();
         assert_eq!(bare, ["0.001", "0.01", "0.1", "1"]);
     }
