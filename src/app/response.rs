@@ -115,7 +115,7 @@ fn picture(
             plot.points(Points::new("", [half, 0.5]).radius(4.0).color(accent).allow_hover(false));
             let label = response.wavelength_mm_at_half_gain.map_or("half".to_owned(), in_mm);
             // To the right of the fall, above the grid's line.
-            let (side, gap) = if half < -0.9 { (Align2::LEFT_BOTTOM, 0.1) } else { (Align2::RIGHT_BOTTOM, -0.1) };
+            let (side, gap) = if half < -0.55 { (Align2::LEFT_BOTTOM, 0.1) } else { (Align2::RIGHT_BOTTOM, -0.1) };
             let label = small(label).color(ink);
             plot.text(Text::new("", PlotPoint::new(half + gap, 0.54), label).anchor(side).allow_hover(false));
         }
