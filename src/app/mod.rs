@@ -16,6 +16,7 @@ mod keys;
 mod overlay;
 mod panel;
 mod platform;
+mod response;
 mod scene;
 mod sheets;
 mod state;

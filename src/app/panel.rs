@@ -5,6 +5,7 @@ use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
 
 use super::control::{Setting, grouped, name};
 use super::document::Document;
+use super::response;
 use super::state::State;
 use super::views::Views;
 use crate::engine::Source;
@@ -175,10 +176,21 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
             name(&response.response, Role::ComboBox, "Window");
         });
     });
-    if report.is_some_and(|report| report.pass_band_missed && report.settings.smoothing == *smoothing) {
-        let text = RichText::new("Too few iterations for this pass band: more are needed to smooth.").small();
-        ui.add(egui::Label::new(text).wrap());
+    let hold = ui.checkbox(&mut smoothing.preserve_volume, "Preserve volume");
+    hold.on_hover_text("Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.");
+    let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
+    response::show(ui, smoothing, edge_length);
+    let Some(report) = report.filter(|report| report.settings.smoothing == *smoothing) else { return };
+    if report.pass_band_missed {
+        remark(ui, "Too few iterations for this pass band: more are needed to smooth.");
     }
+    if report.volume_held == Some(false) {
+        remark(ui, "The volume could not be held: too little is left of the form.");
+    }
+}
+
+fn remark(ui: &mut Ui, text: &str) {
+    ui.add(egui::Label::new(RichText::new(text).small()).wrap());
 }
 
 fn reduce(ui: &mut Ui, state: &mut State) {

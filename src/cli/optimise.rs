@@ -34,6 +34,9 @@ pub struct Optimise {
     /// Window of the smoothing filter
     #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Window::default())]
     window: Window,
+    /// Hold the volume to 0.01 % of what it is before smoothing, open ends capped
+    #[arg(long)]
+    preserve_volume: bool,
     /// The part of the triangles to remove, in percent, 0 to 99.9 (90 or 90%)
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value = "90", conflicts_with = "triangles")]
     reduction: f64,
@@ -112,6 +115,7 @@ impl Optimise {
                 pass_band: self.pass_band,
                 iterations: self.iterations,
                 boundary: Boundary::default(),
+                preserve_volume: self.preserve_volume,
             },
             decimation: Decimation { method: self.method, feature_angle: self.feature_angle },
             target: match (self.triangles, self.max_deviation) {
@@ -171,6 +175,9 @@ impl Optimise {
             let next = bound.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.4} mm"));
             row("next coarser level", next);
         }
+        if let Some(text) = report.smoothing_response.and_then(|response| response.half_gain_text()) {
+            row("smoothing, half gain", text);
+        }
         if let Some(deviation) = report.deviation_mm {
             row("deviation, mean", format!("{:.4} mm", deviation.mean));
             row("deviation, max", format!("{:.4} mm", deviation.max));
@@ -195,6 +202,11 @@ impl Optimise {
         }
         if let Some(warning) = report.volume_warning() {
             eprintln!("lumen: warning: {warning}");
+        }
+        if report.volume_held == Some(false) {
+            eprintln!(
+                "lumen: warning: the volume could not be held: the surface is smoothed as without --preserve-volume"
+            );
         }
         if report.pass_band_missed {
             eprintln!("lumen: warning: too few iterations for this pass band: more are needed to smooth");

@@ -226,7 +226,7 @@ impl Current {
         }
         let generation = self.generation;
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
-            Advance::Idle => return Ok(false),
+            Advance::Idle => return Ok(self.pipeline.prepare(budget)),
             Advance::Working(stage, fraction) => {
                 tell_progress(Work::Stage(stage), fraction, events);
             }
@@ -250,7 +250,7 @@ impl Current {
             }
             Advance::Finished(_) => {}
         }
-        Ok(self.pipeline.next_stage().is_some() || self.waiting.is_some())
+        Ok(self.pipeline.next_stage().is_some() || self.waiting.is_some() || self.pipeline.can_prepare())
     }
 
     /// Goes over to newer settings, unless a result of the present ones is near.

@@ -19,8 +19,19 @@ pub struct Measures {
 
 /// Area and volume of `mesh`; `topology` must be that of its triangles.
 pub fn measures(mesh: &TriMesh, topology: &Topology) -> Measures {
-    let orientable = topology.edges().all(|(_, _, edge)| !edge.is_flipped());
-    Measures { area_mm2: surface_area(mesh), volume_mm3: orientable.then(|| volume(mesh, topology)) }
+    measures_within(mesh, oriented_loops(topology).as_deref())
+}
+
+/// The boundary loops of a surface whose windings agree; `None` where they do not.
+pub fn oriented_loops(topology: &Topology) -> Option<Vec<Vec<u32>>> {
+    let is_oriented = topology.edges().all(|(_, _, edge)| !edge.is_flipped());
+    is_oriented.then(|| boundary_loops(topology))
+}
+
+/// Area and volume of `mesh`, whose [`oriented_loops`] are known: they stay when vertices move.
+pub fn measures_within(mesh: &TriMesh, loops: Option<&[Vec<u32>]>) -> Measures {
+    let volume = loops.map(|loops| volume_within(mesh, loops));
+    Measures { area_mm2: surface_area(mesh), volume_mm3: volume }
 }
 
 /// Area of a triangle in mm2.
@@ -37,13 +48,21 @@ pub fn surface_area(mesh: &TriMesh) -> f64 {
 /// Signed volume in mm3, open ends capped by a fan to each loop's centroid: positive when the triangles wind
 /// counter-clockwise seen from outside.
 pub fn volume(mesh: &TriMesh, topology: &Topology) -> f64 {
+    volume_within(mesh, &boundary_loops(topology))
+}
+
+fn volume_within(mesh: &TriMesh, loops: &[Vec<u32>]) -> f64 {
     let origin = mesh.bounds().centre().as_dvec3();
-    let at = |v: u32| mesh.positions[v as usize].as_dvec3() - origin;
+    volume_of(&mesh.triangles, loops, |v| mesh.positions[v as usize].as_dvec3() - origin)
+}
+
+/// As [`volume`], of vertices wherever `at` says they are; best near the origin.
+pub fn volume_of(triangles: &[[u32; 3]], loops: &[Vec<u32>], at: impl Fn(u32) -> DVec3) -> f64 {
     let mut six = 0.0;
-    for &[a, b, c] in &mesh.triangles {
+    for &[a, b, c] in triangles {
         six += at(a).dot(at(b).cross(at(c)));
     }
-    for chain in boundary_loops(topology) {
+    for chain in loops {
         let middle = chain.iter().map(|&v| at(v)).sum::<DVec3>() / chain.len() as f64;
         for (i, &from) in chain.iter().enumerate() {
             let to = chain[(i + 1) % chain.len()];

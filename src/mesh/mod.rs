@@ -23,7 +23,9 @@ pub use components::{Components, components};
 pub use glam::Vec3;
 pub use hausdorff::{Beyond, Reach, TOLERANCE};
 pub use index_build::IndexBuild;
-pub use measures::{Measures, measures, surface_area, triangle_area, volume};
+pub use measures::{
+    Measures, measures, measures_within, oriented_loops, surface_area, triangle_area, volume, volume_of,
+};
 pub use nearest::{Nearest, SurfaceIndex};
 pub use topology::{EdgeCounts, EdgeUse, Topology};
 

@@ -93,6 +93,22 @@ impl Filter {
         evaluate(&self.coefficients, band_angle(k))
     }
 
+    /// The smallest eigenvalue `k` at which the response is a half: waves that are rougher are more gone than there.
+    /// `None` where the filter lets everything through.
+    pub fn half_gain(&self) -> Option<f64> {
+        // The response falls once, over an angle of a few times pi / degree: steps finer than that cannot miss it.
+        let steps = 16 * self.coefficients.len();
+        let response = |angle: f64| evaluate(&self.coefficients, angle);
+        let angle = |step: usize| step as f64 / steps as f64 * (PI / 2.0);
+        let below = (1..=steps).find(|&step| response(angle(step)) < 0.5)?;
+        let (mut low, mut high) = (angle(below - 1), angle(below));
+        for _ in 0..60 {
+            let middle = (low + high) / 2.0;
+            if response(middle) < 0.5 { high = middle } else { low = middle }
+        }
+        Some(2.0 * (1.0 - libm::cos(high)))
+    }
+
     /// Whether the filter does what a pass band of `pass_band` promises: lets it through, and stops what is rough
     /// where the band ends before that. With too few terms the band can only be let through by letting all through.
     pub fn keeps_promise(&self, pass_band: f64) -> bool {
@@ -110,9 +126,14 @@ fn band_angle(k: f64) -> f64 {
     libm::acos((1.0 - k / 2.0).clamp(-1.0, 1.0))
 }
 
-/// `sum of c_n cos(n angle)`, which is `sum of c_n T_n(cos angle)`.
+/// `sum of c_n T_n(cos angle)`, by Clenshaw's recurrence (1955).
 fn evaluate(coefficients: &[f64], angle: f64) -> f64 {
-    coefficients.iter().enumerate().map(|(n, c)| c * libm::cos(n as f64 * angle)).sum()
+    let t = libm::cos(angle);
+    let (mut next, mut after) = (0.0, 0.0);
+    for c in coefficients.iter().skip(1).rev() {
+        (next, after) = (c + 2.0 * t * next - after, next);
+    }
+    coefficients.first().map_or(0.0, |c| c + t * next - after)
 }
 
 fn coefficients(window: Window, pass_band: f64, iterations: u32, sigma: f64) -> Vec<f64> {
@@ -160,6 +181,20 @@ mod tests {
         for (iterations, pass_band, keeps) in [(1, 0.1, false), (3, 0.1, false), (6, 0.1, true), (100, 0.01, true)] {
             let filter = Filter::new(&Smoothing { pass_band, iterations, ..Smoothing::default() });
             assert_eq!(filter.keeps_promise(pass_band), keeps, "{iterations} {}", filter.response(2.0));
+        }
+    }
+
+    #[test]
+    fn the_response_is_a_half_at_the_half_gain_and_no_less_before() {
+        for window in Window::ALL {
+            for (pass_band, iterations) in [(0.001, 200), (0.01, 30), (0.01, 100), (0.1, 20), (0.5, 20), (1.0, 60)] {
+                let filter = Filter::new(&Smoothing { window, pass_band, iterations, ..Smoothing::default() });
+                let k = filter.half_gain().unwrap();
+                assert!(k > pass_band && (filter.response(k) - 0.5).abs() < 1e-9, "{window:?} {pass_band} {k}");
+                assert!((0..1000).all(|part| filter.response(k * f64::from(part) / 1000.0) > 0.5));
+            }
+            let all = Filter::new(&Smoothing { window, pass_band: 2.0, ..Smoothing::default() });
+            assert_eq!(all.half_gain(), None);
         }
     }
 

@@ -12,6 +12,7 @@ pub mod normals;
 pub mod paper;
 pub mod progressive;
 pub mod report;
+pub mod response;
 pub mod run;
 pub mod settings;
 pub mod smoothing;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
 use super::progressive::Shortfall;
+use super::response::SmoothingResponse;
 use super::run::{Pipeline, StageTimes};
 use super::settings::{Settings, reduction_percent};
 use crate::mesh::{Measures, TriMesh, components};
@@ -68,6 +69,12 @@ pub struct Report {
     pub bound: Option<BoundReport>,
     /// With so few iterations the filter either misses its pass band by more than 1e-3 or lets everything through.
     pub pass_band_missed: bool,
+    /// Where the filter cuts, and which waves on this surface that means; null where smoothing was skipped.
+    #[serde(default)]
+    pub smoothing_response: Option<SmoothingResponse>,
+    /// Whether smoothing held the volume to 0.01 %; null where that was not asked for.
+    #[serde(default)]
+    pub volume_held: Option<bool>,
     /// Milliseconds a stage.
     pub stages_ms: StageTimes,
     /// Two-sided distance between output and smoothed surface; null where one has no area.
@@ -118,6 +125,8 @@ impl Report {
                 next_coarser_mm: found.next_coarser_mm,
             }),
             pass_band_missed: smoothed.filter.as_ref().is_some_and(|filter| !filter.keeps_promise(pass_band)),
+            smoothing_response: smoothed.response,
+            volume_held: smoothed.volume_held,
             stages_ms: pipeline.times(),
             deviation_mm: comparison(true),
             deviation_from_original_mm: comparison(false),

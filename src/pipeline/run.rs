@@ -23,10 +23,11 @@ use super::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
 use super::filter::Filter;
 use super::normals::{Weighting, vertex_normals};
 use super::progressive::{Level, ProgressiveMesh};
+use super::response::SmoothingResponse;
 use super::settings::{Settings, SettingsError, Smoothing};
-use super::smoothing::SmoothingTask;
+use super::smoothing::{KeptTerms, Preparation, SmoothingStage};
 use super::task::{Budget, Progress, Task};
-use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh, measures};
+use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh, measures, measures_within, oriented_loops};
 
 /// A stage of the pipeline, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -107,6 +108,8 @@ pub struct Surface {
     pub mesh: Arc<TriMesh>,
     /// Adjacency of its triangles.
     pub topology: Topology,
+    /// Its boundary loops; `None` where its windings do not agree.
+    pub loops: Option<Vec<Vec<u32>>>,
     /// Its area and volume.
     pub measures: Measures,
 }
@@ -118,6 +121,10 @@ pub struct Smoothed {
     pub mesh: Arc<TriMesh>,
     /// The filter that made it; `None` where smoothing was skipped.
     pub filter: Option<Filter>,
+    /// Which waves that filter leaves; `None` likewise.
+    pub response: Option<SmoothingResponse>,
+    /// Whether the volume was held to 0.01 %; `None` where that was not asked for.
+    pub volume_held: Option<bool>,
     /// Its area and volume.
     pub measures: Measures,
 }
@@ -159,8 +166,8 @@ pub enum Advance {
 }
 
 enum Running {
-    Smoothing(SmoothingTask, Filter),
-    Decimation(DecimationTask<Arc<TriMesh>>),
+    Smoothing(Box<SmoothingStage>),
+    Decimation(Box<DecimationTask<Arc<TriMesh>>>),
     Bound(Box<BoundTask>),
     Deviation(Box<DeviationRun>),
 }
@@ -199,6 +206,11 @@ pub struct Pipeline {
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
     running: Option<Running>,
+    /// What makes another pass band cheap; and its making, which waits for the stages.
+    terms: Option<KeptTerms>,
+    preparation: Option<Preparation>,
+    /// Whether the kept surface has been smoothed before: then it may well be again.
+    is_smoothed_again: bool,
 }
 
 impl Pipeline {
@@ -214,6 +226,9 @@ impl Pipeline {
             now,
             last: None,
             running: None,
+            terms: None,
+            preparation: None,
+            is_smoothed_again: false,
         }
     }
 
@@ -236,6 +251,9 @@ impl Pipeline {
             now: self.now.clone(),
             last: None,
             running: None,
+            terms: None,
+            preparation: None,
+            is_smoothed_again: false,
         }
     }
 
@@ -259,7 +277,13 @@ impl Pipeline {
         let smoothing = keep || !same_filter(&old.smoothing, &new.smoothing);
         let decimation = smoothing || old.decimation != new.decimation;
         let level = decimation || old.target != new.target;
+        self.is_smoothed_again |= smoothing && self.now.smoothed.is_some();
+        if smoothing {
+            self.preparation = None;
+        }
         if keep {
+            self.terms = None;
+            self.is_smoothed_again = false;
             self.adjacent = None;
             self.now.kept = None;
             self.now.indices[1] = None;
@@ -288,6 +312,29 @@ impl Pipeline {
             self.running = None;
         }
         Ok(())
+    }
+
+    /// Whether [`Self::prepare`] has something to do.
+    pub fn can_prepare(&self) -> bool {
+        let settings = &self.now.settings.smoothing;
+        let lacks_terms = |kept: &Arc<Surface>| {
+            KeptTerms::would_fit(kept, settings) && !self.terms.as_ref().is_some_and(|terms| terms.suit(kept, settings))
+        };
+        self.next_stage().is_none() && self.now.kept.as_ref().is_some_and(lacks_terms)
+    }
+
+    /// Works until `budget` is spent on what makes the next change of pass band or window cheap, while nothing else is
+    /// to be done: the filter's terms, up to 64 MB. Says whether there is more to do.
+    pub fn prepare(&mut self, budget: Budget) -> bool {
+        let Some(kept) = self.now.kept.as_ref().filter(|_| self.can_prepare()) else { return false };
+        let mut preparation =
+            self.preparation.take().unwrap_or_else(|| Preparation::new(kept, &self.now.settings.smoothing));
+        if preparation.advance(budget) {
+            self.terms = preparation.into_terms();
+            return false;
+        }
+        self.preparation = Some(preparation);
+        true
     }
 
     /// Stops what is under way and goes back to the last settings that reached a level, with their results.
@@ -381,14 +428,20 @@ impl Pipeline {
             self.adjacent = Some((mesh, topology));
             return Ok(Some(0.8));
         };
-        let measures = measures(&mesh, &topology);
-        self.now.kept = Some(Arc::new(Surface { mesh, topology, measures }));
+        let loops = oriented_loops(&topology);
+        let measures = measures_within(&mesh, loops.as_deref());
+        self.now.kept = Some(Arc::new(Surface { mesh, topology, loops, measures }));
         Ok(None)
     }
 
     fn skip_smoothing(&mut self) {
-        let unchanged =
-            |kept: &Arc<Surface>| Smoothed { mesh: kept.mesh.clone(), filter: None, measures: kept.measures };
+        let unchanged = |kept: &Arc<Surface>| Smoothed {
+            mesh: kept.mesh.clone(),
+            filter: None,
+            response: None,
+            volume_held: None,
+            measures: kept.measures,
+        };
         self.now.smoothed = self.now.kept.as_ref().map(unchanged).map(Arc::new);
     }
 
@@ -413,15 +466,14 @@ impl Pipeline {
         let kept = self.now.kept.as_ref()?;
         Some(match stage {
             Stage::Smoothing => {
-                let filter = Filter::new(&self.now.settings.smoothing);
-                let boundary = self.now.settings.smoothing.boundary;
-                let task = SmoothingTask::new(&kept.mesh.positions, &kept.topology, boundary, &filter);
-                Running::Smoothing(task, filter)
+                let settings = self.now.settings.smoothing;
+                let stage = SmoothingStage::new(kept, settings, self.terms.as_ref(), self.is_smoothed_again);
+                Running::Smoothing(Box::new(stage))
             }
             Stage::Decimation => {
                 let smoothed = self.now.smoothed.as_ref()?;
                 let task = DecimationTask::new(smoothed.mesh.clone(), &kept.topology, &self.now.settings.decimation);
-                Running::Decimation(task)
+                Running::Decimation(Box::new(task))
             }
             Stage::Bound => {
                 let (progressive, finest) = (self.now.progressive.as_ref()?, self.now.finest.as_ref()?);
@@ -451,13 +503,10 @@ impl Pipeline {
     /// Advances what is running; the fraction that is done, or `None` when all of it is and its result is stored.
     fn run(&mut self, budget: Budget) -> Option<f32> {
         match self.running.as_mut()? {
-            Running::Smoothing(task, filter) => match task.advance(budget) {
+            Running::Smoothing(stage) => match stage.advance(budget) {
                 Progress::Working(fraction) => return Some(fraction),
-                Progress::Done(positions) => {
-                    let kept = self.now.kept.as_ref()?;
-                    let mesh = TriMesh { positions, triangles: kept.mesh.triangles.clone() };
-                    let measures = measures(&mesh, &kept.topology);
-                    let smoothed = Smoothed { mesh: Arc::new(mesh), filter: Some(filter.clone()), measures };
+                Progress::Done(smoothed) => {
+                    self.terms = stage.terms.take().or(self.terms.take());
                     self.now.smoothed = Some(Arc::new(smoothed));
                 }
             },

@@ -38,6 +38,9 @@ pub struct Smoothing {
     pub iterations: u32,
     /// What happens at open ends.
     pub boundary: Boundary,
+    /// Whether the volume enclosed, open ends capped, is held to 0.01 % of what it was.
+    #[serde(default)]
+    pub preserve_volume: bool,
 }
 
 impl Smoothing {
@@ -50,7 +53,13 @@ impl Smoothing {
 impl Default for Smoothing {
     /// The setting that the paper chose: Hamming window, pass band 0.01, 100 iterations.
     fn default() -> Self {
-        Self { window: Window::Hamming, pass_band: 0.01, iterations: 100, boundary: Boundary::Loop }
+        Self {
+            window: Window::Hamming,
+            pass_band: 0.01,
+            iterations: 100,
+            boundary: Boundary::Loop,
+            preserve_volume: false,
+        }
     }
 }
 

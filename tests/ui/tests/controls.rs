@@ -3,7 +3,7 @@
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target, Window};
 use lumen_ui_tests::{app, settle};
@@ -139,6 +139,46 @@ fn smoothing_is_set_by_slider_field_and_list_and_goes_back() {
     settle(&mut harness);
     let measured = harness.state().state().document.as_ref().unwrap().measured.as_ref().unwrap();
     assert_eq!(measured.report.settings, harness.state().state().settings);
+}
+
+/// What the panel says of the filter's half gain: its eigenvalue and the length of the waves in mm.
+fn half_gain(harness: &Harness<'_, LumenApp>) -> (f64, f64) {
+    let nodes = harness.query_all_by_label_contains("Half gain at");
+    let mut texts = nodes.filter_map(|node| node.accesskit_node().label().or(node.accesskit_node().value()));
+    let text = texts.next().unwrap();
+    let number = |after: &str| -> f64 {
+        let rest = &text[text.find(after).unwrap() + after.len()..];
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        rest[..end].parse().unwrap()
+    };
+    (number("k = "), number("waves of "))
+}
+
+#[test]
+fn the_panel_says_where_the_filter_cuts_and_the_words_move_with_the_sliders() {
+    let mut harness = open();
+    harness.get_by_label("Response").click();
+    harness.run_steps(10);
+    let report = harness.state().state().document.as_ref().unwrap().measured.as_ref().unwrap().report.clone();
+    let response = report.smoothing_response.unwrap();
+    let (k, length) = half_gain(&harness);
+    assert!((k / response.half_gain.unwrap() - 1.0).abs() < 0.01);
+    assert!((length / response.wavelength_mm_at_half_gain.unwrap() - 1.0).abs() < 0.01);
+    press_at(&mut harness, "Pass band", 0.6);
+    let (wider, shorter) = half_gain(&harness);
+    assert!(wider > 2.0 * k && shorter < length / 1.4, "{k} {length} became {wider} {shorter}");
+    type_into(&mut harness, "Iterations value", "0");
+    assert!(harness.query_by_label_contains("Half gain at").is_none(), "nothing is smoothed");
+}
+
+#[test]
+fn the_volume_is_held_when_the_box_is_ticked() {
+    let mut harness = open();
+    harness.get_by_role_and_label(Role::CheckBox, "Preserve volume").click();
+    settle(&mut harness);
+    let measured = harness.state().state().document.as_ref().unwrap().measured.clone().unwrap();
+    assert_eq!(measured.report.volume_held, Some(true));
+    assert!(measured.report.settings.smoothing.preserve_volume);
 }
 
 #[test]

@@ -1,0 +1,276 @@
+//! Windowed-sinc smoothing of a surface: Taubin, Zhang and Golub, "Optimal surface smoothing as filter design" (1996).
+//!
+//! With uniform (umbrella) weights, `K x_i = x_i - mean of x_i's neighbours` and `M = I - K/2`, the filtered surface
+//! is `sum of c_n T_n(M) x` (`super::filter` has the `c_n`), evaluated by the Chebyshev recurrence
+//!
+//! ```text
+//! x_0 = x,   x_1 = (x_0 + mean(x_0)) / 2,   x_{n+1} = x_n + mean(x_n) - x_{n-1}
+//! ```
+//!
+//! in as many passes over the neighbours as there are iterations. Boundary vertices see the two neighbours along
+//! their loop only; vertices on non-manifold edges, and those where several loops meet, stay where they are
+//! (`stencil`). Positions are kept relative to the middle of the surface in f32, four lanes a vertex.
+//!
+//! Vertices are put in an `order` in which neighbours are close, and the order is cut into one `strip` a thread. What
+//! comes out depends on neither: each vertex's sums have one order. The `terms` `x_n` are kept where they are few:
+//! another filter of the same degree or less is then but another sum of them.
+
+mod order;
+mod stage;
+mod stencil;
+mod strip;
+mod terms;
+mod volume;
+
+use glam::{Vec3, Vec4};
+
+use self::order::Order;
+pub(crate) use self::stage::{KeptTerms, Preparation, SmoothingStage};
+use self::stencil::Stencil;
+use self::strip::{Strip, Wave};
+pub use self::terms::Terms;
+use super::filter::Filter;
+use super::settings::Boundary;
+use super::task::{Budget, Progress, Task};
+use crate::mesh::{Bounds, Topology};
+use crate::parallel;
+
+/// Passes in a wave, at most.
+const DEEPEST: usize = 16;
+
+/// Bytes that the chunks under a wave may have: about a core's share of the cache.
+const CACHE: usize = 1 << 20;
+
+/// Bytes of a vertex and its row that a pass touches.
+const BYTES_A_VERTEX: usize = 3 * 16 + 6 * 4;
+
+/// A smoothing run in slices.
+pub struct SmoothingTask {
+    strips: Vec<Strip>,
+    coefficients: Vec<f32>,
+    placement: Placement,
+    /// `f(0)`.
+    gain: f64,
+    /// Whether the terms are kept.
+    keeps_terms: bool,
+    /// The wave under way, and the passes in one.
+    wave: Wave,
+    depth: usize,
+}
+
+impl SmoothingTask {
+    /// Starts smoothing `positions` (mm) with `filter`; `topology` is that of the surface.
+    pub fn new(positions: &[Vec3], topology: &Topology, boundary: Boundary, filter: &Filter) -> Self {
+        Self::of_field(positions, topology, &Stencil::new(positions, topology, boundary), filter)
+    }
+
+    /// Starts smoothing any three numbers at each vertex.
+    fn of_field(values: &[Vec3], topology: &Topology, stencil: &Stencil, filter: &Filter) -> Self {
+        let centre = Bounds::of(values).centre();
+        let order = Order::new(topology, stencil);
+        let chunks = order.chunks.len() - 1;
+        let count = strip_count(chunks);
+        let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);
+        let depth = (CACHE / (widest * BYTES_A_VERTEX)).clamp(2, DEEPEST).min((chunks / count / 2).max(1));
+        let own = |i: usize| i * chunks / count..(i + 1) * chunks / count;
+        let x0 = |v: u32| (values[v as usize] - centre).extend(0.0);
+        let coefficients: Vec<f32> = filter.coefficients.iter().map(|&c| c as f32).collect();
+        let strip = |i| Strip::new(&order, stencil, own(i), depth, coefficients[0], x0);
+        let strips = parallel::map((0..count).collect(), strip);
+        let fixed = (0..values.len() as u32).filter(|&v| stencil.stays(v));
+        let placement =
+            Placement { fixed: fixed.map(|v| (v, values[v as usize])).collect(), places: order.places, centre };
+        let mut task = Self {
+            strips,
+            coefficients,
+            placement,
+            gain: filter.dc_gain(),
+            keeps_terms: false,
+            wave: Wave { first: 1, count: 0 },
+            depth,
+        };
+        task.next_wave(1);
+        task
+    }
+
+    /// Keeps the terms, for [`Self::into_terms`], if they take no more than `bytes`.
+    #[must_use]
+    pub fn keeping_terms(mut self, bytes: usize) -> Self {
+        let degree = self.coefficients.len() - 1;
+        self.keeps_terms = Terms::bytes(self.placement.places.len(), degree) <= bytes as u64;
+        if self.keeps_terms {
+            self.strips.iter_mut().for_each(|strip| strip.keep_terms(degree));
+        }
+        self
+    }
+
+    fn next_wave(&mut self, first: usize) {
+        self.wave = Wave { first, count: self.depth.min(self.coefficients.len() - first) };
+        self.strips.iter_mut().for_each(Strip::rewind);
+    }
+
+    fn progress(&self) -> f32 {
+        let strips = self.strips.iter().map(|strip| strip.progress(self.wave)).sum::<f32>() / self.strips.len() as f32;
+        let passes = (self.wave.first - 1) as f32 + strips * self.wave.count as f32;
+        passes / (self.coefficients.len() - 1).max(1) as f32
+    }
+
+    /// What was kept of a run that is done.
+    pub fn into_terms(self) -> Option<Terms> {
+        let blocks = self.strips.into_iter().map(|strip| strip.terms).collect();
+        self.keeps_terms.then(|| Terms::new(blocks, self.coefficients.len() - 1, self.placement))
+    }
+}
+
+impl Task for SmoothingTask {
+    type Output = Vec<Vec3>;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Vec<Vec3>> {
+        while self.wave.count > 0 {
+            let (wave, coefficients) = (self.wave, &self.coefficients);
+            let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
+            let done = parallel::map(strips, |strip| strip.advance(wave, coefficients, budget));
+            if !done.into_iter().all(|done| done) {
+                return Progress::Working(self.progress());
+            }
+            for seam in 1..self.strips.len() {
+                let (before, after) = self.strips.split_at_mut(seam);
+                before[seam - 1].exchange(&mut after[0]);
+            }
+            self.next_wave(wave.first + wave.count);
+            if self.wave.count > 0 && budget.is_spent() {
+                return Progress::Working(self.progress());
+            }
+        }
+        let sums: Vec<&[Vec4]> = self.strips.iter().map(Strip::own_sum).collect();
+        Progress::Done(self.placement.place(&sums, self.gain))
+    }
+}
+
+/// The smoothed positions of a surface.
+pub fn smooth(positions: &[Vec3], topology: &Topology, boundary: Boundary, filter: &Filter) -> Vec<Vec3> {
+    SmoothingTask::new(positions, topology, boundary, filter).finish()
+}
+
+/// Strips for so many chunks: one a thread, but none so small that the halos would be most of it.
+fn strip_count(chunks: usize) -> usize {
+    (chunks / 8).clamp(1, parallel::threads())
+}
+
+/// How sums become positions of the surface.
+struct Placement {
+    /// The place of each vertex in the order.
+    places: Vec<u32>,
+    centre: Vec3,
+    /// The vertices that stay, and where.
+    fixed: Vec<(u32, Vec3)>,
+}
+
+/// Vertices that are placed at a time.
+const PLACED: usize = 1 << 14;
+
+/// A sum, relative to the middle of the surface.
+trait Sum: Copy + Sync {
+    fn xyz(self) -> Vec3;
+}
+
+impl Sum for Vec3 {
+    fn xyz(self) -> Vec3 {
+        self
+    }
+}
+
+impl Sum for Vec4 {
+    fn xyz(self) -> Vec3 {
+        self.truncate()
+    }
+}
+
+impl Placement {
+    /// The positions that `sums` mean; they stand strip by strip. `gain` is `f(0)`, by which VTK multiplies what
+    /// stays; 1 for a normalised filter.
+    fn place<S: Sum, B: AsRef<[S]> + Sync>(&self, sums: &[B], gain: f64) -> Vec<Vec3> {
+        let is_normalised = (gain - 1.0).abs() < 1e-9;
+        let scaled = |p: Vec3| if is_normalised { p } else { (p.as_dvec3() * gain).as_vec3() };
+        let offset = scaled(self.centre);
+        let mut ends: Vec<usize> = sums.iter().map(|sums| sums.as_ref().len()).collect();
+        for i in 1..ends.len() {
+            ends[i] += ends[i - 1];
+        }
+        let mut positions = vec![Vec3::ZERO; self.places.len()];
+        parallel::for_each_chunk_mut(&mut positions, PLACED, |first, chunk| {
+            for (position, &place) in chunk.iter_mut().zip(&self.places[first..]) {
+                let strip = ends.partition_point(|&end| end <= place as usize);
+                let sums = sums[strip].as_ref();
+                *position = sums[place as usize + sums.len() - ends[strip]].xyz() + offset;
+            }
+        });
+        for &(v, p) in &self.fixed {
+            positions[v as usize] = scaled(p);
+        }
+        positions
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::settings::Smoothing;
+
+    /// A flat n x n grid of quads split in two, spacing 1 mm.
+    fn grid(n: u32, z: impl Fn(u32, u32) -> f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        let at = |x: u32, y: u32| y * (n + 1) + x;
+        let positions = (0..=n).flat_map(|y| (0..=n).map(move |x| (x, y)));
+        let triangles = (0..n).flat_map(|y| (0..n).map(move |x| (x, y))).flat_map(|(x, y)| {
+            let (a, b, c, d) = (at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
+            [[a, b, c], [a, c, d]]
+        });
+        (positions.map(|(x, y)| Vec3::new(x as f32, y as f32, z(x, y))).collect(), triangles.collect())
+    }
+
+    #[test]
+    fn the_origin_does_not_matter() {
+        let (positions, triangles) = grid(20, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
+        let topology = Topology::new(positions.len(), &triangles);
+        for window in crate::pipeline::settings::Window::ALL {
+            let filter = Filter::new(&Smoothing { window, ..Smoothing::default() });
+            let here = smooth(&positions, &topology, Boundary::Loop, &filter);
+            // A shift that f32 holds exactly, so that nothing but the filter can differ.
+            let shifted: Vec<Vec3> = positions.iter().map(|&p| p + 512.0).collect();
+            let there = smooth(&shifted, &topology, Boundary::Loop, &filter);
+            let worst = here.iter().zip(&there).map(|(a, b)| (*a + 512.0 - *b).length()).fold(0.0, f32::max);
+            assert!(worst < 2e-4, "{window:?} moved by {worst} mm"); // three ulp at 512
+        }
+    }
+
+    #[test]
+    fn slices_give_what_one_run_gives() {
+        let (positions, triangles) = grid(150, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
+        let topology = Topology::new(positions.len(), &triangles);
+        let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::default() });
+        let whole = smooth(&positions, &topology, Boundary::Loop, &filter);
+        let mut task = SmoothingTask::new(&positions, &topology, Boundary::Loop, &filter);
+        let mut slices = 0;
+        let sliced = loop {
+            match task.advance(Budget::new(std::time::Duration::ZERO)) {
+                Progress::Working(fraction) => assert!((0.0..=1.0).contains(&fraction)),
+                Progress::Done(result) => break result,
+            }
+            slices += 1;
+        };
+        assert!(slices >= 7);
+        assert_eq!(whole, sliced);
+    }
+
+    #[test]
+    fn vertices_on_a_non_manifold_edge_stay_to_the_bit() {
+        let positions = vec![Vec3::X * 0.1, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Z];
+        let triangles = [[0, 1, 2], [1, 0, 3], [0, 1, 4]];
+        let topology = Topology::new(5, &triangles);
+        let filter = Filter::new(&Smoothing::default());
+        let smoothed = smooth(&positions, &topology, Boundary::Loop, &filter);
+        assert_eq!(smoothed[..2], positions[..2]);
+        // The others are pulled between them: a filter of unit gain keeps them near.
+        assert!(smoothed.iter().all(|p| p.length() < 2.0), "{smoothed:?}");
+    }
+}
