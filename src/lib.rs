@@ -4,10 +4,11 @@
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! mesh < io, phantom, pipeline < engine < app < desktop, web
+//! parallel < mesh < io, phantom, pipeline < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
+//! - [`parallel`]: work on all cores, whatever the number of them with the same result.
 //! - [`io`]: bytes to mesh and back, one file a format, with a report of what was mended.
 //! - [`phantom`]: vessel trees that Lumen makes itself, cut from a voxel mask by marching cubes.
 //! - [`pipeline`]: connectivity, windowed-sinc smoothing, normals, decimation, the progressive mesh, deviation.
@@ -26,6 +27,7 @@ pub mod desktop;
 pub mod engine;
 pub mod io;
 pub mod mesh;
+pub mod parallel;
 pub mod phantom;
 pub mod pipeline;
 #[cfg(feature = "gui")]
