@@ -8,9 +8,9 @@ use super::roughness::sorted_percentile;
 use super::{TriMesh, Vec3};
 
 /// Bins of the histogram, of 10 degrees each.
-pub const BINS: usize = 18;
+const BINS: usize = 18;
 /// A triangle with a smaller angle than this is a sliver; degrees.
-pub const SLIVER_DEG: f64 = 10.0;
+const SLIVER_DEG: f64 = 10.0;
 
 /// Angles of the triangles of a surface, in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -113,8 +113,8 @@ mod tests {
         let triangles = vec![[0, 1, 2], [0, 1, 3], [0, 1, 4], [0, 0, 0]];
         let found = angles(&TriMesh { positions, triangles }).unwrap();
         assert_eq!((found.min_deg, found.below_10_percent), (0.0, 75.0));
-        // Of the flat one, two angles are 0 and one is 180.
-        assert_eq!(found.histogram[17], 1 + 1);
+        // The widest angles: 169 degrees of the sliver, 180 of the flat one.
+        assert_eq!((found.histogram[16], found.histogram[17]), (1, 1));
         assert_eq!(found.histogram.iter().sum::<u64>(), 12);
     }
 

@@ -74,7 +74,8 @@ fn crossing([from, to]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<bool> {
     }
     let offset = from - a;
     let turned = offset.cross(ab);
-    let (v, w, t) = (offset.dot(across) / determinant, direction.dot(turned) / determinant, ac.dot(turned) / determinant);
+    let (v, w, t) =
+        (offset.dot(across) / determinant, direction.dot(turned) / determinant, ac.dot(turned) / determinant);
     let is_on = v >= 0.0 && w >= 0.0 && v + w <= 1.0 && (0.0..=length).contains(&t);
     is_on.then_some(v > EPSILON && w > EPSILON && v + w < 1.0)
 }
@@ -188,7 +189,11 @@ fn edges_meet([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let (ab, dc, ca) = (b - a, c - d, a - c);
     let f = ab.y * dc.x - ab.x * dc.y;
     let (s, t) = (dc.y * ca.x - dc.x * ca.y, ab.x * ca.y - ab.y * ca.x);
-    if f > 0.0 { (0.0..=f).contains(&s) && (0.0..=f).contains(&t) } else { f < 0.0 && s <= 0.0 && s >= f && t <= 0.0 && t >= f }
+    if f > 0.0 {
+        (0.0..=f).contains(&s) && (0.0..=f).contains(&t)
+    } else {
+        f < 0.0 && s <= 0.0 && s >= f && t <= 0.0 && t >= f
+    }
 }
 
 fn is_inside(point: DVec2, corners: [DVec2; 3]) -> bool {
@@ -244,8 +249,10 @@ mod tests {
     #[test]
     fn in_one_plane_that_is_along_no_axis_overlap_counts_and_distance_does_not() {
         let turn = glam::Quat::from_euler(glam::EulerRot::XYZ, 0.4, 0.7, 0.2);
-        let at = |x: f32| [Vec3::new(x, 0.0, 0.0), Vec3::new(x + 2.0, 0.0, 0.0), Vec3::new(x, 2.0, 0.0)].map(|p| turn * p);
-        let meet = |x: f32| coplanar_meet((turn * Vec3::Z).as_dvec3(), at(0.0).map(Vec3::as_dvec3), at(x).map(Vec3::as_dvec3));
+        let at =
+            |x: f32| [Vec3::new(x, 0.0, 0.0), Vec3::new(x + 2.0, 0.0, 0.0), Vec3::new(x, 2.0, 0.0)].map(|p| turn * p);
+        let meet =
+            |x: f32| coplanar_meet((turn * Vec3::Z).as_dvec3(), at(0.0).map(Vec3::as_dvec3), at(x).map(Vec3::as_dvec3));
         assert!(meet(0.5) && meet(-0.5) && !meet(2.5) && !meet(-2.5));
         let small = at(0.2).map(|p| p * 0.2 + turn * Vec3::splat(0.3) * Vec3::ONE).map(Vec3::as_dvec3);
         let plane = (turn * Vec3::Z).as_dvec3();

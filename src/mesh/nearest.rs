@@ -15,7 +15,7 @@ use super::closest_point::{Foot, foot_on_sliver, foot_on_triangle};
 use super::index_build::IndexBuild;
 
 /// Room for the nodes still to visit: at most three per level, and [`IndexBuild`] makes at most 32 levels.
-const STACK: usize = 100;
+pub(super) const STACK: usize = 100;
 
 /// Relative allowance for the rounding of a squared distance to a box in f32.
 const BOX_MARGIN: f64 = 1.0 + 1e-6;
@@ -45,13 +45,13 @@ pub struct SurfaceIndex {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    min: [Vec4; 3],
-    max: [Vec4; 3],
+    pub(super) min: [Vec4; 3],
+    pub(super) max: [Vec4; 3],
     /// First slot of a leaf, or number of a node.
-    child: [u32; 4],
+    pub(super) child: [u32; 4],
     /// Triangles of a leaf; 0 for a node.
-    count: [u8; 4],
-    used: u8,
+    pub(super) count: [u8; 4],
+    pub(super) used: u8,
 }
 
 impl Node {
@@ -72,7 +72,7 @@ impl Node {
 
     /// Squared distances from `p` to the four boxes.
     #[inline]
-    fn squared_distances(&self, p: &[Vec4; 3]) -> [f32; 4] {
+    pub(super) fn squared_distances(&self, p: &[Vec4; 3]) -> [f32; 4] {
         let gap = |axis: usize| (self.min[axis] - p[axis]).max(p[axis] - self.max[axis]).max(Vec4::ZERO);
         let (x, y, z) = (gap(0), gap(1), gap(2));
         (x * x + y * y + z * z).to_array()
@@ -89,7 +89,7 @@ pub(super) struct Leaf {
 
 impl Leaf {
     #[inline]
-    fn foot(&self, p: Vec3) -> Foot {
+    pub(super) fn foot(&self, p: Vec3) -> Foot {
         if self.is_sliver { foot_on_sliver(p, self.corners) } else { foot_on_triangle(p, self.corners) }
     }
 }

@@ -1,0 +1,281 @@
+//! The shape of a surface in numbers: roughness, the angles of its triangles, triangles that run into each other, and
+//! how narrow its lumen gets.
+//!
+//! The smallest lumen is the least, over the vertices, of the median radius of the inner balls (`mesh/inner_ball.rs`)
+//! at a vertex and its neighbours: a single vertex with a bad normal or a dent does not make it.
+
+use std::ops::{Deref, Range};
+use std::sync::Arc;
+use std::task::Poll;
+
+use serde::{Deserialize, Serialize};
+
+use super::task::{Budget, Progress, Task};
+use crate::mesh::{
+    AngleCounts, Angles, IndexBuild, Roughness, SurfaceIndex, Topology, TriMesh, Vec3, bends, distinct, outward_normal,
+    summarise_bends,
+};
+use crate::parallel;
+
+/// The shape of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shape {
+    /// Dihedral deviation over the inner edges; null where there is none.
+    pub roughness: Option<Roughness>,
+    /// Angles of the triangles; null without a triangle.
+    pub angles: Option<Angles>,
+    /// Triangles that run into others, as MeshLab counts them.
+    pub self_intersecting_faces: usize,
+    /// Where the vessel is narrowest; null where no wall faces another.
+    pub smallest_lumen: Option<Narrowest>,
+}
+
+/// The narrowest place of a vessel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Narrowest {
+    /// Diameter of the lumen there, in mm.
+    pub diameter_mm: f64,
+    /// The middle of the lumen there, in mm.
+    pub at_mm: [f32; 3],
+}
+
+/// A shape, and what else was found on the way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The shape.
+    pub shape: Shape,
+    /// Radius of the inner ball at each vertex, in mm; infinite where no wall faces it.
+    pub radii: Vec<f32>,
+}
+
+/// The shape of `mesh`, whose triangles must not repeat a vertex.
+///
+/// # Panics
+/// When an index of a triangle is out of range.
+pub fn shape(mesh: &TriMesh) -> Shape {
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    ShapeTask::new(mesh, &topology).finish().shape
+}
+
+/// Pieces of work that are given out at once, for each thread; and the size of each, in triangles or vertices.
+const PIECES: usize = 2;
+const LIGHT: usize = 4096;
+const HEAVY: usize = 512;
+
+/// The measuring of a shape in slices; `M` and `T` are any pointers to a mesh and its topology.
+#[derive(Debug)]
+pub struct ShapeTask<M, T> {
+    mesh: M,
+    topology: T,
+    /// The surface that the index is of, where it numbers its vertices and triangles in another way.
+    indexed: Option<M>,
+    index: Option<Arc<SurfaceIndex>>,
+    build: IndexBuild,
+    stage: Stage,
+    /// Whether everything is measured, not the radii alone.
+    wants_all: bool,
+    next: usize,
+    angles: AngleCounts,
+    bends: Vec<f32>,
+    crossing: Vec<u32>,
+    radii: Vec<f32>,
+    limit: f32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+enum Stage {
+    Index,
+    Angles,
+    Bends,
+    Crossings,
+    Balls,
+    Done,
+}
+
+impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> ShapeTask<M, T> {
+    /// The shape of `mesh`, whose adjacency is `topology`.
+    pub fn new(mesh: M, topology: T) -> Self {
+        // No ball inside of a surface is larger than its box.
+        let limit = mesh.bounds().diagonal();
+        Self {
+            mesh,
+            topology,
+            indexed: None,
+            index: None,
+            build: IndexBuild::new(),
+            stage: Stage::Index,
+            wants_all: true,
+            next: 0,
+            angles: AngleCounts::default(),
+            bends: Vec::new(),
+            crossing: Vec::new(),
+            radii: Vec::new(),
+            limit: limit.min(f32::MAX),
+        }
+    }
+
+    /// The radii of the inner balls alone; the rest of the shape stays empty.
+    #[must_use]
+    pub(super) fn radii_only(mesh: M, topology: T) -> Self {
+        Self { wants_all: false, ..Self::new(mesh, topology) }
+    }
+
+    /// Uses an index that is there already, of the same surface in the numbering of `indexed`.
+    #[must_use]
+    pub fn with_index(mut self, indexed: M, index: Arc<SurfaceIndex>) -> Self {
+        (self.indexed, self.index) = (Some(indexed), Some(index));
+        self
+    }
+
+    /// The index of the surface, once it is there.
+    pub fn index(&self) -> Option<&Arc<SurfaceIndex>> {
+        self.index.as_ref()
+    }
+
+    /// Number of things in the present stage, and how many are given out at once.
+    fn extent(&self) -> (usize, usize) {
+        match self.stage {
+            Stage::Index | Stage::Done => (0, 1),
+            Stage::Angles => (self.mesh.triangles.len(), LIGHT),
+            Stage::Bends => (self.topology.vertex_count(), LIGHT),
+            Stage::Crossings => (self.index.as_ref().map_or(0, |index| index.slots()), HEAVY),
+            Stage::Balls => (self.topology.vertex_count(), HEAVY),
+        }
+    }
+
+    fn step(&mut self) {
+        if self.stage == Stage::Index {
+            if self.add_index() {
+                self.stage = if self.wants_all { Stage::Angles } else { Stage::Balls };
+            }
+            return;
+        }
+        let (length, piece) = self.extent();
+        let end = length.min(self.next + piece * PIECES * parallel::threads());
+        self.work(self.next..end, piece);
+        self.next = end;
+        if end == length {
+            self.next = 0;
+            self.stage = match self.stage {
+                Stage::Angles => Stage::Bends,
+                Stage::Bends => Stage::Crossings,
+                Stage::Crossings => Stage::Balls,
+                _ => Stage::Done,
+            };
+        }
+    }
+
+    fn add_index(&mut self) -> bool {
+        if self.index.is_none() {
+            match self.build.advance(&self.mesh.positions, &self.mesh.triangles, LIGHT) {
+                Poll::Ready(index) => self.index = Some(Arc::new(index)),
+                Poll::Pending => return false,
+            }
+        }
+        true
+    }
+
+    /// Works on a range of the present stage, on all cores.
+    fn work(&mut self, range: Range<usize>, piece: usize) {
+        let Some(index) = &self.index else { return };
+        let (mesh, topology): (&TriMesh, &Topology) = (&self.mesh, &self.topology);
+        let triangles = &self.indexed.as_ref().unwrap_or(&self.mesh).triangles[..];
+        let limit = self.limit;
+        let part = |part: Range<usize>| range.start + part.start..range.start + part.end;
+        match self.stage {
+            Stage::Angles => parallel::map_ranges(range.len(), piece, |p| AngleCounts::of(mesh, part(p)))
+                .into_iter()
+                .for_each(|counts| self.angles.add(counts)),
+            Stage::Bends => {
+                self.bends.extend(parallel::map_ranges(range.len(), piece, |p| bends(mesh, topology, part(p))).concat())
+            }
+            Stage::Crossings => self
+                .crossing
+                .extend(parallel::map_ranges(range.len(), piece, |p| index.crossings(triangles, part(p))).concat()),
+            Stage::Balls => {
+                let radius = |v: usize| {
+                    let normal = outward_normal(mesh, topology, v as u32)?;
+                    Some(index.inner_ball(mesh.positions[v], normal, limit)?.radius)
+                };
+                let radii = |p: Range<usize>| part(p).map(|v| radius(v).unwrap_or(f32::INFINITY)).collect::<Vec<f32>>();
+                self.radii.extend(parallel::map_ranges(range.len(), piece, radii).concat());
+            }
+            Stage::Index | Stage::Done => {}
+        }
+    }
+
+    /// The part that is done, 0 to 1, by estimated time.
+    fn fraction(&self) -> f32 {
+        let (length, _) = self.extent();
+        let part =
+            if self.stage == Stage::Index { self.build.fraction() } else { self.next as f32 / length.max(1) as f32 };
+        let (before, share) = match self.stage {
+            Stage::Index => (0.0, 0.1),
+            Stage::Angles => (0.1, 0.1),
+            Stage::Bends => (0.2, 0.1),
+            Stage::Crossings => (0.3, 0.35),
+            Stage::Balls => (0.65, 0.35),
+            Stage::Done => (1.0, 0.0),
+        };
+        before + share * part
+    }
+
+    fn result(&mut self) -> Measured {
+        let (angles, bends) = (std::mem::take(&mut self.angles), std::mem::take(&mut self.bends));
+        let (crossing, radii) = (std::mem::take(&mut self.crossing), std::mem::take(&mut self.radii));
+        let smallest_lumen = narrowest(&self.mesh, &self.topology, &radii);
+        let self_intersecting_faces = distinct(crossing).len();
+        let (roughness, angles) = (summarise_bends(bends), angles.finish());
+        Measured { shape: Shape { roughness, angles, self_intersecting_faces, smallest_lumen }, radii }
+    }
+}
+
+impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Task for ShapeTask<M, T> {
+    type Output = Measured;
+
+    /// The clock is read about every millisecond; the end sorts angles and takes up to 100 ns a triangle in one piece.
+    fn advance(&mut self, budget: Budget) -> Progress<Measured> {
+        while self.stage != Stage::Done {
+            self.step();
+            if self.stage != Stage::Done && budget.is_spent() {
+                return Progress::Working(self.fraction());
+            }
+        }
+        Progress::Done(self.result())
+    }
+}
+
+/// The place of the least median radius over a vertex and its neighbours.
+fn narrowest(mesh: &TriMesh, topology: &Topology, radii: &[f32]) -> Option<Narrowest> {
+    let mut ring = Vec::new();
+    let mut least = (f32::INFINITY, 0);
+    for v in 0..radii.len() as u32 {
+        // A vertex that sees no wall, or a wide lumen, is not at the narrowest place.
+        if radii[v as usize].is_finite() {
+            let radius = ring_median(topology, radii, v, &mut ring);
+            if radius < least.0 {
+                least = (radius, v);
+            }
+        }
+    }
+    let (radius, v) = least;
+    let inward = -outward_normal(mesh, topology, v).filter(|_| radius.is_finite())?;
+    let at_mm = (mesh.positions[v as usize] + inward * radius).to_array();
+    Some(Narrowest { diameter_mm: 2.0 * f64::from(radius), at_mm })
+}
+
+/// Median of the radii at `v` and its neighbours; `ring` is room for them.
+pub(super) fn ring_median(topology: &Topology, radii: &[f32], v: u32, ring: &mut Vec<f32>) -> f32 {
+    ring.clear();
+    ring.push(radii[v as usize]);
+    ring.extend(topology.neighbours(v).iter().map(|&n| radii[n as usize]));
+    let middle = ring.len() / 2;
+    *ring.select_nth_unstable_by(middle, f32::total_cmp).1
+}
+
+/// Where the inner ball at `v` has its middle.
+pub(super) fn ball_centre(mesh: &TriMesh, topology: &Topology, radii: &[f32], v: u32) -> Option<Vec3> {
+    let radius = radii[v as usize];
+    let normal = outward_normal(mesh, topology, v).filter(|_| radius.is_finite())?;
+    Some(mesh.positions[v as usize] - normal * radius)
+}
