@@ -26,7 +26,7 @@ pub use bounds::Bounds;
 pub use components::{Components, components};
 pub use glam::Vec3;
 pub use index_build::IndexBuild;
-pub use inner_ball::{InnerBall, outward_normal};
+pub use inner_ball::{InnerBall, InnerRadii, inner_radii, outward_normal};
 pub use inside::Sides;
 pub use measures::{Measures, measures, surface_area, triangle_area, volume};
 pub use nearest::{Nearest, SurfaceIndex};

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{
-    AngleCounts, Angles, IndexBuild, Roughness, SurfaceIndex, Topology, TriMesh, Vec3, bends, distinct, outward_normal,
-    summarise_bends,
+    AngleCounts, Angles, IndexBuild, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, Vec3, bends, distinct,
+    outward_normal, summarise_bends,
 };
 use crate::parallel;
 
@@ -61,6 +61,8 @@ pub fn shape(mesh: &TriMesh) -> Shape {
 const PIECES: usize = 2;
 const LIGHT: usize = 4096;
 const HEAVY: usize = 512;
+/// Inner balls between two looks at the clock.
+const BALLS: usize = 64;
 
 /// The measuring of a shape in slices; `M` and `T` are any pointers to a mesh and its topology.
 #[derive(Debug)]
@@ -78,8 +80,7 @@ pub struct ShapeTask<M, T> {
     angles: AngleCounts,
     bends: Vec<f32>,
     crossing: Vec<u32>,
-    radii: Vec<f32>,
-    limit: f32,
+    radii: InnerRadii,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -95,8 +96,6 @@ enum Stage {
 impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> ShapeTask<M, T> {
     /// The shape of `mesh`, whose adjacency is `topology`.
     pub fn new(mesh: M, topology: T) -> Self {
-        // No ball inside of a surface is larger than its box.
-        let limit = mesh.bounds().diagonal();
         Self {
             mesh,
             topology,
@@ -109,8 +108,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             angles: AngleCounts::default(),
             bends: Vec::new(),
             crossing: Vec::new(),
-            radii: Vec::new(),
-            limit: limit.min(f32::MAX),
+            radii: InnerRadii::default(),
         }
     }
 
@@ -135,11 +133,10 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
     /// Number of things in the present stage, and how many are given out at once.
     fn extent(&self) -> (usize, usize) {
         match self.stage {
-            Stage::Index | Stage::Done => (0, 1),
+            Stage::Index | Stage::Balls | Stage::Done => (0, 1),
             Stage::Angles => (self.mesh.triangles.len(), LIGHT),
             Stage::Bends => (self.topology.vertex_count(), LIGHT),
             Stage::Crossings => (self.index.as_ref().map_or(0, |index| index.slots()), HEAVY),
-            Stage::Balls => (self.topology.vertex_count(), HEAVY),
         }
     }
 
@@ -147,6 +144,12 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
         if self.stage == Stage::Index {
             if self.add_index() {
                 self.stage = if self.wants_all { Stage::Angles } else { Stage::Balls };
+            }
+            return;
+        }
+        if self.stage == Stage::Balls {
+            if self.add_balls() {
+                self.stage = Stage::Done;
             }
             return;
         }
@@ -175,12 +178,16 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
         true
     }
 
+    fn add_balls(&mut self) -> bool {
+        let Some(index) = &self.index else { return true };
+        self.radii.advance(&self.mesh, &self.topology, index, BALLS)
+    }
+
     /// Works on a range of the present stage, on all cores.
     fn work(&mut self, range: Range<usize>, piece: usize) {
         let Some(index) = &self.index else { return };
         let (mesh, topology): (&TriMesh, &Topology) = (&self.mesh, &self.topology);
         let triangles = &self.indexed.as_ref().unwrap_or(&self.mesh).triangles[..];
-        let limit = self.limit;
         let part = |part: Range<usize>| range.start + part.start..range.start + part.end;
         match self.stage {
             Stage::Angles => parallel::map_ranges(range.len(), piece, |p| AngleCounts::of(mesh, part(p)))
@@ -192,23 +199,18 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             Stage::Crossings => self
                 .crossing
                 .extend(parallel::map_ranges(range.len(), piece, |p| index.crossings(triangles, part(p))).concat()),
-            Stage::Balls => {
-                let radius = |v: usize| {
-                    let normal = outward_normal(mesh, topology, v as u32)?;
-                    Some(index.inner_ball(mesh.positions[v], normal, limit)?.radius)
-                };
-                let radii = |p: Range<usize>| part(p).map(|v| radius(v).unwrap_or(f32::INFINITY)).collect::<Vec<f32>>();
-                self.radii.extend(parallel::map_ranges(range.len(), piece, radii).concat());
-            }
-            Stage::Index | Stage::Done => {}
+            Stage::Index | Stage::Balls | Stage::Done => {}
         }
     }
 
     /// The part that is done, 0 to 1, by estimated time.
     fn fraction(&self) -> f32 {
         let (length, _) = self.extent();
-        let part =
-            if self.stage == Stage::Index { self.build.fraction() } else { self.next as f32 / length.max(1) as f32 };
+        let part = match self.stage {
+            Stage::Index => self.build.fraction(),
+            Stage::Balls => self.radii.fraction(),
+            _ => self.next as f32 / length.max(1) as f32,
+        };
         let (before, share) = match self.stage {
             Stage::Index => (0.0, 0.1),
             Stage::Angles => (0.1, 0.1),
@@ -222,7 +224,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
 
     fn result(&mut self) -> Measured {
         let (angles, bends) = (std::mem::take(&mut self.angles), std::mem::take(&mut self.bends));
-        let (crossing, radii) = (std::mem::take(&mut self.crossing), std::mem::take(&mut self.radii));
+        let (crossing, radii) = (std::mem::take(&mut self.crossing), std::mem::take(&mut self.radii).finish());
         let smallest_lumen = narrowest(&self.mesh, &self.topology, &radii);
         let self_intersecting_faces = distinct(crossing).len();
         let (roughness, angles) = (summarise_bends(bends), angles.finish());
