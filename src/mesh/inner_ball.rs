@@ -165,7 +165,9 @@ impl Shrinking {
         let turned = offset.cross(ab);
         let (v, w) = (-offset.dot(across), -self.inward.dot(turned));
         let depth = -ac.dot(turned) / determinant;
-        if v >= 0.0 && w >= 0.0 && v + w <= determinant && depth > 0.0 {
+        // Through an edge or a vertex, it must not slip between two triangles.
+        let slack = 1e-9 * determinant;
+        if v >= -slack && w >= -slack && v + w <= determinant + slack && depth > 0.0 {
             self.radius = self.radius.min(depth / 2.0);
         }
     }
@@ -220,7 +222,7 @@ impl SurfaceIndex {
     /// A first, small ball: as deep as the inward normal goes before it leaves the surface.
     fn shoot(&self, ball: &mut Shrinking) {
         let origin = ball.p.as_vec3().to_array().map(Vec4::splat);
-        let inverse = ball.inward.to_array().map(|d| Vec4::splat(if d == 0.0 { f32::MAX } else { (1.0 / d) as f32 }));
+        let inverse = ball.inward.to_array().map(|d| Vec4::splat((1.0 / d).clamp(-1e30, 1e30) as f32));
         let mut stack = [0u32; STACK];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
@@ -346,12 +348,16 @@ mod tests {
     fn bumps_on_the_wall_leave_the_ball_nearly_as_it_is() {
         let mut mesh = tube(48, 200, 40.0, |_| 3.0);
         let clean = balls(&mesh, 20.0);
-        // Every seventh vertex is lifted by 0.05 mm, a tenth of an edge; its own ball is another matter.
+        // Every seventh vertex is moved by 0.05 mm, an eighth of an edge, out or in.
         for (v, p) in mesh.positions.iter_mut().enumerate().filter(|(v, _)| v % 7 == 0) {
             let outward = p.truncate().normalize();
             *p += (outward * if v % 2 == 0 { 0.05 } else { -0.05 }).extend(0.0);
         }
         for (v, (noisy, clean)) in balls(&mesh, 20.0).iter().zip(&clean).enumerate() {
+            if !(2.0..38.0).contains(&mesh.positions[v].z) {
+                // At an open end, a tilted normal may look out of it.
+                continue;
+            }
             let (noisy, clean) = (noisy.unwrap(), clean.unwrap());
             assert!((noisy.radius / clean.radius - 1.0).abs() < 0.12, "{v}: {noisy:?} {clean:?}");
         }

@@ -17,6 +17,7 @@ mod roughness;
 mod self_intersections;
 #[cfg(test)]
 pub(crate) mod shapes;
+mod split_boxes;
 mod topology;
 
 pub(crate) use angles::AngleCounts;
