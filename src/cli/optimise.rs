@@ -9,12 +9,13 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{misuse, output_format, row, source, write_whole};
+use super::{misuse, output_format, row, shape_rows, source, write_whole};
 use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Boundary, Decimation, Keep, Settings, Smoothing, Target, Window};
+use crate::pipeline::shape::Narrowest;
 use crate::pipeline::task::Budget;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
@@ -147,6 +148,13 @@ impl Optimise {
         if let Some(change) = report.area_change_percent {
             row("area change", format!("{change:+.3} %"));
         }
+        if let Some(shape) = &report.output_shape {
+            shape_rows(shape);
+        }
+        let before = report.smoothed_shape.as_ref().and_then(|shape| shape.smallest_lumen);
+        if let Some(Narrowest { diameter_mm, .. }) = before {
+            row("smallest lumen, smoothed", format!("{diameter_mm:.3} mm"));
+        }
         let ms = &report.stages_ms;
         row("connectivity", format!("{:.1} ms", ms.connectivity));
         row("smoothing", format!("{:.1} ms", ms.smoothing));
@@ -157,6 +165,9 @@ impl Optimise {
             eprintln!("lumen: warning: {shortfall}");
         }
         if let Some(warning) = report.volume_warning() {
+            eprintln!("lumen: warning: {warning}");
+        }
+        if let Some(warning) = report.pinch_warning() {
             eprintln!("lumen: warning: {warning}");
         }
         if report.pass_band_missed {

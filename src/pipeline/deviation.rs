@@ -147,6 +147,11 @@ impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
         self.sides[0].index.as_ref()
     }
 
+    /// The index of `b`, once it is built.
+    pub fn index_of_b(&self) -> Option<&Arc<SurfaceIndex>> {
+        self.sides[1].index.as_ref()
+    }
+
     /// The part that is done, 0-1, by estimated time.
     fn fraction(&self) -> f32 {
         let cost = |stage: &Stage| self.cost(*stage) as f32;

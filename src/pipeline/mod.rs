@@ -8,6 +8,7 @@ pub mod decimation;
 pub mod deviation;
 pub mod filter;
 pub mod lumen;
+pub mod measuring;
 pub mod normals;
 pub mod progressive;
 pub mod report;

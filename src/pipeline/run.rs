@@ -4,6 +4,8 @@
 //! opened --connectivity--> kept --smoothing--> smoothed --decimation--> progressive --level--> Level --> Deviations
 //! ```
 //!
+//! Last come the numbers that are no stage of the method (`measuring`).
+//!
 //! [`Pipeline::set`] drops what a change of settings makes stale, from the first stage that it touches;
 //! [`Pipeline::advance`] works on the first stage that is missing. A change of the reduction rate alone costs a
 //! level and its deviation.
@@ -18,6 +20,7 @@ use super::connectivity::Connectivity;
 use super::decimation::DecimationTask;
 use super::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
 use super::filter::Filter;
+use super::measuring::{LevelMeasures, LevelTask, SmoothedMeasures, SmoothedTask, Subject};
 use super::normals::{Weighting, vertex_normals};
 use super::progressive::{Level, ProgressiveMesh};
 use super::settings::{Settings, SettingsError, Smoothing};
@@ -40,6 +43,8 @@ pub enum Stage {
     Normals,
     /// How far it is from the smoothed surface and from the one that was opened.
     Deviation,
+    /// Shape and lumen of the smoothed surface and of the level.
+    Measures,
 }
 
 impl Stage {
@@ -52,6 +57,7 @@ impl Stage {
             Self::Level => "Taking the level",
             Self::Normals => "Computing normals",
             Self::Deviation => "Measuring deviation",
+            Self::Measures => "Measuring shape and lumen",
         }
     }
 }
@@ -73,6 +79,8 @@ pub struct StageTimes {
     pub normals: f64,
     /// Both deviations.
     pub deviation: f64,
+    /// Shape and lumen of the smoothed surface, if it is new, and of the level.
+    pub measures: f64,
     /// Surface to file; set by whoever writes it.
     pub write: f64,
 }
@@ -86,6 +94,7 @@ impl StageTimes {
             Stage::Level => &mut self.level,
             Stage::Normals => &mut self.normals,
             Stage::Deviation => &mut self.deviation,
+            Stage::Measures => &mut self.measures,
         }
     }
 }
@@ -96,7 +105,7 @@ pub struct Surface {
     /// The surface.
     pub mesh: Arc<TriMesh>,
     /// Adjacency of its triangles.
-    pub topology: Topology,
+    pub topology: Arc<Topology>,
     /// Its area and volume.
     pub measures: Measures,
 }
@@ -119,6 +128,8 @@ pub struct Reduced {
     pub level: Level,
     /// The level over its own vertices.
     pub mesh: Arc<TriMesh>,
+    /// Adjacency of its triangles.
+    pub topology: Arc<Topology>,
     /// Vertex normals, weighted by area.
     pub normals: Vec<Vec3>,
     /// Its area and volume.
@@ -152,6 +163,7 @@ enum Running {
     Smoothing(SmoothingTask, Filter),
     Decimation(DecimationTask<Arc<TriMesh>>),
     Deviation(Box<DeviationRun>),
+    Level(Box<LevelTask>),
 }
 
 struct DeviationRun {
@@ -173,6 +185,10 @@ struct Results {
     deviations: Option<Arc<Deviations>>,
     /// Of `finest` and the kept surface, for the next level.
     indices: [Option<Arc<SurfaceIndex>>; 2],
+    /// Of the level, from its deviation to its measures.
+    level_index: Option<Arc<SurfaceIndex>>,
+    smoothed_measures: Option<Arc<SmoothedMeasures>>,
+    level_measures: Option<Arc<LevelMeasures>>,
     times: StageTimes,
 }
 
@@ -182,11 +198,13 @@ pub struct Pipeline {
     samples: usize,
     connectivity: Option<Connectivity>,
     /// The pieces that go on, before they are measured.
-    adjacent: Option<(Arc<TriMesh>, Topology)>,
+    adjacent: Option<(Arc<TriMesh>, Arc<Topology>)>,
     now: Results,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
     running: Option<Running>,
+    /// The measuring of the smoothed surface: a change of the level does not stop it.
+    measuring: Option<Box<SmoothedTask>>,
 }
 
 impl Pipeline {
@@ -201,6 +219,7 @@ impl Pipeline {
             now,
             last: None,
             running: None,
+            measuring: None,
         }
     }
 
@@ -243,15 +262,20 @@ impl Pipeline {
             self.now.finest = None;
             self.now.indices[0] = None;
             self.now.progressive = None;
+            self.now.smoothed_measures = None;
+            self.measuring = None;
         }
         if level {
             self.now.reduced = None;
             self.now.deviations = None;
+            self.now.level_index = None;
+            self.now.level_measures = None;
+            self.now.times.measures = 0.0;
         }
         let stale = match &self.running {
             Some(Running::Smoothing(..)) => smoothing,
             Some(Running::Decimation(_)) => decimation,
-            Some(Running::Deviation(_)) => level,
+            Some(Running::Deviation(_) | Running::Level(_)) => level,
             None => false,
         };
         if stale {
@@ -263,6 +287,7 @@ impl Pipeline {
     /// Stops what is under way and goes back to the last settings that reached a level, with their results.
     pub fn cancel(&mut self) {
         self.running = None;
+        self.measuring = None;
         self.adjacent = None;
         if let (None, Some(last)) = (&self.now.reduced, self.last.take()) {
             self.now = last;
@@ -281,7 +306,8 @@ impl Pipeline {
     pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
-        if self.running.is_none() {
+        // The measures come in two parts, with their time begun by `set`.
+        if self.running.is_none() && stage != Stage::Measures {
             *self.now.times.of(stage) = 0.0;
         }
         let result = self.work(stage, budget)?;
@@ -310,6 +336,8 @@ impl Pipeline {
             Some(Stage::Level)
         } else if self.now.deviations.is_none() {
             Some(Stage::Deviation)
+        } else if self.now.level_measures.is_none() {
+            Some(Stage::Measures)
         } else {
             None
         }
@@ -324,7 +352,11 @@ impl Pipeline {
             }
             Stage::Level | Stage::Normals => self.take_level(),
             Stage::Smoothing if self.now.settings.smoothing.iterations == 0 => self.skip_smoothing(),
-            Stage::Smoothing | Stage::Decimation | Stage::Deviation => {
+            Stage::Measures if self.now.smoothed_measures.is_none() => {
+                let fraction = self.measure_smoothed(budget).unwrap_or(0.9);
+                return Ok(Advance::Working(stage, 0.9 * fraction));
+            }
+            Stage::Smoothing | Stage::Decimation | Stage::Deviation | Stage::Measures => {
                 if self.running.is_none() {
                     self.running = self.start(stage);
                 }
@@ -345,7 +377,7 @@ impl Pipeline {
         let Some((mesh, topology)) = self.adjacent.take() else {
             let mesh = Arc::new(found.kept(&self.opened, self.now.settings.keep)?);
             let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-            self.adjacent = Some((mesh, topology));
+            self.adjacent = Some((mesh, Arc::new(topology)));
             return Ok(Some(0.8));
         };
         let measures = measures(&mesh, &topology);
@@ -367,8 +399,9 @@ impl Pipeline {
         let taken = start.elapsed();
         let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
         self.now.times.normals = (start.elapsed() - taken).as_secs_f64() * 1e3;
-        let measures = measures(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
-        self.now.reduced = Some(Arc::new(Reduced { level, mesh, normals, measures }));
+        let topology = Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
+        let measures = measures(&mesh, &topology);
+        self.now.reduced = Some(Arc::new(Reduced { level, mesh, topology, normals, measures }));
         // `advance` adds the whole of this to the level's time: what is not the level's is taken off again.
         self.now.times.level -= (start.elapsed() - taken).as_secs_f64() * 1e3;
     }
@@ -387,6 +420,13 @@ impl Pipeline {
                 let task = DecimationTask::new(smoothed.mesh.clone(), &kept.topology, &self.now.settings.decimation);
                 Running::Decimation(task)
             }
+            Stage::Measures => {
+                let (reduced, of_smoothed) = (self.now.reduced.as_ref()?, self.now.smoothed_measures.as_ref()?);
+                let mesh = reduced.mesh.clone();
+                let index = self.now.level_index.clone().map(|index| (mesh.clone(), index));
+                let subject = Subject { mesh, topology: reduced.topology.clone(), index };
+                Running::Level(Box::new(LevelTask::new(subject, of_smoothed.samples.clone())))
+            }
             _ => {
                 let (finest, reduced) = (self.now.finest.as_ref()?, self.now.reduced.as_ref()?);
                 let task = |mesh: &Arc<TriMesh>, index: &Option<Arc<SurfaceIndex>>| {
@@ -401,6 +441,24 @@ impl Pipeline {
                 Running::Deviation(Box::new(DeviationRun { from_smoothed, from_original, first: None }))
             }
         })
+    }
+
+    /// Advances the measuring of the smoothed surface; the fraction that is done, or `None` when it is stored.
+    fn measure_smoothed(&mut self, budget: Budget) -> Option<f32> {
+        if self.measuring.is_none() {
+            let (kept, smoothed) = (self.now.kept.as_ref()?, self.now.smoothed.as_ref()?);
+            let index = self.now.finest.clone().zip(self.now.indices[0].clone());
+            let subject = Subject { mesh: smoothed.mesh.clone(), topology: kept.topology.clone(), index };
+            self.measuring = Some(Box::new(SmoothedTask::new(subject, self.now.progressive.clone()?)));
+        }
+        match self.measuring.as_mut()?.advance(budget) {
+            Progress::Working(fraction) => Some(fraction),
+            Progress::Done(measures) => {
+                self.now.smoothed_measures = Some(Arc::new(measures));
+                self.measuring = None;
+                None
+            }
+        }
     }
 
     /// Advances what is running; the fraction that is done, or `None` when all of it is and its result is stored.
@@ -423,6 +481,13 @@ impl Pipeline {
                     self.now.progressive = Some(Arc::new(progressive));
                 }
             },
+            Running::Level(task) => match task.advance(budget) {
+                Progress::Working(fraction) => return Some(0.9 + 0.1 * fraction),
+                Progress::Done(measures) => {
+                    self.now.level_measures = Some(Arc::new(measures));
+                    self.now.level_index = None;
+                }
+            },
             Running::Deviation(run) => {
                 if run.first.is_none() {
                     match run.from_smoothed.advance(budget) {
@@ -433,6 +498,7 @@ impl Pipeline {
                 match run.from_original.advance(budget) {
                     Progress::Working(fraction) => return Some(0.5 + fraction / 2.0),
                     Progress::Done(from_original) => {
+                        self.now.level_index = run.from_smoothed.index_of_b().cloned();
                         self.now.indices =
                             [&run.from_smoothed, &run.from_original].map(|task| task.index_of_a().cloned());
                         let from_smoothed = run.first.take().flatten();
@@ -495,6 +561,16 @@ impl Pipeline {
     /// How far that level is from where it came from.
     pub fn deviations(&self) -> Option<&Arc<Deviations>> {
         self.now.deviations.as_ref()
+    }
+
+    /// Shape and lumen of the smoothed surface.
+    pub fn smoothed_measures(&self) -> Option<&Arc<SmoothedMeasures>> {
+        self.now.smoothed_measures.as_ref()
+    }
+
+    /// Shape and lumen of the level.
+    pub fn level_measures(&self) -> Option<&Arc<LevelMeasures>> {
+        self.now.level_measures.as_ref()
     }
 
     /// What each stage took.
