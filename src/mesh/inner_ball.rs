@@ -8,15 +8,16 @@
 //!
 //! Robust against noise: `q` counts only if it is seen from `p` within 30 degrees of the inward normal (the walls then
 //! face each other: the separation angle of the paper is at least 120 degrees) and if its triangle is seen from inside.
-//! Bumps and stair-steps beside `p`, which would shrink the ball to their own size, are thus left out. What an error of
+//! The inward normal itself is followed first: where it meets no wall there is no ball, and where it meets one the ball
+//! is small before the search begins. Bumps and stair-steps beside `p`, which would shrink the ball to their own size, are thus left out. What an error of
 //! the normal does is small: 10 degrees make a tube up to 12 % too narrow.
 //!
 //! [`inner_radii`] finds the balls of a whole surface. Where vertices lie much closer together than the walls, their balls
-//! hardly differ: a vertex within a tenth of a ball's radius of the vertex that it was found at takes its radius over.
+//! hardly differ: a vertex within a fifth of a ball's radius of the vertex that it was found at takes its radius over.
 
 use glam::{DVec3, Vec3, Vec4};
 
-use super::nearest::{Node, STACK, SurfaceIndex};
+use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
 use super::{Topology, TriMesh};
 
 /// Cosine of the half-angle of the cone in which a wall faces another.
@@ -36,13 +37,15 @@ pub struct InnerBall {
 }
 
 /// A vertex this near to another, as a part of that one's radius, takes its radius over.
-const NEAR: f32 = 0.1;
+const NEAR: f32 = 0.2;
 
 /// The radius of the inner ball at each vertex of a surface, in slices.
 #[derive(Clone, Debug, Default)]
 pub struct InnerRadii {
     /// In mm, infinite where no wall faces the vertex; not a number where it is not known yet.
-    radii: Vec<f32>,
+    pub(crate) radii: Vec<f32>,
+    /// The vertices whose balls were found, ascending; the others took theirs over.
+    pub(crate) own: Vec<u32>,
     limit: Option<f32>,
     next: usize,
     queue: Vec<u32>,
@@ -64,6 +67,9 @@ impl InnerRadii {
                 let normal = outward_normal(mesh, topology, v as u32);
                 let ball = normal.and_then(|normal| index.inner_ball(mesh.positions[v], normal, limit));
                 self.radii[v] = ball.map_or(f32::INFINITY, |ball| ball.radius);
+                if ball.is_some() {
+                    self.own.push(v as u32);
+                }
                 self.spread(mesh, topology, v as u32);
                 left -= 1;
             }
@@ -93,18 +99,13 @@ impl InnerRadii {
     pub fn fraction(&self) -> f32 {
         self.next as f32 / self.radii.len().max(1) as f32
     }
-
-    /// The radii, once all vertices were looked at.
-    pub fn finish(self) -> Vec<f32> {
-        self.radii
-    }
 }
 
 /// The radius of the inner ball at each vertex, in mm, infinite where no wall faces it.
 pub fn inner_radii(mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Vec<f32> {
     let mut radii = InnerRadii::default();
     while !radii.advance(mesh, topology, index, usize::MAX) {}
-    radii.finish()
+    radii.radii
 }
 
 /// The outward normal at vertex `v`, weighted by area; `None` where the triangles have none.
@@ -130,7 +131,7 @@ impl Shrinking {
     }
 
     /// Shrinks the ball to the triangle, if that faces `p` and reaches into the ball.
-    fn shrink_to(&mut self, leaf: &super::nearest::Leaf) -> bool {
+    fn shrink_to(&mut self, leaf: &Leaf) -> bool {
         let [a, b, c] = leaf.corners.map(Vec3::as_dvec3);
         if (b - a).cross(c - a).dot(self.inward) <= 0.0 {
             return false;
@@ -149,27 +150,6 @@ impl Shrinking {
             self.radius = radius;
         }
         self.radius < before
-    }
-
-    /// Shrinks the ball to where the inward normal meets the triangle from inside: of large triangles, whose nearest
-    /// point may lie out of the cone.
-    fn shrink_to_opposite(&mut self, corners: [Vec3; 3]) {
-        let [a, b, c] = corners.map(Vec3::as_dvec3);
-        let (ab, ac, offset) = (b - a, c - a, self.p - a);
-        let across = self.inward.cross(ac);
-        // Positive where the normal leaves the triangle's inner side.
-        let determinant = -ab.dot(across);
-        if determinant.is_nan() || determinant <= 0.0 {
-            return;
-        }
-        let turned = offset.cross(ab);
-        let (v, w) = (-offset.dot(across), -self.inward.dot(turned));
-        let depth = -ac.dot(turned) / determinant;
-        // Through an edge or a vertex, it must not slip between two triangles.
-        let slack = 1e-9 * determinant;
-        if v >= -slack && w >= -slack && v + w <= determinant + slack && depth > 0.0 {
-            self.radius = self.radius.min(depth / 2.0);
-        }
     }
 }
 
@@ -219,17 +199,40 @@ impl SurfaceIndex {
         Some(InnerBall { centre, radius: ball.radius as f32 })
     }
 
+    /// How often the surface goes around `p`, as counted along a ray: 1 inside of a closed surface, 0 outside. An open
+    /// end that the ray leaves by is a miscount.
+    pub(crate) fn winding(&self, p: Vec3, direction: Vec3) -> i32 {
+        let (p, direction) = (p.as_dvec3(), direction.as_dvec3());
+        let mut sum = 0;
+        self.along(p, direction, f64::INFINITY, |leaf, _| {
+            let outward = Hit::of(p, direction, leaf.corners).map_or(0, |hit| if hit.is_outward { 1 } else { -1 });
+            sum += outward;
+        });
+        sum
+    }
+
     /// A first, small ball: as deep as the inward normal goes before it leaves the surface.
     fn shoot(&self, ball: &mut Shrinking) {
-        let origin = ball.p.as_vec3().to_array().map(Vec4::splat);
-        let inverse = ball.inward.to_array().map(|d| Vec4::splat((1.0 / d).clamp(-1e30, 1e30) as f32));
+        let (p, inward) = (ball.p, ball.inward);
+        self.along(p, inward, 2.0 * ball.radius, |leaf, farthest| {
+            if let Some(hit) = Hit::of(p, inward, leaf.corners).filter(|hit| hit.is_outward) {
+                ball.radius = ball.radius.min(hit.depth / 2.0);
+                *farthest = 2.0 * ball.radius;
+            }
+        });
+    }
+
+    /// Visits the leaves whose boxes a ray passes before `farthest`, which the visits may lower.
+    fn along(&self, p: DVec3, direction: DVec3, mut farthest: f64, mut visit: impl FnMut(&Leaf, &mut f64)) {
+        let origin = p.as_vec3().to_array().map(Vec4::splat);
+        let inverse = direction.to_array().map(|d| Vec4::splat((1.0 / d).clamp(-1e30, 1e30) as f32));
         let mut stack = [0u32; STACK];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
             top -= 1;
             let node = &self.nodes[stack[top] as usize];
             // The slabs of all four boxes at once (Kay and Kajiya 1986), a little too wide for the rounding.
-            let (mut enter, mut leave) = (Vec4::ZERO, Vec4::splat((2.0 * ball.radius) as f32 * 1.000_01));
+            let (mut enter, mut leave) = (Vec4::ZERO, Vec4::splat(farthest.min(1e37) as f32 * 1.000_01));
             for axis in 0..3 {
                 let one = (node.min[axis] - origin[axis]) * inverse[axis];
                 let other = (node.max[axis] - origin[axis]) * inverse[axis];
@@ -246,11 +249,38 @@ impl SurfaceIndex {
                     top += 1;
                 } else {
                     for leaf in &self.leaves[child as usize..child as usize + usize::from(count)] {
-                        ball.shrink_to_opposite(leaf.corners);
+                        visit(leaf, &mut farthest);
                     }
                 }
             }
         }
+    }
+}
+
+/// Where a ray meets a triangle.
+struct Hit {
+    /// Along the ray, more than 0.
+    depth: f64,
+    /// Whether the ray leaves the surface there.
+    is_outward: bool,
+}
+
+impl Hit {
+    fn of(p: DVec3, direction: DVec3, corners: [Vec3; 3]) -> Option<Self> {
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
+        let (ab, ac, offset) = (b - a, c - a, p - a);
+        let across = direction.cross(ac);
+        // Positive where the ray leaves by the triangle.
+        let determinant = -ab.dot(across);
+        let turned = offset.cross(ab);
+        let sign = determinant.signum();
+        let (v, w) = (-offset.dot(across) * sign, -direction.dot(turned) * sign);
+        let depth = -ac.dot(turned) / determinant;
+        let size = determinant.abs();
+        // Through an edge or a vertex, it must not slip between two triangles.
+        let slack = 1e-9 * size;
+        let is_hit = size > 0.0 && v >= -slack && w >= -slack && v + w <= size + slack && depth > 0.0;
+        is_hit.then_some(Self { depth, is_outward: determinant > 0.0 })
     }
 }
 
@@ -364,6 +394,21 @@ mod tests {
     }
 
     #[test]
+    fn a_ray_counts_how_often_the_surface_goes_around() {
+        let centre = Vec3::new(3.0, 4.0, 5.0);
+        let (sphere, other) = (icosphere(3, 6.0, centre), icosphere(2, 3.0, centre + Vec3::X * 5.0));
+        let mut both = sphere.clone();
+        both.positions.extend(&other.positions);
+        let first = sphere.positions.len() as u32;
+        both.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
+        let index = SurfaceIndex::new(&both.positions, &both.triangles);
+        let direction = Vec3::new(0.3, 0.5, 0.81).normalize();
+        for (offset, count) in [(0.0, 1), (4.5, 2), (7.0, 1), (8.5, 0), (-5.0, 1), (-7.0, 0)] {
+            assert_eq!(index.winding(centre + Vec3::X * offset, direction), count, "{offset}");
+        }
+    }
+
+    #[test]
     fn close_vertices_share_a_radius_and_slices_change_nothing() {
         let waist = |z: f32| 2.0 - 1.2 * (-(z - 20.0) * (z - 20.0) / 16.0).exp();
         let mesh = tube(64, 400, 40.0, waist);
@@ -381,7 +426,7 @@ mod tests {
         for count in [1, 37] {
             let mut sliced = InnerRadii::default();
             while !sliced.advance(&mesh, &topology, &index, count) {}
-            assert_eq!(sliced.finish(), whole);
+            assert_eq!(sliced.radii, whole);
         }
     }
 

@@ -19,7 +19,7 @@ use super::progressive::ProgressiveMesh;
 use super::settings::{Target, reduction_percent};
 use super::shape::{ShapeTask, ball_centre, ring_median};
 use super::task::{Budget, Progress, Task};
-use crate::mesh::{IndexBuild, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
+use crate::mesh::{IndexBuild, InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
 use crate::parallel;
 
 /// The part of the clearance below which a vessel counts as pinched.
@@ -31,6 +31,9 @@ const MOST: usize = 20_000;
 const AGREE: f32 = 1.4;
 /// A sample's clearance is at least this part of its ball's radius, or the ball was none.
 const CLEAR: f32 = 0.7;
+/// Directions without relation to any axis or to each other.
+const RAYS: [[f32; 3]; 3] =
+    [[0.534_522, 0.267_261, 0.801_784], [-0.742_781, 0.557_086, 0.371_391], [0.196_116, -0.784_465, -0.588_348]];
 /// Samples that are measured in one piece.
 const PIECE: usize = 64;
 /// Triangles that are indexed between two looks at the clock.
@@ -83,22 +86,21 @@ impl std::fmt::Display for Pinch {
     }
 }
 
-/// Samples of the vessels of `mesh`, from the radius of the inner ball at each vertex; `index` is of this surface, in
-/// whatever numbering.
-pub fn samples(mesh: &TriMesh, topology: &Topology, radii: &[f32], index: &SurfaceIndex) -> Vec<Sample> {
+/// Samples of the vessels of `mesh`, from its inner balls; `index` is of this surface, in whatever numbering.
+pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> Vec<Sample> {
     let mut ring = Vec::new();
     let mut taken = HashSet::new();
-    let mut balls = Vec::new();
-    for v in 0..radii.len() as u32 {
-        let radius = radii[v as usize];
-        let Some(centre) = ball_centre(mesh, topology, radii, v).filter(|_| radius > 0.0) else { continue };
-        let median = ring_median(topology, radii, v, &mut ring);
+    let mut chosen = Vec::new();
+    for &v in &balls.own {
+        let radius = balls.radii[v as usize];
+        let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > 0.0) else { continue };
+        let median = ring_median(topology, &balls.radii, v, &mut ring);
         if radius * AGREE >= median && radius <= median * AGREE && taken.insert(cell(centre, radius)) {
-            balls.push((centre, radius));
+            chosen.push((centre, radius));
         }
     }
-    let found = parallel::map_ranges(balls.len(), PIECE, |piece| {
-        balls[piece].iter().filter_map(|&(at, radius)| sample(at, radius, index)).collect::<Vec<_>>()
+    let found = parallel::map_ranges(chosen.len(), PIECE, |piece| {
+        chosen[piece].iter().filter_map(|&(at, radius)| sample(at, radius, index)).collect::<Vec<_>>()
     });
     let mut found = found.concat();
     if found.len() > MOST {
@@ -108,9 +110,11 @@ pub fn samples(mesh: &TriMesh, topology: &Topology, radii: &[f32], index: &Surfa
     found
 }
 
+/// A ball's middle, if it is clear of the wall and inside, as most of three rays have it.
 fn sample(at: Vec3, radius: f32, index: &SurfaceIndex) -> Option<Sample> {
     let clearance = index.nearest(at)?.distance;
-    (clearance >= CLEAR * radius).then_some(Sample { at, clearance })
+    let inside = RAYS.iter().filter(|&&ray| index.winding(at, Vec3::from(ray)) > 0).count();
+    (inside >= 2 && clearance >= CLEAR * radius).then_some(Sample { at, clearance })
 }
 
 /// The cell of half a radius, rounded down to a power of two, in which a ball's middle lies.
@@ -189,7 +193,7 @@ pub fn first_pinch(progressive: &ProgressiveMesh) -> Option<Pinch> {
     let mut task = ShapeTask::radii_only(&finest, &topology);
     let index = loop {
         if let Progress::Done(measured) = task.advance(Budget::UNLIMITED) {
-            break task.index().map(|index| samples(&finest, &topology, &measured.radii, index));
+            break task.index().map(|index| samples(&finest, &topology, &measured.balls, index));
         }
     };
     PinchTask::new(progressive, index?.into()).finish()

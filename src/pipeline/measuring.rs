@@ -81,7 +81,7 @@ impl Task for SmoothedTask {
             };
             let Subject { mesh, topology, .. } = &self.subject;
             let samples: Arc<[Sample]> = match self.shape.index() {
-                Some(index) => samples(mesh, topology, &measured.radii, index).into(),
+                Some(index) => samples(mesh, topology, &measured.balls, index).into(),
                 None => Arc::new([]),
             };
             let pinch = PinchTask::new(self.progressive.clone(), samples.clone());

@@ -40,12 +40,12 @@ pub struct Narrowest {
 }
 
 /// A shape, and what else was found on the way.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Measured {
     /// The shape.
     pub shape: Shape,
-    /// Radius of the inner ball at each vertex, in mm; infinite where no wall faces it.
-    pub radii: Vec<f32>,
+    /// The inner balls.
+    pub balls: InnerRadii,
 }
 
 /// The shape of `mesh`, whose triangles must not repeat a vertex.
@@ -80,7 +80,7 @@ pub struct ShapeTask<M, T> {
     angles: AngleCounts,
     bends: Vec<f32>,
     crossing: Vec<u32>,
-    radii: InnerRadii,
+    balls: InnerRadii,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -108,7 +108,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             angles: AngleCounts::default(),
             bends: Vec::new(),
             crossing: Vec::new(),
-            radii: InnerRadii::default(),
+            balls: InnerRadii::default(),
         }
     }
 
@@ -180,7 +180,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
 
     fn add_balls(&mut self) -> bool {
         let Some(index) = &self.index else { return true };
-        self.radii.advance(&self.mesh, &self.topology, index, BALLS)
+        self.balls.advance(&self.mesh, &self.topology, index, BALLS)
     }
 
     /// Works on a range of the present stage, on all cores.
@@ -208,7 +208,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
         let (length, _) = self.extent();
         let part = match self.stage {
             Stage::Index => self.build.fraction(),
-            Stage::Balls => self.radii.fraction(),
+            Stage::Balls => self.balls.fraction(),
             _ => self.next as f32 / length.max(1) as f32,
         };
         let (before, share) = match self.stage {
@@ -224,11 +224,11 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
 
     fn result(&mut self) -> Measured {
         let (angles, bends) = (std::mem::take(&mut self.angles), std::mem::take(&mut self.bends));
-        let (crossing, radii) = (std::mem::take(&mut self.crossing), std::mem::take(&mut self.radii).finish());
-        let smallest_lumen = narrowest(&self.mesh, &self.topology, &radii);
+        let (crossing, balls) = (std::mem::take(&mut self.crossing), std::mem::take(&mut self.balls));
+        let smallest_lumen = narrowest(&self.mesh, &self.topology, &balls.radii);
         let self_intersecting_faces = distinct(crossing).len();
         let (roughness, angles) = (summarise_bends(bends), angles.finish());
-        Measured { shape: Shape { roughness, angles, self_intersecting_faces, smallest_lumen }, radii }
+        Measured { shape: Shape { roughness, angles, self_intersecting_faces, smallest_lumen }, balls }
     }
 }
 
