@@ -39,13 +39,13 @@ pub struct InnerBall {
 /// A vertex this near to another, as a part of that one's radius, takes its radius over.
 const NEAR: f32 = 0.2;
 
-/// The radius of the inner ball at each vertex of a surface, in slices.
+/// The inner balls of a surface, found in slices.
 #[derive(Clone, Debug, Default)]
 pub struct InnerRadii {
-    /// In mm, infinite where no wall faces the vertex; not a number where it is not known yet.
-    pub(crate) radii: Vec<f32>,
+    /// Radius at each vertex in mm, infinite where no wall faces it; not a number where it is not known yet.
+    pub radii: Vec<f32>,
     /// The vertices whose balls were found, ascending; the others took theirs over.
-    pub(crate) own: Vec<u32>,
+    pub own: Vec<u32>,
     limit: Option<f32>,
     next: usize,
     queue: Vec<u32>,
@@ -101,11 +101,11 @@ impl InnerRadii {
     }
 }
 
-/// The radius of the inner ball at each vertex, in mm, infinite where no wall faces it.
-pub fn inner_radii(mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Vec<f32> {
-    let mut radii = InnerRadii::default();
-    while !radii.advance(mesh, topology, index, usize::MAX) {}
-    radii.radii
+/// The inner balls of a surface.
+pub fn inner_radii(mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> InnerRadii {
+    let mut balls = InnerRadii::default();
+    while !balls.advance(mesh, topology, index, usize::MAX) {}
+    balls
 }
 
 /// The outward normal at vertex `v`, weighted by area; `None` where the triangles have none.
@@ -414,7 +414,7 @@ mod tests {
         let mesh = tube(64, 400, 40.0, waist);
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-        let whole = inner_radii(&mesh, &topology, &index);
+        let whole = inner_radii(&mesh, &topology, &index).radii;
         for (p, radius) in mesh.positions.iter().zip(&whole) {
             // The wall falls by up to 0.26 a mm; a ball that leans against it is wider or narrower by that much.
             assert!((radius / waist(p.z) - 1.0).abs() < 0.12, "{p}: {radius}");

@@ -110,11 +110,13 @@ pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &
     found
 }
 
-/// A ball's middle, if it is clear of the wall and inside, as most of three rays have it.
+/// A ball's middle, if it is clear of the wall and inside, as three of six rays have it: near an open end, half of them
+/// may leave by that.
 fn sample(at: Vec3, radius: f32, index: &SurfaceIndex) -> Option<Sample> {
     let clearance = index.nearest(at)?.distance;
-    let inside = RAYS.iter().filter(|&&ray| index.winding(at, Vec3::from(ray)) > 0).count();
-    (inside >= 2 && clearance >= CLEAR * radius).then_some(Sample { at, clearance })
+    let rays = RAYS.iter().flat_map(|&ray| [Vec3::from(ray), -Vec3::from(ray)]);
+    let inside = rays.filter(|&ray| index.winding(at, ray) > 0).count();
+    (inside >= 3 && clearance >= CLEAR * radius).then_some(Sample { at, clearance })
 }
 
 /// The cell of half a radius, rounded down to a power of two, in which a ball's middle lies.
@@ -276,5 +278,131 @@ impl<P: Deref<Target = ProgressiveMesh>> Task for PinchTask<P> {
             }
         }
         Progress::Done(self.pinched.take().map(|(_, pinch)| pinch))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::inner_radii;
+    use crate::mesh::shapes::{icosphere, tube};
+    use crate::pipeline::run::Pipeline;
+    use crate::pipeline::settings::{Settings, Smoothing};
+
+    fn indexed(mesh: &TriMesh) -> (Topology, SurfaceIndex) {
+        (Topology::new(mesh.positions.len(), &mesh.triangles), SurfaceIndex::new(&mesh.positions, &mesh.triangles))
+    }
+
+    fn samples_of(mesh: &TriMesh) -> Vec<Sample> {
+        let (topology, index) = indexed(mesh);
+        samples(mesh, &topology, &inner_radii(mesh, &topology, &index), &index)
+    }
+
+    fn narrowing_of(before: &TriMesh, after: &TriMesh) -> Option<Narrowing> {
+        let (topology, index) = indexed(after);
+        narrowing(&samples_of(before), after, &topology, &index)
+    }
+
+    /// A tube of 1.5 mm with a waist at z = 20.
+    fn waisted(waist: f32) -> TriMesh {
+        tube(32, 160, 40.0, |z| 0.75 - (0.75 - waist) * (-(z - 20.0) * (z - 20.0)).exp())
+    }
+
+    #[test]
+    fn samples_lie_on_the_axis_close_enough_together() {
+        let mut samples = samples_of(&waisted(0.75));
+        samples.sort_by(|a, b| a.at.z.total_cmp(&b.at.z));
+        for sample in &samples {
+            assert!(sample.at.truncate().length() < 0.02 && (sample.clearance - 0.75).abs() < 0.02, "{sample:?}");
+        }
+        assert!(samples.windows(2).all(|pair| pair[1].at.z - pair[0].at.z <= 0.75 / 2.0), "{samples:?}");
+        assert!(samples[0].at.z < 0.4 && samples[samples.len() - 1].at.z > 39.6);
+    }
+
+    #[test]
+    fn a_surface_narrows_itself_nowhere() {
+        let mesh = waisted(0.4);
+        let found = narrowing_of(&mesh, &mesh).unwrap();
+        assert_eq!((found.ratio, found.pinched_places), (1.0, 0));
+        assert_eq!(narrowing_of(&TriMesh::default(), &mesh), None);
+    }
+
+    #[test]
+    fn a_waist_is_found_where_it_is_and_as_narrow_as_it_is() {
+        for waist in [0.5, 0.38, 0.3, 0.05] {
+            let found = narrowing_of(&waisted(0.75), &waisted(waist)).unwrap();
+            // The nearest sample may lie a quarter of a millimetre beside the waist, and the wall is in facets.
+            let slack = 2.0 * (0.75 - f64::from(waist)) * (1.0 - (-0.0625f64).exp()) + 0.02;
+            let error = found.diameter_after_mm - 2.0 * f64::from(waist);
+            assert!((-0.02..slack + 0.02).contains(&error), "{waist}: {found:?}");
+            assert!((found.at_mm[2] - 20.0).abs() < 0.3 && (found.diameter_before_mm - 1.5).abs() < 0.03, "{found:?}");
+            assert_eq!(found.pinched_places, usize::from(waist < 0.36), "{waist}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn two_waists_are_two_places() {
+        let bump = |z: f32, at: f32| (-(z - at) * (z - at) * 4.0).exp();
+        let pinched = tube(32, 160, 40.0, |z| 0.75 - 0.6 * (bump(z, 10.0) + bump(z, 30.0)));
+        assert_eq!(narrowing_of(&waisted(0.75), &pinched).unwrap().pinched_places, 2);
+    }
+
+    #[test]
+    fn a_vessel_that_is_gone_is_lost() {
+        let (large, mut both) = (icosphere(3, 10.0, Vec3::ZERO), icosphere(3, 10.0, Vec3::ZERO));
+        let small = icosphere(3, 1.0, Vec3::X * 30.0);
+        let first = both.positions.len() as u32;
+        both.positions.extend(&small.positions);
+        both.triangles.extend(small.triangles.iter().map(|t| t.map(|v| v + first)));
+        let found = narrowing_of(&both, &large).unwrap();
+        assert_eq!((found.ratio, found.diameter_after_mm, found.pinched_places), (0.0, 0.0, 1));
+        assert!(Vec3::from(found.at_mm).distance(Vec3::X * 30.0) < 0.1, "{found:?}");
+        assert!((found.diameter_before_mm - 2.0).abs() < 0.1, "{found:?}");
+    }
+
+    /// All levels of a surface as it is.
+    fn levels(mesh: TriMesh) -> Arc<ProgressiveMesh> {
+        let smoothing = Smoothing { iterations: 0, ..Smoothing::default() };
+        let mut pipeline = Pipeline::new(Arc::new(mesh), Settings { smoothing, ..Settings::default() });
+        while pipeline.progressive().is_none() {
+            pipeline.advance(Budget::UNLIMITED).unwrap();
+        }
+        pipeline.progressive().unwrap().clone()
+    }
+
+    #[test]
+    fn at_the_first_pinch_a_vessel_is_narrow_and_at_a_tenth_of_a_percent_less_none_is() {
+        let progressive = levels(waisted(0.75));
+        let pinch = first_pinch(&progressive).expect("at 99.9 % no more than ten triangles are left");
+        let rate = (pinch.from_percent * 10.0).round() as u32;
+        assert!(rate >= 950, "{pinch:?}");
+        let at = |rate: u32| {
+            let level = progressive.extract(&progressive.level(Target::Reduction(rate)).triangles);
+            (level.triangles.len(), narrowing_of(&progressive.finest(), &level).unwrap())
+        };
+        let ((before, sound), (count, pinched)) = (at(rate - 1), at(rate));
+        assert!(sound.pinched_places == 0 && pinched.pinched_places > 0 && before > count, "{sound:?} {pinched:?}");
+        assert_eq!((pinch.triangles, pinch.at_mm), (count, pinched.at_mm));
+        assert_eq!(pinch.diameter_after_mm, pinched.diameter_after_mm);
+        assert!(pinch.to_string().starts_with("A vessel of 1.5 mm is "), "{pinch}");
+    }
+
+    #[test]
+    fn slices_and_threads_change_nothing_and_nothing_has_no_pinch() {
+        let progressive = levels(tube(24, 60, 20.0, |_| 0.75));
+        let whole = first_pinch(&progressive);
+        let finest = progressive.finest();
+        let mut task = PinchTask::new(&*progressive, samples_of(&finest).into());
+        let sliced = loop {
+            match task.advance(Budget::new(std::time::Duration::ZERO)) {
+                Progress::Working(fraction) => assert!((0.0..=1.0).contains(&fraction)),
+                Progress::Done(found) => break found,
+            }
+        };
+        assert_eq!(sliced, whole);
+        for threads in [1, 2, 7] {
+            assert_eq!(parallel::with_threads(threads, || first_pinch(&progressive)), whole);
+        }
+        assert_eq!(first_pinch(&ProgressiveMesh::default()), None);
     }
 }
