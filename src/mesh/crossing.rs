@@ -19,15 +19,15 @@ const EPSILON: f64 = 1e-6;
 
 /// A triangle of a surface.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
+pub(crate) struct Face {
     /// Its vertices' numbers.
-    pub(super) vertices: [u32; 3],
+    pub(crate) vertices: [u32; 3],
     /// Its corners in mm.
-    pub(super) corners: [Vec3; 3],
+    pub(crate) corners: [Vec3; 3],
 }
 
 /// Whether two triangles of a surface run into each other.
-pub(super) fn cross(a: &Face, b: &Face) -> bool {
+pub(crate) fn cross(a: &Face, b: &Face) -> bool {
     if !boxes_overlap(a.corners, b.corners) {
         return false;
     }

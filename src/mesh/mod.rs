@@ -7,7 +7,7 @@ mod boundary;
 mod bounds;
 mod closest_point;
 mod components;
-mod crossing;
+pub(crate) mod crossing;
 mod index_build;
 mod inner_ball;
 mod inside;
