@@ -16,8 +16,7 @@ use lumen::pipeline::settings::{Settings, Smoothing, Target};
 fn the_coronary_tree_is_watched_at_every_rate() {
     let mesh = import_mesh(generate(Sample::Coronary, 60_000).unwrap(), "sample").mesh;
     let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
-    let mut pipeline =
-        Pipeline::new(Arc::new(mesh), Settings { smoothing, ..Settings::default() }).with_samples(2_000);
+    let mut pipeline = Pipeline::new(Arc::new(mesh), Settings { smoothing, ..Settings::default() }).with_samples(2_000);
     for rate in [0, 500, 750, 900, 950, 990, 999] {
         let settings = Settings { target: Target::Reduction(rate), ..pipeline.settings().clone() };
         pipeline.set(settings).unwrap();
@@ -43,7 +42,7 @@ fn the_coronary_tree_is_watched_at_every_rate() {
         assert!(rate < 999 || half, "sixty triangles are no coronary tree: {narrowing:?}");
         assert!(report.smoothed_shape.is_some() && report.output_shape.is_some());
         let smallest = report.smoothed_shape.unwrap().smallest_lumen.unwrap();
-        // The branches end at 1.5 mm; cut from voxels of 0.8 mm and smoothed, they are narrower there.
+        // The branches end at 1.5 mm; cut from voxels of 1 mm and smoothed, they are narrower there.
         assert!((0.2..1.6).contains(&smallest.diameter_mm), "{smallest:?}");
     }
 }

@@ -11,6 +11,7 @@ pub mod document;
 pub mod history;
 mod icon;
 mod keys;
+mod numbers;
 mod overlay;
 mod panel;
 mod platform;

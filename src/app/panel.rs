@@ -39,7 +39,7 @@ fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
 }
 
 /// A line of the numbers: what it is on the left, how much on the right.
-fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
+pub(super) fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
     ui.spacing_mut().interact_size.y = 18.0;
     let row = ui.horizontal(|ui| {
         ui.label(RichText::new(what).weak());
@@ -228,6 +228,10 @@ fn reduce(ui: &mut Ui, state: &mut State) {
         let text = RichText::new(format!("{shortfall}.")).small();
         ui.add(egui::Label::new(text).wrap());
     }
+    if let Some(pinch) = state.document.as_ref().and_then(Document::pinch) {
+        let text = RichText::new(format!("{pinch}.")).small().color(ui.visuals().error_fg_color);
+        ui.add(egui::Label::new(text).wrap());
+    }
 }
 
 fn result(ui: &mut Ui, state: &State) {
@@ -263,6 +267,7 @@ fn result(ui: &mut Ui, state: &State) {
         "Change from the kept pieces as opened, open ends capped",
     );
     number(ui, "Area", &percent(report.area_change_percent), "Change from the kept pieces as opened");
+    super::numbers::shape(ui, is_current.then_some(report));
     ui.collapsing("Time a stage", |ui| {
         let ms = &report.stages_ms;
         let stages = [
@@ -273,6 +278,7 @@ fn result(ui: &mut Ui, state: &State) {
             ("Level", ms.level),
             ("Normals", ms.normals),
             ("Deviation", ms.deviation),
+            ("Shape and lumen", ms.measures),
         ];
         for (stage, ms) in stages {
             number(ui, stage, &format!("{ms:.1} ms"), "");

@@ -244,7 +244,8 @@ mod tests {
         assert!(matches!(settings.check(), Err(SettingsError::PassBand(_))));
         settings = Settings { target: Target::Reduction(1000), ..Settings::default() };
         assert!(matches!(settings.check(), Err(SettingsError::Reduction(_))));
-        settings = Settings { decimation: Decimation { feature_angle: -1.0, ..Decimation::default() }, ..Settings::default() };
+        settings =
+            Settings { decimation: Decimation { feature_angle: -1.0, ..Decimation::default() }, ..Settings::default() };
         assert!(matches!(settings.check(), Err(SettingsError::FeatureAngle(_))));
     }
 }

@@ -298,7 +298,10 @@ impl Guard {
         let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
         let new: Vec<[u32; 3]> = of_v.chain(of_u).collect();
         let new_faces: Vec<Face> = new.iter().map(|&corners| face(corners)).collect();
-        let old_face = |corners: [u32; 3]| Face { vertices: corners.map(|s| rings.nodes[s as usize]), corners: corners.map(place) };
+        let old_face = |corners: [u32; 3]| Face {
+            vertices: corners.map(|s| rings.nodes[s as usize]),
+            corners: corners.map(place),
+        };
         let others: Vec<Face> = self.found.iter().map(|&corners| old_face(corners)).collect();
         let after = crossing(&new_faces, &others);
         if after.is_none() {

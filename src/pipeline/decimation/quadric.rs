@@ -40,11 +40,7 @@ impl Form {
 
     fn times(&self, x: DVec3) -> DVec3 {
         let [xx, xy, xz, yy, yz, zz] = self.a;
-        DVec3::new(
-            xx * x.x + xy * x.y + xz * x.z,
-            xy * x.x + yy * x.y + yz * x.z,
-            xz * x.x + yz * x.y + zz * x.z,
-        )
+        DVec3::new(xx * x.x + xy * x.y + xz * x.z, xy * x.x + yy * x.y + yz * x.z, xz * x.x + yz * x.y + zz * x.z)
     }
 
     fn at(&self, x: DVec3) -> f64 {
@@ -101,7 +97,13 @@ pub(super) struct Quadric {
 }
 impl Default for Quadric {
     fn default() -> Self {
-        Self { forms: Vec::new(), candidates: Vec::new(), pull: var("P", PULL), shape: var("QS", 0.5) as f32, mode: var("QM", 0.0) }
+        Self {
+            forms: Vec::new(),
+            candidates: Vec::new(),
+            pull: var("P", PULL),
+            shape: var("QS", 0.5) as f32,
+            mode: var("QM", 0.0),
+        }
     }
 }
 
@@ -167,7 +169,11 @@ impl Method for Quadric {
     }
 
     fn shape_cost(&self, star: &Star, cost: f32) -> f32 {
-        if self.mode == 0.0 { self.shape * cost } else { self.shape * cost + 1e-4 * self.mode as f32 * star.area() * star.area() }
+        if self.mode == 0.0 {
+            self.shape * cost
+        } else {
+            self.shape * cost + 1e-4 * self.mode as f32 * star.area() * star.area()
+        }
     }
 
     fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>) {

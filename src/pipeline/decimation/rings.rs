@@ -94,7 +94,12 @@ impl Rings {
             if is_fan {
                 rings.add(fan.entries().map(|n| slots[n as usize]), !fan.is_closed);
             } else {
-                rings.heads.push(Head { start: rings.entries.len() as u32, stays: true, is_gone: true, ..Head::default() });
+                rings.heads.push(Head {
+                    start: rings.entries.len() as u32,
+                    stays: true,
+                    is_gone: true,
+                    ..Head::default()
+                });
                 if !fan.spokes.is_empty() {
                     complex.push(slot as u32);
                 }
@@ -264,9 +269,7 @@ impl Rings {
             bits |= 1 << (n & 63);
         }
         let is_common = |n: u32| {
-            bits & (1 << (n & 63)) != 0
-                && !sides.contains(&Some(n))
-                && of_v.iter().any(|&other| neighbour(other) == n)
+            bits & (1 << (n & 63)) != 0 && !sides.contains(&Some(n)) && of_v.iter().any(|&other| neighbour(other) == n)
         };
         if of_u.iter().any(|&n| is_common(neighbour(n))) {
             return false;

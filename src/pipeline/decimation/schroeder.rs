@@ -59,11 +59,7 @@ impl Planes {
 
     fn times(&self, x: Vec3A) -> Vec3A {
         let [xx, xy, xz, yy, yz, zz] = self.a;
-        Vec3A::new(
-            xx * x.x + xy * x.y + xz * x.z,
-            xy * x.x + yy * x.y + yz * x.z,
-            xz * x.x + yz * x.y + zz * x.z,
-        )
+        Vec3A::new(xx * x.x + xy * x.y + xz * x.z, xy * x.x + yy * x.y + yz * x.z, xz * x.x + yz * x.y + zz * x.z)
     }
 }
 
@@ -111,9 +107,7 @@ impl Method for Schroeder {
             _ => (Class::Corner, None),
         };
         let distance = match along {
-            Some([a, b]) => {
-                square(a).min(square(b)).sqrt().max(distance_to_segment(star.edge(a), star.edge(b)))
-            }
+            Some([a, b]) => square(a).min(square(b)).sqrt().max(distance_to_segment(star.edge(a), star.edge(b))),
             None => (0..entries.len()).map(square).fold(f32::INFINITY, f32::min).sqrt(),
         };
         Judged { class, distance, priority: distance, along }

@@ -251,7 +251,8 @@ impl Star {
         let c = Vec4::splat(c);
         for (quad, values) in self.quads[..self.count.div_ceil(4)].iter().zip(values.as_chunks_mut::<4>().0) {
             let [x, y, z] = quad.e;
-            let row = [xx * x + xy * y + xz * z + b[0], xy * x + yy * y + yz * z + b[1], xz * x + yz * y + zz * z + b[2]];
+            let row =
+                [xx * x + xy * y + xz * z + b[0], xy * x + yy * y + yz * z + b[1], xz * x + yz * y + zz * z + b[2]];
             *values = (dot(row, [x, y, z]) + c).to_array();
         }
     }
