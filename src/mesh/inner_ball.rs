@@ -115,7 +115,7 @@ pub fn outward_normal(mesh: &TriMesh, topology: &Topology, v: u32) -> Option<Vec
         let [a, b, c] = mesh.corners(t as usize).map(Vec3::as_dvec3);
         sum += (b - a).cross(c - a);
     }
-    sum.try_normalize().map(|normal| normal.as_vec3()).filter(|normal| normal.is_finite())
+    sum.try_normalize().map(DVec3::as_vec3).filter(|normal| normal.is_finite())
 }
 
 /// The ball at a point, while it shrinks.
@@ -144,10 +144,11 @@ impl Shrinking {
             let squared = to.length_squared();
             let faces = depth > 0.0 && depth * depth >= FACING * FACING * squared;
             let radius = squared / (2.0 * depth);
-            if !faces || !(radius < self.radius * (1.0 - ENOUGH)) {
+            if faces && radius < self.radius * (1.0 - ENOUGH) {
+                self.radius = radius;
+            } else {
                 break;
             }
-            self.radius = radius;
         }
         self.radius < before
     }

@@ -231,12 +231,12 @@ impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
         let (first, sofar) = (self.next, self.farthest.distance);
         let pieces = parallel::map_ranges(end - first, QUERIES, |piece| {
             let mut queries = Queries::new(other, side);
-            for v in first + piece.start..first + piece.end {
-                let p = mesh.positions[v];
+            let piece = first + piece.start..first + piece.end;
+            for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
                 if side == 0 {
-                    let distance = if used[v] { queries.measure(p) } else { 0.0 };
+                    let distance = if used { queries.measure(p) } else { 0.0 };
                     queries.distances.push(distance);
-                } else if used[v] && !other.is_within(p, sofar) {
+                } else if used && !other.is_within(p, sofar) {
                     queries.measure(p);
                 }
             }

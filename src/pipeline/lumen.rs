@@ -267,10 +267,10 @@ impl<P: Deref<Target = ProgressiveMesh>> Task for PinchTask<P> {
                 let level = self.progressive.level(Target::Reduction(rate));
                 (rate, self.progressive.extract(&level.triangles))
             });
-            if let Poll::Ready(index) = self.build.advance(&mesh.positions, &mesh.triangles, UNITS) {
-                if let Some((rate, mesh)) = self.level.take() {
-                    self.look(rate, &mesh, &index);
-                }
+            if let Poll::Ready(index) = self.build.advance(&mesh.positions, &mesh.triangles, UNITS)
+                && let Some((rate, mesh)) = self.level.take()
+            {
+                self.look(rate, &mesh, &index);
             }
             if budget.is_spent() {
                 // About twenty looks, each cheaper than the one before.

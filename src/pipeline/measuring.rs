@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::lumen::{Narrowing, Pinch, PinchTask, Sample, narrowing, samples};
 use super::progressive::ProgressiveMesh;
-use super::shape::{Shape, ShapeTask};
+use super::shape::{Measured, Shape, ShapeTask};
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{SurfaceIndex, Topology, TriMesh};
 
@@ -58,14 +58,22 @@ pub struct SmoothedTask {
     subject: Subject,
     progressive: Arc<ProgressiveMesh>,
     shape: ShapeTask<Arc<TriMesh>, Arc<Topology>>,
-    found: Option<(Shape, Arc<[Sample]>, PinchTask<Arc<ProgressiveMesh>>)>,
+    search: Option<Search>,
+}
+
+/// The search for the first pinch, and what was found before.
+#[derive(Debug)]
+struct Search {
+    shape: Shape,
+    samples: Arc<[Sample]>,
+    pinch: PinchTask<Arc<ProgressiveMesh>>,
 }
 
 impl SmoothedTask {
     /// Of the smoothed surface, and the levels made of it.
     pub fn new(subject: Subject, progressive: Arc<ProgressiveMesh>) -> Self {
         let shape = subject.task();
-        Self { subject, progressive, shape, found: None }
+        Self { subject, progressive, shape, search: None }
     }
 }
 
@@ -74,31 +82,34 @@ impl Task for SmoothedTask {
 
     /// Taking the samples is one piece, of about 50 ns a vertex and a microsecond a sample.
     fn advance(&mut self, budget: Budget) -> Progress<SmoothedMeasures> {
-        if self.found.is_none() {
-            let measured = match self.shape.advance(budget) {
-                Progress::Working(fraction) => return Progress::Working(fraction / 2.0),
-                Progress::Done(measured) => measured,
+        let Some(search) = &mut self.search else {
+            return match self.shape.advance(budget) {
+                Progress::Working(fraction) => Progress::Working(fraction / 2.0),
+                Progress::Done(measured) => {
+                    self.begin_search(measured);
+                    Progress::Working(0.5)
+                }
             };
-            let Subject { mesh, topology, .. } = &self.subject;
-            let samples: Arc<[Sample]> = match self.shape.index() {
-                Some(index) => samples(mesh, topology, &measured.balls, index).into(),
-                None => Arc::new([]),
-            };
-            let pinch = PinchTask::new(self.progressive.clone(), samples.clone());
-            self.found = Some((measured.shape, samples, pinch));
-        }
-        if budget.is_spent() {
-            return Progress::Working(0.5);
-        }
-        let Some((_, _, task)) = &mut self.found else { return Progress::Working(0.5) };
-        let pinch = match task.advance(budget) {
-            Progress::Working(fraction) => return Progress::Working(0.5 + fraction / 2.0),
-            Progress::Done(pinch) => pinch,
         };
-        match self.found.take() {
-            Some((shape, samples, _)) => Progress::Done(SmoothedMeasures { shape, samples, pinch }),
-            None => Progress::Working(1.0),
+        match search.pinch.advance(budget) {
+            Progress::Working(fraction) => Progress::Working(0.5 + fraction / 2.0),
+            Progress::Done(pinch) => {
+                let (shape, samples) = (search.shape.clone(), search.samples.clone());
+                Progress::Done(SmoothedMeasures { shape, samples, pinch })
+            }
         }
+    }
+}
+
+impl SmoothedTask {
+    fn begin_search(&mut self, measured: Measured) {
+        let Subject { mesh, topology, .. } = &self.subject;
+        let samples: Arc<[Sample]> = match self.shape.index() {
+            Some(index) => samples(mesh, topology, &measured.balls, index).into(),
+            None => Arc::new([]),
+        };
+        let pinch = PinchTask::new(self.progressive.clone(), samples.clone());
+        self.search = Some(Search { shape: measured.shape, samples, pinch });
     }
 }
 
