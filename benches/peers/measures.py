@@ -100,8 +100,7 @@ band 0.1, 60 iterations) and reduced by 90 %. Lengths are in the file's unit, ta
 Triangles, area and volume (open ends capped to the middle of each): VTK and NumPy. Dihedral deviation, RMS and 95th
 percentile in degrees: trimesh. Smallest angle in degrees and share of triangles with an angle below 10: NumPy.
 Self-intersecting triangles: MeshLab. Smallest lumen: twice Open3D's distance from the place that Lumen names to the
-nearest wall; Lumen's number is a median over neighbouring vertices, so the two differ by some percent, and on raw scans,
-whose walls have steps, by more.
+nearest wall. Where the windings of a file face inwards, the other tools' volume is negative; Lumen turns them.
 
 | surface | triangles | area mm2 | volume mm3 | roughness RMS | p95 | smallest angle | < 10 degrees, % | self-intersecting | smallest lumen mm |
 |---|---|---|---|---|---|---|---|---|---|

@@ -3,8 +3,9 @@
 use egui::{RichText, Ui};
 
 use super::panel::number;
+use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::Report;
-use crate::pipeline::shape::{Narrowest, Shape};
+use crate::pipeline::shape::Shape;
 
 /// Shows the shape of the level and, where it is known, that of the smoothed surface; folded up at first.
 pub(super) fn shape(ui: &mut Ui, report: Option<&Report>) {

@@ -13,7 +13,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::pipeline::shape::{Narrowest, Shape};
+use crate::pipeline::narrowest::Narrowest;
+use crate::pipeline::shape::Shape;
 
 /// The command line.
 #[derive(Debug, Parser)]

@@ -12,10 +12,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::{misuse, output_format, row, shape_rows, source, write_whole};
 use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
+use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Boundary, Decimation, Keep, Method, Settings, Smoothing, Target, Window};
-use crate::pipeline::shape::Narrowest;
 use crate::pipeline::task::Budget;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.

@@ -15,9 +15,10 @@ use std::task::Poll;
 
 use serde::{Deserialize, Serialize};
 
+use super::narrowest::{CLEAR, ball_centre, is_inside, ring_median};
 use super::progressive::ProgressiveMesh;
 use super::settings::{Target, reduction_percent};
-use super::shape::{ShapeTask, ball_centre, ring_median};
+use super::shape::ShapeTask;
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{IndexBuild, InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
 use crate::parallel;
@@ -29,11 +30,6 @@ pub const PINCHED: f32 = 0.5;
 const MOST: usize = 20_000;
 /// A ball's radius must agree with the median around it to this factor, to be a sample.
 const AGREE: f32 = 1.4;
-/// A sample's clearance is at least this part of its ball's radius, or the ball was none.
-const CLEAR: f32 = 0.7;
-/// Directions without relation to any axis or to each other.
-const RAYS: [[f32; 3]; 3] =
-    [[0.534_522, 0.267_261, 0.801_784], [-0.742_781, 0.557_086, 0.371_391], [0.196_116, -0.784_465, -0.588_348]];
 /// Samples that are measured in one piece.
 const PIECE: usize = 64;
 /// Triangles that are indexed between two looks at the clock.
@@ -110,13 +106,10 @@ pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &
     found
 }
 
-/// A ball's middle, if it is clear of the wall and inside, as three of six rays have it: near an open end, half of them
-/// may leave by that.
+/// A ball's middle, if it is inside and clear of the wall.
 fn sample(at: Vec3, radius: f32, index: &SurfaceIndex) -> Option<Sample> {
     let clearance = index.nearest(at)?.distance;
-    let rays = RAYS.iter().flat_map(|&ray| [Vec3::from(ray), -Vec3::from(ray)]);
-    let inside = rays.filter(|&ray| index.winding(at, ray) > 0).count();
-    (inside >= 3 && clearance >= CLEAR * radius).then_some(Sample { at, clearance })
+    (clearance >= CLEAR * radius && is_inside(at, index)).then_some(Sample { at, clearance })
 }
 
 /// The cell of half a radius, rounded down to a power of two, in which a ball's middle lies.

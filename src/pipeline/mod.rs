@@ -9,6 +9,7 @@ pub mod deviation;
 pub mod filter;
 pub mod lumen;
 pub mod measuring;
+pub mod narrowest;
 pub mod normals;
 pub mod progressive;
 pub mod report;
