@@ -18,9 +18,9 @@ const NO_FACE: f64 = 1e-10;
 
 /// Where on a triangle the closest point lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Foot {
+pub(crate) struct Foot {
     /// Squared distance in mm2.
-    pub(super) squared: f64,
+    pub(crate) squared: f64,
     /// Barycentric coordinate of the second corner.
     pub(super) v: f64,
     /// Barycentric coordinate of the third corner.
@@ -41,7 +41,7 @@ pub(super) fn is_sliver(corners: [Vec3; 3]) -> bool {
 
 /// The closest point of a triangle that is no sliver.
 #[inline]
-pub(super) fn foot_on_triangle(p: Vec3, corners: [Vec3; 3]) -> Foot {
+pub(crate) fn foot_on_triangle(p: Vec3, corners: [Vec3; 3]) -> Foot {
     let a = corners[0].as_dvec3();
     let (ap, ab, ac) = (p.as_dvec3() - a, corners[1].as_dvec3() - a, corners[2].as_dvec3() - a);
     let (v, w) = region(ap, ab, ac);

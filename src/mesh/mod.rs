@@ -24,6 +24,7 @@ pub(crate) use angles::AngleCounts;
 pub use angles::{Angles, angles};
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
+pub(crate) use closest_point::foot_on_triangle;
 pub use components::{Components, components};
 pub use glam::Vec3;
 pub use index_build::IndexBuild;

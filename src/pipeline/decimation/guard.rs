@@ -16,20 +16,26 @@
 use glam::Vec3A;
 
 use super::rings::{Rings, neighbour};
-use super::star::Star;
+use super::star::{MOST_AROUND, Star};
 use crate::mesh::TriMesh;
 use crate::mesh::crossing::{Face, cross};
 
-/// Slots of a leaf.
-const LEAF: usize = 8;
+/// Most slots of a leaf.
+const LEAF: u32 = 8;
+/// Most mean edge lengths from the first vertex of a leaf to another.
+const LEAF_SIZE: f32 = 4.0;
+/// Smallest cosine between the normals of a leaf's vertices and their mean so far.
+const LEAF_TURN: f32 = 0.7;
 /// Children of a node.
 const WIDTH: usize = 4;
 /// Room for a leaf to grow, in mean edge lengths.
 const MARGIN: f32 = 1.5;
 /// Room for its normals to turn, in radians.
 const SLACK: f32 = 0.15;
-/// Two cones lie within a half-space where their angles and the angle between them add up to less, in radians.
+/// A little less than a right angle, in radians.
 const HALF_SPACE: f32 = 1.5;
+/// Its cosine.
+const FACING: f32 = 0.07;
 
 /// A box around triangles, and a cone around their normals.
 #[derive(Clone, Copy)]
@@ -37,12 +43,15 @@ struct Patch {
     low: Vec3A,
     high: Vec3A,
     axis: Vec3A,
-    /// Between the axis and the normal farthest from it, in radians; at most pi.
+    /// Between the axis and the normal farthest from it, in radians.
     angle: f32,
+    /// Between the axis and the leaf's axis farthest from it, in radians; 0 for a leaf.
+    spread: f32,
 }
 
 impl Patch {
-    const NOTHING: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY, axis: Vec3A::ZERO, angle: 0.0 };
+    const NOTHING: Self =
+        Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY, axis: Vec3A::ZERO, angle: 0.0, spread: 0.0 };
 
     fn overlaps(&self, low: Vec3A, high: Vec3A) -> bool {
         (self.low.cmple(high) & self.high.cmpge(low)).all()
@@ -52,10 +61,12 @@ impl Patch {
         (self.low.cmple(low) & self.high.cmpge(high)).all()
     }
 
-    /// Whether all normals of both lie in a half-space.
+    /// Whether, whichever leaf of the one and of the other are taken, all their normals look to the same side as the axis
+    /// of either.
     fn looks_as(&self, other: &Self) -> bool {
-        let angles = self.angle + other.angle;
-        angles < HALF_SPACE && angles + angle(self.axis.dot(other.axis)) < HALF_SPACE
+        let own = (self.spread + self.angle).max(other.spread + other.angle);
+        let mutual = (self.spread + other.angle).max(other.spread + self.angle);
+        own < HALF_SPACE && mutual < HALF_SPACE && mutual + angle(self.axis.dot(other.axis)) < HALF_SPACE
     }
 }
 
@@ -70,6 +81,12 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Guard {
     /// Leaves first, then each level of nodes above; the last has one.
     levels: Vec<Vec<Patch>>,
+    /// The leaf of each slot.
+    leaf_of: Vec<u32>,
+    /// The first slot of each leaf, and where the last ends.
+    starts: Vec<u32>,
+    /// Corners of the boxes around the leaves' triangles as they are now.
+    boxes: Vec<[Vec3A; 2]>,
     /// For each leaf its first pair in `pairs`: the other leaf, and where the next one stands.
     first: Vec<u32>,
     pairs: Vec<[u32; 2]>,
@@ -96,13 +113,15 @@ pub(super) struct Planned<'a> {
 impl Guard {
     /// A guard over the surface as it is now.
     pub(super) fn new(rings: &Rings, star: &mut Star, several: bool) -> Self {
-        let mut edges = (0.0f64, 0u32);
-        let count = rings.len().div_ceil(LEAF);
-        let mut leaves = Vec::with_capacity(count);
-        for leaf in 0..count {
-            leaves.push(leaf_of(rings, star, leaf, &mut edges));
+        let edge = mean_edge(rings);
+        let (mut leaves, starts) = leaves_of(rings, star, edge);
+        let count = leaves.len();
+        let mut leaf_of = vec![0; rings.len()];
+        for (leaf, ends) in starts.windows(2).enumerate() {
+            leaf_of[ends[0] as usize..ends[1] as usize].fill(leaf as u32);
         }
-        let margin = if edges.1 > 0 { MARGIN * (edges.0 / f64::from(edges.1)) as f32 } else { 0.0 };
+        let margin = MARGIN * edge;
+        let boxes = leaves.iter().map(|leaf: &Patch| [leaf.low, leaf.high]).collect();
         for leaf in &mut leaves {
             if leaf.low.x <= leaf.high.x {
                 leaf.low -= margin;
@@ -117,6 +136,9 @@ impl Guard {
         }
         let mut guard = Self {
             levels,
+            leaf_of,
+            starts,
+            boxes,
             first: vec![NONE; count],
             pairs: Vec::new(),
             margin,
@@ -244,18 +266,24 @@ impl Guard {
             low = low.min(least);
             high = high.max(most);
         }
-        let leaf = u / LEAF as u32;
+        let leaf = self.leaf_of[u as usize];
         let axis = self.levels[0][leaf as usize].axis;
         let mut cosine = star.least_cosine(planned.end - p, planned.to, axis);
         if let Some((other, at)) = planned.other {
             cosine = cosine.min(other.least_cosine(planned.end - rings.at(u), at, axis));
         }
         self.grow(leaf, low, high, angle(cosine));
-        let near = |guard: &Self, other: u32| guard.levels[0][other as usize].overlaps(low, high);
+        let near = |guard: &Self, other: u32| {
+            let [least, most] = guard.boxes[other as usize];
+            (least.cmple(high) & most.cmpge(low)).all()
+        };
         let mut pairs = std::mem::take(&mut self.near);
         pairs.clear();
         pairs.extend(self.pairs_of(leaf).filter(|&other| near(self, other)));
-        let allowed = pairs.is_empty() || self.crossings_allow(rings, mesh, planned, &pairs, (low, high));
+        let [least, most] = &mut self.boxes[leaf as usize];
+        (*least, *most) = (least.min(low), most.max(high));
+        let allowed = pairs.is_empty()
+            || self.crossings_allow(rings, mesh, planned, &pairs, (low, high), (cosine > FACING).then_some(axis));
         self.near = pairs;
         allowed
     }
@@ -268,22 +296,30 @@ impl Guard {
         planned: &Planned,
         near: &[u32],
         (low, high): (Vec3A, Vec3A),
+        axis: Option<Vec3A>,
     ) -> bool {
         let Planned { v, u, .. } = *planned;
         let moves = planned.other.is_some();
         self.found.clear();
         for &leaf in near {
-            let slots = leaf * LEAF as u32..((leaf + 1) * LEAF as u32).min(rings.len() as u32);
+            let slots = self.starts[leaf as usize]..self.starts[leaf as usize + 1];
             for s in slots.filter(|&s| s != v && !(moves && s == u)) {
                 let p = rings.at(s);
                 for [a, b] in rings.pairs(s) {
                     let (q, r) = (rings.at(a), rings.at(b));
                     let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
-                    if !apart.any() && ![a, b].contains(&v) && !(moves && [a, b].contains(&u)) {
+                    if apart.any() || [a, b].contains(&v) || moves && [a, b].contains(&u) {
+                        continue;
+                    }
+                    let normal = (q - p).cross(r - p);
+                    if axis.is_none_or(|axis| normal.dot(axis) <= FACING * normal.length()) {
                         self.found.push(turned([s, a, b]));
                     }
                 }
             }
+        }
+        if self.found.is_empty() && axis.is_some() {
+            return true;
         }
         self.found.sort_unstable();
         self.found.dedup();
@@ -366,51 +402,84 @@ fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// The leaf of some slots, without room to grow; adds up the lengths of edges and their number.
-fn leaf_of(rings: &Rings, star: &mut Star, leaf: usize, edges: &mut (f64, u32)) -> Patch {
-    let slots = leaf * LEAF..((leaf + 1) * LEAF).min(rings.len());
-    let mut patch = Patch::NOTHING;
-    let mut sum = Vec3A::ZERO;
-    let mut is_loose = false;
-    for v in slots.clone().map(|v| v as u32).filter(|&v| !rings.is_gone(v)) {
-        if rings.around(v).len() > super::star::MOST_AROUND {
-            is_loose = true;
-            for &entry in rings.around(v) {
-                let p = rings.at(neighbour(entry));
-                patch.low = patch.low.min(p);
-                patch.high = patch.high.max(p);
+/// Mean length of an edge: of one at every few vertices.
+fn mean_edge(rings: &Rings) -> f32 {
+    const STEP: usize = 16;
+    let (mut sum, mut count) = (0.0, 0u32);
+    for v in (0..rings.len() as u32).step_by(STEP) {
+        if let Some(&n) = rings.around(v).first() {
+            sum += f64::from(rings.at(v).distance(rings.at(neighbour(n))));
+            count += 1;
+        }
+    }
+    if count > 0 { (sum / f64::from(count)) as f32 } else { 0.0 }
+}
+
+/// Parts the slots into leaves: their boxes and cones without room to grow, and where they start.
+fn leaves_of(rings: &Rings, star: &mut Star, edge: f32) -> (Vec<Patch>, Vec<u32>) {
+    let count = rings.len() as u32;
+    let (mut leaves, mut starts) = (Vec::new(), Vec::new());
+    let mut v = 0;
+    while v < count {
+        let first = v;
+        let mut patch = Patch::NOTHING;
+        let mut sum = Vec3A::ZERO;
+        let mut is_loose = false;
+        while v < count && v < first + LEAF {
+            let p = rings.at(v);
+            if p.distance(rings.at(first)) > LEAF_SIZE * edge {
+                break;
             }
-            continue;
+            if rings.is_gone(v) || rings.around(v).len() > MOST_AROUND {
+                is_loose |= !rings.is_gone(v);
+                for &entry in rings.around(v) {
+                    let p = rings.at(neighbour(entry));
+                    (patch.low, patch.high) = (patch.low.min(p), patch.high.max(p));
+                }
+                v += 1;
+                continue;
+            }
+            star.load(rings, v);
+            star.span();
+            let normal = star.normal_sum();
+            if v > first && normal.dot(sum) < LEAF_TURN * normal.length() * sum.length() {
+                break;
+            }
+            let [low, high] = star.reach();
+            (patch.low, patch.high) = (patch.low.min(low + p), patch.high.max(high + p));
+            sum += normal;
+            // Beyond a boundary, or a cut, another sheet may follow.
+            is_loose |= rings.is_open(v) || rings.stays(v);
+            v += 1;
         }
-        star.load(rings, v);
-        star.span();
-        let p = rings.at(v);
-        let [low, high] = star.reach();
-        patch.low = patch.low.min(low + p);
-        patch.high = patch.high.max(high + p);
-        sum += star.normal_sum();
-        if !star.entries().is_empty() {
-            edges.0 += f64::from(star.edge(0).length());
-            edges.1 += 1;
+        patch.axis = sum.normalize_or_zero();
+        let mut least = 1.0f32;
+        for v in (first..v).filter(|&v| !rings.is_gone(v) && !is_loose) {
+            star.load(rings, v);
+            star.span();
+            least = least.min(star.cosine_to(patch.axis));
         }
-        // Beyond a boundary, or a cut, another sheet may follow.
-        is_loose |= rings.is_open(v) || rings.stays(v);
+        patch.angle = if is_loose { std::f32::consts::PI } else { angle(least) };
+        starts.push(first);
+        leaves.push(patch);
     }
-    patch.axis = sum.normalize_or_zero();
-    let mut least = 1.0f32;
-    for v in slots.map(|v| v as u32).filter(|&v| !rings.is_gone(v) && !is_loose) {
-        star.load(rings, v);
-        star.span();
-        least = least.min(star.cosine_to(patch.axis));
-    }
-    patch.angle = if is_loose { std::f32::consts::PI } else { angle(least) };
-    patch
+    starts.push(count);
+    (leaves, starts)
 }
 
 fn parent(children: &[Patch]) -> Patch {
     let axis = children.iter().map(|child| child.axis).sum::<Vec3A>().normalize_or_zero();
     children.iter().fold(Patch { axis, ..Patch::NOTHING }, |all, child| {
-        let reach = if child.low.x <= child.high.x { angle(axis.dot(child.axis)) + child.angle } else { 0.0 };
-        Patch { low: all.low.min(child.low), high: all.high.max(child.high), axis, angle: all.angle.max(reach) }
+        if child.low.x > child.high.x {
+            return all;
+        }
+        let apart = angle(axis.dot(child.axis));
+        Patch {
+            low: all.low.min(child.low),
+            high: all.high.max(child.high),
+            axis,
+            angle: all.angle.max(apart + child.angle),
+            spread: all.spread.max(apart + child.spread),
+        }
     })
 }

@@ -66,12 +66,23 @@ pub(super) trait Method {
     /// Adds to `candidates` where the vertex, judged just now, may go.
     fn offer(&mut self, star: &Star, v: u32, judged: &Judged, candidates: &mut Vec<Candidate>);
 
+    /// Quality below which no triangle should fall.
+    fn fair_quality(&self) -> f32;
+
     /// What poor shape costs for a star, beside the cost of a candidate: times one less the quality of the worst
     /// triangle.
     fn shape_cost(&self, star: &Star, cost: f32) -> f32;
 
-    /// `v` is about to go to `u`, which is at `way` from it and moves to `place`, if to anywhere.
-    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>);
+    /// Where a new vertex for `v` and `u`, which is at `way` from it, should be instead of at `place`, to lie in the plane
+    /// `normal.x = offset`.
+    fn level(&self, v: u32, u: u32, way: Vec3A, place: Vec3A, normal: Vec3A, offset: f32) -> Option<Vec3A>;
+
+    /// The priority of a vertex of that distance.
+    fn priority(&self, distance: f32) -> f32;
+
+    /// `v` is about to go to `u`, which is at `way` from it and moves to `place`, if to anywhere; `tip` is the distance that
+    /// its planes do not know of.
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>, tip: f32);
 
     /// Only the slots in `kept` are left, renumbered in this order.
     fn compact(&mut self, kept: &[u32]);

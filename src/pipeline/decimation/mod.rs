@@ -36,7 +36,7 @@ use self::guard::{Guard, Planned};
 pub use self::method::Class;
 use self::method::{Candidate, Judged};
 use self::quadric::Quadric;
-use self::rings::{CREASE, Rings, gather, neighbour};
+use self::rings::{Rings, gather, neighbour};
 use self::schroeder::Schroeder;
 use self::star::{MOST_AROUND, Star};
 use super::progressive::{Limit, Merge, ProgressiveMesh};
@@ -59,9 +59,10 @@ struct Strictness {
 }
 
 /// A vertex that does not pass is tried again under the next, at its price. The last lets a triangle swing round as
-/// the end of a branch does that is drawn in, but not fold over, and no longer heeds feature edges.
+/// the end of a branch does that is drawn in, but not fold over, and no longer heeds feature edges. The quality of the
+/// first is the method's ([`method::Method::fair_quality`]).
 const STRICTNESS: [Strictness; 4] = [
-    Strictness { turn: 0.5, quality: 0.15, features: true, price: 1.0 },
+    Strictness { turn: 0.5, quality: 1.0, features: true, price: 1.0 },
     Strictness { turn: 0.2, quality: 0.03, features: true, price: 2.0 },
     Strictness { turn: 0.0, quality: 1e-3, features: true, price: 8.0 },
     Strictness { turn: -0.8, quality: 1e-4, features: false, price: 64.0 },
@@ -75,6 +76,19 @@ const FEW: usize = 4096;
 
 /// Vertices between two looks at the clock.
 const CHUNK: usize = 64;
+
+/// A star of less flatness may be the end of something thin: no plane says how far it reaches.
+const FLAT: f32 = 0.8;
+/// What the distance of such a vertex from what it leaves behind counts for, beside the mean distance of a star.
+const TIP: f32 = 0.5;
+
+/// Why a vertex does not go.
+enum Refusal {
+    /// It cannot.
+    Stuck(Stuck),
+    /// Its distance is larger than it was judged.
+    Later(f32),
+}
 
 /// Why a vertex could not go when it was last tried.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -212,7 +226,10 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     }
 
     fn limits(&self, v: u32) -> Strictness {
-        STRICTNESS[usize::from(self.states[v as usize].strictness)]
+        match self.states[v as usize].strictness {
+            0 => Strictness { quality: self.method.fair_quality(), ..STRICTNESS[0] },
+            eased => STRICTNESS[usize::from(eased)],
+        }
     }
 
     /// Judges `v`, whose star is loaded.
@@ -249,11 +266,12 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
             return;
         }
         match self.way(v, &judged, limits) {
-            Ok(candidate) => self.collapse(v, candidate, judged.distance),
-            Err(stuck) if self.is_eased(v, &judged, stuck) => {
+            Ok((candidate, tip)) => self.collapse(v, candidate, judged.distance, tip),
+            Err(Refusal::Later(key)) => self.keys[v as usize] = key,
+            Err(Refusal::Stuck(stuck)) if self.is_eased(v, &judged, stuck) => {
                 self.keys[v as usize] = judged.priority * self.limits(v).price;
             }
-            Err(stuck) => self.set_stuck(v, stuck),
+            Err(Refusal::Stuck(stuck)) => self.set_stuck(v, stuck),
         }
     }
 
@@ -268,24 +286,33 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         true
     }
 
-    /// The cheapest way for `v` to go that passes every test.
-    fn way(&mut self, v: u32, judged: &Judged, limits: Strictness) -> Result<Candidate, Stuck> {
+    /// The cheapest way for `v` to go that passes every test, and how far it reaches out of what it leaves behind.
+    fn way(&mut self, v: u32, judged: &Judged, limits: Strictness) -> Result<(Candidate, f32), Refusal> {
         self.star.span();
         self.candidates.clear();
         self.method.offer(&self.star, v, judged, &mut self.candidates);
         let mut stuck = Stuck::Topology;
         while let Some(i) = self.cheapest(v, limits, &mut stuck) {
-            let candidate = self.candidates[i];
+            let mut candidate = self.candidates[i];
             let u = neighbour(self.star.entries()[candidate.to]);
             if !self.is_hub(u) && self.rings.may_collapse(v, u) {
-                if self.is_clear(v, u, &candidate) {
-                    return Ok(candidate);
+                let at = candidate.place.and_then(|_| self.load_other(v, u));
+                if let (Some(at), Some(place)) = (at, candidate.place) {
+                    candidate.place = Some(self.level(v, u, &candidate, at, limits).unwrap_or(place));
+                }
+                let tip = self.tip(&candidate, at);
+                let key = self.method.priority(tip) * limits.price;
+                if key > self.threshold {
+                    return Err(Refusal::Later(key));
+                }
+                if self.is_clear(v, u, &candidate, at) {
+                    return Ok((candidate, tip));
                 }
                 stuck = Stuck::Geometry;
             }
             self.candidates[i].cost = f32::INFINITY;
         }
-        Err(stuck)
+        Err(Refusal::Stuck(stuck))
     }
 
     /// The candidate of least cost, shape included; those that fold or make a sliver are struck out.
@@ -322,29 +349,60 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         if self.rings.stays(u) || self.is_hub(u) {
             return None;
         }
-        self.other.load(&self.rings, u);
-        self.other.span();
-        let at = self.other.position(v)?;
+        let at = self.load_other(v, u)?;
         Some(worst.min(self.other.worst_after(place - edge, at, turn, quality)?))
     }
 
-    /// Whether no triangle would run into another.
-    fn is_clear(&mut self, v: u32, u: u32, candidate: &Candidate) -> bool {
-        let mut other = None;
-        if candidate.place.is_some() {
-            self.other.load(&self.rings, u);
-            self.other.span();
-            other = self.other.position(v).map(|at| (&self.other, at));
+    /// Loads the star of `u`, and says where `v` stands in it.
+    fn load_other(&mut self, v: u32, u: u32) -> Option<usize> {
+        self.other.load(&self.rings, u);
+        self.other.span();
+        self.other.position(v)
+    }
+
+    /// Where the new vertex of a candidate should be so that the volume stays, if that passes the tests of shape.
+    fn level(&self, v: u32, u: u32, candidate: &Candidate, at: usize, limits: Strictness) -> Option<Vec3A> {
+        if self.rings.is_open(v) || self.rings.is_open(u) {
+            return None;
         }
+        let edge = self.star.edge(candidate.to);
+        let count = self.other.entries().len();
+        let shared = self.other.normal(at) + self.other.normal((at + count - 1) % count);
+        let apart = self.other.normal_sum() - shared;
+        let normal = self.star.normal_sum() + apart;
+        let place = self.method.level(v, u, edge, candidate.place?, normal, apart.dot(edge))?;
+        self.star.worst_after(place, candidate.to, limits.turn, limits.quality)?;
+        self.other.worst_after(place - edge, at, limits.turn, limits.quality)?;
+        Some(place)
+    }
+
+    /// The distance that a vertex which goes has, by its reach alone, from what it leaves behind; 0 where its planes say
+    /// it. `at` is where the vertex stands in the other's star, if both go.
+    fn tip(&self, candidate: &Candidate, at: Option<usize>) -> f32 {
+        let reach = |star: &Star, way: Vec3A, j: usize| {
+            if star.flatness() >= FLAT { 0.0 } else { TIP * star.distance_to_patch(way, j) }
+        };
+        let edge = self.star.edge(candidate.to);
+        let own = reach(&self.star, candidate.place.unwrap_or(edge), candidate.to);
+        match (at, candidate.place) {
+            (Some(at), Some(place)) => own.max(reach(&self.other, place - edge, at)),
+            _ => own,
+        }
+    }
+
+    /// Whether no triangle would run into another.
+    fn is_clear(&mut self, v: u32, u: u32, candidate: &Candidate, at: Option<usize>) -> bool {
+        let other = at.map(|at| (&self.other, at));
         let end = candidate.place.map_or(self.rings.at(u), |place| self.rings.at(v) + place);
         let planned = Planned { v, u, to: candidate.to, end, star: &self.star, other };
         self.guard.allows(&self.rings, &self.mesh, &planned)
     }
 
-    fn collapse(&mut self, v: u32, candidate: Candidate, distance: f32) {
+    fn collapse(&mut self, v: u32, candidate: Candidate, distance: f32, tip: f32) {
+        let distance = distance.max(tip);
         let u = neighbour(self.star.entries()[candidate.to]);
         let way = self.star.edge(candidate.to);
-        self.method.merge(v, u, way, candidate.place);
+        self.method.merge(v, u, way, candidate.place, tip);
         let (gone, kept) = (self.rings.nodes[v as usize], self.rings.nodes[u as usize]);
         let end = candidate.place.map(|place| self.rings.at(v) + place);
         self.rings.collapse(v, u);

@@ -2,9 +2,14 @@
 //! becomes a new vertex where the sum of the squared distances from the planes of all triangles it stands for, each by
 //! its area, is least.
 //!
-//! Where that leaves a direction free (on a plane, along a tube), the new vertex stays near the middle of its edge: the
-//! middle counts as a faint point of attraction, so that the system is never singular. Boundary edges add a plane that
-//! stands on the surface, as heavy as [`BOUNDARY`]; a vertex inside that meets the boundary goes where the boundary is.
+//! From there it moves on, the way that adds least to that sum, until the surface encloses as much as before (the
+//! volume constraint of Lindstrom and Turk, "Fast and memory efficient polygonal simplification", 1998): planes that
+//! touch a round vessel lie outside of it, triangles between points of it inside. That takes a tenth off the mean error,
+//! and nearly all of the change of volume.
+//!
+//! Where the planes leave a direction free (on a plane, along a tube), the new vertex stays near the middle of its edge,
+//! which counts as a faint point of attraction, so that the system is never singular. Boundary edges add a plane that
+//! stands on the surface; a vertex inside that meets the boundary goes where the boundary is.
 
 use glam::{DVec3, Vec3A};
 
@@ -12,14 +17,14 @@ use super::method::{Candidate, Class, Judged, Method};
 use super::rings::{CREASE, Rings, gather, neighbour};
 use super::star::Star;
 
-fn var(n: &str, d: f64) -> f64 {
-    std::env::var(n).ok().and_then(|g| g.parse().ok()).unwrap_or(d)
-}
-
 /// Weight of the plane that stands on a boundary edge, beside that of a triangle of the same size.
 const BOUNDARY: f64 = 10.0;
 /// Pull of the middle of an edge, as a part of the mean stiffness of its planes.
-const PULL: f64 = 1e-3;
+const PULL: f64 = 1e-5;
+/// What a triangle without area adds to the cost of a candidate, as a part of it.
+const SHAPE_COST: f32 = 0.5;
+/// Most of its edge's length that a new vertex moves to keep the volume.
+const MOST_LEVELLED: f64 = 0.5;
 
 /// `x.Ax + 2 b.x + c` with `x` relative to a vertex: squared distances from planes, by area.
 #[derive(Clone, Copy, Default)]
@@ -62,48 +67,49 @@ impl Form {
     }
 
     /// Where it is least, drawn towards `anchor`; `None` where there are no planes.
-    fn least(&self, anchor: DVec3, pull: f64) -> Option<DVec3> {
+    fn least(&self, anchor: DVec3) -> Option<DVec3> {
+        let found = anchor - self.solve(self.times(anchor) + self.b)?;
+        found.is_finite().then_some(found)
+    }
+
+    /// `x` with `A x = right`, with [`PULL`] added to A's diagonal; `None` where A is zero.
+    fn solve(&self, right: DVec3) -> Option<DVec3> {
         let [xx, xy, xz, yy, yz, zz] = self.a;
-        let pull = (xx + yy + zz) / 3.0 * pull;
+        let pull = (xx + yy + zz) / 3.0 * PULL;
         if pull.is_nan() || pull <= 0.0 {
             return None;
         }
         // Cholesky's factors; the pull keeps each root real.
-        let rest = -(self.times(anchor) + self.b);
         let l11 = (xx + pull).sqrt();
         let (l21, l31) = (xy / l11, xz / l11);
         let l22 = (yy + pull - l21 * l21).sqrt();
         let l32 = (yz - l21 * l31) / l22;
         let l33 = (zz + pull - l31 * l31 - l32 * l32).sqrt();
-        let y1 = rest.x / l11;
-        let y2 = (rest.y - l21 * y1) / l22;
-        let y3 = (rest.z - l31 * y1 - l32 * y2) / l33;
+        let y1 = right.x / l11;
+        let y2 = (right.y - l21 * y1) / l22;
+        let y3 = (right.z - l31 * y1 - l32 * y2) / l33;
         let z = y3 / l33;
         let y = (y2 - l32 * z) / l22;
-        let x = (y1 - l21 * y - l31 * z) / l11;
-        let found = anchor + DVec3::new(x, y, z);
-        found.is_finite().then_some(found)
+        Some(DVec3::new((y1 - l21 * y - l31 * z) / l11, y, z))
     }
 }
 
-/// The method's state: for each slot its form.
+/// The method's state.
+#[derive(Default)]
 pub(super) struct Quadric {
+    /// Of each slot.
     forms: Vec<Form>,
+    /// The area of all, doubled, and how many vertices share it.
+    area: f64,
+    vertices: f64,
     /// Of the vertex judged last.
     candidates: Vec<Candidate>,
-    pull: f64,
-    shape: f32,
-    mode: f64,
 }
-impl Default for Quadric {
-    fn default() -> Self {
-        Self {
-            forms: Vec::new(),
-            candidates: Vec::new(),
-            pull: var("P", PULL),
-            shape: var("QS", 0.5) as f32,
-            mode: var("QM", 0.0),
-        }
+
+impl Quadric {
+    /// The area that a vertex stands for, on average.
+    fn mean_area(&self) -> f64 {
+        self.area / self.vertices.max(1.0)
     }
 }
 
@@ -127,6 +133,8 @@ impl Method for Quadric {
                 form.add_plane(edge.cross(normal), BOUNDARY * edge.length_squared());
             }
         }
+        self.area += form.area;
+        self.vertices += 1.0;
         self.forms[v as usize] = form;
     }
 
@@ -152,7 +160,7 @@ impl Method for Quadric {
             let way = star.edge(to).as_dvec3();
             let form = own.plus(&self.forms[u as usize].seen_from(-way));
             let stays = rings.stays(u) || rings.is_open(u) && !is_open;
-            let place = if stays { None } else { form.least(way * 0.5, self.pull) };
+            let place = if stays { None } else { form.least(way * 0.5) };
             let cost = form.at(place.unwrap_or(way));
             self.candidates.push(Candidate { cost: cost as f32, to, place: place.map(|p| p.as_vec3a()) });
             let priority = cost.sqrt() as f32;
@@ -168,17 +176,41 @@ impl Method for Quadric {
         candidates.extend_from_slice(&self.candidates);
     }
 
-    fn shape_cost(&self, star: &Star, cost: f32) -> f32 {
-        if self.mode == 0.0 {
-            self.shape * cost
-        } else {
-            self.shape * cost + 1e-4 * self.mode as f32 * star.area() * star.area()
-        }
+    fn fair_quality(&self) -> f32 {
+        0.24
     }
 
-    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>) {
+    fn shape_cost(&self, _: &Star, cost: f32) -> f32 {
+        SHAPE_COST * cost
+    }
+
+    fn level(&self, v: u32, u: u32, way: Vec3A, place: Vec3A, normal: Vec3A, offset: f32) -> Option<Vec3A> {
+        let (way, place, normal) = (way.as_dvec3(), place.as_dvec3(), normal.as_dvec3());
+        let form = self.forms[v as usize].plus(&self.forms[u as usize].seen_from(-way));
+        let direction = form.solve(normal)?;
+        let step = (f64::from(offset) - normal.dot(place)) / normal.dot(direction);
+        let found = place + direction * step;
+        let is_near = (found - place).length() < MOST_LEVELLED * way.length();
+        is_near.then_some(found.as_vec3a())
+    }
+
+    fn priority(&self, distance: f32) -> f32 {
+        distance * self.mean_area().sqrt() as f32
+    }
+
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>, tip: f32) {
         let end = place.unwrap_or(way).as_dvec3();
-        let (v, u) = (self.forms[v as usize], &mut self.forms[u as usize]);
+        let mut v = self.forms[v as usize];
+        let reach = end.length_squared();
+        if tip > 0.0 && reach > 0.0 {
+            // The tip counts as a point that the surface should come near to.
+            let weight = self.mean_area() * f64::from(tip * tip) / reach;
+            for i in [0, 3, 5] {
+                v.a[i] += weight;
+            }
+        }
+        self.vertices -= 1.0;
+        let u = &mut self.forms[u as usize];
         *u = u.seen_from(end - way.as_dvec3()).plus(&v.seen_from(end));
     }
 

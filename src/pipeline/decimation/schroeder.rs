@@ -34,7 +34,7 @@ struct Own {
     area: f32,
 }
 
-/// The method's state: for each slot its planes.
+/// The method's state.
 #[derive(Default)]
 pub(super) struct Schroeder {
     planes: Vec<Planes>,
@@ -119,12 +119,32 @@ impl Method for Schroeder {
         candidates.extend(allowed.map(|j| Candidate { cost: star.height(j), to: j, place: None }));
     }
 
+    fn fair_quality(&self) -> f32 {
+        0.15
+    }
+
     fn shape_cost(&self, star: &Star, _: f32) -> f32 {
         SHAPE_COST * star.area().sqrt()
     }
 
-    fn merge(&mut self, v: u32, u: u32, way: Vec3A, _: Option<Vec3A>) {
-        let (planes, own) = (self.planes[v as usize], self.own[v as usize]);
+    fn level(&self, _: u32, _: u32, _: Vec3A, _: Vec3A, _: Vec3A, _: f32) -> Option<Vec3A> {
+        None
+    }
+
+    fn priority(&self, distance: f32) -> f32 {
+        distance
+    }
+
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, _: Option<Vec3A>, tip: f32) {
+        let (mut planes, own) = (self.planes[v as usize], self.own[v as usize]);
+        let reach = way.length_squared();
+        if tip > 0.0 && reach > 0.0 {
+            // The tip counts as a point that the surface should come near to.
+            let weight = own.area * tip * tip / reach;
+            for i in [0, 3, 5] {
+                planes.a[i] += weight;
+            }
+        }
         let turned = planes.times(way);
         let kept = &mut self.planes[u as usize];
         kept.a.iter_mut().zip(planes.a).for_each(|(sum, part)| *sum += part);

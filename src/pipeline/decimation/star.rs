@@ -4,9 +4,10 @@
 //! and `d_i = e_(i+1) - e_i`, the triangle `i` becomes one with the normal `N_i - e_j x d_i` when the vertex moves
 //! onto neighbour `j`.
 
-use glam::{Vec3A, Vec4};
+use glam::{Vec3, Vec3A, Vec4};
 
 use super::rings::{Rings, neighbour};
+use crate::mesh::foot_on_triangle;
 
 /// Triangles around a vertex above which it waits for its neighbours to go first, and nothing collapses onto it: what
 /// is asked of a star takes the square of its size, and the middle of a flat cap may have thousands.
@@ -255,6 +256,22 @@ impl Star {
                 [xx * x + xy * y + xz * z + b[0], xy * x + yy * y + yz * z + b[1], xz * x + yz * y + zz * z + b[2]];
             *values = (dot(row, [x, y, z]) + c).to_array();
         }
+    }
+
+    /// How much the triangles look the same way: 1 if all do, 0 if their normals cancel.
+    pub(super) fn flatness(&self) -> f32 {
+        if self.area > 0.0 { self.normal_sum().length() / self.area } else { 0.0 }
+    }
+
+    /// Distance of the vertex from the triangles that are left when it has gone `way` to where neighbour `j` is.
+    pub(super) fn distance_to_patch(&self, way: Vec3A, j: usize) -> f32 {
+        let before = if j > 0 { j - 1 } else { self.count - 1 };
+        let there = (0..self.triangles).filter(|&i| i != j && i != before);
+        let corner = |i: usize| Vec3::from(if i < self.count { self.edge(i) } else { self.edge(0) });
+        let squares = there.map(|i| foot_on_triangle(Vec3::ZERO, [Vec3::from(way), corner(i), corner(i + 1)]).squared);
+        let least = squares.fold(f64::INFINITY, f64::min);
+        // Where none is left, the vertex was an ear: the edge it stood on.
+        if least.is_finite() { least.sqrt() as f32 } else { way.length() }
     }
 
     /// The sum of the normals of the triangles.
