@@ -6,6 +6,7 @@ use crate::engine::{Opened, Reduced, Source};
 use crate::io::ImportReport;
 use crate::mesh::{Bounds, TriMesh};
 use crate::pipeline::connectivity::Component;
+use crate::pipeline::lumen::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Target};
@@ -162,6 +163,14 @@ impl Document {
         }
         self.measured = Some(measured);
         self.revision.measured += 1;
+    }
+
+    /// The vessel that is pinched or lost on the level that is shown, if one is: the first of them, as far as is known.
+    pub fn pinch(&self) -> Option<&Pinch> {
+        let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
+        let is_of_these = measured.report.after_connectivity.triangles == levels.triangles.len();
+        let pinch = measured.report.pinch.as_ref().filter(|_| is_of_these)?;
+        (shown.level.triangles.len() <= pinch.triangles).then_some(pinch)
     }
 
     /// The shown level as a surface of its own.

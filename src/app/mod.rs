@@ -13,6 +13,7 @@ pub mod document;
 pub mod history;
 mod icon;
 mod keys;
+mod numbers;
 mod overlay;
 mod panel;
 mod platform;

@@ -1,8 +1,9 @@
-//! What is written over a view: its title, the surface's name, a scale bar, which way is up, a legend, and that it is
-//! not for clinical decisions.
+//! What is written over a view: its title, the surface's name, a scale bar, which way is up, a legend, a ring around a
+//! pinched vessel, and that it is not for clinical decisions.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
+use crate::mesh::Vec3;
 use crate::render::{Camera, ColourMap, viridis};
 
 /// What to write.
@@ -46,6 +47,24 @@ pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera) {
     let (painter, inner, text) = (ui.painter_at(rect), rect.shrink(MARGIN), ui.visuals().text_color());
     scale_bar(&painter, inner, rect.height(), camera, text);
     orientation(&painter, inner, camera, text);
+}
+
+/// A ring around a place, and what there is to say of it.
+pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str) {
+    const RADIUS: f32 = 14.0;
+    let Some(at) = camera.project(at, rect.width() / rect.height().max(1.0)) else { return };
+    let middle = rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0);
+    if !rect.contains(middle) {
+        return;
+    }
+    let (painter, colour) = (ui.painter_at(rect), ui.visuals().error_fg_color);
+    painter.circle_stroke(middle, RADIUS, Stroke::new(2.0, colour));
+    let (beside, align) = if middle.x < rect.center().x {
+        (RADIUS + 4.0, Align2::LEFT_CENTER)
+    } else {
+        (-RADIUS - 4.0, Align2::RIGHT_CENTER)
+    };
+    painter.text(middle + vec2(beside, 0.0), align, label, FontId::proportional(12.0), colour);
 }
 
 /// A bar of a round number of millimetres, about a fifth of the view long.

@@ -11,7 +11,7 @@ use super::views::Views;
 use crate::engine::Source;
 use crate::io::Unit;
 use crate::pipeline::report::Report;
-use crate::pipeline::settings::{Keep, Settings, Smoothing, Target, Window, reduction_percent};
+use crate::pipeline::settings::{Keep, Method, Settings, Smoothing, Target, Window, reduction_percent};
 
 /// Shows the panel; returns the unit in which the file should be read instead, if one was chosen.
 pub(super) fn show(ui: &mut Ui, state: &mut State, views: &mut Views) -> Option<Unit> {
@@ -40,7 +40,7 @@ fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
 }
 
 /// A line of the numbers: what it is on the left, how much on the right.
-fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
+pub(super) fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
     ui.spacing_mut().interact_size.y = 18.0;
     let row = ui.horizontal(|ui| {
         ui.label(RichText::new(what).weak());
@@ -202,6 +202,20 @@ fn reduce(ui: &mut Ui, state: &mut State) {
         rate_or_count(ui, state);
     }
     let decimation = &mut state.settings.decimation;
+    ui.horizontal(|ui| {
+        ui.label("Method").on_hover_text(
+            "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the error, better shape.",
+        );
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let list = ComboBox::from_id_salt("method").selected_text(decimation.method.name());
+            let response = list.show_ui(ui, |ui| {
+                for method in Method::ALL {
+                    ui.selectable_value(&mut decimation.method, method, method.name());
+                }
+            });
+            name(&response.response, Role::ComboBox, "Method");
+        });
+    });
     let angle = Setting {
         name: "Feature angle",
         help: "Edges sharper than this are kept as edges.",
@@ -215,6 +229,10 @@ fn reduce(ui: &mut Ui, state: &mut State) {
     let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
     if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
         let text = RichText::new(format!("{shortfall}.")).small();
+        ui.add(egui::Label::new(text).wrap());
+    }
+    if let Some(pinch) = state.document.as_ref().and_then(Document::pinch) {
+        let text = RichText::new(format!("{pinch}.")).small().color(ui.visuals().error_fg_color);
         ui.add(egui::Label::new(text).wrap());
     }
 }
@@ -353,6 +371,7 @@ fn result(ui: &mut Ui, state: &State) {
         "Change from the kept pieces as opened, open ends capped",
     );
     number(ui, "Area", &percent(report.area_change_percent), "Change from the kept pieces as opened");
+    super::numbers::shape(ui, is_current.then_some(report));
     ui.collapsing("Time a stage", |ui| {
         let ms = &report.stages_ms;
         let stages = [
@@ -364,6 +383,7 @@ fn result(ui: &mut Ui, state: &State) {
             ("Level", ms.level),
             ("Normals", ms.normals),
             ("Deviation", ms.deviation),
+            ("Shape and lumen", ms.measures),
         ];
         for (stage, ms) in stages {
             number(ui, stage, &format!("{ms:.1} ms"), "");

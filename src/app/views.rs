@@ -182,6 +182,11 @@ impl Views {
                 map: style.map.filter(|_| has_scalars),
             },
         );
+        if let Some(pinch) = document.and_then(Document::pinch).filter(|_| !self.show_before) {
+            let fate = if pinch.diameter_after_mm > 0.0 { "Pinched" } else { "Lost" };
+            let label = format!("{fate}: {:.1} mm before", pinch.diameter_before_mm);
+            overlay::ring(ui, rect, &self.camera, pinch.at_mm.into(), &label);
+        }
         let is_click = response.clicked() && self.show_left_out;
         is_click.then(|| self.piece_at(response.interact_pointer_pos()?, rect, document?)).flatten()
     }

@@ -2,9 +2,11 @@
 
 use anyhow::Result;
 use clap::Args;
+use serde::Serialize;
 
-use super::{row, source};
-use crate::io::Unit;
+use super::{row, shape_rows, source};
+use crate::io::{ImportReport, Imported, Unit};
+use crate::pipeline::shape::{Shape, shape};
 
 /// Says what is in a surface file.
 #[derive(Debug, Args)]
@@ -19,14 +21,25 @@ pub struct Inspect {
     unit: Option<Unit>,
 }
 
+/// What is in a file, and its shape: the fields of both, side by side.
+#[derive(Serialize)]
+struct Inspected {
+    #[serde(flatten)]
+    report: ImportReport,
+    #[serde(flatten)]
+    shape: Shape,
+}
+
 impl Inspect {
     /// Reads the file and prints its report.
     pub(super) fn run(&self) -> Result<()> {
-        let report = source::read(&self.file, self.unit)?.report;
+        let Imported { mesh, report } = source::read(&self.file, self.unit)?;
+        let inspected = Inspected { report, shape: shape(&mesh) };
         if self.json {
-            println!("{}", serde_json::to_string_pretty(&report)?);
+            println!("{}", serde_json::to_string_pretty(&inspected)?);
             return Ok(());
         }
+        let Inspected { report, shape } = inspected;
         let size = report.bounds_mm.size();
         row("format", &report.format);
         row("triangles", report.triangles);
@@ -44,6 +57,7 @@ impl Inspect {
             Some(volume) => row("volume, ends capped", format!("{volume:.3} mm3")),
             None => row("volume", "none: the surface cannot be oriented"),
         }
+        shape_rows(&shape);
         Ok(())
     }
 }

@@ -17,6 +17,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::pipeline::narrowest::Narrowest;
+use crate::pipeline::shape::Shape;
+
 /// The command line.
 #[derive(Debug, Parser)]
 #[command(
@@ -99,4 +102,19 @@ fn write_whole(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
 /// A row of a table: what it is, padded, and how much.
 fn row(what: &str, how_much: impl std::fmt::Display) {
     println!("{what:<28}{how_much}");
+}
+
+/// The rows of a surface's shape.
+fn shape_rows(shape: &Shape) {
+    if let Some(roughness) = shape.roughness {
+        row("roughness", format!("{:.2} degrees RMS, {:.2} p95", roughness.rms_deg, roughness.p95_deg));
+    }
+    if let Some(angles) = &shape.angles {
+        row("smallest angle", format!("{:.2} degrees", angles.min_deg));
+        row("slivers under 10 degrees", format!("{:.2} % of triangles", angles.below_10_percent));
+    }
+    row("self-intersecting triangles", shape.self_intersecting_faces);
+    if let Some(Narrowest { diameter_mm, at_mm: [x, y, z] }) = shape.smallest_lumen {
+        row("smallest lumen", format!("{diameter_mm:.3} mm at ({x:.1}, {y:.1}, {z:.1})"));
+    }
 }

@@ -9,9 +9,10 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{misuse, output_format, row, source, write_whole};
+use super::{misuse, output_format, row, shape_rows, source, write_whole};
 use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
+use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Boundary, Decimation, Keep, Method, Settings, Smoothing, Target, Window};
@@ -191,6 +192,13 @@ impl Optimise {
         if let Some(change) = report.area_change_percent {
             row("area change", format!("{change:+.3} %"));
         }
+        if let Some(shape) = &report.output_shape {
+            shape_rows(shape);
+        }
+        let before = report.smoothed_shape.as_ref().and_then(|shape| shape.smallest_lumen);
+        if let Some(Narrowest { diameter_mm, .. }) = before {
+            row("smallest lumen, smoothed", format!("{diameter_mm:.3} mm"));
+        }
         let ms = &report.stages_ms;
         row("connectivity", format!("{:.1} ms", ms.connectivity));
         row("smoothing", format!("{:.1} ms", ms.smoothing));
@@ -207,6 +215,9 @@ impl Optimise {
             eprintln!(
                 "lumen: warning: the volume could not be held: the surface is smoothed as without --preserve-volume"
             );
+        }
+        if let Some(warning) = report.pinch_warning() {
+            eprintln!("lumen: warning: {warning}");
         }
         if report.pass_band_missed {
             eprintln!("lumen: warning: too few iterations for this pass band: more are needed to smooth");

@@ -231,7 +231,7 @@ impl Current {
                 tell_progress(Work::Stage(stage), fraction, events);
             }
             Advance::Finished(Stage::Decimation) => self.has_new_levels = true,
-            Advance::Finished(stage @ (Stage::Level | Stage::Deviation)) => {
+            Advance::Finished(stage @ (Stage::Level | Stage::Deviation | Stage::Measures)) => {
                 self.reached = generation;
                 if let Some(mesh) = self.pipeline.progressive().filter(|_| self.has_new_levels) {
                     let keep = self.pipeline.settings().keep;
@@ -239,7 +239,7 @@ impl Current {
                     events.push_back(Event::Reduced(Box::new(reduced)));
                     self.has_new_levels = false;
                 }
-                self.tell_numbers(stage == Stage::Deviation, events);
+                self.tell_numbers(stage != Stage::Level, events);
             }
             Advance::Finished(Stage::Connectivity) => {
                 let pieces = self.pipeline.connectivity();

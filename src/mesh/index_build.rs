@@ -5,6 +5,8 @@
 //! bins cannot separate the centroids, or a branch has grown too deep, the range is split at its median instead, which
 //! bounds the depth for any input.
 //!
+//! Slivers have several boxes (`split_boxes.rs`).
+//!
 //! The result does not depend on how the work was sliced.
 
 use std::task::Poll;
@@ -13,6 +15,7 @@ use glam::{Vec3, Vec3A};
 
 use super::closest_point::is_sliver;
 use super::nearest::{Leaf, Node, SurfaceIndex};
+use super::split_boxes::boxes;
 
 /// Most triangles in a leaf.
 const LEAF: usize = 4;
@@ -35,6 +38,8 @@ pub struct IndexBuild {
     pending: Vec<Pending>,
     active: Option<(Pending, Split)>,
     leaves: Vec<Leaf>,
+    /// Triangles, each of which has one item or more.
+    triangles: usize,
     split_triangles: usize,
 }
 
@@ -274,8 +279,8 @@ impl IndexBuild {
                 Stage::Leaves => self.add_leaves(positions, triangles, left),
             };
             if self.stage == Stage::Leaves && self.next == self.items.len() {
-                let Self { nodes, leaves, .. } = std::mem::take(self);
-                return Poll::Ready(SurfaceIndex { nodes, leaves });
+                let Self { nodes, leaves, triangles, .. } = std::mem::take(self);
+                return Poll::Ready(SurfaceIndex { nodes, leaves, triangles });
             }
             left = left.saturating_sub(used.max(1));
         }
@@ -285,15 +290,19 @@ impl IndexBuild {
     fn add_boxes(&mut self, positions: &[Vec3], triangles: &[[u32; 3]], work: usize) -> usize {
         if self.next == 0 {
             self.items.reserve_exact(triangles.len());
+            self.triangles = 0;
         }
         let end = triangles.len().min(self.next.saturating_add(work));
         for (offset, corners) in triangles[self.next..end].iter().enumerate() {
             let [a, b, c] = corners.map(|v| positions[v as usize]);
             if a.is_finite() && b.is_finite() && c.is_finite() {
-                let item = Item { min: a.min(b).min(c), max: a.max(b).max(c), triangle: (self.next + offset) as u32 };
-                let centroid = item.centroid();
-                self.all.include(centroid, centroid);
-                self.items.push(item);
+                self.triangles += 1;
+                boxes([a, b, c], triangles.len(), |min, max| {
+                    let item = Item { min, max, triangle: (self.next + offset) as u32 };
+                    let centroid = item.centroid();
+                    self.all.include(centroid, centroid);
+                    self.items.push(item);
+                });
             }
         }
         let used = end - self.next;

@@ -2,6 +2,7 @@
 //!
 //! [`TriMesh`] holds data and knows no algorithm; each algorithm is a file beside it.
 
+mod angles;
 mod boundary;
 mod bounds;
 mod closest_point;
@@ -9,12 +10,19 @@ mod components;
 pub(crate) mod crossing;
 mod hausdorff;
 mod index_build;
+mod inner_ball;
+mod inside;
 mod measures;
 mod nearest;
+mod roughness;
+mod self_intersections;
 #[cfg(test)]
 pub(crate) mod shapes;
+mod split_boxes;
 mod topology;
 
+pub(crate) use angles::AngleCounts;
+pub use angles::{Angles, angles};
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
 pub use closest_point::distance_to_triangle;
@@ -23,10 +31,16 @@ pub use components::{Components, components};
 pub use glam::Vec3;
 pub use hausdorff::{Beyond, Reach, TOLERANCE};
 pub use index_build::IndexBuild;
+pub use inner_ball::{InnerBall, InnerRadii, inner_radii, outward_normal};
+pub use inside::Sides;
 pub use measures::{
     Measures, measures, measures_within, oriented_loops, surface_area, triangle_area, volume, volume_of,
 };
 pub use nearest::{Nearest, SurfaceIndex};
+pub use roughness::{Roughness, roughness};
+pub(crate) use roughness::{bends, summarise_bends};
+pub(crate) use self_intersections::distinct;
+pub use self_intersections::self_intersections;
 pub use topology::{EdgeCounts, EdgeUse, Topology};
 
 /// A triangle surface. Triangles wind counter-clockwise seen from outside.

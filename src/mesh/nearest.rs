@@ -15,13 +15,13 @@ use super::closest_point::{Foot, foot_on_sliver, foot_on_triangle};
 use super::index_build::IndexBuild;
 
 /// Room for the nodes still to visit: at most three per level, and [`IndexBuild`] makes at most 32 levels.
-const STACK: usize = 100;
+pub(super) const STACK: usize = 100;
 
 /// Relative allowance for the rounding of a squared distance to a box in f32.
 const BOX_MARGIN: f64 = 1.0 + 1e-6;
 
 /// The nearest point of a surface to a query.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Nearest {
     /// Number of the triangle in the list the index was built from.
     pub triangle: u32,
@@ -31,27 +31,37 @@ pub struct Nearest {
     pub distance: f32,
     /// Weights of the triangle's corners at the point: each 0 or more, with sum 1.
     pub barycentric: [f32; 3],
+    /// A leaf that holds the triangle; which of several depends on the way of the search.
     pub(super) slot: u32,
+}
+
+impl PartialEq for Nearest {
+    fn eq(&self, other: &Self) -> bool {
+        let all = |found: &Self| (found.triangle, found.point, found.distance, found.barycentric);
+        all(self) == all(other)
+    }
 }
 
 /// An index over the triangles of a surface that answers nearest-point queries. It holds its own copy of the corners.
 #[derive(Clone, Debug, Default)]
 pub struct SurfaceIndex {
     pub(super) nodes: Vec<Node>,
+    /// A triangle may stand in several leaves.
     pub(super) leaves: Vec<Leaf>,
+    pub(super) triangles: usize,
 }
 
 /// Four children and their boxes, lane by lane.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    min: [Vec4; 3],
-    max: [Vec4; 3],
+    pub(super) min: [Vec4; 3],
+    pub(super) max: [Vec4; 3],
     /// First slot of a leaf, or number of a node.
-    child: [u32; 4],
+    pub(super) child: [u32; 4],
     /// Triangles of a leaf; 0 for a node.
-    count: [u8; 4],
-    used: u8,
+    pub(super) count: [u8; 4],
+    pub(super) used: u8,
 }
 
 impl Node {
@@ -72,7 +82,7 @@ impl Node {
 
     /// Squared distances from `p` to the four boxes.
     #[inline]
-    fn squared_distances(&self, p: &[Vec4; 3]) -> [f32; 4] {
+    pub(super) fn squared_distances(&self, p: &[Vec4; 3]) -> [f32; 4] {
         let gap = |axis: usize| (self.min[axis] - p[axis]).max(p[axis] - self.max[axis]).max(Vec4::ZERO);
         let (x, y, z) = (gap(0), gap(1), gap(2));
         (x * x + y * y + z * z).to_array()
@@ -140,7 +150,7 @@ impl SurfaceIndex {
 
     /// Number of triangles in the index.
     pub fn len(&self) -> usize {
-        self.leaves.len()
+        self.triangles
     }
 
     /// Whether there is nothing to be near to.
@@ -379,6 +389,40 @@ mod tests {
             let triangles = prop::collection::vec(prop::array::uniform3(0..count), 1..200);
             triangles.prop_map(move |triangles| TriMesh { positions: positions.clone(), triangles })
         })
+    }
+
+    /// A cap of `count` slivers around its middle, tilted against the axes.
+    fn fan(count: u32) -> TriMesh {
+        let turn = glam::Quat::from_euler(glam::EulerRot::XYZ, 0.5, 0.8, 0.3);
+        let rim = (0..count).map(|i| {
+            let angle = f64::from(i) / f64::from(count) * std::f64::consts::TAU;
+            turn * Vec3::new(libm::cos(angle) as f32, libm::sin(angle) as f32, 0.0) * 20.0
+        });
+        let positions = std::iter::once(Vec3::ZERO).chain(rim).collect();
+        TriMesh { positions, triangles: (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect() }
+    }
+
+    #[test]
+    fn in_a_fan_of_thousands_of_slivers_the_answer_is_right_and_few_boxes_overlap() {
+        let mesh = fan(4000);
+        let index = index(&mesh);
+        assert_eq!(index.len(), 4000);
+        let normal = mesh.corners(0)[1].cross(mesh.corners(1000)[1]).normalize();
+        let mut overlapping = 0;
+        for offset in cloud(200, 12.0) {
+            let p = offset + normal * (1.0 - offset.dot(normal));
+            let found = index.nearest(p).unwrap();
+            assert!((found.distance - 1.0).abs() < 1e-4, "{p}: {found:?}");
+            let (squared, _) = brute_force(&mesh, p);
+            assert_eq!(found.distance, squared.sqrt() as f32);
+            let lanes = found.point.to_array().map(Vec4::splat);
+            let children = index.nodes.iter().flat_map(|node| {
+                node.squared_distances(&lanes).into_iter().zip(node.count).filter(|(squared, _)| *squared == 0.0)
+            });
+            overlapping += children.map(|(_, count)| usize::from(count)).sum::<usize>();
+        }
+        // Without cutting, a point lies in the boxes of some 600 of the slivers.
+        assert!(overlapping / 200 < 150, "{}", overlapping / 200);
     }
 
     proptest! {

@@ -71,10 +71,47 @@ pub(crate) fn square(cells: u32, size: f32, z: f32) -> TriMesh {
     TriMesh { positions, triangles }
 }
 
+/// An open tube along z from 0 to `length`, `sides` around and `rings` cells long, whose radius at z is `radius(z)`.
+pub(crate) fn tube(sides: u32, rings: u32, length: f32, radius: impl Fn(f32) -> f32) -> TriMesh {
+    let mut positions = Vec::new();
+    for ring in 0..=rings {
+        let z = ring as f32 * length / rings as f32;
+        for side in 0..sides {
+            // Every other ring is turned by half a side, so that no two walls are the same.
+            let angle = (f64::from(side) + f64::from(ring % 2) / 2.0) / f64::from(sides) * std::f64::consts::TAU;
+            let (x, y) = (libm::cos(angle) as f32, libm::sin(angle) as f32);
+            positions.push(Vec3::new(x * radius(z), y * radius(z), z));
+        }
+    }
+    let at = |ring: u32, side: u32| ring * sides + side % sides;
+    let mut triangles = Vec::new();
+    for ring in 0..rings {
+        for side in 0..sides {
+            let (a, b) = (at(ring, side), at(ring, side + 1));
+            let (c, d) = (at(ring + 1, side), at(ring + 1, side + 1));
+            if ring % 2 == 0 {
+                triangles.extend([[a, b, c], [b, d, c]]);
+            } else {
+                triangles.extend([[a, b, d], [a, d, c]]);
+            }
+        }
+    }
+    TriMesh { positions, triangles }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::Topology;
+
+    #[test]
+    fn a_tube_is_open_at_both_ends_and_faces_outwards() {
+        let mesh = tube(12, 5, 10.0, |_| 2.0);
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let edges = topology.edge_counts();
+        assert_eq!((edges.boundary, edges.non_manifold, edges.flipped), (24, 0, 0));
+        assert!(crate::mesh::volume(&mesh, &topology) > 0.0);
+    }
 
     #[test]
     fn an_icosphere_is_closed_and_round() {

@@ -7,7 +7,8 @@
 //!
 //! Sample `i` of `n` lies in the `i`-th of `n` equal parts of the area, in the order of the triangles, and its place
 //! there comes from a hash of `i` (SplitMix64: Steele, Lea and Flood, "Fast splittable pseudorandom number generators",
-//! 2014). A sample is thus known from its number alone, and the result depends on neither slices nor threads.
+//! 2014). A sample is thus known from its number alone, and the result depends on neither slices nor threads: all cores
+//! measure samples, and of equal distances the first counts.
 
 use std::mem;
 use std::ops::Deref;
@@ -19,14 +20,15 @@ use serde::{Deserialize, Serialize};
 
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{IndexBuild, Nearest, SurfaceIndex, TriMesh, triangle_area};
+use crate::parallel;
 
 /// Samples of each surface for a report.
 pub const REPORT_SAMPLES: usize = 200_000;
 /// Samples of each surface while a user waits.
 pub const INTERACTIVE_SAMPLES: usize = 50_000;
 
-/// Queries between two looks at the clock.
-const QUERIES: usize = 64;
+/// Queries of a core between two looks at the clock.
+const QUERIES: usize = 256;
 /// Units of lighter work between two looks at the clock.
 const UNITS: usize = 8192;
 
@@ -41,6 +43,8 @@ pub struct Deviation {
     pub p95: f64,
     /// Largest over the samples and the vertices of both surfaces.
     pub max: f64,
+    /// Where: the two points that are so far apart, on the first surface and on the second, in mm.
+    pub max_at_mm: [[f32; 3]; 2],
 }
 
 /// What a [`DeviationTask`] finds.
@@ -73,7 +77,7 @@ pub struct DeviationTask<M> {
     index_was_given: bool,
     per_vertex: Vec<f32>,
     distances: Vec<f32>,
-    farthest: f32,
+    farthest: Farthest,
     result: Option<Comparison>,
 }
 
@@ -113,7 +117,7 @@ const STAGES: [Stage; 9] = [
     Stage::Summary,
 ];
 
-impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
+impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
     /// A comparison of `a`, whose vertices are measured one by one, with `b`, by `samples` samples of each (at least one).
     pub fn new(a: M, b: M, samples: usize) -> Self {
         Self {
@@ -125,7 +129,7 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
             index_was_given: false,
             per_vertex: Vec::new(),
             distances: Vec::new(),
-            farthest: 0.0,
+            farthest: Farthest::default(),
             result: None,
         }
     }
@@ -141,6 +145,11 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
     /// The index of `a`, once it is built.
     pub fn index_of_a(&self) -> Option<&Arc<SurfaceIndex>> {
         self.sides[0].index.as_ref()
+    }
+
+    /// The index of `b`, once it is built.
+    pub fn index_of_b(&self) -> Option<&Arc<SurfaceIndex>> {
+        self.sides[1].index.as_ref()
     }
 
     /// The part that is done, 0-1, by estimated time.
@@ -193,19 +202,19 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
             }
             Stage::Index(side) => self.sides[side].add_index(&mut self.build),
             Stage::Vertices(side) => {
-                let end = length.min(self.next + QUERIES);
+                let end = length.min(self.next + QUERIES * parallel::threads());
                 self.measure_vertices(side, end);
                 self.next = end;
                 end == length
             }
             Stage::Samples(side) => {
-                let end = length.min(self.next + QUERIES);
+                let end = length.min(self.next + QUERIES * parallel::threads());
                 self.measure_samples(side, end);
                 self.next = end;
                 end == length
             }
             Stage::Summary => {
-                let deviation = summary(&mut self.distances, self.farthest);
+                let deviation = summary(&mut self.distances, &self.farthest);
                 self.result = Some(Comparison { deviation, per_vertex: mem::take(&mut self.per_vertex) });
                 true
             }
@@ -219,32 +228,98 @@ impl<M: Deref<Target = TriMesh>> DeviationTask<M> {
     fn measure_vertices(&mut self, side: usize, end: usize) {
         let Side { mesh, used, .. } = &self.sides[side];
         let Some(other) = &self.sides[1 - side].index else { return };
-        let mut last = None;
-        let piece = self.next..end;
-        for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
-            if side == 0 {
-                let distance = if used { distance(other, p, &mut last) } else { 0.0 };
-                self.farthest = self.farthest.max(distance);
-                self.per_vertex.push(distance);
-            } else if used && !other.is_within(p, self.farthest) {
-                self.farthest = self.farthest.max(distance(other, p, &mut last));
+        let (first, sofar) = (self.next, self.farthest.distance);
+        let pieces = parallel::map_ranges(end - first, QUERIES, |piece| {
+            let mut queries = Queries::new(other, side);
+            let piece = first + piece.start..first + piece.end;
+            for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
+                if side == 0 {
+                    let distance = if used { queries.measure(p) } else { 0.0 };
+                    queries.distances.push(distance);
+                } else if used && !other.is_within(p, sofar) {
+                    queries.measure(p);
+                }
             }
+            queries
+        });
+        for Queries { distances, farthest, .. } in pieces {
+            self.farthest.take(farthest);
+            self.per_vertex.extend(distances);
         }
     }
 
     fn measure_samples(&mut self, side: usize, end: usize) {
         let Some(other) = &self.sides[1 - side].index else { return };
         let sampler = Sampler { side: &self.sides[side], count: self.samples, stream: side as u64 };
-        let mut last = None;
-        for p in sampler.points(self.next, end) {
-            let distance = distance(other, p, &mut last);
-            self.farthest = self.farthest.max(distance);
-            self.distances.push(distance);
+        let first = self.next;
+        let pieces = parallel::map_ranges(end - first, QUERIES, |piece| {
+            let mut queries = Queries::new(other, side);
+            for p in sampler.points(first + piece.start, first + piece.end) {
+                let distance = queries.measure(p);
+                queries.distances.push(distance);
+            }
+            queries
+        });
+        for Queries { distances, farthest, .. } in pieces {
+            self.farthest.take(farthest);
+            self.distances.extend(distances);
         }
     }
 }
 
-impl<M: Deref<Target = TriMesh>> Task for DeviationTask<M> {
+/// Two points that are farther apart than all before.
+#[derive(Clone, Copy, Debug)]
+struct Farthest {
+    /// Less than 0 where there is none yet.
+    distance: f32,
+    /// On the first surface and on the second.
+    points: [Vec3; 2],
+}
+
+impl Default for Farthest {
+    fn default() -> Self {
+        Self { distance: -1.0, points: [Vec3::ZERO; 2] }
+    }
+}
+
+impl Farthest {
+    fn take(&mut self, other: Self) {
+        if other.distance > self.distance {
+            *self = other;
+        }
+    }
+}
+
+/// Queries of one piece of work.
+struct Queries<'a> {
+    surface: &'a SurfaceIndex,
+    /// The surface that the queries are points of.
+    side: usize,
+    last: Option<Nearest>,
+    distances: Vec<f32>,
+    farthest: Farthest,
+}
+
+impl<'a> Queries<'a> {
+    fn new(surface: &'a SurfaceIndex, side: usize) -> Self {
+        Self { surface, side, last: None, distances: Vec::with_capacity(QUERIES), farthest: Farthest::default() }
+    }
+
+    /// Distance of `p` from the surface; 0 for a point that is not finite.
+    fn measure(&mut self, p: Vec3) -> f32 {
+        let found = match &self.last {
+            Some(last) => self.surface.nearest_from(p, last),
+            None => self.surface.nearest(p),
+        };
+        self.last = found.or(self.last);
+        let Some(Nearest { distance, point, .. }) = found else { return 0.0 };
+        let points = if self.side == 0 { [p, point] } else { [point, p] };
+        self.farthest.take(Farthest { distance, points });
+        distance
+    }
+}
+
+impl<M: Deref<Target = TriMesh> + Sync> Task for DeviationTask<M> {
     /// `None` where one of the surfaces has no area.
     type Output = Option<Comparison>;
 
@@ -294,16 +369,6 @@ impl<M: Deref<Target = TriMesh>> Side<M> {
     }
 }
 
-/// Distance of `p` from the surface; 0 for a point that is not finite.
-fn distance(surface: &SurfaceIndex, p: Vec3, last: &mut Option<Nearest>) -> f32 {
-    let found = match last {
-        Some(last) => surface.nearest_from(p, last),
-        None => surface.nearest(p),
-    };
-    *last = found.or(*last);
-    found.map_or(0.0, |found| found.distance)
-}
-
 /// `count` points spread evenly over a surface.
 struct Sampler<'a, M> {
     side: &'a Side<M>,
@@ -342,7 +407,7 @@ fn unit(stream: u64, i: usize, axis: u64) -> f64 {
 }
 
 /// Summary of at least one distance; leaves them in another order.
-fn summary(distances: &mut [f32], farthest: f32) -> Deviation {
+fn summary(distances: &mut [f32], farthest: &Farthest) -> Deviation {
     let (mut sum, mut squares) = (0.0, 0.0);
     for &distance in &*distances {
         let distance = f64::from(distance);
@@ -358,7 +423,8 @@ fn summary(distances: &mut [f32], farthest: f32) -> Deviation {
         mean: sum / count,
         rms: (squares / count).sqrt(),
         p95: at + (next - at) * rank.fract(),
-        max: f64::from(farthest),
+        max: f64::from(farthest.distance.max(0.0)),
+        max_at_mm: farthest.points.map(|p| p.to_array()),
     }
 }
 
@@ -374,7 +440,8 @@ mod tests {
     #[test]
     fn parallel_planes_are_their_distance_apart() {
         let found = deviation(&square(7, 8.0, 1.0), &square(16, 8.0, 3.5), SAMPLES).unwrap();
-        assert_eq!(found, Deviation { mean: 2.5, rms: 2.5, p95: 2.5, max: 2.5 });
+        assert_eq!([found.mean, found.rms, found.p95, found.max], [2.5; 4]);
+        assert_eq!(found.max_at_mm.map(|[.., z]| z), [1.0, 3.5]);
     }
 
     #[test]
@@ -420,6 +487,10 @@ mod tests {
         for (a, b) in [(&tipped, &flat), (&flat, &tipped)] {
             let found = DeviationTask::new(a, b, 10).finish().unwrap();
             assert_eq!(found.deviation.max, 3.0);
+            let tip = tipped.positions[60].to_array();
+            let foot = [tip[0], tip[1], 0.0];
+            let expected = if std::ptr::eq(a, &tipped) { [tip, foot] } else { [foot, tip] };
+            assert_eq!(found.deviation.max_at_mm, expected);
         }
         let found = DeviationTask::new(&tipped, &flat, 10).finish().unwrap();
         let expected: Vec<f32> = tipped.positions.iter().map(|p| p.z).collect();
@@ -467,6 +538,14 @@ mod tests {
     }
 
     #[test]
+    fn the_number_of_threads_changes_nothing() {
+        let (a, b) = (icosphere(4, 10.0, Vec3::ZERO), icosphere(3, 10.2, Vec3::new(0.3, 0.2, 0.1)));
+        let all = |threads| parallel::with_threads(threads, || DeviationTask::new(&a, &b, 5000).finish().unwrap());
+        let alone = all(1);
+        assert_eq!([all(2), all(7)], [alone.clone(), alone]);
+    }
+
+    #[test]
     fn samples_are_spread_by_area() {
         // Triangles of very different size; each gets its share of the samples to within one at either end.
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(-9.0, 0.0, 0.0), Vec3::new(0.0, -90.0, 0.0)];
@@ -484,9 +563,13 @@ mod tests {
     #[test]
     fn the_percentile_is_interpolated() {
         let mut distances: Vec<f32> = (0..=10).rev().map(|i| i as f32).collect();
-        let found = summary(&mut distances, 11.0);
+        let farthest = Farthest { distance: 11.0, points: [Vec3::X, Vec3::Y] };
+        let found = summary(&mut distances, &farthest);
         assert!((found.p95 - 9.5).abs() < 1e-12);
         assert_eq!((found.mean, found.rms, found.max), (5.0, 35f64.sqrt(), 11.0));
-        assert_eq!(summary(&mut [2.0], 2.0), Deviation { mean: 2.0, rms: 2.0, p95: 2.0, max: 2.0 });
+        let max_at_mm = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(found.max_at_mm, max_at_mm);
+        let alone = summary(&mut [2.0], &Farthest { distance: 2.0, ..farthest });
+        assert_eq!(alone, Deviation { mean: 2.0, rms: 2.0, p95: 2.0, max: 2.0, max_at_mm });
     }
 }

@@ -3,10 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
+use super::lumen::{Narrowing, Pinch};
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
 use super::run::{Pipeline, StageTimes};
 use super::settings::{Settings, reduction_percent};
+use super::shape::Shape;
 use crate::mesh::{Measures, TriMesh, components};
 
 /// What stands in every report.
@@ -90,6 +92,14 @@ pub struct Report {
     pub volume_change_from_smoothed_percent: Option<f64>,
     /// As `area_change_percent`, from the smoothed surface.
     pub area_change_from_smoothed_percent: Option<f64>,
+    /// Shape of the smoothed surface; null until it is measured.
+    pub smoothed_shape: Option<Shape>,
+    /// Shape of the output.
+    pub output_shape: Option<Shape>,
+    /// Where the output has narrowed a vessel of the smoothed surface most; null where there is none.
+    pub narrowing: Option<Narrowing>,
+    /// The first reduction rate, of all, at which a vessel is pinched or lost; null where there is none.
+    pub pinch: Option<Pinch>,
 }
 
 impl Report {
@@ -134,7 +144,33 @@ impl Report {
             area_change_percent: from_kept.1,
             volume_change_from_smoothed_percent: from_smoothed.0,
             area_change_from_smoothed_percent: from_smoothed.1,
+            smoothed_shape: pipeline.smoothed_measures().map(|found| found.shape.clone()),
+            output_shape: pipeline.level_measures().map(|found| found.shape.clone()),
+            narrowing: pipeline.level_measures().and_then(|found| found.narrowing),
+            pinch: pipeline.smoothed_measures().and_then(|found| found.pinch),
         })
+    }
+}
+
+impl Report {
+    /// A sentence where the output pinches a vessel.
+    pub fn pinch_warning(&self) -> Option<String> {
+        let narrowed = self.narrowing.filter(|found| found.pinched_places > 0)?;
+        let Narrowing { at_mm: [x, y, z], diameter_before_mm: before, diameter_after_mm: after, .. } = narrowed;
+        let places = match narrowed.pinched_places {
+            1 => String::new(),
+            count => format!(" It is the worst of {count} places."),
+        };
+        // The rate at which it began says more, where the search met it.
+        let begun = self.pinch.filter(|pinch| pinch.from_percent <= self.reduction_percent + 0.05);
+        let sentence = match begun {
+            Some(pinch) => format!("{pinch}."),
+            None => format!(
+                "A vessel of {before:.1} mm is {} at ({x:.1}, {y:.1}, {z:.1}).",
+                if after > 0.0 { format!("pinched to {after:.1} mm") } else { "lost".to_owned() }
+            ),
+        };
+        Some(format!("{sentence}{}", if begun.is_some() { "" } else { &places }))
     }
 }
 

@@ -4,7 +4,8 @@
 //! opened --connectivity--> kept --smoothing--> smoothed --decimation--> progressive --level--> Level --> Deviations
 //! ```
 //!
-//! Where the target is a bound on the deviation, the level that meets it is found before it is taken.
+//! Where the target is a bound on the deviation, the level that meets it is found before it is taken. Last come the
+//! numbers that are no stage of the method (`measuring`).
 //!
 //! [`Pipeline::set`] drops what a change of settings makes stale, from the first stage that it touches;
 //! [`Pipeline::advance`] works on the first stage that is missing. A change of the reduction rate alone costs a
@@ -21,6 +22,7 @@ use super::connectivity::Connectivity;
 use super::decimation::DecimationTask;
 use super::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
 use super::filter::Filter;
+use super::measuring::{LevelMeasures, LevelTask, SmoothedMeasures, SmoothedTask, Subject};
 use super::normals::{Weighting, vertex_normals};
 use super::progressive::{Level, ProgressiveMesh};
 use super::response::SmoothingResponse;
@@ -46,6 +48,8 @@ pub enum Stage {
     Normals,
     /// How far it is from the smoothed surface and from the one that was opened.
     Deviation,
+    /// Shape and lumen of the smoothed surface and of the level.
+    Measures,
 }
 
 impl Stage {
@@ -59,6 +63,7 @@ impl Stage {
             Self::Level => "Taking the level",
             Self::Normals => "Computing normals",
             Self::Deviation => "Measuring deviation",
+            Self::Measures => "Measuring shape and lumen",
         }
     }
 }
@@ -83,6 +88,8 @@ pub struct StageTimes {
     pub normals: f64,
     /// Both deviations.
     pub deviation: f64,
+    /// Shape and lumen of the smoothed surface, if it is new, and of the level.
+    pub measures: f64,
     /// Surface to file; set by whoever writes it.
     pub write: f64,
 }
@@ -97,6 +104,7 @@ impl StageTimes {
             Stage::Level => &mut self.level,
             Stage::Normals => &mut self.normals,
             Stage::Deviation => &mut self.deviation,
+            Stage::Measures => &mut self.measures,
         }
     }
 }
@@ -107,7 +115,7 @@ pub struct Surface {
     /// The surface.
     pub mesh: Arc<TriMesh>,
     /// Adjacency of its triangles.
-    pub topology: Topology,
+    pub topology: Arc<Topology>,
     /// Its boundary loops; `None` where its windings do not agree.
     pub loops: Option<Vec<Vec<u32>>>,
     /// Its area and volume.
@@ -136,6 +144,8 @@ pub struct Reduced {
     pub level: Level,
     /// The level over its own vertices.
     pub mesh: Arc<TriMesh>,
+    /// Adjacency of its triangles.
+    pub topology: Arc<Topology>,
     /// Vertex normals, weighted by area.
     pub normals: Vec<Vec3>,
     /// Its area and volume.
@@ -170,6 +180,7 @@ enum Running {
     Decimation(Box<DecimationTask<Arc<TriMesh>>>),
     Bound(Box<BoundTask>),
     Deviation(Box<DeviationRun>),
+    Level(Box<LevelTask>),
 }
 
 struct DeviationRun {
@@ -192,6 +203,10 @@ struct Results {
     deviations: Option<Arc<Deviations>>,
     /// Of `finest` and the kept surface, for the next level.
     indices: [Option<Arc<SurfaceIndex>>; 2],
+    /// Of the level, from its deviation to its measures.
+    level_index: Option<Arc<SurfaceIndex>>,
+    smoothed_measures: Option<Arc<SmoothedMeasures>>,
+    level_measures: Option<Arc<LevelMeasures>>,
     times: StageTimes,
 }
 
@@ -201,7 +216,7 @@ pub struct Pipeline {
     samples: usize,
     connectivity: Option<Arc<Connectivity>>,
     /// The pieces that go on, before they are measured.
-    adjacent: Option<(Arc<TriMesh>, Topology)>,
+    adjacent: Option<(Arc<TriMesh>, Arc<Topology>)>,
     now: Results,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
@@ -211,6 +226,8 @@ pub struct Pipeline {
     preparation: Option<Preparation>,
     /// Whether the kept surface has been smoothed before: then it may well be again.
     is_smoothed_again: bool,
+    /// The measuring of the smoothed surface: a change of the level does not stop it.
+    measuring: Option<Box<SmoothedTask>>,
 }
 
 impl Pipeline {
@@ -229,6 +246,7 @@ impl Pipeline {
             terms: None,
             preparation: None,
             is_smoothed_again: false,
+            measuring: None,
         }
     }
 
@@ -254,6 +272,7 @@ impl Pipeline {
             terms: None,
             preparation: None,
             is_smoothed_again: false,
+            measuring: None,
         }
     }
 
@@ -295,17 +314,22 @@ impl Pipeline {
             self.now.finest = None;
             self.now.indices[0] = None;
             self.now.progressive = None;
+            self.now.smoothed_measures = None;
+            self.measuring = None;
         }
         if level {
             self.now.bound = None;
             self.now.times.bound = 0.0;
             self.now.reduced = None;
             self.now.deviations = None;
+            self.now.level_index = None;
+            self.now.level_measures = None;
+            self.now.times.measures = 0.0;
         }
         let stale = match &self.running {
             Some(Running::Smoothing(..)) => smoothing,
             Some(Running::Decimation(_)) => decimation,
-            Some(Running::Bound(_) | Running::Deviation(_)) => level,
+            Some(Running::Bound(_) | Running::Deviation(_) | Running::Level(_)) => level,
             None => false,
         };
         if stale {
@@ -340,6 +364,7 @@ impl Pipeline {
     /// Stops what is under way and goes back to the last settings that reached a level, with their results.
     pub fn cancel(&mut self) {
         self.running = None;
+        self.measuring = None;
         self.adjacent = None;
         if let (None, Some(last)) = (&self.now.reduced, self.last.take()) {
             self.now = last;
@@ -358,7 +383,8 @@ impl Pipeline {
     pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
-        if self.running.is_none() {
+        // The measures come in two parts, with their time begun by `set`.
+        if self.running.is_none() && stage != Stage::Measures {
             *self.now.times.of(stage) = 0.0;
         }
         let result = self.work(stage, budget)?;
@@ -389,6 +415,8 @@ impl Pipeline {
             Some(Stage::Level)
         } else if self.now.deviations.is_none() {
             Some(Stage::Deviation)
+        } else if self.now.level_measures.is_none() {
+            Some(Stage::Measures)
         } else {
             None
         }
@@ -404,7 +432,11 @@ impl Pipeline {
             }
             Stage::Level | Stage::Normals => self.take_level(),
             Stage::Smoothing if self.now.settings.smoothing.iterations == 0 => self.skip_smoothing(),
-            Stage::Smoothing | Stage::Decimation | Stage::Bound | Stage::Deviation => {
+            Stage::Measures if self.now.smoothed_measures.is_none() => {
+                let fraction = self.measure_smoothed(budget).unwrap_or(0.9);
+                return Ok(Advance::Working(stage, 0.9 * fraction));
+            }
+            Stage::Smoothing | Stage::Decimation | Stage::Bound | Stage::Deviation | Stage::Measures => {
                 if self.running.is_none() {
                     self.running = self.start(stage);
                 }
@@ -425,7 +457,7 @@ impl Pipeline {
         let Some((mesh, topology)) = self.adjacent.take() else {
             let mesh = Arc::new(found.kept(&self.opened, self.now.settings.keep)?);
             let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-            self.adjacent = Some((mesh, topology));
+            self.adjacent = Some((mesh, Arc::new(topology)));
             return Ok(Some(0.8));
         };
         let loops = oriented_loops(&topology);
@@ -456,8 +488,9 @@ impl Pipeline {
         let taken = start.elapsed();
         let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
         self.now.times.normals = (start.elapsed() - taken).as_secs_f64() * 1e3;
-        let measures = measures(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
-        self.now.reduced = Some(Arc::new(Reduced { level, mesh, normals, measures }));
+        let topology = Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
+        let measures = measures(&mesh, &topology);
+        self.now.reduced = Some(Arc::new(Reduced { level, mesh, topology, normals, measures }));
         // `advance` adds the whole of this to the level's time: what is not the level's is taken off again.
         self.now.times.level -= (start.elapsed() - taken).as_secs_f64() * 1e3;
     }
@@ -484,6 +517,13 @@ impl Pipeline {
                     None => task,
                 }))
             }
+            Stage::Measures => {
+                let (reduced, of_smoothed) = (self.now.reduced.as_ref()?, self.now.smoothed_measures.as_ref()?);
+                let mesh = reduced.mesh.clone();
+                let index = self.now.level_index.clone().map(|index| (mesh.clone(), index));
+                let subject = Subject { mesh, topology: reduced.topology.clone(), index };
+                Running::Level(Box::new(LevelTask::new(subject, of_smoothed.samples.clone())))
+            }
             _ => {
                 let (finest, reduced) = (self.now.finest.as_ref()?, self.now.reduced.as_ref()?);
                 let task = |mesh: &Arc<TriMesh>, index: &Option<Arc<SurfaceIndex>>| {
@@ -498,6 +538,24 @@ impl Pipeline {
                 Running::Deviation(Box::new(DeviationRun { from_smoothed, from_original, first: None }))
             }
         })
+    }
+
+    /// Advances the measuring of the smoothed surface; the fraction that is done, or `None` when it is stored.
+    fn measure_smoothed(&mut self, budget: Budget) -> Option<f32> {
+        if self.measuring.is_none() {
+            let (kept, smoothed) = (self.now.kept.as_ref()?, self.now.smoothed.as_ref()?);
+            let index = self.now.finest.clone().zip(self.now.indices[0].clone());
+            let subject = Subject { mesh: smoothed.mesh.clone(), topology: kept.topology.clone(), index };
+            self.measuring = Some(Box::new(SmoothedTask::new(subject, self.now.progressive.clone()?)));
+        }
+        match self.measuring.as_mut()?.advance(budget) {
+            Progress::Working(fraction) => Some(fraction),
+            Progress::Done(measures) => {
+                self.now.smoothed_measures = Some(Arc::new(measures));
+                self.measuring = None;
+                None
+            }
+        }
     }
 
     /// Advances what is running; the fraction that is done, or `None` when all of it is and its result is stored.
@@ -524,6 +582,13 @@ impl Pipeline {
                     self.now.bound = Some(bound);
                 }
             },
+            Running::Level(task) => match task.advance(budget) {
+                Progress::Working(fraction) => return Some(0.9 + 0.1 * fraction),
+                Progress::Done(measures) => {
+                    self.now.level_measures = Some(Arc::new(measures));
+                    self.now.level_index = None;
+                }
+            },
             Running::Deviation(run) => {
                 if run.first.is_none() {
                     match run.from_smoothed.advance(budget) {
@@ -534,6 +599,7 @@ impl Pipeline {
                 match run.from_original.advance(budget) {
                     Progress::Working(fraction) => return Some(0.5 + fraction / 2.0),
                     Progress::Done(from_original) => {
+                        self.now.level_index = run.from_smoothed.index_of_b().cloned();
                         self.now.indices =
                             [&run.from_smoothed, &run.from_original].map(|task| task.index_of_a().cloned());
                         let from_smoothed = run.first.take().flatten();
@@ -601,6 +667,16 @@ impl Pipeline {
     /// How far that level is from where it came from.
     pub fn deviations(&self) -> Option<&Arc<Deviations>> {
         self.now.deviations.as_ref()
+    }
+
+    /// Shape and lumen of the smoothed surface.
+    pub fn smoothed_measures(&self) -> Option<&Arc<SmoothedMeasures>> {
+        self.now.smoothed_measures.as_ref()
+    }
+
+    /// Shape and lumen of the level.
+    pub fn level_measures(&self) -> Option<&Arc<LevelMeasures>> {
+        self.now.level_measures.as_ref()
     }
 
     /// What each stage took.

@@ -1,0 +1,195 @@
+//! The triangles of a surface that run into others, found with the hierarchy of boxes of a [`SurfaceIndex`].
+//!
+//! What counts is said in `crossing.rs`; it is MeshLab's definition.
+
+use std::ops::Range;
+
+use glam::{Vec3, Vec4};
+
+use super::TriMesh;
+use super::crossing::{Face, cross};
+use super::nearest::{Node, STACK, SurfaceIndex};
+use crate::parallel;
+
+/// Slots that are searched in one piece.
+const PIECE: usize = 1024;
+
+/// The triangles of `mesh` that run into another one, ascending. Triangles with a coordinate that is not finite run
+/// into nothing.
+pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
+    let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+    let found = parallel::map_ranges(index.slots(), PIECE, |slots| index.crossings(&mesh.triangles, slots));
+    distinct(found.concat())
+}
+
+/// Sorts and drops what is there twice.
+pub(crate) fn distinct(mut faces: Vec<u32>) -> Vec<u32> {
+    faces.sort_unstable();
+    faces.dedup();
+    faces
+}
+
+impl SurfaceIndex {
+    /// The number of places that [`Self::crossings`] can be asked about.
+    pub(crate) fn slots(&self) -> usize {
+        self.leaves.len()
+    }
+
+    /// The triangles that run into one another, where the one of the lower number is in `slots`; some may be there
+    /// more than once. `triangles` are those of the index.
+    pub(crate) fn crossings(&self, triangles: &[[u32; 3]], slots: Range<usize>) -> Vec<u32> {
+        let mut found = Vec::new();
+        for leaf in &self.leaves[slots] {
+            let [a, b, c] = leaf.corners;
+            let face = Face { vertices: triangles[leaf.triangle as usize], corners: leaf.corners };
+            let mut meets = false;
+            self.overlapping(a.min(b).min(c), a.max(b).max(c), |slots| {
+                for other in &self.leaves[slots] {
+                    if other.triangle > leaf.triangle {
+                        let vertices = triangles[other.triangle as usize];
+                        if cross(&face, &Face { vertices, corners: other.corners }) {
+                            meets = true;
+                            found.push(other.triangle);
+                        }
+                    }
+                }
+            });
+            if meets {
+                found.push(leaf.triangle);
+            }
+        }
+        found
+    }
+
+    /// Visits the leaves whose boxes overlap the one from `min` to `max`.
+    fn overlapping(&self, min: Vec3, max: Vec3, mut visit: impl FnMut(Range<usize>)) {
+        let (low, high) = (min.to_array().map(Vec4::splat), max.to_array().map(Vec4::splat));
+        let mut stack = [0u32; STACK];
+        let mut top = usize::from(!self.nodes.is_empty());
+        while top > 0 {
+            top -= 1;
+            let node = &self.nodes[stack[top] as usize];
+            let mut lanes = node.overlaps(&low, &high);
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
+                let (child, count) = (node.child[lane], node.count[lane]);
+                if count > 0 {
+                    visit(child as usize..child as usize + usize::from(count));
+                } else {
+                    stack[top] = child;
+                    top += 1;
+                }
+            }
+        }
+    }
+}
+
+impl Node {
+    /// A bit for each child whose box overlaps the given one.
+    #[inline]
+    fn overlaps(&self, low: &[Vec4; 3], high: &[Vec4; 3]) -> u32 {
+        let apart = |axis: usize| self.min[axis].cmpgt(high[axis]) | self.max[axis].cmplt(low[axis]);
+        let lanes = !(apart(0) | apart(1) | apart(2));
+        // The box of a lane that is not used is empty.
+        lanes.bitmask() & ((1 << self.used) - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::mesh::shapes::{icosphere, square};
+
+    fn joined(meshes: &[TriMesh]) -> TriMesh {
+        let mut all = TriMesh::default();
+        for mesh in meshes {
+            let first = all.positions.len() as u32;
+            all.positions.extend(&mesh.positions);
+            all.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first)));
+        }
+        all
+    }
+
+    /// Pair by pair.
+    fn one_by_one(mesh: &TriMesh) -> Vec<u32> {
+        let face = |t: usize| Face { vertices: mesh.triangles[t], corners: mesh.corners(t) };
+        let count = mesh.triangles.len();
+        let pairs = (0..count).flat_map(|s| (s + 1..count).map(move |t| (s, t)));
+        let crossing = pairs.filter(|&(s, t)| cross(&face(s), &face(t)));
+        distinct(crossing.flat_map(|(s, t)| [s as u32, t as u32]).collect())
+    }
+
+    #[test]
+    fn a_sphere_a_plane_and_nothing_do_not_run_into_themselves() {
+        for mesh in [icosphere(4, 10.0, Vec3::ONE), square(20, 5.0, 1.0), TriMesh::default()] {
+            assert!(self_intersections(&mesh).is_empty());
+        }
+    }
+
+    #[test]
+    fn two_spheres_run_into_each_other_along_their_common_circle() {
+        let [a, b] = [Vec3::ZERO, Vec3::new(9.0, 1.0, 2.0)].map(|centre| icosphere(4, 8.0, centre));
+        let both = joined(&[a, b]);
+        let found = self_intersections(&both);
+        assert_eq!(found, one_by_one(&both));
+        assert!(found.len() > 60, "{}", found.len());
+        // Each lies near the plane of the circle, in which points are as far from either centre.
+        for &t in &found {
+            let corner = both.corners(t as usize)[0];
+            let [near, far] = [Vec3::ZERO, Vec3::new(9.0, 1.0, 2.0)].map(|centre| corner.distance(centre));
+            assert!((near - far).abs() < 1.5, "{corner}");
+        }
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_nothing() {
+        let both = joined(&[icosphere(5, 8.0, Vec3::ZERO), icosphere(5, 8.0, Vec3::new(3.0, 4.0, 5.0))]);
+        let alone = parallel::with_threads(1, || self_intersections(&both));
+        for threads in [2, 7] {
+            assert_eq!(parallel::with_threads(threads, || self_intersections(&both)), alone);
+        }
+    }
+
+    #[test]
+    fn broken_triangles_end_no_search() {
+        let mut mesh = joined(&[icosphere(2, 8.0, Vec3::ZERO), icosphere(2, 8.0, Vec3::ONE)]);
+        mesh.positions[3].y = f32::NAN;
+        mesh.positions[7].z = f32::INFINITY;
+        mesh.triangles.extend([[1, 1, 2], [4, 4, 4]]);
+        assert!(!self_intersections(&mesh).is_empty());
+    }
+
+    fn soup() -> impl Strategy<Value = TriMesh> {
+        let positions = prop::collection::vec(prop::array::uniform3(-4.0f32..4.0).prop_map(Vec3::from), 6..30);
+        positions.prop_flat_map(|positions| {
+            let count = positions.len() as u32;
+            let triangles = prop::collection::vec(prop::array::uniform3(0..count), 1..60);
+            triangles.prop_map(move |triangles| {
+                let whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+                TriMesh { positions: positions.clone(), triangles: triangles.into_iter().filter(whole).collect() }
+            })
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn the_boxes_miss_no_pair(mesh in soup()) {
+            prop_assert_eq!(self_intersections(&mesh), one_by_one(&mesh));
+        }
+
+        /// Halving all lengths and exchanging the axes is exact in floating point.
+        #[test]
+        fn the_order_of_triangles_axes_and_scale_do_not_matter(mesh in soup(), turn in 0usize..50) {
+            let count = self_intersections(&mesh).len();
+            let mut moved = mesh.clone();
+            moved.positions.iter_mut().for_each(|p| *p = Vec3::new(p.y, p.z, p.x) * 2.0);
+            let turn = turn % moved.triangles.len().max(1);
+            moved.triangles.rotate_left(turn);
+            moved.triangles.reverse();
+            prop_assert_eq!(self_intersections(&moved).len(), count);
+        }
+    }
+}
