@@ -19,8 +19,7 @@ pub struct Measures {
 
 /// Area and volume of `mesh`; `topology` must be that of its triangles.
 pub fn measures(mesh: &TriMesh, topology: &Topology) -> Measures {
-    let orientable = topology.edges().all(|(_, _, edge)| !edge.is_flipped());
-    Measures { area_mm2: surface_area(mesh), volume_mm3: orientable.then(|| volume(mesh, topology)) }
+    Measures { area_mm2: surface_area(mesh), volume_mm3: topology.is_consistent().then(|| volume(mesh, topology)) }
 }
 
 /// Area of a triangle in mm2.

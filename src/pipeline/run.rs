@@ -61,8 +61,11 @@ impl Stage {
 pub struct StageTimes {
     /// File to surface; set by whoever reads it.
     pub read: f64,
-    /// Pieces and their measures.
+    /// Pieces, and the surface of those that are kept.
     pub connectivity: f64,
+    /// Who touches whom in what is kept; smoothing and decimation rest on it.
+    #[serde(default)]
+    pub adjacency: f64,
     /// Windowed sinc.
     pub smoothing: f64,
     /// All levels.
@@ -71,6 +74,9 @@ pub struct StageTimes {
     pub level: f64,
     /// Vertex normals of the level.
     pub normals: f64,
+    /// Areas and volumes of the pieces, the kept, the smoothed and the reduced surface.
+    #[serde(default)]
+    pub measures: f64,
     /// Both deviations.
     pub deviation: f64,
     /// Surface to file; set by whoever writes it.
@@ -123,6 +129,8 @@ pub struct Reduced {
     pub normals: Vec<Vec3>,
     /// Its area and volume.
     pub measures: Measures,
+    /// A number that differs where surfaces do: see [`fingerprint`].
+    pub fingerprint: u64,
 }
 
 /// How far a level is from where it came from.
@@ -174,6 +182,8 @@ struct Results {
     /// Of `finest` and the kept surface, for the next level.
     indices: [Option<Arc<SurfaceIndex>>; 2],
     times: StageTimes,
+    /// Milliseconds that area and volume took, of the kept, the smoothed and the reduced surface.
+    measuring: [f64; 3],
 }
 
 /// One opened surface and what the stages made of it so far.
@@ -181,8 +191,12 @@ pub struct Pipeline {
     opened: Arc<TriMesh>,
     samples: usize,
     connectivity: Option<Connectivity>,
-    /// The pieces that go on, before they are measured.
-    adjacent: Option<(Arc<TriMesh>, Topology)>,
+    /// The pieces that go on, before they are measured, and their adjacency.
+    adjacent: Option<(Arc<TriMesh>, Option<Topology>)>,
+    /// The stage whose time is being counted.
+    timed: Option<Stage>,
+    /// Milliseconds of the present call of `advance` that are not the stage's own.
+    aside: f64,
     now: Results,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
@@ -198,6 +212,8 @@ impl Pipeline {
             samples: INTERACTIVE_SAMPLES,
             connectivity: None,
             adjacent: None,
+            timed: None,
+            aside: 0.0,
             now,
             last: None,
             running: None,
@@ -257,6 +273,9 @@ impl Pipeline {
         if stale {
             self.running = None;
         }
+        if stale || keep {
+            self.timed = None;
+        }
         Ok(())
     }
 
@@ -264,6 +283,7 @@ impl Pipeline {
     pub fn cancel(&mut self) {
         self.running = None;
         self.adjacent = None;
+        self.timed = None;
         if let (None, Some(last)) = (&self.now.reduced, self.last.take()) {
             self.now = last;
         }
@@ -281,11 +301,14 @@ impl Pipeline {
     pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
-        if self.running.is_none() {
+        if self.timed.replace(stage) != Some(stage) {
             *self.now.times.of(stage) = 0.0;
         }
         let result = self.work(stage, budget)?;
-        *self.now.times.of(stage) += start.elapsed().as_secs_f64() * 1e3;
+        *self.now.times.of(stage) += milliseconds(start) - std::mem::take(&mut self.aside);
+        if result == Advance::Finished(stage) {
+            self.timed = None;
+        }
         Ok(result)
     }
 
@@ -336,21 +359,36 @@ impl Pipeline {
         Ok(Advance::Finished(stage))
     }
 
-    /// One of the three parts of the first stage; `None` when it was the last.
+    /// One of the four parts of the first stage; `None` when it was the last.
     fn connect(&mut self) -> Result<Option<f32>, SettingsError> {
-        let Some(found) = &self.connectivity else {
-            self.connectivity = Some(Connectivity::of(&self.opened));
-            return Ok(Some(0.3));
+        let Some(found) = &mut self.connectivity else {
+            self.connectivity = Some(Connectivity::unmeasured(&self.opened));
+            return Ok(Some(0.2));
         };
-        let Some((mesh, topology)) = self.adjacent.take() else {
-            let mesh = Arc::new(found.kept(&self.opened, self.now.settings.keep)?);
-            let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-            self.adjacent = Some((mesh, topology));
-            return Ok(Some(0.8));
-        };
-        let measures = measures(&mesh, &topology);
-        self.now.kept = Some(Arc::new(Surface { mesh, topology, measures }));
-        Ok(None)
+        let start = Instant::now();
+        match self.adjacent.take() {
+            None => {
+                self.adjacent = Some((found.kept(&self.opened, self.now.settings.keep)?, None));
+                Ok(Some(0.3))
+            }
+            Some((mesh, None)) => {
+                let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+                self.adjacent = Some((mesh, Some(topology)));
+                self.now.times.adjacency = milliseconds(start);
+                self.aside += self.now.times.adjacency;
+                Ok(Some(0.7))
+            }
+            Some((mesh, Some(topology))) => {
+                if found.components.is_empty() {
+                    found.measure(&self.opened);
+                }
+                let measures = measures(&mesh, &topology);
+                self.now.kept = Some(Arc::new(Surface { mesh, topology, measures }));
+                self.now.measuring[0] = milliseconds(start);
+                self.aside += self.now.measuring[0];
+                Ok(None)
+            }
+        }
     }
 
     fn skip_smoothing(&mut self) {
@@ -361,16 +399,17 @@ impl Pipeline {
 
     fn take_level(&mut self) {
         let Some(progressive) = &self.now.progressive else { return };
-        let start = Instant::now();
         let level = progressive.level(self.now.settings.target);
         let mesh = Arc::new(progressive.extract(&level.triangles));
-        let taken = start.elapsed();
+        let start = Instant::now();
         let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
-        self.now.times.normals = (start.elapsed() - taken).as_secs_f64() * 1e3;
+        self.now.times.normals = milliseconds(start);
+        let measuring = Instant::now();
         let measures = measures(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
-        self.now.reduced = Some(Arc::new(Reduced { level, mesh, normals, measures }));
-        // `advance` adds the whole of this to the level's time: what is not the level's is taken off again.
-        self.now.times.level -= (start.elapsed() - taken).as_secs_f64() * 1e3;
+        self.now.measuring[2] = milliseconds(measuring);
+        let fingerprint = fingerprint(&mesh);
+        self.now.reduced = Some(Arc::new(Reduced { level, mesh, normals, measures, fingerprint }));
+        self.aside += milliseconds(start);
     }
 
     fn start(&self, stage: Stage) -> Option<Running> {
@@ -411,7 +450,10 @@ impl Pipeline {
                 Progress::Done(positions) => {
                     let kept = self.now.kept.as_ref()?;
                     let mesh = TriMesh { positions, triangles: kept.mesh.triangles.clone() };
+                    let start = Instant::now();
                     let measures = measures(&mesh, &kept.topology);
+                    self.now.measuring[1] = milliseconds(start);
+                    self.aside += self.now.measuring[1];
                     let smoothed = Smoothed { mesh: Arc::new(mesh), filter: Some(filter.clone()), measures };
                     self.now.smoothed = Some(Arc::new(smoothed));
                 }
@@ -499,8 +541,21 @@ impl Pipeline {
 
     /// What each stage took.
     pub fn times(&self) -> StageTimes {
-        self.now.times
+        StageTimes { measures: self.now.measuring.iter().sum(), ..self.now.times }
     }
+}
+
+/// Milliseconds since `start`.
+fn milliseconds(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+/// A number by which two runs can see that they made the same surface: FNV-1a (Fowler, Noll, Vo), 64 bits, over the
+/// positions' and the triangles' 32-bit words.
+pub fn fingerprint(mesh: &TriMesh) -> u64 {
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+    let words = bytemuck::cast_slice::<_, u32>(&mesh.positions).iter().chain(mesh.triangles.as_flattened());
+    words.fold(0xcbf2_9ce4_8422_2325, |hash, &word| (hash ^ u64::from(word)).wrapping_mul(PRIME))
 }
 
 /// Whether two settings make the same surface: without iterations, the rest does not matter.
@@ -562,6 +617,35 @@ mod tests {
         assert!(most > 0.0 && f64::from(most) <= deviation.deviation.max);
         let gone = found.by_node.iter().filter(|&&distance| distance == 0.0).count();
         assert!(gone >= found.by_node.len() - pipeline.reduced().unwrap().mesh.positions.len());
+    }
+
+    #[test]
+    fn the_time_of_a_stage_in_slices_is_that_of_all_its_slices() {
+        let opened = Arc::new(generate(Sample::Aorta, 100_000).unwrap());
+        let mut pipeline = Pipeline::new(opened, Settings::default());
+        let (mut spent, mut told) = (0.0, 0.0);
+        while pipeline.next_stage() <= Some(Stage::Smoothing) && pipeline.next_stage().is_some() {
+            let start = Instant::now();
+            pipeline.advance(Budget::new(Duration::ZERO)).unwrap();
+            spent += milliseconds(start);
+            let times = pipeline.times();
+            let all = times.connectivity + times.adjacency + times.measures + times.smoothing;
+            assert!(all >= told, "a slice took {} ms off", told - all);
+            told = all;
+        }
+        assert!(told <= spent && told > spent * 0.5, "{told} of {spent} ms");
+    }
+
+    #[test]
+    fn surfaces_have_one_fingerprint_only_where_they_are_the_same() {
+        let mesh = TriMesh { positions: vec![Vec3::X, Vec3::Y, Vec3::Z], triangles: vec![[0, 1, 2]] };
+        let mut other = mesh.clone();
+        assert_eq!(fingerprint(&mesh), fingerprint(&other));
+        other.triangles[0].rotate_left(1);
+        assert_ne!(fingerprint(&mesh), fingerprint(&other));
+        other = mesh.clone();
+        other.positions[1].x = f32::from_bits(1);
+        assert_ne!(fingerprint(&mesh), fingerprint(&other));
     }
 
     #[test]
