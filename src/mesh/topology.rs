@@ -87,10 +87,9 @@ impl Topology {
         neighbour_offsets.push(0);
         for v in 0..vertex_count {
             let around = &triangle_lists[triangle_offsets[v] as usize..triangle_offsets[v + 1] as usize];
-            let count = around.len();
             if let Some(neighbours) = interior_ring(triangles, around, v as u32) {
-                neighbour_lists.extend_from_slice(&neighbours[..count]);
-                edge_uses.extend_from_slice(&[EdgeUse { forward: 1, backward: 1 }; SMALL_RING][..count]);
+                neighbour_lists.extend_from_slice(&neighbours[..around.len()]);
+                edge_uses.extend_from_slice(&[EdgeUse { forward: 1, backward: 1 }; SMALL_RING][..around.len()]);
             } else {
                 ring.clear();
                 for &t in around {
@@ -191,44 +190,32 @@ fn row<'a, T>(offsets: &[u32], lists: &'a [T], v: u32) -> &'a [T] {
 }
 
 /// The most triangles around a vertex for which [`interior_ring`] looks.
-const SMALL_RING: usize = 8;
+const SMALL_RING: usize = 12;
 
-/// Neighbours, as many as there are, and then [`NO_NEIGHBOUR`]s. Signed numbers are compared four at a time everywhere.
-type SmallRing = [i32; SMALL_RING];
-
-/// Larger than any neighbour in a [`SmallRing`].
-const NO_NEIGHBOUR: i32 = i32::MAX;
-
-/// The neighbours of `v`, ascending, where each of its edges is used once in either direction; `None` where one is
-/// not, or where there are more triangles than [`SMALL_RING`]. So it is with nearly every vertex, and it takes no
-/// branch that depends on the order.
+/// The neighbours of `v`, ascending, where each of its edges is used once in either direction, as nearly everywhere;
+/// `None` where one is not, or where there are more triangles than [`SMALL_RING`].
 fn interior_ring(triangles: &[[u32; 3]], around: &[u32], v: u32) -> Option<[u32; SMALL_RING]> {
-    if around.len() > SMALL_RING {
+    let count = around.len();
+    if count > SMALL_RING {
         return None;
     }
-    let (mut nexts, mut lasts) = ([NO_NEIGHBOUR; SMALL_RING], [NO_NEIGHBOUR; SMALL_RING]);
-    for ((&t, next), last) in around.iter().zip(&mut nexts).zip(&mut lasts) {
-        [*next, *last] = opposite(triangles[t as usize], v).map(|n| n as i32);
+    let (mut nexts, mut lasts) = ([0; SMALL_RING], [0; SMALL_RING]);
+    for (i, &t) in around.iter().enumerate() {
+        let [next, last] = opposite(triangles[t as usize], v);
+        insert(&mut nexts, i, next);
+        insert(&mut lasts, i, last);
     }
-    let (nexts, lasts) = (ranked(nexts, around.len()), ranked(lasts, around.len()));
-    // A value that is there twice leaves a gap in its order; one beyond i32 comes out negative.
-    let whole = nexts[..around.len()].iter().all(|&n| (0..NO_NEIGHBOUR).contains(&n));
-    (nexts == lasts && whole).then(|| nexts.map(|n| n as u32))
+    (nexts == lasts && nexts[..count].is_sorted_by(|a, b| a < b)).then_some(nexts)
 }
 
-/// The first `count` values, each at the place of the number of smaller ones; equal ones fall on one place.
-fn ranked(values: SmallRing, count: usize) -> SmallRing {
-    let mut ranks = [0i32; SMALL_RING];
-    for other in values {
-        for (rank, value) in ranks.iter_mut().zip(values) {
-            *rank += i32::from(other < value);
-        }
+/// Puts `value` into its place among the first `count`, which ascend.
+fn insert(values: &mut [u32; SMALL_RING], count: usize, value: u32) {
+    let mut place = count;
+    while place > 0 && values[place - 1] > value {
+        values[place] = values[place - 1];
+        place -= 1;
     }
-    let mut placed = [NO_NEIGHBOUR; SMALL_RING];
-    for (value, rank) in values.into_iter().zip(ranks).take(count) {
-        placed[rank as usize % SMALL_RING] = value;
-    }
-    placed
+    values[place] = value;
 }
 
 /// Adds a vertex's neighbours, which ascend, with the uses of each edge summed.
