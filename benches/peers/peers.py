@@ -73,7 +73,6 @@ class Vtk:
         normals = vtk.vtkPolyDataNormals()
         normals.SetInputData(smoothed)
         normals.SplittingOff()
-        normals.ConsistencyOff()
         ms["vtk.normals"], _ = timed(normals)
         for rate in RATES:
             ms[f"vtk.pro{rate}"], _ = timed(decimate_pro(smoothed, rate))
