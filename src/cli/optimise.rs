@@ -14,7 +14,7 @@ use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::{Advance, Pipeline};
-use crate::pipeline::settings::{Boundary, Decimation, Keep, Settings, Smoothing, Target, Window};
+use crate::pipeline::settings::{Boundary, Decimation, Keep, Method, Settings, Smoothing, Target, Window};
 use crate::pipeline::task::Budget;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
@@ -40,6 +40,9 @@ pub struct Optimise {
     /// How many triangles to keep, in place of --reduction
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     triangles: Option<u32>,
+    /// How to reduce
+    #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Method::default())]
+    method: Method,
     /// Edges sharper than this are kept as edges, degrees, 0 to 180
     #[arg(long, value_name = "DEG", default_value_t = Decimation::default().feature_angle)]
     feature_angle: f64,
@@ -55,6 +58,16 @@ pub struct Optimise {
 }
 
 impl ValueEnum for Window {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        Some(clap::builder::PossibleValue::new(self.name().to_lowercase()))
+    }
+}
+
+impl ValueEnum for Method {
     fn value_variants<'a>() -> &'a [Self] {
         &Self::ALL
     }
@@ -82,7 +95,7 @@ impl Optimise {
                 iterations: self.iterations,
                 boundary: Boundary::default(),
             },
-            decimation: Decimation { feature_angle: self.feature_angle },
+            decimation: Decimation { method: self.method, feature_angle: self.feature_angle },
             target: match self.triangles {
                 Some(count) => Target::Triangles(count),
                 None => Target::Reduction((self.reduction * 10.0).round() as u32),

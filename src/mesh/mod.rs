@@ -6,6 +6,7 @@ mod boundary;
 mod bounds;
 mod closest_point;
 mod components;
+pub(crate) mod crossing;
 mod index_build;
 mod measures;
 mod nearest;

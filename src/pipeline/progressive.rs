@@ -37,6 +37,50 @@ pub struct ProgressiveMesh {
     pub limit: Limit,
 }
 
+/// One step of a run, as it is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Merge {
+    /// The node that ends.
+    pub gone: u32,
+    /// The node that takes over, if none is made.
+    pub kept: u32,
+    /// The node that takes over from both.
+    pub made: Option<u32>,
+}
+
+impl Merge {
+    /// The nodes that end.
+    fn ended(&self) -> [Option<u32>; 2] {
+        [Some(self.gone), self.made.map(|_| self.kept)]
+    }
+
+    /// The node that takes over.
+    fn heir(&self) -> u32 {
+        self.made.unwrap_or(self.kept)
+    }
+}
+
+/// The step that ends a triangle, the first after which two of its corners are one; `ends` has for each node the step
+/// that ends it and the node that takes over.
+fn end_of([mut a, mut b, mut c]: [u32; 3], ends: &[(u32, u32)]) -> u32 {
+    loop {
+        let [of_a, of_b, of_c] = [a, b, c].map(|node| ends[node as usize]);
+        let first = of_a.0.min(of_b.0).min(of_c.0);
+        if first == NEVER {
+            return NEVER;
+        }
+        // Both nodes that a step ends go on at once.
+        for (corner, (end, heir)) in [(&mut a, of_a), (&mut b, of_b), (&mut c, of_c)] {
+            if end == first {
+                *corner = heir;
+            }
+        }
+        if a == b || b == c || c == a {
+            return first;
+        }
+    }
+}
+
 /// Why a decimation run went no further.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Limit {
@@ -86,61 +130,59 @@ pub struct Level {
 }
 
 impl ProgressiveMesh {
-    /// Orders the outcome of a run of half-edge collapses on `mesh`.
-    ///
-    /// `collapses` has, for each step, the vertex that goes and the one that takes over; `triangle_ends` the step
-    /// that ends each triangle of `mesh`, or [`NEVER`].
+    /// Orders the outcome of a run on `mesh`: each step merges two nodes. Nodes are numbered from the vertices of `mesh`
+    /// on, those at the positions `made` after them in the order in which they begin.
     ///
     /// # Panics
-    /// When the lengths do not fit, or a vertex is removed twice (debug builds).
-    pub fn from_collapses(
-        mesh: &TriMesh,
-        collapses: &[[u32; 2]],
-        triangle_ends: &[u32],
-        mut errors: Vec<f32>,
-        limit: Limit,
-    ) -> Self {
-        assert_eq!(mesh.triangles.len(), triangle_ends.len());
-        assert_eq!(collapses.len(), errors.len());
-        let count = mesh.positions.len();
-        let survivors = count - collapses.len();
-        let mut node_of = vec![NEVER; count];
-        for (step, &[gone, _]) in collapses.iter().enumerate() {
-            debug_assert_eq!(node_of[gone as usize], NEVER, "a vertex goes once");
-            node_of[gone as usize] = (count - 1 - step) as u32;
+    /// When there are not as many errors as merges, or a node ends twice (debug builds).
+    pub fn from_merges(mesh: &TriMesh, merges: &[Merge], made: &[Vec3], mut errors: Vec<f32>, limit: Limit) -> Self {
+        assert_eq!(merges.len(), errors.len());
+        let vertices = mesh.positions.len();
+        let count = vertices + made.len();
+        // For each node the step that ends it, and its parent.
+        let mut ends: Vec<(u32, u32)> = vec![(NEVER, 0); count];
+        let mut order = Vec::with_capacity(count);
+        for (step, merge) in merges.iter().enumerate() {
+            for gone in merge.ended().into_iter().flatten() {
+                debug_assert_eq!(ends[gone as usize].0, NEVER, "a node ends once");
+                ends[gone as usize] = (step as u32, merge.heir());
+                order.push(gone);
+            }
         }
-        for (next, node) in node_of.iter_mut().filter(|node| **node == NEVER).enumerate() {
-            *node = next as u32;
-        }
-        let mut positions = vec![Vec3::ZERO; count];
-        for (v, &node) in node_of.iter().enumerate() {
-            positions[node as usize] = mesh.positions[v];
-        }
-        let mut parents: Vec<u32> = (0..count as u32).collect();
-        for &[gone, kept] in collapses {
-            parents[node_of[gone as usize] as usize] = node_of[kept as usize];
-        }
-        let node_end = |node: usize| if node < survivors { NEVER } else { (count - 1 - node) as u32 };
+        order.reverse();
+        let survivors: Vec<u32> = (0..count as u32).filter(|&node| ends[node as usize].0 == NEVER).collect();
+        let order: Vec<u32> = survivors.into_iter().chain(order).collect();
+        let mut node_of = vec![0; count];
+        order.iter().enumerate().for_each(|(new, &old)| node_of[old as usize] = new as u32);
+        let position = |node: u32| match (node as usize).checked_sub(vertices) {
+            None => mesh.positions[node as usize],
+            Some(made_as) => made[made_as],
+        };
+        let parent = |node: u32| match ends[node as usize] {
+            (NEVER, _) => node_of[node as usize],
+            (_, parent) => node_of[parent as usize],
+        };
+        let triangle_ends: Vec<u32> = mesh.triangles.iter().map(|&corners| end_of(corners, &ends)).collect();
         // A counting sort by end, the last first, keeps the order of triangles that end together.
-        let slot = |end: u32| if end == NEVER { 0 } else { collapses.len() - end as usize };
-        let mut starts = vec![0u32; collapses.len() + 2];
+        let slot = |end: u32| if end == NEVER { 0 } else { merges.len() - end as usize };
+        let mut starts = vec![0u32; merges.len() + 2];
         triangle_ends.iter().for_each(|&end| starts[slot(end) + 1] += 1);
         (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
         let mut triangles = vec![[0; 3]; mesh.triangles.len()];
-        let mut ends = vec![0; mesh.triangles.len()];
-        for (corners, &end) in mesh.triangles.iter().zip(triangle_ends) {
+        let mut sorted_ends = vec![0; mesh.triangles.len()];
+        for (corners, &end) in mesh.triangles.iter().zip(&triangle_ends) {
             let place = &mut starts[slot(end)];
             triangles[*place as usize] = corners.map(|v| node_of[v as usize]);
-            ends[*place as usize] = end;
+            sorted_ends[*place as usize] = end;
             *place += 1;
         }
         (1..errors.len()).for_each(|i| errors[i] = errors[i].max(errors[i - 1]));
         Self {
-            positions,
-            parents,
-            node_ends: (0..count).map(node_end).collect(),
+            positions: order.iter().map(|&node| position(node)).collect(),
+            parents: order.iter().map(|&node| parent(node)).collect(),
+            node_ends: order.iter().map(|&node| ends[node as usize].0).collect(),
             triangles,
-            triangle_ends: ends,
+            triangle_ends: sorted_ends,
             errors,
             limit,
         }
@@ -228,7 +270,8 @@ mod tests {
     fn fan() -> ProgressiveMesh {
         let positions = (0..5).map(|i| Vec3::splat(i as f32)).collect();
         let mesh = TriMesh { positions, triangles: vec![[4, 0, 1], [4, 1, 2], [4, 2, 3], [4, 3, 0]] };
-        ProgressiveMesh::from_collapses(&mesh, &[[4, 0], [1, 0]], &[0, 1, NEVER, 0], vec![0.5, 0.25], Limit::default())
+        let merges = [[4, 0], [1, 0]].map(|[gone, kept]| Merge { gone, kept, made: None });
+        ProgressiveMesh::from_merges(&mesh, &merges, &[], vec![0.5, 0.25], Limit::default())
     }
 
     #[test]

@@ -93,9 +93,35 @@ pub enum Boundary {
     Vtk15,
 }
 
+/// How a surface is reduced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Method {
+    /// The paper's: vertices are deleted, none moves.
+    #[default]
+    Schroeder,
+    /// Least error: edges become vertices where they fit best.
+    Quadric,
+}
+
+impl Method {
+    /// Both methods, the default first.
+    pub const ALL: [Self; 2] = [Self::Schroeder, Self::Quadric];
+
+    /// The method's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Schroeder => "Schroeder",
+            Self::Quadric => "Quadric",
+        }
+    }
+}
+
 /// Settings of the decimation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Decimation {
+    /// The method.
+    #[serde(default)]
+    pub method: Method,
     /// An edge whose two triangles' normals differ by more than this is a feature edge; degrees, 0 to 180.
     pub feature_angle: f64,
 }
@@ -103,7 +129,7 @@ pub struct Decimation {
 impl Default for Decimation {
     /// 60 degrees: above the 35 to 55 degrees of a marching-cubes stair-step, which is no feature of a vessel.
     fn default() -> Self {
-        Self { feature_angle: 60.0 }
+        Self { method: Method::default(), feature_angle: 60.0 }
     }
 }
 
@@ -218,7 +244,7 @@ mod tests {
         assert!(matches!(settings.check(), Err(SettingsError::PassBand(_))));
         settings = Settings { target: Target::Reduction(1000), ..Settings::default() };
         assert!(matches!(settings.check(), Err(SettingsError::Reduction(_))));
-        settings = Settings { decimation: Decimation { feature_angle: -1.0 }, ..Settings::default() };
+        settings = Settings { decimation: Decimation { feature_angle: -1.0, ..Decimation::default() }, ..Settings::default() };
         assert!(matches!(settings.check(), Err(SettingsError::FeatureAngle(_))));
     }
 }

@@ -1,46 +1,56 @@
-//! Decimation to a progressive mesh: Schroeder, Zarge and Lorensen, "Decimation of triangle meshes" (1992).
+//! Decimation to a progressive mesh, by one of two methods ([`Method`](super::settings::Method)): `schroeder.rs` and
+//! `quadric.rs`.
 //!
-//! Each vertex has one of five classes and a distance from the plane or line that would take its place
-//! (`vertex.rs`); the one with the smallest distance goes first. (The paper's text has the test the wrong way
-//! round; Schroeder's own deletes when the distance is *less* than the threshold, and so does this.) Deleting the
-//! vertex and patching the hole is expressed as a half-edge collapse onto one of its neighbours, so that the run is
-//! a progressive mesh (Hoppe 1996): one run to the last vertex that can go has every reduction rate in it.
+//! A method judges each vertex: by what distance the surface would suffer without it, and where it could go. Vertices
+//! go in rounds of a threshold that grows, as in Schroeder, Zarge and Lorensen, "Decimation of triangle meshes" (1992):
+//! in each round those whose distance is below it, the smallest distances first while they are few, along a
+//! space-filling curve while they are many. (The paper's text has the test the wrong way round; Schroeder's own deletes
+//! when the distance is *less* than the threshold, and so does this.) Deleting a vertex and patching the hole is
+//! expressed as a collapse onto one of its neighbours, so that the run is a progressive mesh (Hoppe 1996): one run to
+//! the last vertex that can go has every reduction rate in it.
 //!
-//! - The distance of a vertex counts from what its surroundings have already lost: a collapse hands the distance it
-//!   was made at to the ring it leaves behind.
-//! - Of the neighbours that it may collapse onto, a vertex takes the one over which the surface sweeps the least
-//!   volume, with a preference for well-shaped triangles. Boundary and interior-edge vertices move along their line.
-//! - Every collapse passes the link condition (Dey, Edelsbrunner, Guha and Nekhayev 1999): no topology changes,
-//!   no open end falls below three edges. None may fold a triangle over or make a sliver; for a vertex that does not
-//!   meet the strict limits they are eased, step by step, at the price of waiting longer, down to "does not fold".
+//! Every collapse, by whichever method,
 //!
-//! It does not move vertices, does not bound the true deviation (measure it: `super::deviation`), and does not test
-//! for triangles that meet without sharing a vertex.
+//! - passes the link condition (Dey, Edelsbrunner, Guha and Nekhayev 1999): no topology changes, no open end falls
+//!   below three edges (`rings.rs`);
+//! - folds no triangle over and makes no sliver; for a vertex that does not meet the strict limits they are eased, step by
+//!   step, at the price of waiting longer, down to "does not fold" (`star.rs`);
+//! - makes no triangle run into another (`guard.rs`).
+//!
+//! The error of a step is the method's measure, no bound of the true deviation: measure that (`super::deviation`).
 
-mod surface;
-mod vertex;
+mod fan;
+mod guard;
+mod method;
+mod order;
+mod quadric;
+mod rings;
+mod schroeder;
+mod star;
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use std::ops::Deref;
 
-use glam::DVec3;
+use glam::Vec3A;
 
-use self::surface::{Ring, Surface};
-pub use self::vertex::Class;
-use self::vertex::Judged;
-use super::progressive::{Limit, NEVER, ProgressiveMesh};
-use super::settings::Decimation;
+use self::guard::{Guard, Planned};
+pub use self::method::Class;
+use self::method::{Candidate, Judged};
+use self::quadric::Quadric;
+use self::rings::{CREASE, Rings, gather, neighbour};
+use self::schroeder::Schroeder;
+use self::star::{MOST_AROUND, Star};
+use super::progressive::{Limit, Merge, ProgressiveMesh};
+use super::settings::{Decimation, Method};
 use super::task::{Budget, Progress, Task};
-use crate::mesh::{Topology, TriMesh};
+use crate::mesh::{Topology, TriMesh, components};
 
 /// What a collapse may do to the triangles around it.
 #[derive(Clone, Copy)]
 struct Strictness {
     /// Smallest cosine between a triangle's normal before and after.
-    turn: f64,
+    turn: f32,
     /// Smallest quality of a triangle that gets worse: 1 is equilateral, 0 has no area.
-    quality: f64,
+    quality: f32,
     /// Whether feature edges hold their vertices.
     features: bool,
     /// By what the distance of a vertex counts that is held to no more than this: it waits until the others have come
@@ -57,14 +67,13 @@ const STRICTNESS: [Strictness; 4] = [
     Strictness { turn: -0.8, quality: 1e-4, features: false, price: 64.0 },
 ];
 
-/// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
-const SHAPE_COST: f64 = 0.01;
+/// By what the threshold grows from round to round.
+const GROWTH: f32 = 1.1;
 
-/// Triangles around a vertex above which it waits for its neighbours to go first, and nothing collapses onto it: what
-/// is asked of a ring takes the square of its size and more, and the middle of a flat cap may have thousands.
-const MOST_AROUND: usize = 128;
+/// Up to so many vertices a round are taken by their distances, the smallest first.
+const FEW: usize = 4096;
 
-/// Pops between two looks at the clock.
+/// Vertices between two looks at the clock.
 const CHUNK: usize = 64;
 
 /// Why a vertex could not go when it was last tried.
@@ -75,146 +84,183 @@ enum Stuck {
     Complex,
 }
 
+/// What the run knows of a slot.
+#[derive(Clone, Copy, Default)]
+struct State {
+    /// Whether its surroundings changed since it was judged.
+    is_stale: bool,
+    /// The index into [`STRICTNESS`] that it is held to.
+    strictness: u8,
+    /// Tried and refused; comes back when its surroundings change.
+    stuck: Option<Stuck>,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// Feature edges are found and the method sees each slot; the next one.
+    Meeting(u32),
+    /// Each slot is judged for the first time; the next one.
+    Judging(u32),
+    /// Rounds.
+    Collapsing,
+}
+
 /// A decimation run in slices; `M` is any pointer to a mesh.
 pub struct DecimationTask<M> {
     mesh: M,
-    surface: Surface,
-    /// Vertices by distance, the smallest first, then by index; entries of vertices that changed are judged again
-    /// when they come up.
-    queue: BinaryHeap<Reverse<(u32, u32)>>,
-    state: Vec<State>,
-    /// Distance in mm that a vertex's surroundings have lost already.
-    inherited: Vec<f32>,
-    /// The index into [`STRICTNESS`] that each vertex is held to.
-    strictness: Vec<u8>,
+    rings: Rings,
+    method: Box<dyn method::Method + Send>,
+    guard: Guard,
+    phase: Phase,
+    /// The threshold at which each slot is looked at again; infinite for those that are gone or stuck.
+    keys: Vec<f32>,
+    states: Vec<State>,
+    /// The slots of the round, and the next one.
+    round: Vec<u32>,
+    next: usize,
+    threshold: f32,
     /// Cosine of the feature angle.
-    crease: f64,
-    /// Triangles whose feature edges are found, and vertices that are judged, at the start of the run so far.
-    creased: u32,
-    begun: u32,
-    collapses: Vec<[u32; 2]>,
+    crease: f32,
+    merges: Vec<Merge>,
     errors: Vec<f32>,
-    triangle_ends: Vec<u32>,
+    /// Slots that are left, and that there were.
     alive: usize,
-    ring: Ring,
-    ended: Vec<u32>,
-    marks: Vec<u32>,
-    mark: u32,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum State {
-    /// In the queue, judged since its surroundings last changed.
-    Fresh,
-    /// In the queue, its surroundings changed since.
-    Stale,
-    /// Tried and refused; comes back when its surroundings change.
-    Stuck(Stuck),
-    /// Collapsed, or in no triangle.
-    Gone,
+    total: usize,
+    star: Star,
+    other: Star,
+    candidates: Vec<Candidate>,
 }
 
 impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     /// Starts decimating `mesh`, whose topology is `topology`.
     pub fn new(mesh: M, topology: &Topology, settings: &Decimation) -> Self {
-        let surface = Surface::new(&mesh, topology);
-        let count = mesh.positions.len();
+        let mut rings = Rings::new(&mesh, topology);
+        rings.compact();
+        let count = rings.len();
+        let mut method: Box<dyn method::Method + Send> = match settings.method {
+            Method::Schroeder => Box::new(Schroeder::default()),
+            Method::Quadric => Box::new(Quadric::default()),
+        };
+        method.start(count);
+        let mut star = Star::new();
+        let several = components(mesh.positions.len(), &mesh.triangles).count() > 1;
+        let guard = Guard::new(&rings, &mut star, several);
         Self {
-            triangle_ends: vec![NEVER; mesh.triangles.len()],
-            alive: mesh.triangles.len(),
             mesh,
-            surface,
-            queue: BinaryHeap::with_capacity(count),
-            state: vec![State::Gone; count],
-            inherited: vec![0.0; count],
-            strictness: vec![0; count],
-            crease: libm::cos(settings.feature_angle.to_radians()),
-            creased: 0,
-            begun: 0,
-            collapses: Vec::with_capacity(count),
+            method,
+            guard,
+            phase: Phase::Meeting(0),
+            keys: vec![f32::INFINITY; count],
+            states: vec![State::default(); count],
+            round: Vec::new(),
+            next: 0,
+            threshold: 0.0,
+            crease: libm::cos(settings.feature_angle.to_radians()) as f32,
+            merges: Vec::with_capacity(count),
             errors: Vec::with_capacity(count),
-            ring: Ring::default(),
-            ended: Vec::new(),
-            marks: vec![0; count],
-            mark: 0,
+            alive: count,
+            total: count,
+            rings,
+            star,
+            other: Star::new(),
+            candidates: Vec::new(),
         }
-    }
-
-    /// What `v` is held to.
-    fn limits(&self, v: u32) -> Strictness {
-        STRICTNESS[usize::from(self.strictness[v as usize])]
     }
 
     /// Whether too many triangles meet at `v`.
     fn is_hub(&self, v: u32) -> bool {
-        self.surface.fan(v).len() > MOST_AROUND
+        self.rings.around(v).len() > MOST_AROUND
     }
 
-    /// Distance in mm at which `v` would go now; the ring is left in `self.ring`.
-    fn judge(&mut self, v: u32) -> (Judged, f32) {
-        let is_fan = self.surface.order_ring(v, &mut self.ring);
-        let judged = Judged::new(&self.surface, v, &self.ring, is_fan, self.limits(v).features);
-        let distance = judged.distance as f32 + self.inherited[v as usize];
-        (judged, distance)
+    /// Why `v` need not be looked at, whatever its surroundings.
+    fn barred(&self, v: u32) -> Option<Stuck> {
+        if self.rings.stays(v) {
+            Some(Stuck::Complex)
+        } else if self.is_hub(v) {
+            Some(Stuck::Geometry)
+        } else {
+            None
+        }
     }
 
-    /// Judges `v`, held to the strictest limits, and puts it into the queue, unless it can never go.
-    fn enqueue(&mut self, v: u32) {
+    /// Finds the feature edges around `v`, and shows it to the method.
+    fn meet(&mut self, v: u32) {
         if self.is_hub(v) {
-            self.state[v as usize] = State::Stuck(Stuck::Geometry);
             return;
         }
-        self.strictness[v as usize] = 0;
-        let (judged, distance) = self.judge(v);
-        if judged.class == Class::Complex {
-            self.state[v as usize] = State::Stuck(Stuck::Complex);
-        } else {
-            self.push(v, distance);
+        self.star.load(&self.rings, v);
+        self.star.span();
+        self.method.meet(&self.rings, &self.star, v);
+        let n = self.star.entries().len();
+        let open = usize::from(self.rings.is_open(v));
+        for i in open..n - open {
+            let (a, b) = (self.star.normal((i + n - 1) % n), self.star.normal(i));
+            if a.dot(b) < self.crease * (a.length_squared() * b.length_squared()).sqrt() {
+                self.rings.set_crease(v, i);
+            }
         }
     }
 
-    fn push(&mut self, v: u32, distance: f32) {
-        let price = distance * self.limits(v).price;
-        self.queue.push(Reverse((price.to_bits(), v)));
-        self.state[v as usize] = State::Fresh;
+    /// Puts `v` into its place for the first time.
+    fn begin(&mut self, v: u32) {
+        self.states[v as usize].stuck = self.barred(v);
+        if self.states[v as usize].stuck.is_none() {
+            self.star.load(&self.rings, v);
+            self.keys[v as usize] = self.judge(v).priority;
+        }
     }
 
-    /// Tries the vertex at the head of the queue. Returns false when the queue is empty.
-    fn step(&mut self) -> bool {
-        let Some(Reverse((_, v))) = self.queue.pop() else { return false };
-        let stale = match self.state[v as usize] {
-            State::Fresh => false,
-            State::Stale => true,
-            State::Stuck(_) | State::Gone => return true,
-        };
-        if self.is_hub(v) {
-            self.state[v as usize] = State::Stuck(Stuck::Geometry);
-            return true;
+    fn limits(&self, v: u32) -> Strictness {
+        STRICTNESS[usize::from(self.states[v as usize].strictness)]
+    }
+
+    /// Judges `v`, whose star is loaded.
+    fn judge(&mut self, v: u32) -> Judged {
+        let features = self.limits(v).features;
+        self.method.judge(&self.rings, &self.star, v, features)
+    }
+
+    fn set_stuck(&mut self, v: u32, stuck: Stuck) {
+        self.states[v as usize].stuck = Some(stuck);
+        self.keys[v as usize] = f32::INFINITY;
+    }
+
+    /// Collapses `v` if its distance is below the threshold and there is a way.
+    fn visit(&mut self, v: u32) {
+        if self.rings.is_gone(v) {
+            return;
         }
-        if stale {
-            self.strictness[v as usize] = 0;
+        if let Some(stuck) = self.barred(v) {
+            self.set_stuck(v, stuck);
+            return;
         }
-        let (judged, distance) = self.judge(v);
-        if judged.class == Class::Complex {
-            self.state[v as usize] = State::Stuck(Stuck::Complex);
-            return true;
+        let state = &mut self.states[v as usize];
+        if state.is_stale {
+            state.strictness = 0;
+            state.is_stale = false;
         }
-        if stale && self.queue.peek().is_some_and(|Reverse((next, _))| distance.to_bits() > *next) {
-            self.push(v, distance);
-            return true;
+        self.star.load(&self.rings, v);
+        let judged = self.judge(v);
+        let limits = self.limits(v);
+        let key = judged.priority * limits.price;
+        if key > self.threshold {
+            self.keys[v as usize] = key;
+            return;
         }
-        match self.best_target(v, &judged) {
-            Ok(kept) => self.collapse(v, kept, distance),
-            Err(stuck) if self.is_eased(v, &judged, stuck) => self.push(v, distance),
-            Err(stuck) => self.state[v as usize] = State::Stuck(stuck),
+        match self.way(v, &judged, limits) {
+            Ok(candidate) => self.collapse(v, candidate, judged.distance),
+            Err(stuck) if self.is_eased(v, &judged, stuck) => {
+                self.keys[v as usize] = judged.priority * self.limits(v).price;
+            }
+            Err(stuck) => self.set_stuck(v, stuck),
         }
-        true
     }
 
     /// Holds `v` to less, if that can help: what is stuck by topology is helped only where a feature edge holds it.
     fn is_eased(&mut self, v: u32, judged: &Judged, stuck: Stuck) -> bool {
         let last = STRICTNESS.len() as u8 - 1;
-        let strictness = &mut self.strictness[v as usize];
+        let strictness = &mut self.states[v as usize].strictness;
         if *strictness == last || (stuck == Stuck::Topology && judged.class != Class::InteriorEdge) {
             return false;
         }
@@ -222,143 +268,194 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         true
     }
 
-    fn collapse(&mut self, v: u32, kept: u32, distance: f32) {
-        let step = self.collapses.len() as u32;
-        self.surface.collapse(v, kept, &mut self.ended);
-        for &t in &self.ended {
-            self.triangle_ends[t as usize] = step;
-        }
-        self.alive -= self.ended.len();
-        self.collapses.push([v, kept]);
-        self.errors.push(distance);
-        self.state[v as usize] = State::Gone;
-        let ring = std::mem::take(&mut self.ring);
-        for (n, _) in ring.neighbours() {
-            self.inherited[n as usize] = self.inherited[n as usize].max(distance);
-            match self.state[n as usize] {
-                State::Fresh => self.state[n as usize] = State::Stale,
-                State::Stuck(_) => {
-                    // `enqueue` writes to self.ring, which is empty here and is put back below.
-                    self.enqueue(n);
-                }
-                State::Stale | State::Gone => {}
-            }
-        }
-        self.ring = ring;
-    }
-
-    /// The neighbour that `v`, whose ring is in order, should collapse onto.
-    fn best_target(&mut self, v: u32, judged: &Judged) -> Result<u32, Stuck> {
-        let mut best: Option<(f64, u32)> = None;
+    /// The cheapest way for `v` to go that passes every test.
+    fn way(&mut self, v: u32, judged: &Judged, limits: Strictness) -> Result<Candidate, Stuck> {
+        self.star.span();
+        self.candidates.clear();
+        self.method.offer(&self.star, v, judged, &mut self.candidates);
         let mut stuck = Stuck::Topology;
-        for i in 0..=self.ring.spokes.len() {
-            let Some((target, _)) = self.ring.neighbours().nth(i) else { break };
-            let is_off_line = judged.along.is_some_and(|along| !along.contains(&target));
-            if is_off_line || self.is_hub(target) || !self.link_condition(v, target) {
+        while let Some(i) = self.cheapest(v, limits, &mut stuck) {
+            let candidate = self.candidates[i];
+            let u = neighbour(self.star.entries()[candidate.to]);
+            if !self.is_hub(u) && self.rings.may_collapse(v, u) {
+                if self.is_clear(v, u, &candidate) {
+                    return Ok(candidate);
+                }
+                stuck = Stuck::Geometry;
+            }
+            self.candidates[i].cost = f32::INFINITY;
+        }
+        Err(stuck)
+    }
+
+    /// The candidate of least cost, shape included; those that fold or make a sliver are struck out.
+    fn cheapest(&mut self, v: u32, limits: Strictness, stuck: &mut Stuck) -> Option<usize> {
+        let mut best: Option<(f32, usize)> = None;
+        for i in 0..self.candidates.len() {
+            let candidate = self.candidates[i];
+            // Shape only adds to the cost.
+            if candidate.cost == f32::INFINITY || best.is_some_and(|(least, _)| candidate.cost >= least) {
                 continue;
             }
-            match self.cost(v, target) {
-                None => stuck = Stuck::Geometry,
-                Some(cost) if best.is_none_or(|(least, _)| cost < least) => best = Some((cost, target)),
-                Some(_) => {}
-            }
-        }
-        best.map(|(_, target)| target).ok_or(stuck)
-    }
-
-    /// Whether collapsing `v` onto `target` keeps the topology: the vertices that both touch are just the ones
-    /// opposite their common edge, and no triangle closes over the one that would be left.
-    fn link_condition(&mut self, v: u32, target: u32) -> bool {
-        self.mark += 2;
-        let (of_v, shared) = (self.mark, self.mark + 1);
-        let mut opposite = 0;
-        for (n, _) in self.ring.neighbours() {
-            self.marks[n as usize] = of_v;
-        }
-        for spoke in &self.ring.spokes {
-            opposite += u32::from(spoke.a == target || spoke.b == target);
-        }
-        let mut common = 0;
-        for &t in self.surface.fan(target) {
-            let corners = self.surface.triangles[t as usize];
-            let mut touched = 0;
-            for n in corners {
-                if n == v || n == target {
-                    continue;
+            match self.worst_after(v, &candidate, limits) {
+                None => {
+                    *stuck = Stuck::Geometry;
+                    self.candidates[i].cost = f32::INFINITY;
                 }
-                let mark = &mut self.marks[n as usize];
-                touched += u32::from(*mark >= of_v);
-                if *mark == of_v {
-                    *mark = shared;
-                    common += 1;
+                Some(worst) => {
+                    let cost = candidate.cost + self.method.shape_cost(&self.star, candidate.cost) * (1.0 - worst);
+                    if best.is_none_or(|(least, _)| cost < least) {
+                        best = Some((cost, i));
+                    }
                 }
             }
-            // A triangle (target, x, y) with x and y both around v: is (v, x, y) there as well?
-            if touched == 2 && !corners.contains(&v) && self.ring_has_edge(corners) {
-                return false;
-            }
         }
-        // An ear goes only from an edge that has one more triangle: a piece of one triangle stays, and so does an
-        // edge of three.
-        if let [ear] = self.ring.spokes[..] {
-            let beside =
-                self.surface.fan(ear.a).iter().filter(|&&t| self.surface.triangles[t as usize].contains(&ear.b));
-            if beside.count() != 2 {
-                return false;
-            }
-        }
-        // An edge between two boundaries may not become a vertex: only boundary edges of boundary vertices collapse.
-        common == opposite && (opposite == 2 || (opposite == 1 && !self.ring.closed))
+        best.map(|(_, i)| i)
     }
 
-    /// Whether some triangle of the ring has its outer edge among `corners`.
-    fn ring_has_edge(&self, corners: [u32; 3]) -> bool {
-        self.ring.spokes.iter().any(|s| corners.contains(&s.a) && corners.contains(&s.b))
+    fn worst_after(&mut self, v: u32, candidate: &Candidate, limits: Strictness) -> Option<f32> {
+        let Strictness { turn, quality, .. } = limits;
+        let edge = self.star.edge(candidate.to);
+        let Some(place) = candidate.place else { return self.star.worst_after(edge, candidate.to, turn, quality) };
+        let worst = self.star.worst_after(place, candidate.to, turn, quality)?;
+        let u = neighbour(self.star.entries()[candidate.to]);
+        if self.rings.stays(u) || self.is_hub(u) {
+            return None;
+        }
+        self.other.load(&self.rings, u);
+        self.other.span();
+        let at = self.other.position(v)?;
+        Some(worst.min(self.other.worst_after(place - edge, at, turn, quality)?))
     }
 
-    /// What the collapse of `v` onto `target` costs: the mean height over which the ring is swept, in mm, and a
-    /// little for poor shape. `None` if it would fold a triangle or make a sliver.
-    fn cost(&self, v: u32, target: u32) -> Option<f64> {
-        let limits = self.limits(v);
-        let (p, q) = (self.surface.at(v), self.surface.at(target));
-        let way = q - p;
-        let (mut swept, mut area, mut worst) = (0.0, 0.0, 1.0f64);
-        for spoke in &self.ring.spokes {
-            let (a, b) = (self.surface.at(spoke.a), self.surface.at(spoke.b));
-            let old = (a - p).cross(b - p);
-            let old_length = old.length();
-            swept += way.dot(old).abs();
-            area += old_length;
-            if spoke.a == target || spoke.b == target {
-                continue;
-            }
-            let new = (a - q).cross(b - q);
-            let new_length = new.length();
-            let quality = quality(new_length, q, a, b);
-            if quality < limits.quality && quality < self::quality(old_length, p, a, b) {
-                return None;
-            }
-            if new.dot(old) <= limits.turn * new_length * old_length {
-                return None;
-            }
-            worst = worst.min(quality);
+    /// Whether no triangle would run into another.
+    fn is_clear(&mut self, v: u32, u: u32, candidate: &Candidate) -> bool {
+        let mut other = None;
+        if candidate.place.is_some() {
+            self.other.load(&self.rings, u);
+            self.other.span();
+            other = self.other.position(v).map(|at| (&self.other, at));
         }
-        let height = if area > 0.0 { swept / area } else { 0.0 };
-        Some(height + SHAPE_COST * area.sqrt() * (1.0 - worst))
+        let end = candidate.place.map_or(self.rings.at(u), |place| self.rings.at(v) + place);
+        let planned = Planned { v, u, to: candidate.to, end, star: &self.star, other };
+        self.guard.allows(&self.rings, &self.mesh, &planned)
+    }
+
+    fn collapse(&mut self, v: u32, candidate: Candidate, distance: f32) {
+        let u = neighbour(self.star.entries()[candidate.to]);
+        let way = self.star.edge(candidate.to);
+        self.method.merge(v, u, way, candidate.place);
+        let (gone, kept) = (self.rings.nodes[v as usize], self.rings.nodes[u as usize]);
+        let end = candidate.place.map(|place| self.rings.at(v) + place);
+        self.rings.collapse(v, u);
+        let made = end.map(|end| self.rings.renew(u, end));
+        self.merges.push(Merge { gone, kept, made });
+        self.errors.push(distance * self.rings.unit);
+        self.keys[v as usize] = f32::INFINITY;
+        self.alive -= 1;
+        for i in 0..self.star.entries().len() {
+            self.set_stale(neighbour(self.star.entries()[i]));
+        }
+        if made.is_some() {
+            for i in 0..self.rings.around(u).len() {
+                self.set_stale(neighbour(self.rings.around(u)[i]));
+            }
+        }
+    }
+
+    fn set_stale(&mut self, v: u32) {
+        if !self.rings.stays(v) {
+            let state = &mut self.states[v as usize];
+            state.is_stale = true;
+            if state.stuck.take().is_some() {
+                self.keys[v as usize] = 0.0;
+            }
+        }
+    }
+
+    /// The slots of the next round. Returns false when there is none.
+    fn next_round(&mut self) -> bool {
+        if self.alive * 2 < self.rings.len() {
+            self.compact();
+        }
+        self.round.clear();
+        self.next = 0;
+        let mut least = f32::INFINITY;
+        for (v, &key) in self.keys.iter().enumerate() {
+            if key <= self.threshold {
+                self.round.push(v as u32);
+            } else {
+                least = least.min(key);
+            }
+        }
+        if self.round.is_empty() {
+            self.threshold = (self.threshold * GROWTH).max(least * GROWTH);
+            return least < f32::INFINITY;
+        }
+        if self.round.len() <= FEW {
+            let keys = &self.keys;
+            self.round.sort_by(|&a, &b| keys[a as usize].total_cmp(&keys[b as usize]));
+        }
+        self.threshold *= GROWTH;
+        true
+    }
+
+    /// Drops the slots that are gone, so that what is left stands close together.
+    fn compact(&mut self) {
+        let kept = self.rings.compact();
+        self.keys = gather(&self.keys, &kept);
+        self.states = gather(&self.states, &kept);
+        self.method.compact(&kept);
+        self.guard.renew(&self.rings, &mut self.star);
     }
 
     fn result(&mut self) -> ProgressiveMesh {
         let mut limit = Limit::default();
-        for state in &self.state {
-            match state {
-                State::Stuck(Stuck::Topology) => limit.topology += 1,
-                State::Stuck(Stuck::Geometry) => limit.geometry += 1,
-                State::Stuck(Stuck::Complex) => limit.complex += 1,
-                State::Fresh | State::Stale | State::Gone => {}
+        for state in &self.states {
+            match state.stuck {
+                Some(Stuck::Topology) => limit.topology += 1,
+                Some(Stuck::Geometry) => limit.geometry += 1,
+                Some(Stuck::Complex) => limit.complex += 1,
+                None => {}
             }
         }
         let errors = std::mem::take(&mut self.errors);
-        ProgressiveMesh::from_collapses(&self.mesh, &self.collapses, &self.triangle_ends, errors, limit)
+        ProgressiveMesh::from_merges(&self.mesh, &self.merges, &self.rings.made, errors, limit)
+    }
+
+    /// The next piece of work. Returns false when there is none.
+    fn step(&mut self) -> bool {
+        let count = self.rings.len() as u32;
+        match self.phase {
+            Phase::Meeting(v) if v < count => {
+                self.meet(v);
+                self.phase = Phase::Meeting(v + 1);
+            }
+            Phase::Meeting(_) => self.phase = Phase::Judging(0),
+            Phase::Judging(v) if v < count => {
+                self.begin(v);
+                self.phase = Phase::Judging(v + 1);
+            }
+            Phase::Judging(_) => self.phase = Phase::Collapsing,
+            Phase::Collapsing => match self.round.get(self.next) {
+                Some(&v) => {
+                    self.next += 1;
+                    self.visit(v);
+                }
+                None => return self.next_round(),
+            },
+        }
+        true
+    }
+
+    fn fraction(&self) -> f32 {
+        let total = self.total.max(1) as f32;
+        // Seeing and judging all vertices once takes about a tenth of the run.
+        match self.phase {
+            Phase::Meeting(v) => 0.05 * v as f32 / total,
+            Phase::Judging(v) => 0.05 + 0.05 * v as f32 / total,
+            Phase::Collapsing => 0.1 + 0.9 * (1.0 - self.alive as f32 / total),
+        }
     }
 }
 
@@ -366,26 +463,14 @@ impl<M: Deref<Target = TriMesh>> Task for DecimationTask<M> {
     type Output = ProgressiveMesh;
 
     fn advance(&mut self, budget: Budget) -> Progress<ProgressiveMesh> {
-        let total = self.mesh.triangles.len().max(1) as f32;
-        let count = self.surface.vertex_count() as u32;
         loop {
             for _ in 0..CHUNK {
-                if (self.creased as usize) < self.surface.triangles.len() {
-                    self.surface.find_creases(self.creased, self.crease);
-                    self.creased += 1;
-                } else if self.begun < count {
-                    if !self.surface.fan(self.begun).is_empty() {
-                        self.enqueue(self.begun);
-                    }
-                    self.begun += 1;
-                } else if !self.step() {
+                if !self.step() {
                     return Progress::Done(self.result());
                 }
             }
             if budget.is_spent() {
-                // Judging all vertices once takes about a tenth of the run.
-                let begun = self.begun as f32 / count.max(1) as f32;
-                return Progress::Working(0.1 * begun + 0.9 * (1.0 - self.alive as f32 / total));
+                return Progress::Working(self.fraction());
             }
         }
     }
@@ -394,13 +479,6 @@ impl<M: Deref<Target = TriMesh>> Task for DecimationTask<M> {
 /// Decimates `mesh` as far as it goes.
 pub fn decimate(mesh: &TriMesh, topology: &Topology, settings: &Decimation) -> ProgressiveMesh {
     DecimationTask::new(mesh, topology, settings).finish()
-}
-
-/// Shape of a triangle from twice its area and its corners: 1 if equilateral, 0 without area.
-fn quality(twice_area: f64, a: DVec3, b: DVec3, c: DVec3) -> f64 {
-    const NORM: f64 = 3.464_101_615_137_754_6; // 2 sqrt 3
-    let squares = (b - a).length_squared() + (c - b).length_squared() + (a - c).length_squared();
-    if squares > 0.0 { NORM * twice_area / squares } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -423,8 +501,11 @@ mod tests {
         };
         let mesh = TriMesh { positions, triangles: (0..n).flat_map(around).collect() };
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let levels = decimate(&mesh, &topology, &Decimation::default());
-        levels.assert_well_formed();
-        assert_eq!(levels.triangles_after(levels.errors.len() as u32), 4);
+        for method in Method::ALL {
+            let settings = Decimation { method, ..Decimation::default() };
+            let levels = decimate(&mesh, &topology, &settings);
+            levels.assert_well_formed();
+            assert_eq!(levels.triangles_after(levels.errors.len() as u32), 4, "{method:?}");
+        }
     }
 }

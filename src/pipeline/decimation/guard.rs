@@ -1,0 +1,413 @@
+//! Keeps triangles from running into each other: no collapse may make one cross a triangle that its input did not cross.
+//!
+//! Neighbouring slots are neighbours in space (`order.rs`), so a few of them at a time are a leaf: a box around their
+//! triangles and a cone around these triangles' normals. Two leaves whose cones lie within a half-space can only be
+//! parts of one sheet that does not fold, as long as both keep to their cones (Volino and Magnenat-Thalmann, "Efficient
+//! self-collision detection on smoothly discretized surface animations using geometrical shape regularity", 1994: here
+//! for pairs of leaves; two sheets of the same side of one closed surface have a third between them that looks the
+//! other way). What remains are pairs of leaves that are near each other and look different ways: the two walls of a
+//! thin vessel, neighbouring vessels, a fold. They are found once for every few collapses, by descending a tree of
+//! leaves against itself, with room to grow; a leaf that outgrows its box or its cone looks for its pairs anew.
+//!
+//! A collapse then asks the pairs of the leaf it happens in, and most have none near. Where boxes do overlap, triangles
+//! are tested one by one (`mesh::crossing`). A surface may enter with crossings: then a collapse is allowed if those that
+//! it leaves are among those that it found.
+
+use glam::Vec3A;
+
+use super::rings::{Rings, neighbour};
+use super::star::Star;
+use crate::mesh::TriMesh;
+use crate::mesh::crossing::{Face, cross};
+
+/// Slots of a leaf.
+const LEAF: usize = 8;
+/// Children of a node.
+const WIDTH: usize = 4;
+/// Room for a leaf to grow, in mean edge lengths.
+const MARGIN: f32 = 1.5;
+/// Room for its normals to turn, in radians.
+const SLACK: f32 = 0.15;
+/// Two cones lie within a half-space where their angles and the angle between them add up to less, in radians.
+const HALF_SPACE: f32 = 1.5;
+
+/// A box around triangles, and a cone around their normals.
+#[derive(Clone, Copy)]
+struct Patch {
+    low: Vec3A,
+    high: Vec3A,
+    axis: Vec3A,
+    /// Between the axis and the normal farthest from it, in radians; at most pi.
+    angle: f32,
+}
+
+impl Patch {
+    const NOTHING: Self = Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY, axis: Vec3A::ZERO, angle: 0.0 };
+
+    fn overlaps(&self, low: Vec3A, high: Vec3A) -> bool {
+        (self.low.cmple(high) & self.high.cmpge(low)).all()
+    }
+
+    fn holds(&self, low: Vec3A, high: Vec3A) -> bool {
+        (self.low.cmple(low) & self.high.cmpge(high)).all()
+    }
+
+    /// Whether all normals of both lie in a half-space.
+    fn looks_as(&self, other: &Self) -> bool {
+        let angles = self.angle + other.angle;
+        angles < HALF_SPACE && angles + angle(self.axis.dot(other.axis)) < HALF_SPACE
+    }
+}
+
+fn angle(cosine: f32) -> f32 {
+    libm::acosf(cosine.clamp(-1.0, 1.0))
+}
+
+/// End of a list of pairs.
+const NONE: u32 = u32::MAX;
+
+/// See the head of the file.
+pub(super) struct Guard {
+    /// Leaves first, then each level of nodes above; the last has one.
+    levels: Vec<Vec<Patch>>,
+    /// For each leaf its first pair in `pairs`: the other leaf, and where the next one stands.
+    first: Vec<u32>,
+    pairs: Vec<[u32; 2]>,
+    margin: f32,
+    /// Whether the surface has more than one piece: then sheets that look the same way may lie upon each other.
+    several: bool,
+    near: Vec<u32>,
+    found: Vec<[u32; 3]>,
+}
+
+/// A collapse to be judged: `v` goes to `u`, which moves to `place` if there is one; the stars are theirs.
+pub(super) struct Planned<'a> {
+    pub(super) v: u32,
+    pub(super) u: u32,
+    /// Where `u` stands in the ring of `v`.
+    pub(super) to: usize,
+    /// Where `u` will be, relative to the middle of the rings.
+    pub(super) end: Vec3A,
+    pub(super) star: &'a Star,
+    /// Of `u`, and where `v` stands in it: only if `u` moves.
+    pub(super) other: Option<(&'a Star, usize)>,
+}
+
+impl Guard {
+    /// A guard over the surface as it is now.
+    pub(super) fn new(rings: &Rings, star: &mut Star, several: bool) -> Self {
+        let mut edges = (0.0f64, 0u32);
+        let count = rings.len().div_ceil(LEAF);
+        let mut leaves = Vec::with_capacity(count);
+        for leaf in 0..count {
+            leaves.push(leaf_of(rings, star, leaf, &mut edges));
+        }
+        let margin = if edges.1 > 0 { MARGIN * (edges.0 / f64::from(edges.1)) as f32 } else { 0.0 };
+        for leaf in &mut leaves {
+            if leaf.low.x <= leaf.high.x {
+                leaf.low -= margin;
+                leaf.high += margin;
+            }
+            leaf.angle += SLACK;
+        }
+        let mut levels = vec![leaves];
+        while levels[levels.len() - 1].len() > 1 {
+            let below = &levels[levels.len() - 1];
+            levels.push(below.chunks(WIDTH).map(parent).collect());
+        }
+        let mut guard = Self {
+            levels,
+            first: vec![NONE; count],
+            pairs: Vec::new(),
+            margin,
+            several,
+            near: Vec::new(),
+            found: Vec::new(),
+        };
+        guard.find_pairs();
+        guard
+    }
+
+    /// Starts anew over the surface as it is now.
+    pub(super) fn renew(&mut self, rings: &Rings, star: &mut Star) {
+        *self = Self::new(rings, star, self.several);
+    }
+
+    fn find_pairs(&mut self) {
+        let top = self.levels.len() - 1;
+        let mut stack = vec![(top, 0u32, 0u32)];
+        while let Some((level, a, b)) = stack.pop() {
+            let patches = &self.levels[level];
+            let (Some(p), Some(q)) = (patches.get(a as usize), patches.get(b as usize)) else { continue };
+            if a != b && !p.overlaps(q.low, q.high) || self.is_one_sheet(p, q) {
+                continue;
+            }
+            if level == 0 {
+                self.pair(a, b);
+                continue;
+            }
+            let below = self.levels[level - 1].len() as u32;
+            let children = |n: u32| n * WIDTH as u32..((n + 1) * WIDTH as u32).min(below);
+            for i in children(a) {
+                for j in children(b) {
+                    if a != b || i <= j {
+                        stack.push((level - 1, i, j));
+                    }
+                }
+            }
+        }
+    }
+
+    fn is_one_sheet(&self, a: &Patch, b: &Patch) -> bool {
+        !self.several && a.looks_as(b)
+    }
+
+    fn pair(&mut self, a: u32, b: u32) {
+        for (of, other) in [(a, b), (b, a)] {
+            self.pairs.push([other, self.first[of as usize]]);
+            self.first[of as usize] = self.pairs.len() as u32 - 1;
+            if a == b {
+                break;
+            }
+        }
+    }
+
+    fn pairs_of(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {
+        let mut next = self.first[leaf as usize];
+        std::iter::from_fn(move || {
+            let &[other, after] = self.pairs.get(next as usize)?;
+            next = after;
+            Some(other)
+        })
+    }
+
+    /// Sees to it that the leaf has room for a box and its cone for an angle, and that it knows its pairs then.
+    fn grow(&mut self, leaf: u32, low: Vec3A, high: Vec3A, angle: f32) {
+        let mut patch = self.levels[0][leaf as usize];
+        let fits = patch.holds(low, high);
+        if fits && angle <= patch.angle {
+            return;
+        }
+        if !fits {
+            patch.low = patch.low.min(low - self.margin);
+            patch.high = patch.high.max(high + self.margin);
+        }
+        if angle > patch.angle {
+            patch.angle = (angle + SLACK).min(std::f32::consts::PI);
+        }
+        self.levels[0][leaf as usize] = patch;
+        let mut at = leaf as usize;
+        for level in 1..self.levels.len() {
+            at /= WIDTH;
+            let node = &mut self.levels[level][at];
+            if node.holds(patch.low, patch.high) {
+                break;
+            }
+            node.low = node.low.min(patch.low);
+            node.high = node.high.max(patch.high);
+        }
+        let mut near = std::mem::take(&mut self.near);
+        near.clear();
+        self.leaves_near(patch.low, patch.high, &mut near);
+        for &other in &near {
+            if !self.is_one_sheet(&patch, &self.levels[0][other as usize]) && !self.pairs_of(leaf).any(|o| o == other) {
+                self.pair(leaf, other);
+            }
+        }
+        self.near = near;
+    }
+
+    fn leaves_near(&self, low: Vec3A, high: Vec3A, near: &mut Vec<u32>) {
+        let mut stack = vec![(self.levels.len() - 1, 0u32)];
+        while let Some((level, at)) = stack.pop() {
+            let Some(patch) = self.levels[level].get(at as usize) else { continue };
+            if !patch.overlaps(low, high) {
+                continue;
+            }
+            if level == 0 {
+                near.push(at);
+            } else {
+                stack.extend((0..WIDTH as u32).map(|i| (level - 1, at * WIDTH as u32 + i)));
+            }
+        }
+    }
+
+    /// Whether the collapse makes no crossing that was not there.
+    pub(super) fn allows(&mut self, rings: &Rings, mesh: &TriMesh, planned: &Planned) -> bool {
+        let Planned { v, u, star, .. } = *planned;
+        let p = rings.at(v);
+        let [mut low, mut high] = star.reach().map(|corner| corner + p);
+        low = low.min(planned.end);
+        high = high.max(planned.end);
+        if let Some((other, _)) = planned.other {
+            let [least, most] = other.reach().map(|corner| corner + rings.at(u));
+            low = low.min(least);
+            high = high.max(most);
+        }
+        let leaf = u / LEAF as u32;
+        let axis = self.levels[0][leaf as usize].axis;
+        let mut cosine = star.least_cosine(planned.end - p, planned.to, axis);
+        if let Some((other, at)) = planned.other {
+            cosine = cosine.min(other.least_cosine(planned.end - rings.at(u), at, axis));
+        }
+        self.grow(leaf, low, high, angle(cosine));
+        let near = |guard: &Self, other: u32| guard.levels[0][other as usize].overlaps(low, high);
+        let mut pairs = std::mem::take(&mut self.near);
+        pairs.clear();
+        pairs.extend(self.pairs_of(leaf).filter(|&other| near(self, other)));
+        let allowed = pairs.is_empty() || self.crossings_allow(rings, mesh, planned, &pairs, (low, high));
+        self.near = pairs;
+        allowed
+    }
+
+    /// [`Self::allows`], triangle by triangle, against those of the leaves in `near`.
+    fn crossings_allow(
+        &mut self,
+        rings: &Rings,
+        mesh: &TriMesh,
+        planned: &Planned,
+        near: &[u32],
+        (low, high): (Vec3A, Vec3A),
+    ) -> bool {
+        let Planned { v, u, .. } = *planned;
+        let moves = planned.other.is_some();
+        self.found.clear();
+        for &leaf in near {
+            let slots = leaf * LEAF as u32..((leaf + 1) * LEAF as u32).min(rings.len() as u32);
+            for s in slots.filter(|&s| s != v && !(moves && s == u)) {
+                let p = rings.at(s);
+                for [a, b] in rings.pairs(s) {
+                    let (q, r) = (rings.at(a), rings.at(b));
+                    let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
+                    if !apart.any() && ![a, b].contains(&v) && !(moves && [a, b].contains(&u)) {
+                        self.found.push(turned([s, a, b]));
+                    }
+                }
+            }
+        }
+        self.found.sort_unstable();
+        self.found.dedup();
+        let place = |s: u32| rings.place(s, mesh);
+        let end = if moves { rings.in_mm(planned.end) } else { place(u) };
+        let node = |s: u32| if s == v { rings.nodes[u as usize] } else { rings.nodes[s as usize] };
+        let face = |corners: [u32; 3]| Face {
+            vertices: corners.map(node),
+            corners: corners.map(|s| if s == u || s == v { end } else { place(s) }),
+        };
+        let of_v = rings.pairs(v).filter(|pair| !pair.contains(&u)).map(|[a, b]| [v, a, b]);
+        let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
+        let new: Vec<[u32; 3]> = of_v.chain(of_u).collect();
+        let new_faces: Vec<Face> = new.iter().map(|&corners| face(corners)).collect();
+        let old_face = |corners: [u32; 3]| Face { vertices: corners.map(|s| rings.nodes[s as usize]), corners: corners.map(place) };
+        let others: Vec<Face> = self.found.iter().map(|&corners| old_face(corners)).collect();
+        let after = crossing(&new_faces, &others);
+        if after.is_none() {
+            return true;
+        }
+        let of_v = rings.pairs(v).map(|[a, b]| [v, a, b]);
+        let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
+        let old: Vec<Face> = of_v.chain(of_u).map(old_face).collect();
+        let before = crossing(&old, &others);
+        after.is_within(&before)
+    }
+}
+
+/// Which triangles of two lists, or of the first alone, run into each other.
+#[derive(Default)]
+struct Crossing {
+    /// How many of the first.
+    own: usize,
+    /// Which of the second.
+    others: Vec<bool>,
+}
+
+fn crossing(own: &[Face], others: &[Face]) -> Crossing {
+    let mut is_hit = vec![false; others.len()];
+    let mut hits = vec![false; own.len()];
+    for (i, face) in own.iter().enumerate() {
+        for (j, other) in others.iter().enumerate() {
+            if cross(face, other) {
+                hits[i] = true;
+                is_hit[j] = true;
+            }
+        }
+        for j in i + 1..own.len() {
+            if cross(face, &own[j]) {
+                hits[i] = true;
+                hits[j] = true;
+            }
+        }
+    }
+    Crossing { own: hits.into_iter().filter(|&hit| hit).count(), others: is_hit }
+}
+
+impl Crossing {
+    fn is_none(&self) -> bool {
+        self.own == 0
+    }
+
+    /// Whether there are no more than there, and none of the second list that is not there.
+    fn is_within(&self, before: &Self) -> bool {
+        self.own <= before.own && self.others.iter().zip(&before.others).all(|(&after, &before)| before || !after)
+    }
+}
+
+/// A triangle's corners, turned so that the least is the first.
+fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
+
+/// The leaf of some slots, without room to grow; adds up the lengths of edges and their number.
+fn leaf_of(rings: &Rings, star: &mut Star, leaf: usize, edges: &mut (f64, u32)) -> Patch {
+    let slots = leaf * LEAF..((leaf + 1) * LEAF).min(rings.len());
+    let mut patch = Patch::NOTHING;
+    let mut sum = Vec3A::ZERO;
+    let mut is_loose = false;
+    for v in slots.clone().map(|v| v as u32).filter(|&v| !rings.is_gone(v)) {
+        if rings.around(v).len() > super::star::MOST_AROUND {
+            is_loose = true;
+            for &entry in rings.around(v) {
+                let p = rings.at(neighbour(entry));
+                patch.low = patch.low.min(p);
+                patch.high = patch.high.max(p);
+            }
+            continue;
+        }
+        star.load(rings, v);
+        star.span();
+        let p = rings.at(v);
+        let [low, high] = star.reach();
+        patch.low = patch.low.min(low + p);
+        patch.high = patch.high.max(high + p);
+        sum += star.normal_sum();
+        if !star.entries().is_empty() {
+            edges.0 += f64::from(star.edge(0).length());
+            edges.1 += 1;
+        }
+        // Beyond a boundary, or a cut, another sheet may follow.
+        is_loose |= rings.is_open(v) || rings.stays(v);
+    }
+    patch.axis = sum.normalize_or_zero();
+    let mut least = 1.0f32;
+    for v in slots.map(|v| v as u32).filter(|&v| !rings.is_gone(v) && !is_loose) {
+        star.load(rings, v);
+        star.span();
+        least = least.min(star.cosine_to(patch.axis));
+    }
+    patch.angle = if is_loose { std::f32::consts::PI } else { angle(least) };
+    patch
+}
+
+fn parent(children: &[Patch]) -> Patch {
+    let axis = children.iter().map(|child| child.axis).sum::<Vec3A>().normalize_or_zero();
+    children.iter().fold(Patch { axis, ..Patch::NOTHING }, |all, child| {
+        let reach = if child.low.x <= child.high.x { angle(axis.dot(child.axis)) + child.angle } else { 0.0 };
+        Patch { low: all.low.min(child.low), high: all.high.max(child.high), axis, angle: all.angle.max(reach) }
+    })
+}

@@ -1,0 +1,86 @@
+//! What the two methods of decimation have in common: they judge a vertex, name where it may go, and take note of what
+//! has gone. Order, topology, shape and crossings are the run's (`super`).
+
+use glam::Vec3A;
+
+use super::rings::Rings;
+use super::star::Star;
+
+/// The class of a vertex: Schroeder, Zarge and Lorensen (1992), section 3 (the paper's Figure 3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// A full ring of triangles, no feature edge.
+    Simple,
+    /// Not one disc or half-disc of triangles: stays.
+    Complex,
+    /// A half ring: moves along the boundary.
+    Boundary,
+    /// A full ring with two feature edges: moves along them.
+    InteriorEdge,
+    /// One feature edge, or three and more, or a feature edge that meets the boundary.
+    Corner,
+}
+
+/// What a vertex is and what its removal costs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Judged {
+    pub(super) class: Class,
+    /// Distance by which the surface would suffer, in the unit of the rings.
+    pub(super) distance: f32,
+    /// What it is ordered by: grows with the distance.
+    pub(super) priority: f32,
+    /// The neighbours, by their place in the ring, that it may go to; `None` for all.
+    pub(super) along: Option<[usize; 2]>,
+}
+
+impl Judged {
+    /// Whether the vertex may go to the `j`-th neighbour.
+    pub(super) fn allows(&self, j: usize) -> bool {
+        self.along.is_none_or(|along| along.contains(&j))
+    }
+}
+
+/// A way for a vertex to go.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    /// What it costs, without the triangles' shape; infinite once it has been tried.
+    pub(super) cost: f32,
+    /// The neighbour that takes over, by its place in the ring.
+    pub(super) to: usize,
+    /// Where that neighbour moves to, relative to the vertex; `None` if it stays.
+    pub(super) place: Option<Vec3A>,
+}
+
+/// A method of decimation. Vertices are slots of the rings; the star is that of the vertex.
+pub(super) trait Method {
+    /// Makes room for so many slots.
+    fn start(&mut self, slots: usize);
+
+    /// Looks at a vertex for the first time, before any is judged. The triangles of the star are worked
+    /// out.
+    fn meet(&mut self, rings: &Rings, star: &Star, v: u32);
+
+    /// Judges a vertex; feature edges count only `with_features`. The triangles of the star are not worked out.
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, with_features: bool) -> Judged;
+
+    /// Adds to `candidates` where the vertex, judged just now, may go.
+    fn offer(&mut self, star: &Star, v: u32, judged: &Judged, candidates: &mut Vec<Candidate>);
+
+    /// What poor shape costs for a star, beside the cost of a candidate: times one less the quality of the worst
+    /// triangle.
+    fn shape_cost(&self, star: &Star, cost: f32) -> f32;
+
+    /// `v` is about to go to `u`, which is at `way` from it and moves to `place`, if to anywhere.
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>);
+
+    /// Only the slots in `kept` are left, renumbered in this order.
+    fn compact(&mut self, kept: &[u32]);
+}
+
+/// Distance from the origin to the segment between `a` and `b`.
+pub(super) fn distance_to_segment(a: Vec3A, b: Vec3A) -> f32 {
+    let way = b - a;
+    let square = way.length_squared();
+    let t = if square > 0.0 { (-a.dot(way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (a + way * t).length()
+}

@@ -1,0 +1,409 @@
+//! The surface while it is being decimated: around each vertex the ring of its neighbours, in order.
+//!
+//! Two neighbours that follow each other in a ring are the far edge of a triangle, so the rings are the triangles. A
+//! collapse needs no more than the rings of the two vertices and of those around them. Which triangle ends when is
+//! found afterwards from the merge forest (`super::super::progressive`).
+//!
+//! A ring is one disc or half-disc. A vertex at which the surface is anything else is cut into a slot for each of its
+//! fans; those slots stay ([`Rings::stays`]), so the surface can be put together again as it was. Slots are numbered
+//! along a space-filling curve (`order.rs`): what is near is near in memory, whatever the order of the file.
+
+use glam::{Vec3, Vec3A};
+
+use super::fan::{Fan, fans_of};
+use super::order::curve_order;
+use crate::mesh::{Topology, TriMesh};
+
+/// Bit of a ring's entry: the edge to that neighbour is a feature edge.
+pub(super) const CREASE: u32 = 1 << 31;
+
+/// Size of the surface while it is being decimated: far from where f32 under- or overflows when squared twice.
+const SIZE: f32 = 1024.0;
+
+/// Where a ring stands in the store.
+#[derive(Clone, Copy, Debug, Default)]
+struct Head {
+    start: u32,
+    length: u32,
+    room: u32,
+    is_open: bool,
+    stays: bool,
+    is_gone: bool,
+}
+
+/// A triangle surface as rings.
+pub(super) struct Rings {
+    /// Positions relative to the middle of the surface, in a unit that makes its size about [`SIZE`].
+    pub(super) positions: Vec<Vec3A>,
+    /// That unit in mm, a power of two.
+    pub(super) unit: f32,
+    heads: Vec<Head>,
+    entries: Vec<u32>,
+    /// The middle of the surface in mm.
+    centre: Vec3,
+    /// The node of the merge forest that each slot stands for: a vertex of the mesh, or one that was made.
+    pub(super) nodes: Vec<u32>,
+    /// How many vertices the mesh has.
+    vertices: u32,
+    /// Positions in mm of the nodes that were made.
+    pub(super) made: Vec<Vec3>,
+    /// For the slots of cut vertices, `(node, slot)`, ascending.
+    cut: Vec<(u32, u32)>,
+    scratch: Vec<u32>,
+}
+
+/// The power of two that makes a size of `size` about [`SIZE`].
+fn unit_of(size: f32) -> f32 {
+    let ratio = size / SIZE;
+    if ratio.is_normal() { f32::from_bits(ratio.to_bits() & 0x7f80_0000) } else { 1.0 }
+}
+
+/// `entry` without its bits.
+pub(super) fn neighbour(entry: u32) -> u32 {
+    entry & !CREASE
+}
+
+impl Rings {
+    /// The rings of `mesh`, as yet without feature edges.
+    pub(super) fn new(mesh: &TriMesh, topology: &Topology) -> Self {
+        let bounds = mesh.bounds();
+        let (centre, unit) = (bounds.centre(), unit_of(bounds.diagonal()));
+        let nodes = curve_order(&mesh.positions);
+        let mut slots = vec![0; nodes.len()];
+        for (slot, &v) in nodes.iter().enumerate() {
+            slots[v as usize] = slot as u32;
+        }
+        let mut rings = Self {
+            positions: nodes.iter().map(|&v| Vec3A::from((mesh.positions[v as usize] - centre) / unit)).collect(),
+            unit,
+            centre,
+            heads: Vec::with_capacity(nodes.len()),
+            entries: Vec::with_capacity(mesh.triangles.len() * 4),
+            vertices: nodes.len() as u32,
+            nodes,
+            made: Vec::new(),
+            cut: Vec::new(),
+            scratch: Vec::new(),
+        };
+        let mut fan = Fan::default();
+        let mut complex = Vec::new();
+        for slot in 0..rings.nodes.len() {
+            let v = rings.nodes[slot];
+            fan.load(v, topology.triangles(v), &mesh.triangles);
+            let is_fan = fan.order();
+            if is_fan {
+                rings.add(fan.entries().map(|n| slots[n as usize]), !fan.is_closed);
+            } else {
+                rings.heads.push(Head { start: rings.entries.len() as u32, stays: true, is_gone: true, ..Head::default() });
+                if !fan.spokes.is_empty() {
+                    complex.push(slot as u32);
+                }
+            }
+        }
+        if !complex.is_empty() {
+            rings.cut_open(mesh, topology, &slots, &complex);
+        }
+        rings
+    }
+
+    /// Adds the ring of the next slot.
+    fn add(&mut self, ring: impl Iterator<Item = u32>, is_open: bool) {
+        let start = self.entries.len() as u32;
+        self.entries.extend(ring);
+        let length = self.entries.len() as u32 - start;
+        self.heads.push(Head { start, length, room: length, is_open, ..Head::default() });
+    }
+
+    /// Gives each fan around a complex vertex a slot of its own, which stays.
+    fn cut_open(&mut self, mesh: &TriMesh, topology: &Topology, slots: &[u32], complex: &[u32]) {
+        let mut is_complex = vec![false; mesh.positions.len()];
+        complex.iter().for_each(|&slot| is_complex[self.nodes[slot as usize] as usize] = true);
+        // The slot of each corner at a complex vertex: (triangle, vertex, slot).
+        let mut corners: Vec<(u32, u32, u32)> = Vec::new();
+        let mut fans: Vec<(u32, Vec<[u32; 3]>, bool)> = Vec::new();
+        for &slot in complex {
+            let v = self.nodes[slot as usize];
+            for (i, (spokes, is_closed)) in fans_of(v, topology, &mesh.triangles).into_iter().enumerate() {
+                let own = if i == 0 {
+                    slot
+                } else {
+                    self.positions.push(self.positions[slot as usize]);
+                    self.nodes.push(v);
+                    self.heads.push(Head::default());
+                    self.heads.len() as u32 - 1
+                };
+                self.cut.push((v, own));
+                corners.extend(spokes.iter().map(|&[_, _, t]| (t, v, own)));
+                fans.push((own, spokes, is_closed));
+            }
+        }
+        self.cut.sort_unstable();
+        corners.sort_unstable();
+        let slot_at = |t: u32, n: u32| {
+            if !is_complex[n as usize] {
+                return slots[n as usize];
+            }
+            let found = corners.binary_search_by_key(&(t, n), |&(t, n, _)| (t, n));
+            corners[found.expect("every corner at a cut vertex has a slot")].2
+        };
+        for (own, spokes, is_closed) in fans {
+            let start = self.entries.len() as u32;
+            self.entries.extend(spokes.iter().map(|&[a, _, t]| slot_at(t, a)));
+            if !is_closed {
+                self.entries.extend(spokes.last().map(|&[_, b, t]| slot_at(t, b)));
+            }
+            let length = self.entries.len() as u32 - start;
+            self.heads[own as usize] =
+                Head { start, length, room: length, is_open: !is_closed, stays: true, is_gone: false };
+            // The others around know the vertex by its first slot.
+            let first = slots[self.nodes[own as usize] as usize];
+            for i in start..start + length {
+                let n = self.entries[i as usize] as usize;
+                if own != first && !self.heads[n].stays {
+                    self.replace(n as u32, first, own);
+                }
+            }
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.heads.len()
+    }
+
+    pub(super) fn at(&self, v: u32) -> Vec3A {
+        self.positions[v as usize]
+    }
+
+    /// Where `v` is in mm, as it stands in the mesh.
+    pub(super) fn place(&self, v: u32, mesh: &TriMesh) -> Vec3 {
+        let node = self.nodes[v as usize];
+        match node.checked_sub(self.vertices) {
+            None => mesh.positions[node as usize],
+            Some(made) => self.made[made as usize],
+        }
+    }
+
+    /// A position of this surface in mm.
+    pub(super) fn in_mm(&self, position: Vec3A) -> Vec3 {
+        Vec3::from(position) * self.unit + self.centre
+    }
+
+    /// Makes of `v` a new node at `position`, and returns its number.
+    pub(super) fn renew(&mut self, v: u32, position: Vec3A) -> u32 {
+        let node = self.vertices + self.made.len() as u32;
+        self.made.push(self.in_mm(position));
+        self.nodes[v as usize] = node;
+        self.positions[v as usize] = position;
+        node
+    }
+
+    /// The entries of the ring around `v`, counter-clockwise seen from outside.
+    pub(super) fn around(&self, v: u32) -> &[u32] {
+        let head = &self.heads[v as usize];
+        &self.entries[head.start as usize..(head.start + head.length) as usize]
+    }
+
+    fn around_mut(&mut self, v: u32) -> &mut [u32] {
+        let head = &self.heads[v as usize];
+        &mut self.entries[head.start as usize..(head.start + head.length) as usize]
+    }
+
+    /// The triangles around `v`, each as the two other corners in its winding.
+    pub(super) fn pairs(&self, v: u32) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let ring = self.around(v);
+        let closing = (!self.is_open(v)).then(|| ring.last().zip(ring.first())).flatten().map(|(&a, &b)| [a, b]);
+        let inner = ring.windows(2).map(|pair| [pair[0], pair[1]]);
+        inner.chain(closing).map(|pair| pair.map(neighbour))
+    }
+
+    /// Whether `v` lies on the boundary: its ring has two ends.
+    pub(super) fn is_open(&self, v: u32) -> bool {
+        self.heads[v as usize].is_open
+    }
+
+    /// Whether `v` must stay: the surface was cut there.
+    pub(super) fn stays(&self, v: u32) -> bool {
+        self.heads[v as usize].stays
+    }
+
+    /// Whether `v` has collapsed, or never was in a triangle.
+    pub(super) fn is_gone(&self, v: u32) -> bool {
+        self.heads[v as usize].is_gone
+    }
+
+    /// Marks the edge from `v` to its `i`-th neighbour as a feature edge, on this side.
+    pub(super) fn set_crease(&mut self, v: u32, i: usize) {
+        self.around_mut(v)[i] |= CREASE;
+    }
+
+    /// Whether collapsing `v` onto `u` keeps the topology: the vertices that both touch are just those opposite their
+    /// common edge, and no ring falls below a triangle (below three edges for a boundary).
+    pub(super) fn may_collapse(&self, v: u32, u: u32) -> bool {
+        let (of_v, of_u) = (self.around(v), self.around(u));
+        let Some(j) = of_v.iter().position(|&n| neighbour(n) == u) else { return false };
+        let last = of_v.len() - 1;
+        let is_open = self.is_open(v);
+        if is_open && j != 0 && j != last {
+            return false;
+        }
+        // The neighbours before and after u around v: those opposite the edge.
+        let before = if j > 0 { Some(j - 1) } else { (!is_open).then_some(last) };
+        let after = if j < last { Some(j + 1) } else { (!is_open).then_some(0) };
+        let sides = [before, after].map(|i| i.map(|i| neighbour(of_v[i])));
+        let fewest = |n: u32| if self.is_open(n) { 2 } else { 3 };
+        for n in sides.into_iter().flatten() {
+            if self.around(n).len() - 1 < fewest(n) {
+                return false;
+            }
+        }
+        if of_u.len() + of_v.len() - 2 - sides.iter().flatten().count() < fewest(u) {
+            return false;
+        }
+        let mut bits = 0u64;
+        for &n in of_v {
+            bits |= 1 << (n & 63);
+        }
+        let is_common = |n: u32| {
+            bits & (1 << (n & 63)) != 0
+                && !sides.contains(&Some(n))
+                && of_v.iter().any(|&other| neighbour(other) == n)
+        };
+        if of_u.iter().any(|&n| is_common(neighbour(n))) {
+            return false;
+        }
+        self.cut.is_empty() || !self.meets_in_a_cut(of_v, u, &sides)
+    }
+
+    /// Whether `u`, or another part of its vertex, touches a vertex of `ring` apart from `sides`, be it in other parts.
+    fn meets_in_a_cut(&self, ring: &[u32], u: u32, sides: &[Option<u32>; 2]) -> bool {
+        let node = |n: u32| self.nodes[neighbour(n) as usize];
+        let far = |n: u32| neighbour(n) != u && !sides.contains(&Some(neighbour(n)));
+        let touches = |n: u32| ring.iter().any(|&other| far(other) && node(other) == node(n));
+        self.around(u).iter().any(|&n| touches(n))
+            || self.stays(u) && self.parts(u).any(|part| self.around(part).iter().any(|&n| touches(n)))
+    }
+
+    /// The slots that `u`, part of a cut vertex, was cut into.
+    fn parts(&self, u: u32) -> impl Iterator<Item = u32> + '_ {
+        let node = self.nodes[u as usize];
+        let from = self.cut.partition_point(|&(n, _)| n < node);
+        self.cut[from..].iter().take_while(move |&&(n, _)| n == node).map(|&(_, slot)| slot)
+    }
+
+    /// Collapses `v` onto `u`, which [`Self::may_collapse`] has allowed.
+    pub(super) fn collapse(&mut self, v: u32, u: u32) {
+        let head = self.heads[v as usize];
+        let (start, n) = (head.start as usize, head.length as usize);
+        let j = self.position(v, u);
+        // The far neighbours, in order: those that u takes over.
+        let (far, count) = match (head.is_open, j) {
+            (true, 0) => (2, n - 2),
+            (true, _) => (0, n - 2),
+            (false, _) => (j + 2, n - 3),
+        };
+        let mut taken = std::mem::take(&mut self.scratch);
+        taken.clear();
+        taken.extend((0..count).map(|i| self.entries[start + (far + i) % n]));
+        let sides = if head.is_open {
+            [Some(if j == 0 { 1 } else { n - 2 }), None]
+        } else {
+            [Some((j + 1) % n), Some((j + n - 1) % n)]
+        };
+        for side in sides.into_iter().flatten() {
+            let entry = self.entries[start + side];
+            let w = neighbour(entry);
+            if entry & CREASE != 0 {
+                // The feature edge v-w becomes u-w.
+                let (of_u, of_w) = (self.position(u, w), self.position(w, u));
+                self.around_mut(u)[of_u] |= CREASE;
+                self.around_mut(w)[of_w] |= CREASE;
+            }
+            let i = self.position(w, v);
+            let ring = self.around_mut(w);
+            for k in i + 1..ring.len() {
+                ring[k - 1] = ring[k];
+            }
+            self.heads[w as usize].length -= 1;
+        }
+        for &entry in &taken {
+            self.replace(neighbour(entry), v, u);
+        }
+        self.splice(u, v, &taken);
+        self.scratch = taken;
+        let head = &mut self.heads[v as usize];
+        head.is_gone = true;
+        head.length = 0;
+    }
+
+    /// Where `n` stands in the ring around `v`.
+    fn position(&self, v: u32, n: u32) -> usize {
+        let found = self.around(v).iter().position(|&entry| neighbour(entry) == n);
+        found.expect("neighbours know each other")
+    }
+
+    /// Puts `new` where `old` stands in the ring around `v`; the edge keeps its kind.
+    fn replace(&mut self, v: u32, old: u32, new: u32) {
+        if let Some(entry) = self.around_mut(v).iter_mut().find(|entry| neighbour(**entry) == old) {
+            *entry = new | (*entry & CREASE);
+        }
+    }
+
+    /// Puts `taken` where `v` stands in the ring around `u`.
+    fn splice(&mut self, u: u32, v: u32, taken: &[u32]) {
+        let k = self.position(u, v);
+        let head = self.heads[u as usize];
+        let (start, old) = (head.start as usize, head.length as usize);
+        let length = old - 1 + taken.len();
+        let end = start + old;
+        if length > head.room as usize {
+            let room = length + length / 2;
+            let moved = self.entries.len();
+            self.entries.resize(moved + room, 0);
+            let (before, after) = self.entries.split_at_mut(moved);
+            let ring = before[start..start + k].iter().chain(taken).chain(&before[start + k + 1..end]);
+            after.iter_mut().zip(ring).for_each(|(to, from)| *to = *from);
+            let head = &mut self.heads[u as usize];
+            (head.start, head.room) = (moved as u32, room as u32);
+        } else {
+            let ring = &mut self.entries[start..start + old.max(length)];
+            if taken.is_empty() {
+                for i in k + 1..old {
+                    ring[i - 1] = ring[i];
+                }
+            } else {
+                for i in (k + 1..old).rev() {
+                    ring[i + taken.len() - 1] = ring[i];
+                }
+                for (i, &entry) in taken.iter().enumerate() {
+                    ring[k + i] = entry;
+                }
+            }
+        }
+        self.heads[u as usize].length = length as u32;
+    }
+
+    /// Renumbers the slots that are left, in their order, and returns those that were kept.
+    pub(super) fn compact(&mut self) -> Vec<u32> {
+        let kept: Vec<u32> = (0..self.heads.len() as u32).filter(|&v| !self.is_gone(v)).collect();
+        let mut new = vec![0; self.heads.len()];
+        kept.iter().enumerate().for_each(|(i, &v)| new[v as usize] = i as u32);
+        let mut entries = Vec::with_capacity(kept.len() * 8);
+        let mut heads = Vec::with_capacity(kept.len());
+        for &v in &kept {
+            let start = entries.len() as u32;
+            entries.extend(self.around(v).iter().map(|&entry| new[neighbour(entry) as usize] | (entry & CREASE)));
+            let head = self.heads[v as usize];
+            heads.push(Head { start, room: head.length, ..head });
+        }
+        (self.entries, self.heads) = (entries, heads);
+        self.positions = gather(&self.positions, &kept);
+        self.nodes = gather(&self.nodes, &kept);
+        self.cut.iter_mut().for_each(|(_, slot)| *slot = new[*slot as usize]);
+        kept
+    }
+}
+
+/// The values of the slots in `kept`.
+pub(super) fn gather<T: Copy>(values: &[T], kept: &[u32]) -> Vec<T> {
+    kept.iter().map(|&v| values[v as usize]).collect()
+}

@@ -1,0 +1,147 @@
+//! The paper's method: Schroeder, Zarge and Lorensen, "Decimation of triangle meshes" (1992). No vertex moves: one goes,
+//! and one of its neighbours takes over.
+//!
+//! The distance of a vertex is measured from the planes and lines that the surface had there. Schroeder takes the
+//! average plane of the triangles around the vertex as they are now, and so forgets what is already gone, and looks at
+//! a vertex alone, whatever takes its place. Here each vertex keeps the planes of all triangles that it stands for, as
+//! a quadratic form (Garland and Heckbert 1997), and the distance is the root mean square distance from them, by area,
+//! of the neighbour that would take over: it counts what was lost before and what the patch will do. A boundary vertex
+//! and one on a feature edge count at least their distance from the line through their two neighbours on it.
+
+use glam::Vec3A;
+
+use super::method::{Candidate, Class, Judged, Method, distance_to_segment};
+use super::rings::{CREASE, Rings, gather, neighbour};
+use super::star::{MOST_AROUND, Star};
+
+/// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
+const SHAPE_COST: f32 = 0.01;
+
+/// The planes that a vertex stands for, each by its area: the sum of the squared distances from them at `x`, relative
+/// to the vertex, is `x.Ax + 2 b.x + c`.
+#[derive(Clone, Copy, Default)]
+struct Planes {
+    /// xx, xy, xz, yy, yz, zz.
+    a: [f32; 6],
+    b: Vec3A,
+}
+
+/// What it comes to at the vertex itself.
+#[derive(Clone, Copy, Default)]
+struct Own {
+    /// The `c` of its planes.
+    lost: f32,
+    area: f32,
+}
+
+/// The method's state: for each slot its planes.
+#[derive(Default)]
+pub(super) struct Schroeder {
+    planes: Vec<Planes>,
+    own: Vec<Own>,
+}
+
+impl Planes {
+    /// Adds a plane through the vertex with the normal `n`, counted by its length.
+    fn add_plane(&mut self, n: Vec3A) -> f32 {
+        let area = n.length();
+        if area == 0.0 {
+            return 0.0;
+        }
+        let unit = n / area;
+        let (xx, xy, xz) = (unit.x * n.x, unit.x * n.y, unit.x * n.z);
+        let (yy, yz, zz) = (unit.y * n.y, unit.y * n.z, unit.z * n.z);
+        for (sum, part) in self.a.iter_mut().zip([xx, xy, xz, yy, yz, zz]) {
+            *sum += part;
+        }
+        area
+    }
+
+    fn times(&self, x: Vec3A) -> Vec3A {
+        let [xx, xy, xz, yy, yz, zz] = self.a;
+        Vec3A::new(
+            xx * x.x + xy * x.y + xz * x.z,
+            xy * x.x + yy * x.y + yz * x.z,
+            xz * x.x + yz * x.y + zz * x.z,
+        )
+    }
+}
+
+impl Method for Schroeder {
+    fn start(&mut self, slots: usize) {
+        self.planes = vec![Planes::default(); slots];
+        self.own = vec![Own::default(); slots];
+    }
+
+    fn meet(&mut self, rings: &Rings, star: &Star, v: u32) {
+        let mut planes = Planes::default();
+        let mut area = 0.0;
+        for i in 0..star.triangles() {
+            area += planes.add_plane(star.normal(i));
+        }
+        if rings.is_open(v) && star.triangles() > 0 {
+            // The planes that stand on the two boundary edges, each by the square of its length.
+            let last = star.triangles() - 1;
+            for (edge, triangle) in [(0, 0), (last + 1, last)] {
+                let (edge, normal) = (star.edge(edge), star.normal(triangle));
+                area += planes.add_plane(edge.cross(normal.normalize_or_zero()) * edge.length());
+            }
+        }
+        self.planes[v as usize] = planes;
+        self.own[v as usize] = Own { lost: 0.0, area };
+    }
+
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, with_features: bool) -> Judged {
+        let entries = star.entries();
+        let (planes, own) = (&self.planes[v as usize], self.own[v as usize]);
+        let mut values = [0.0; MOST_AROUND + 4];
+        star.form(&planes.a, planes.b, own.lost, &mut values);
+        let square = |j: usize| {
+            let other = self.own[neighbour(entries[j]) as usize];
+            let area = own.area + other.area;
+            if area > 0.0 { (values[j].max(0.0) + other.lost) / area } else { 0.0 }
+        };
+        let mut creases = (0..entries.len()).filter(|&j| with_features && entries[j] & CREASE != 0);
+        let creases = [creases.next(), creases.next(), creases.next()];
+        let (class, along) = match creases {
+            [None, ..] if rings.is_open(v) => (Class::Boundary, Some([0, entries.len() - 1])),
+            _ if rings.is_open(v) => (Class::Corner, Some([0, entries.len() - 1])),
+            [None, ..] => (Class::Simple, None),
+            [Some(a), Some(b), None] => (Class::InteriorEdge, Some([a, b])),
+            _ => (Class::Corner, None),
+        };
+        let distance = match along {
+            Some([a, b]) => {
+                square(a).min(square(b)).sqrt().max(distance_to_segment(star.edge(a), star.edge(b)))
+            }
+            None => (0..entries.len()).map(square).fold(f32::INFINITY, f32::min).sqrt(),
+        };
+        Judged { class, distance, priority: distance, along }
+    }
+
+    /// By the mean height over which the star would be swept.
+    fn offer(&mut self, star: &Star, _: u32, judged: &Judged, candidates: &mut Vec<Candidate>) {
+        let allowed = (0..star.entries().len()).filter(|&j| judged.allows(j));
+        candidates.extend(allowed.map(|j| Candidate { cost: star.height(j), to: j, place: None }));
+    }
+
+    fn shape_cost(&self, star: &Star, _: f32) -> f32 {
+        SHAPE_COST * star.area().sqrt()
+    }
+
+    fn merge(&mut self, v: u32, u: u32, way: Vec3A, _: Option<Vec3A>) {
+        let (planes, own) = (self.planes[v as usize], self.own[v as usize]);
+        let turned = planes.times(way);
+        let kept = &mut self.planes[u as usize];
+        kept.a.iter_mut().zip(planes.a).for_each(|(sum, part)| *sum += part);
+        kept.b += turned + planes.b;
+        let kept = &mut self.own[u as usize];
+        kept.lost += (way.dot(turned) + 2.0 * planes.b.dot(way) + own.lost).max(0.0);
+        kept.area += own.area;
+    }
+
+    fn compact(&mut self, kept: &[u32]) {
+        self.planes = gather(&self.planes, kept);
+        self.own = gather(&self.own, kept);
+    }
+}

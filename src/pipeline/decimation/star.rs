@@ -1,0 +1,277 @@
+//! The triangles around a vertex, laid out for four at a time: what a collapse onto each neighbour would do to them.
+//!
+//! Coordinates are relative to the vertex, so that f32 loses nothing. With `e_i` the neighbours, `N_i = e_i x e_(i+1)`
+//! and `d_i = e_(i+1) - e_i`, the triangle `i` becomes one with the normal `N_i - e_j x d_i` when the vertex moves
+//! onto neighbour `j`.
+
+use glam::{Vec3A, Vec4};
+
+use super::rings::{Rings, neighbour};
+
+/// Triangles around a vertex above which it waits for its neighbours to go first, and nothing collapses onto it: what
+/// is asked of a star takes the square of its size, and the middle of a flat cap may have thousands.
+pub(super) const MOST_AROUND: usize = 128;
+
+/// One neighbour more than that may stand at the end of a boundary, one is repeated, and the next four are read.
+const QUADS: usize = MOST_AROUND / 4 + 2;
+
+/// x, y and z of four vectors.
+type Vectors = [Vec4; 3];
+
+/// Four triangles; zero where there are fewer.
+#[derive(Clone, Copy)]
+struct Quad {
+    /// From the vertex to the first of the two others.
+    e: Vectors,
+    /// From the first to the second.
+    d: Vectors,
+    /// Twice the area times the unit normal.
+    n: Vectors,
+    /// Length of `n`.
+    area: Vec4,
+    /// Length of `d`, squared.
+    side: Vec4,
+    /// Quality, squared.
+    quality: Vec4,
+    /// 1 where there is no triangle.
+    none: Vec4,
+}
+
+/// A vertex and the triangles around it.
+pub(super) struct Star {
+    /// Entries of the ring, `count` of them.
+    entries: [u32; MOST_AROUND + 4],
+    count: usize,
+    triangles: usize,
+    quads: [Quad; QUADS],
+    /// Sum of the areas, doubled.
+    area: f32,
+}
+
+/// The square of the factor that makes an equilateral triangle's quality 1.
+const NORM: f32 = 12.0;
+
+fn dot(a: Vectors, b: Vectors) -> Vec4 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vectors, b: Vectors) -> Vectors {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn add(a: Vectors, b: Vectors) -> Vectors {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+fn subtract(a: Vectors, b: Vectors) -> Vectors {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn sum(v: Vec4) -> f32 {
+    (v.x + v.y) + (v.z + v.w)
+}
+
+impl Star {
+    pub(super) fn new() -> Self {
+        let zero = [Vec4::ZERO; 3];
+        let none = Quad {
+            e: zero,
+            d: zero,
+            n: zero,
+            area: Vec4::ZERO,
+            side: Vec4::ZERO,
+            quality: Vec4::ZERO,
+            none: Vec4::ZERO,
+        };
+        Self { entries: [0; MOST_AROUND + 4], count: 0, triangles: 0, quads: [none; QUADS], area: 0.0 }
+    }
+
+    /// Loads the ring of `v`, which has at most [`MOST_AROUND`] neighbours; [`Self::span`] follows where triangles are
+    /// asked for.
+    pub(super) fn load(&mut self, rings: &Rings, v: u32) {
+        let ring = rings.around(v);
+        let is_open = rings.is_open(v);
+        let p = rings.at(v);
+        self.count = ring.len();
+        self.triangles = if is_open { self.count.saturating_sub(1) } else { self.count };
+        for (i, &entry) in ring.iter().enumerate() {
+            self.entries[i] = entry;
+            self.put(i, rings.at(neighbour(entry)) - p);
+        }
+        if !is_open && self.count > 0 {
+            self.put(self.count, self.edge(0));
+        }
+    }
+
+    /// Works out the triangles.
+    pub(super) fn span(&mut self) {
+        let mut area = Vec4::ZERO;
+        let mut number = Vec4::new(0.0, 1.0, 2.0, 3.0);
+        let end = Vec4::splat(self.triangles as f32);
+        let zero = Vec4::ZERO;
+        for c in 0..self.triangles.div_ceil(4) {
+            let following = self.quads[c + 1].e;
+            let quad = &mut self.quads[c];
+            let is_there = number.cmplt(end);
+            let e = quad.e;
+            let next = [0, 1, 2].map(|axis| {
+                let (here, there) = (e[axis], following[axis]);
+                Vec4::new(here.y, here.z, here.w, there.x)
+            });
+            let d = subtract(next, e).map(|x| Vec4::select(is_there, x, zero));
+            let n = cross(e, d);
+            let square = dot(n, n);
+            quad.d = d;
+            quad.n = n;
+            quad.area = square.sqrt();
+            quad.side = dot(d, d);
+            let edges = dot(e, e) + quad.side + dot(next, next);
+            quad.quality = Vec4::select(is_there, square * NORM / (edges * edges), zero);
+            quad.none = Vec4::select(is_there, zero, Vec4::ONE);
+            area += quad.area;
+            number += 4.0;
+        }
+        self.area = sum(area);
+    }
+
+    fn put(&mut self, i: usize, e: Vec3A) {
+        let quad = &mut self.quads[i / 4];
+        quad.e[0][i % 4] = e.x;
+        quad.e[1][i % 4] = e.y;
+        quad.e[2][i % 4] = e.z;
+    }
+
+    fn quads(&self) -> &[Quad] {
+        &self.quads[..self.triangles.div_ceil(4)]
+    }
+
+    /// Number of triangles.
+    pub(super) fn triangles(&self) -> usize {
+        self.triangles
+    }
+
+    /// Sum of the areas of the triangles, doubled.
+    pub(super) fn area(&self) -> f32 {
+        self.area
+    }
+
+    /// Entries of the ring.
+    pub(super) fn entries(&self) -> &[u32] {
+        &self.entries[..self.count]
+    }
+
+    /// Where `v` stands in the ring.
+    pub(super) fn position(&self, v: u32) -> Option<usize> {
+        self.entries().iter().position(|&entry| neighbour(entry) == v)
+    }
+
+    /// The way to neighbour `i`.
+    pub(super) fn edge(&self, i: usize) -> Vec3A {
+        let e = &self.quads[i / 4].e;
+        Vec3A::new(e[0][i % 4], e[1][i % 4], e[2][i % 4])
+    }
+
+    /// Twice the area times the unit normal of triangle `i`.
+    pub(super) fn normal(&self, i: usize) -> Vec3A {
+        let n = &self.quads[i / 4].n;
+        Vec3A::new(n[0][i % 4], n[1][i % 4], n[2][i % 4])
+    }
+
+    /// Mean height over which a collapse onto neighbour `j` would sweep the star.
+    pub(super) fn height(&self, j: usize) -> f32 {
+        let way = self.edge(j).to_array().map(Vec4::splat);
+        let mut swept = Vec4::ZERO;
+        for quad in self.quads() {
+            swept += dot(way, quad.n).abs();
+        }
+        if self.area > 0.0 { sum(swept) / self.area } else { 0.0 }
+    }
+
+    /// Quality of the worst triangle after the vertex has gone the way `way` to where neighbour `j` is, or will be: 1 is
+    /// equilateral, 0 has no area. The two triangles at the edge to `j` do not count. `None` if a triangle would turn
+    /// so far that the cosine falls below `turn`, or one would get worse and end below `least`.
+    pub(super) fn worst_after(&self, way: Vec3A, j: usize, turn: f32, least: f32) -> Option<f32> {
+        let way = way.to_array().map(Vec4::splat);
+        let before = if j > 0 { j - 1 } else { self.count - 1 };
+        let (first, second) = (Vec4::splat(j as f32), Vec4::splat(before as f32));
+        let (turn, least) = (Vec4::splat(turn), Vec4::splat(least * least));
+        let mut worst = Vec4::ONE;
+        let mut number = Vec4::new(0.0, 1.0, 2.0, 3.0);
+        for quad in self.quads() {
+            let new = subtract(quad.n, cross(way, quad.d));
+            let square = dot(new, new);
+            let along = dot(new, quad.n);
+            let near = subtract(quad.e, way);
+            let far = add(near, quad.d);
+            let edges = dot(near, near) + quad.side + dot(far, far);
+            let quality = square * NORM / (edges * edges);
+            let folds = along.cmplt(turn * square.sqrt() * quad.area);
+            let is_poor = quality.cmplt(least) & quality.cmplt(quad.quality);
+            let counts = number.cmpne(first) & number.cmpne(second);
+            if (counts & (folds | is_poor)).any() {
+                return None;
+            }
+            worst = worst.min(Vec4::select(counts, quality + quad.none, Vec4::ONE));
+            number += 4.0;
+        }
+        Some(worst.min_element().max(0.0).sqrt())
+    }
+
+    /// The smallest cosine between `axis` and the normals of the triangles after the vertex has gone `way`, without
+    /// the two at the edge to neighbour `j`; -1 if one of them has no area.
+    pub(super) fn least_cosine(&self, way: Vec3A, j: usize, axis: Vec3A) -> f32 {
+        let way = way.to_array().map(Vec4::splat);
+        let before = if j > 0 { j - 1 } else { self.count - 1 };
+        let (first, second) = (Vec4::splat(j as f32), Vec4::splat(before as f32));
+        let mut least = Vec4::ONE;
+        let mut number = Vec4::new(0.0, 1.0, 2.0, 3.0);
+        for quad in self.quads() {
+            let cosine = cosine(subtract(quad.n, cross(way, quad.d)), axis);
+            let counts = number.cmpne(first) & number.cmpne(second) & quad.none.cmpeq(Vec4::ZERO);
+            least = least.min(Vec4::select(counts, cosine, Vec4::ONE));
+            number += 4.0;
+        }
+        least.min_element()
+    }
+
+    /// The smallest cosine between `axis` and the normals of the triangles; -1 if one of them has no area.
+    pub(super) fn cosine_to(&self, axis: Vec3A) -> f32 {
+        let least = self.quads().iter().fold(Vec4::ONE, |least, quad| {
+            let is_there = quad.none.cmpeq(Vec4::ZERO);
+            least.min(Vec4::select(is_there, cosine(quad.n, axis), Vec4::ONE))
+        });
+        least.min_element()
+    }
+
+    /// The values of the form `x.Ax + 2 b.x + c` at the neighbours, four at a time, into `values`; `a` is xx, xy, xz, yy,
+    /// yz, zz.
+    pub(super) fn form(&self, a: &[f32; 6], b: Vec3A, c: f32, values: &mut [f32; MOST_AROUND + 4]) {
+        let [xx, xy, xz, yy, yz, zz] = a.map(Vec4::splat);
+        let b = (b + b).to_array().map(Vec4::splat);
+        let c = Vec4::splat(c);
+        for (quad, values) in self.quads[..self.count.div_ceil(4)].iter().zip(values.as_chunks_mut::<4>().0) {
+            let [x, y, z] = quad.e;
+            let row = [xx * x + xy * y + xz * z + b[0], xy * x + yy * y + yz * z + b[1], xz * x + yz * y + zz * z + b[2]];
+            *values = (dot(row, [x, y, z]) + c).to_array();
+        }
+    }
+
+    /// The sum of the normals of the triangles.
+    pub(super) fn normal_sum(&self) -> Vec3A {
+        let all = self.quads().iter().fold([Vec4::ZERO; 3], |all, quad| add(all, quad.n));
+        Vec3A::new(sum(all[0]), sum(all[1]), sum(all[2]))
+    }
+
+    /// Corners of the box around the neighbours, relative to the vertex.
+    pub(super) fn reach(&self) -> [Vec3A; 2] {
+        let edges = (0..self.count).map(|i| self.edge(i));
+        edges.fold([Vec3A::ZERO; 2], |[low, high], e| [low.min(e), high.max(e)])
+    }
+}
+
+/// Cosines between `axis` and `n`; -1 where `n` is zero.
+fn cosine(n: Vectors, axis: Vec3A) -> Vec4 {
+    let square = dot(n, n);
+    let cosine = dot(n, axis.to_array().map(Vec4::splat)) / square.sqrt();
+    Vec4::select(square.cmpgt(Vec4::ZERO), cosine, Vec4::NEG_ONE)
+}
