@@ -61,8 +61,7 @@ pub(crate) fn peers(options: &Options) -> Result<()> {
 fn prepare(options: &Options, folder: &Path) -> Result<serde_json::Value> {
     let npm = tools::npm_packages("benches/peers", "peers/npm", "Install meshoptimizer from npm")?;
     let native = native_meshoptimizer(folder)?;
-    step("Compile lumen", || run(cargo().args(["build", "--quiet", "--release", "--package=lumen", "--bin=lumen"])))?;
-    let lumen = target().join("release").join(program("lumen"));
+    let lumen = native_lumen(folder)?;
     let surfaces = surfaces(options, folder, &lumen)?;
     let memory = if options.input.is_empty() { memory(options, folder, &lumen)? } else { Vec::new() };
     let (browser, environment) = if options.native_only {
@@ -97,6 +96,16 @@ fn prepare(options: &Options, folder: &Path) -> Result<serde_json::Value> {
 /// A file name as this system has it.
 fn program(name: &str) -> String {
     format!("{name}{}", std::env::consts::EXE_SUFFIX)
+}
+
+/// The command line: the release build without the window, beside the one that may be there with it.
+fn native_lumen(folder: &Path) -> Result<PathBuf> {
+    let built = folder.join("lumen");
+    step("Compile lumen", || {
+        let build = ["build", "--quiet", "--release", "--package=lumen", "--bin=lumen", "--no-default-features"];
+        run(cargo().args(build).env("CARGO_TARGET_DIR", &built))
+    })?;
+    Ok(built.join("release").join(program("lumen")))
 }
 
 /// meshoptimizer compiled for this machine.
