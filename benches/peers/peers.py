@@ -11,7 +11,7 @@ import fast_simplification
 import numpy as np
 import vtk
 
-from surfaces import arrays, polydata
+from quality import arrays, polydata
 
 RATES = [10, 50, 75, 90, 99]
 ITERATIONS = [30, 60, 100]

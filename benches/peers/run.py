@@ -17,7 +17,7 @@ from pathlib import Path
 
 os.environ.update(RAYON_NUM_THREADS="1", OMP_NUM_THREADS="1")
 from peers import RATES, FastSimplification, Line, Meshoptimizer, Vtk, arrays, reductions, smoothing, timed  # noqa: E402
-from surfaces import polydata, quality, read_ply  # noqa: E402
+from quality import measured, polydata, read_ply  # noqa: E402
 
 CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
 #: (pass band, iterations): what times are taken with, and both settings of which the quality is told.
@@ -163,10 +163,10 @@ def qualities(file, lumen, native, settings, report):
             makers[f"Lumen {method}"] = lambda rate, method=method: read_ply(
                 lumen.optimise(file, pass_band, iterations, rate, method)[1])
         makers |= reductions(reference, native)
-        rows = [dict(rate=0, method="what enters", **quality(reference, reference))]
+        rows = [dict(rate=0, method="what enters", **measured(reference, reference))]
         for rate in RATES:
             for method, make in makers.items():
-                rows.append(dict(rate=rate, method=method, **quality(reference, make(rate))))
+                rows.append(dict(rate=rate, method=method, **measured(reference, make(rate))))
             say(f"quality at {rate} %, pass band {pass_band}")
         report["quality"].append(dict(pass_band=pass_band, iterations=iterations, rows=rows))
 

@@ -107,7 +107,7 @@ def self_intersecting(P, F):
     return int(meshes.current_mesh().selected_face_number())
 
 
-def quality(reference, surface):
+def measured(reference, surface):
     """What reducing `reference` to `surface` cost: distances in mm both ways, change of volume, shape, topology."""
     both = np.concatenate([distances(surface, sample(*reference, 0)), distances(reference, sample(*surface, 1))])
     return dict(triangles=len(surface[1]), mean=float(both.mean()), rms=float(np.sqrt((both**2).mean())),
