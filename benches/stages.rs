@@ -29,7 +29,9 @@ const STAGES: [(&str, Measure); 8] = [
     }),
     ("normals", Bench::normals),
     ("decimation", |bench| {
-        bench.again(Stage::Decimation, |settings| other(&mut settings.decimation.feature_angle, [60.0, 60.01])).decimation
+        bench
+            .again(Stage::Decimation, |settings| other(&mut settings.decimation.feature_angle, [60.0, 60.01]))
+            .decimation
     }),
     ("level-90", |bench| bench.another_level(Stage::Level).level),
     ("measures", |bench| bench.anew().measures),

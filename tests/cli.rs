@@ -77,7 +77,8 @@ fn optimise_writes_table_two_of_the_paper_and_a_whole_report() {
         assert_eq!(report["after_connectivity"]["triangles"], 74_307);
         assert_eq!(report["after_connectivity"]["components"], 1);
         assert_eq!(report["input"], "sample:aorta");
-        let work = ["connectivity", "adjacency", "smoothing", "decimation", "level", "normals", "measures", "deviation"];
+        let work =
+            ["connectivity", "adjacency", "smoothing", "decimation", "level", "normals", "measures", "deviation"];
         for stage in work.iter().chain(&["read", "write"]) {
             assert!(report["stages_ms"][stage].as_f64().is_some_and(|ms| ms > 0.0), "{stage}");
         }

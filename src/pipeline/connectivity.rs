@@ -103,7 +103,8 @@ mod tests {
 
     #[test]
     fn pieces_are_measured_however_their_triangles_take_turns() {
-        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(5.0), Vec3::new(5.0, 7.0, 5.0), Vec3::new(9.0, 5.0, 5.0)];
+        let positions =
+            vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(5.0), Vec3::new(5.0, 7.0, 5.0), Vec3::new(9.0, 5.0, 5.0)];
         let mesh = TriMesh { positions, triangles: vec![[0, 1, 2], [3, 4, 5], [0, 2, 1], [5, 4, 3]] };
         let [small, large] = &Connectivity::of(&mesh).components[..] else { panic!("there are two pieces") };
         assert_eq!((small.triangles, small.area_mm2, small.bounds.max), (2, 1.0, [1.0, 1.0, 0.0]));

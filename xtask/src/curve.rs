@@ -41,7 +41,10 @@ pub(crate) fn curve() -> Result<()> {
     let folder = target().join("criterion");
     let curves: Vec<(&str, &str, Curve)> =
         STAGES.iter().map(|&(stage, colour)| Ok((stage, colour, read(&folder.join(stage))?))).collect::<Result<_>>()?;
-    ensure!(curves.iter().any(|(.., curve)| !curve.is_empty()), "there are no measurements: cargo bench --bench stages");
+    ensure!(
+        curves.iter().any(|(.., curve)| !curve.is_empty()),
+        "there are no measurements: cargo bench --bench stages"
+    );
     let picture = root().join("docs/images/cost-curve.svg");
     std::fs::write(&picture, drawn(&curves)).with_context(|| format!("{} cannot be written", picture.display()))?;
     document::replace("curve", &table(&curves))
@@ -56,7 +59,8 @@ fn read(folder: &Path) -> Result<Curve> {
         let Some(triangles) = entry.file_name().to_str().and_then(|name| name.parse().ok()) else { continue };
         let file = entry.path().join("new/estimates.json");
         let text = std::fs::read_to_string(&file).with_context(|| format!("{} cannot be read", file.display()))?;
-        let found: Estimates = serde_json::from_str(&text).with_context(|| format!("{} is not criterion's", file.display()))?;
+        let found: Estimates =
+            serde_json::from_str(&text).with_context(|| format!("{} is not criterion's", file.display()))?;
         curve.insert(triangles, found.median.point_estimate / 1e6);
     }
     Ok(curve)
@@ -74,7 +78,8 @@ fn table(curves: &[(&str, &str, Curve)]) -> String {
     let heads: Vec<String> = sizes.iter().map(|&size| counted(size)).collect();
     let mut text = format!("| ms | {} |\n|---|{}\n", heads.join(" | "), "---|".repeat(sizes.len()));
     for (stage, _, curve) in curves {
-        let cells: Vec<String> = sizes.iter().map(|size| curve.get(size).map_or_else(String::new, |&ms| rounded(ms))).collect();
+        let cells: Vec<String> =
+            sizes.iter().map(|size| curve.get(size).map_or_else(String::new, |&ms| rounded(ms))).collect();
         let _ = writeln!(text, "| {stage} | {} |", cells.join(" | "));
     }
     text
@@ -110,7 +115,8 @@ struct Axis {
 
 impl Axis {
     fn around(values: impl Iterator<Item = f64>, place: [f64; 2]) -> Self {
-        let (least, most) = values.fold((f64::MAX, f64::MIN), |(least, most), value| (least.min(value), most.max(value)));
+        let (least, most) =
+            values.fold((f64::MAX, f64::MIN), |(least, most), value| (least.min(value), most.max(value)));
         Self { from: least.log10().floor(), to: most.log10().ceil().max(least.log10().floor() + 1.0), place }
     }
 
@@ -138,19 +144,37 @@ fn drawn(curves: &[(&str, &str, Curve)]) -> String {
     );
     for value in x.decades() {
         let at = x.at(value);
-        let _ = writeln!(svg, "<path d=\"M{at:.1} {top}V{bottom}\" stroke=\"#e2e4e8\"/><text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>", bottom + 18.0, counted(value as u64));
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{at:.1} {top}V{bottom}\" stroke=\"#e2e4e8\"/><text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
+            bottom + 18.0,
+            counted(value as u64)
+        );
     }
     for value in y.decades() {
         let at = y.at(value);
-        let _ = writeln!(svg, "<path d=\"M{left} {at:.1}H{right}\" stroke=\"#e2e4e8\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{value}</text>", left - 8.0, at + 4.0);
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{left} {at:.1}H{right}\" stroke=\"#e2e4e8\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{value}</text>",
+            left - 8.0,
+            at + 4.0
+        );
     }
     let (middle, low) = ((left + right) / 2.0, bottom + 42.0);
     let _ = writeln!(svg, "<text x=\"{middle}\" y=\"{low}\" text-anchor=\"middle\">triangles</text>");
     let height = (top + bottom) / 2.0;
-    let _ = writeln!(svg, "<text transform=\"translate(20 {height}) rotate(-90)\" text-anchor=\"middle\">milliseconds</text>");
+    let _ = writeln!(
+        svg,
+        "<text transform=\"translate(20 {height}) rotate(-90)\" text-anchor=\"middle\">milliseconds</text>"
+    );
     for (stage, colour, curve) in curves.iter().filter(|(.., curve)| !curve.is_empty()) {
-        let line: Vec<String> = curve.iter().map(|(&size, &ms)| format!("{:.1},{:.1}", x.at(size as f64), y.at(ms))).collect();
-        let _ = writeln!(svg, "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"><title>{stage}</title></polyline>", line.join(" "));
+        let line: Vec<String> =
+            curve.iter().map(|(&size, &ms)| format!("{:.1},{:.1}", x.at(size as f64), y.at(ms))).collect();
+        let _ = writeln!(
+            svg,
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"><title>{stage}</title></polyline>",
+            line.join(" ")
+        );
         for point in &line {
             let (cx, cy) = point.split_once(',').unwrap_or((point, "0"));
             let _ = writeln!(svg, "<circle cx=\"{cx}\" cy=\"{cy}\" r=\"3\" fill=\"{colour}\"/>");
@@ -166,7 +190,8 @@ fn drawn(curves: &[(&str, &str, Curve)]) -> String {
 /// Each stage's name beside the end of its curve, moved down where it would lie on another.
 fn labels<'a>(curves: &[(&'a str, &'a str, Curve)], y: Axis) -> Vec<((&'a str, &'a str), f64)> {
     const LINE: f64 = 16.0;
-    let ends = curves.iter().filter_map(|(stage, colour, curve)| Some(((*stage, *colour), y.at(*curve.values().last()?))));
+    let ends =
+        curves.iter().filter_map(|(stage, colour, curve)| Some(((*stage, *colour), y.at(*curve.values().last()?))));
     let mut ends: Vec<_> = ends.collect();
     ends.sort_by(|a, b| a.1.total_cmp(&b.1));
     for i in 1..ends.len() {

@@ -112,7 +112,9 @@ pub(crate) fn peers_python(folder: &Path) -> Result<PathBuf> {
     }
     step("Install VTK, fast-simplification, Open3D and MeshLab with pip (a minute or two, once)", || {
         run(Command::new(&python).args(["-m", "venv"]).arg(&environment))?;
-        run(Command::new(&bin).args(["-m", "pip", "--quiet", "--disable-pip-version-check", "install", "--requirement"]).arg(&asked))?;
+        run(Command::new(&bin)
+            .args(["-m", "pip", "--quiet", "--disable-pip-version-check", "install", "--requirement"])
+            .arg(&asked))?;
         Ok(())
     })?;
     // Open3D and MeshLab load libraries of the system.

@@ -114,7 +114,10 @@ fn native_meshoptimizer(folder: &Path) -> Result<PathBuf> {
     let built = folder.join("native");
     step("Compile meshoptimizer", || {
         let manifest = root().join("benches/peers/native/Cargo.toml");
-        run(cargo().args(["build", "--quiet", "--release", "--locked", "--manifest-path"]).arg(manifest).env("CARGO_TARGET_DIR", &built))
+        run(cargo()
+            .args(["build", "--quiet", "--release", "--locked", "--manifest-path"])
+            .arg(manifest)
+            .env("CARGO_TARGET_DIR", &built))
     })?;
     Ok(built.join("release").join(program("lumen-peer-meshoptimizer")))
 }

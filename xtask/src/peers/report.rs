@@ -102,7 +102,8 @@ impl Report {
 impl Surface {
     /// Median and minimum of the sum of some times, run by run; `None` where one of them was not taken.
     pub(crate) fn sum(&self, what: &[(f64, &str)]) -> Option<Time> {
-        let parts: Vec<(f64, &Vec<f64>)> = what.iter().map(|(times, key)| Some((*times, self.ms.get(*key)?))).collect::<Option<_>>()?;
+        let parts: Vec<(f64, &Vec<f64>)> =
+            what.iter().map(|(times, key)| Some((*times, self.ms.get(*key)?))).collect::<Option<_>>()?;
         let runs = parts.iter().map(|(_, ms)| ms.len()).min()?;
         let mut sums: Vec<f64> = (0..runs).map(|run| parts.iter().map(|(times, ms)| times * ms[run]).sum()).collect();
         sums.sort_by(f64::total_cmp);

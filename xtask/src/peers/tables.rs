@@ -103,7 +103,12 @@ fn rows() -> Vec<Row> {
 
 /// Each block by name.
 pub(crate) fn blocks(report: &Report) -> Vec<(&'static str, String)> {
-    vec![("conditions", conditions(report)), ("times", times(report)), ("quality", quality(report)), ("memory", memory(report))]
+    vec![
+        ("conditions", conditions(report)),
+        ("times", times(report)),
+        ("quality", quality(report)),
+        ("memory", memory(report)),
+    ]
 }
 
 fn conditions(report: &Report) -> String {
@@ -127,12 +132,16 @@ fn times(report: &Report) -> String {
         text += "| stage | VTK ms | Lumen ms | ratio | target | Lumen in the browser ms | ratio | target |\n";
         text += "|---|---|---|---|---|---|---|---|\n";
         for row in rows() {
-            let Some(vtk) = surface.sum(&row.vtk.iter().map(|(n, key)| (*n, &key[..])).collect::<Vec<_>>()) else { continue };
+            let Some(vtk) = surface.sum(&row.vtk.iter().map(|(n, key)| (*n, &key[..])).collect::<Vec<_>>()) else {
+                continue;
+            };
             let _ = write!(text, "| {} | {}", row.what, ms(Some(vtk)));
             for (place, target) in ["lumen", "wasm"].into_iter().zip(row.targets) {
-                let keys: Vec<(f64, String)> = row.lumen.iter().map(|(n, key)| (*n, format!("{place}.{key}"))).collect();
+                let keys: Vec<(f64, String)> =
+                    row.lumen.iter().map(|(n, key)| (*n, format!("{place}.{key}"))).collect();
                 let ours = surface.sum(&keys.iter().map(|(n, key)| (*n, &key[..])).collect::<Vec<_>>());
-                let _ = write!(text, " | {} | {}", ms(ours), compared(row.kind, vtk, ours, target.map(|both| both[size])));
+                let _ =
+                    write!(text, " | {} | {}", ms(ours), compared(row.kind, vtk, ours, target.map(|both| both[size])));
             }
             text += " |\n";
         }
@@ -155,15 +164,23 @@ fn lumen_alone(surface: &Surface) -> String {
     for (what, key) in parts {
         let [native, wasm] = ["lumen", "wasm"].map(|place| surface.sum(&[(1.0, &format!("{place}.{key}"))]));
         let told = match wasm {
-            Some(wasm) if key.starts_with("level") && surface.triangles < LARGE => verdict(wasm.median < 2.0, "under 2 ms"),
+            Some(wasm) if key.starts_with("level") && surface.triangles < LARGE => {
+                verdict(wasm.median < 2.0, "under 2 ms")
+            }
             _ => String::new(),
         };
         let _ = writeln!(text, "| {what} | | {} | | | {} | | {told} |", ms(native), ms(wasm));
     }
-    if let (Some(full), Some(other)) = (surface.sum(&[(1.0, "wasm.smoothing60")]), surface.sum(&[(1.0, "wasm.otherPassBand60")])) {
+    if let (Some(full), Some(other)) =
+        (surface.sum(&[(1.0, "wasm.smoothing60")]), surface.sum(&[(1.0, "wasm.otherPassBand60")]))
+    {
         let ratio = other.median / full.median;
         let told = verdict(ratio < 0.5, "under half of 60 iterations");
-        let _ = writeln!(text, "| another pass band alone, 60 iterations | | | | | {} | {ratio:.2} | {told} |", ms(Some(other)));
+        let _ = writeln!(
+            text,
+            "| another pass band alone, 60 iterations | | | | | {} | {ratio:.2} | {told} |",
+            ms(Some(other))
+        );
     }
     text
 }
@@ -178,17 +195,25 @@ fn decimation(surface: &Surface) -> String {
         surface.sum(&keys.iter().map(|key| (1.0, &key[..])).collect::<Vec<_>>())
     };
     let single = |prefix: &str| surface.sum(&[(1.0, &format!("{prefix}90"))]);
-    for (name, native, wasm) in
-        [("Lumen schroeder: every rate at once", "lumen", "wasm"), ("Lumen quadric: every rate at once", "lumen.quadric", "wasm.quadric")]
-    {
+    for (name, native, wasm) in [
+        ("Lumen schroeder: every rate at once", "lumen", "wasm"),
+        ("Lumen quadric: every rate at once", "lumen.quadric", "wasm.quadric"),
+    ] {
         let [native, wasm] = [native, wasm].map(|prefix| surface.sum(&[(1.0, &format!("{prefix}.decimation"))]));
         if native.is_some() {
-            let _ = writeln!(text, "| {name} | {} | | {} | |", beside(native, all("meshopt")), beside(wasm, all("meshoptWasm")));
+            let _ = writeln!(
+                text,
+                "| {name} | {} | | {} | |",
+                beside(native, all("meshopt")),
+                beside(wasm, all("meshoptWasm"))
+            );
         }
     }
     let meshopt = [all("meshopt"), single("meshopt"), all("meshoptWasm"), single("meshoptWasm")].map(ms);
     let _ = writeln!(text, "| meshoptimizer | {} |", meshopt.join(" | "));
-    for (name, prefix) in [("fast-simplification", "fast"), ("vtkQuadricDecimation", "vtk.quadric"), ("DecimatePro", "vtk.pro")] {
+    for (name, prefix) in
+        [("fast-simplification", "fast"), ("vtkQuadricDecimation", "vtk.quadric"), ("DecimatePro", "vtk.pro")]
+    {
         let _ = writeln!(text, "| {name} | {} | {} | | |", ms(all(prefix)), ms(single(prefix)));
     }
     text
@@ -260,8 +285,14 @@ fn quality(report: &Report) -> String {
                 let _ = writeln!(
                     text,
                     "| {rate} {method} | {triangles} | {:.4} | {:.4} | {:.3} | {:+.3} | {:.1} | {} | {pieces} | {} | {euler} | {} |",
-                    row.mean, row.rms, row.max, row.volume_percent, row.slivers_percent, row.self_intersecting,
-                    row.non_manifold, held(row, rows)
+                    row.mean,
+                    row.rms,
+                    row.max,
+                    row.volume_percent,
+                    row.slivers_percent,
+                    row.self_intersecting,
+                    row.non_manifold,
+                    held(row, rows)
                 );
             }
             text += "\n";
@@ -319,7 +350,12 @@ fn memory(report: &Report) -> String {
         let _ = writeln!(
             text,
             "| {} | {} | {} | {} | {} | {} | {seconds} | {target} |",
-            row.file, row.triangles, mb(Some(row.native)), mb(row.page), mb(row.worker), mb(both)
+            row.file,
+            row.triangles,
+            mb(Some(row.native)),
+            mb(row.page),
+            mb(row.worker),
+            mb(both)
         );
     }
     text

@@ -9,18 +9,35 @@ fn sample() -> Value {
         ms.insert(key, json!([median - 1.0, median + 1.0]));
     };
     for (place, factor) in [("lumen", 1.0), ("wasm", 2.0)] {
-        for (stage, time) in [("connectivity", 1.5), ("adjacency", 2.0), ("measures", 2.0), ("smoothing30", 6.0), ("smoothing60", 11.0)] {
+        for (stage, time) in
+            [("connectivity", 1.5), ("adjacency", 2.0), ("measures", 2.0), ("smoothing30", 6.0), ("smoothing60", 11.0)]
+        {
             add(format!("{place}.{stage}"), time * factor);
         }
-        for (stage, time) in [("smoothing100", 18.0), ("normals", 1.5), ("decimation", 50.0), ("level0", 1.5), ("level90", 1.0), ("normals90", 1.0)] {
+        for (stage, time) in [
+            ("smoothing100", 18.0),
+            ("normals", 1.5),
+            ("decimation", 50.0),
+            ("level0", 1.5),
+            ("level90", 1.0),
+            ("normals90", 1.0),
+        ] {
             add(format!("{place}.{stage}"), time * factor);
         }
     }
-    for (stage, time) in [("connectivity", 12.0), ("smoothing30", 27.0), ("smoothing60", 46.0), ("smoothing100", 72.0), ("normals", 16.0)] {
+    for (stage, time) in [
+        ("connectivity", 12.0),
+        ("smoothing30", 27.0),
+        ("smoothing60", 46.0),
+        ("smoothing100", 72.0),
+        ("normals", 16.0),
+    ] {
         add(format!("vtk.{stage}"), time);
     }
     for rate in RATES {
-        for (peer, time) in [("vtk.pro", 120.0), ("vtk.quadric", 200.0), ("fast", 25.0), ("meshopt", 15.0), ("meshoptWasm", 16.0)] {
+        for (peer, time) in
+            [("vtk.pro", 120.0), ("vtk.quadric", 200.0), ("fast", 25.0), ("meshopt", 15.0), ("meshoptWasm", 16.0)]
+        {
             add(format!("{peer}{rate}"), time);
         }
     }
@@ -62,7 +79,8 @@ fn block(report: &Value, name: &str) -> String {
 
 /// The cells of the row that begins with `what`.
 fn cells(text: &str, what: &str) -> Vec<String> {
-    let row = text.lines().find(|line| line.starts_with(&format!("| {what}"))).unwrap_or_else(|| panic!("{what} in {text}"));
+    let row =
+        text.lines().find(|line| line.starts_with(&format!("| {what}"))).unwrap_or_else(|| panic!("{what} in {text}"));
     row.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
 }
 
@@ -70,7 +88,10 @@ fn cells(text: &str, what: &str) -> Vec<String> {
 fn times_are_told_beside_vtk_with_what_is_met() {
     let text = block(&sample(), "times");
     let connectivity = cells(&text, "connectivity");
-    assert_eq!(connectivity[1..], ["12.0 (11.0)", "1.50 (0.50)", "0.12", "at most 0.15: met", "3.00 (2.00)", "0.25", "at most 0.15: **missed**"]);
+    assert_eq!(
+        connectivity[1..],
+        ["12.0 (11.0)", "1.50 (0.50)", "0.12", "at most 0.15: met", "3.00 (2.00)", "0.25", "at most 0.15: **missed**"]
+    );
     // 20 of 72 ms: the adjacency counts.
     assert_eq!(cells(&text, "smoothing, 100")[3], "0.28");
     // 12 + 46 + 16 + 120 over 1.5 + 2 + 2 + 11 + 1.5 + 50 + 1 + 1.
