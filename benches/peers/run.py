@@ -172,8 +172,9 @@ def qualities(file, lumen, native, settings, report):
 
 
 def memory(file, lumen, browser):
-    """Peak memory of `lumen optimise` with its defaults, and the memory that the app has at the end."""
+    """Peak memory of `lumen optimise` as a user runs it, on all cores, and the memory that the app has at the end."""
     pin(False)
+    os.environ.pop("RAYON_NUM_THREADS", None)
     told, _, peak = lumen.optimise(file, 0.01, 100, 90)
     row = dict(file=Path(file).name, triangles=told["opened"]["triangles"], native=peak)
     if browser:
