@@ -9,7 +9,7 @@ use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
 use super::weld::weld;
 use super::{Unit, winding};
-use crate::mesh::{Topology, TriMesh, Vec3, components, measures};
+use crate::mesh::{Topology, TriMesh, Vec3, compacted, components, measures};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 const FARTHEST_MM: f64 = 1e9;
@@ -162,7 +162,7 @@ fn welded(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriMesh {
         *t = t.map(|v| welded.index[v as usize]);
     }
     kept.retain(|&[a, b, c]| a != b && b != c && c != a);
-    TriMesh { positions: welded.positions, triangles: kept }.filtered(|_| true)
+    compacted(&welded.positions, kept)
 }
 
 /// Triangles over the same three vertices as an earlier one.

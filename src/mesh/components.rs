@@ -26,20 +26,39 @@ impl Components {
 pub fn components(vertex_count: usize, triangles: &[[u32; 3]]) -> Components {
     let mut parent: Vec<u32> = (0..vertex_count as u32).collect();
     for &[a, b, c] in triangles {
-        let root = union(&mut parent, a, b);
-        union(&mut parent, root, c);
-    }
-    const UNSEEN: u32 = u32::MAX;
-    let mut number = vec![UNSEEN; vertex_count];
-    let mut result = Components { of_triangle: Vec::with_capacity(triangles.len()), triangle_counts: Vec::new() };
-    for &[a, ..] in triangles {
-        let root = find(&mut parent, a) as usize;
-        if number[root] == UNSEEN {
-            number[root] = result.triangle_counts.len() as u32;
-            result.triangle_counts.push(0);
+        let [up_a, up_b, up_c] = [a, b, c].map(|v| parent[v as usize]);
+        if up_a != up_b || up_b != up_c {
+            let root = union(&mut parent, a, b);
+            union(&mut parent, root, c);
         }
-        result.of_triangle.push(number[root]);
-        result.triangle_counts[number[root] as usize] += 1;
+    }
+    // No parent is larger than its child, so each finds its parent at the root already.
+    for v in 0..vertex_count {
+        parent[v] = parent[parent[v] as usize];
+    }
+    number(&parent, triangles)
+}
+
+/// Numbers the pieces in the order of the triangles; `roots` has the representative of each vertex.
+fn number(roots: &[u32], triangles: &[[u32; 3]]) -> Components {
+    const UNSEEN: u32 = u32::MAX;
+    let mut numbers = vec![UNSEEN; roots.len()];
+    let mut result = Components { of_triangle: Vec::with_capacity(triangles.len()), triangle_counts: Vec::new() };
+    // Triangles of one piece tend to follow each other.
+    let (mut last_root, mut piece) = (UNSEEN, UNSEEN);
+    for &[a, ..] in triangles {
+        let root = roots[a as usize];
+        if root != last_root {
+            last_root = root;
+            piece = numbers[root as usize];
+            if piece == UNSEEN {
+                piece = result.triangle_counts.len() as u32;
+                numbers[root as usize] = piece;
+                result.triangle_counts.push(0);
+            }
+        }
+        result.of_triangle.push(piece);
+        result.triangle_counts[piece as usize] += 1;
     }
     result
 }

@@ -24,8 +24,7 @@ pub fn measures(mesh: &TriMesh, topology: &Topology) -> Measures {
 
 /// The boundary loops of a surface whose windings agree; `None` where they do not.
 pub fn oriented_loops(topology: &Topology) -> Option<Vec<Vec<u32>>> {
-    let is_oriented = topology.edges().all(|(_, _, edge)| !edge.is_flipped());
-    is_oriented.then(|| boundary_loops(topology))
+    topology.is_consistent().then(|| boundary_loops(topology))
 }
 
 /// Area and volume of `mesh`, whose [`oriented_loops`] are known: they stay when vertices move.

@@ -68,20 +68,30 @@ impl TriMesh {
 
     /// The sub-surface of the triangles for which `keep` is true, with unused vertices left out.
     /// Vertices and triangles keep their order.
-    pub fn filtered(&self, mut keep: impl FnMut(usize) -> bool) -> TriMesh {
-        const UNUSED: u32 = u32::MAX;
-        let kept: Vec<[u32; 3]> = (0..self.triangles.len()).filter(|&t| keep(t)).map(|t| self.triangles[t]).collect();
-        let mut index = vec![UNUSED; self.positions.len()];
-        for &v in kept.as_flattened() {
-            index[v as usize] = 0;
-        }
-        let mut positions = Vec::new();
-        for (slot, &p) in index.iter_mut().zip(&self.positions) {
-            if *slot != UNUSED {
-                *slot = positions.len() as u32;
-                positions.push(p);
-            }
-        }
-        TriMesh { positions, triangles: kept.into_iter().map(|t| t.map(|v| index[v as usize])).collect() }
+    pub fn filtered(&self, keep: impl Fn(usize) -> bool) -> TriMesh {
+        let count = (0..self.triangles.len()).filter(|&t| keep(t)).count();
+        let mut kept = Vec::with_capacity(count);
+        kept.extend((0..self.triangles.len()).filter(|&t| keep(t)).map(|t| self.triangles[t]));
+        compacted(&self.positions, kept)
     }
+}
+
+/// The surface of `triangles` over those of `positions` that they use, which keep their order.
+pub fn compacted(positions: &[Vec3], mut triangles: Vec<[u32; 3]>) -> TriMesh {
+    const UNUSED: u32 = u32::MAX;
+    let mut index = vec![UNUSED; positions.len()];
+    for &v in triangles.as_flattened() {
+        index[v as usize] = 0;
+    }
+    let mut used = Vec::with_capacity(index.iter().filter(|&&slot| slot != UNUSED).count());
+    for (slot, &p) in index.iter_mut().zip(positions) {
+        if *slot != UNUSED {
+            *slot = used.len() as u32;
+            used.push(p);
+        }
+    }
+    for v in triangles.as_flattened_mut() {
+        *v = index[*v as usize];
+    }
+    TriMesh { positions: used, triangles }
 }

@@ -86,23 +86,19 @@ impl Topology {
         let mut ring: Vec<(u32, EdgeUse)> = Vec::new();
         neighbour_offsets.push(0);
         for v in 0..vertex_count {
-            ring.clear();
-            for &t in &triangle_lists[triangle_offsets[v] as usize..triangle_offsets[v + 1] as usize] {
-                let [next, last] = opposite(triangles[t as usize], v as u32);
-                ring.push((next, EdgeUse { forward: 1, backward: 0 }));
-                ring.push((last, EdgeUse { forward: 0, backward: 1 }));
-            }
-            ring.sort_unstable_by_key(|entry| entry.0);
-            let start = neighbour_lists.len();
-            for &(n, edge) in &ring {
-                if neighbour_lists.len() > start && neighbour_lists[neighbour_lists.len() - 1] == n {
-                    let sum: &mut EdgeUse = edge_uses.last_mut().expect("one entry per neighbour");
-                    sum.forward = sum.forward.saturating_add(edge.forward);
-                    sum.backward = sum.backward.saturating_add(edge.backward);
-                } else {
-                    neighbour_lists.push(n);
-                    edge_uses.push(edge);
+            let around = &triangle_lists[triangle_offsets[v] as usize..triangle_offsets[v + 1] as usize];
+            if let Some(neighbours) = interior_ring(triangles, around, v as u32) {
+                neighbour_lists.extend_from_slice(&neighbours[..around.len()]);
+                edge_uses.extend_from_slice(&[EdgeUse { forward: 1, backward: 1 }; SMALL_RING][..around.len()]);
+            } else {
+                ring.clear();
+                for &t in around {
+                    let [next, last] = opposite(triangles[t as usize], v as u32);
+                    ring.push((next, EdgeUse { forward: 1, backward: 0 }));
+                    ring.push((last, EdgeUse { forward: 0, backward: 1 }));
                 }
+                ring.sort_unstable_by_key(|entry| entry.0);
+                add_ring(&ring, &mut neighbour_lists, &mut edge_uses);
             }
             neighbour_offsets.push(neighbour_lists.len() as u32);
         }
@@ -153,6 +149,11 @@ impl Topology {
         })
     }
 
+    /// Whether the two triangles of every edge that has two wind the same way.
+    pub fn is_consistent(&self) -> bool {
+        !self.edge_uses.iter().any(|edge| edge.is_flipped())
+    }
+
     /// Edges by kind.
     pub fn edge_counts(&self) -> EdgeCounts {
         let mut counts = EdgeCounts::default();
@@ -188,6 +189,50 @@ fn row<'a, T>(offsets: &[u32], lists: &'a [T], v: u32) -> &'a [T] {
     &lists[offsets[v as usize] as usize..offsets[v as usize + 1] as usize]
 }
 
+/// The most triangles around a vertex for which [`interior_ring`] looks.
+const SMALL_RING: usize = 12;
+
+/// The neighbours of `v`, ascending, where each of its edges is used once in either direction, as nearly everywhere;
+/// `None` where one is not, or where there are more triangles than [`SMALL_RING`].
+fn interior_ring(triangles: &[[u32; 3]], around: &[u32], v: u32) -> Option<[u32; SMALL_RING]> {
+    let count = around.len();
+    if count > SMALL_RING {
+        return None;
+    }
+    let (mut nexts, mut lasts) = ([0; SMALL_RING], [0; SMALL_RING]);
+    for (i, &t) in around.iter().enumerate() {
+        let [next, last] = opposite(triangles[t as usize], v);
+        insert(&mut nexts, i, next);
+        insert(&mut lasts, i, last);
+    }
+    (nexts == lasts && nexts[..count].is_sorted_by(|a, b| a < b)).then_some(nexts)
+}
+
+/// Puts `value` into its place among the first `count`, which ascend.
+fn insert(values: &mut [u32; SMALL_RING], count: usize, value: u32) {
+    let mut place = count;
+    while place > 0 && values[place - 1] > value {
+        values[place] = values[place - 1];
+        place -= 1;
+    }
+    values[place] = value;
+}
+
+/// Adds a vertex's neighbours, which ascend, with the uses of each edge summed.
+fn add_ring(ring: &[(u32, EdgeUse)], neighbour_lists: &mut Vec<u32>, edge_uses: &mut Vec<EdgeUse>) {
+    let start = neighbour_lists.len();
+    for &(n, edge) in ring {
+        if neighbour_lists.len() > start && neighbour_lists[neighbour_lists.len() - 1] == n {
+            let sum: &mut EdgeUse = edge_uses.last_mut().expect("one entry per neighbour");
+            sum.forward = sum.forward.saturating_add(edge.forward);
+            sum.backward = sum.backward.saturating_add(edge.backward);
+        } else {
+            neighbour_lists.push(n);
+            edge_uses.push(edge);
+        }
+    }
+}
+
 /// The other two corners of a triangle, in its winding, after corner `v`.
 fn opposite(triangle: [u32; 3], v: u32) -> [u32; 2] {
     let [a, b, c] = triangle;
@@ -210,6 +255,29 @@ mod tests {
         let topology = Topology::new(4, &triangles);
         topology.assert_well_formed(&triangles);
         assert_eq!(topology.edge_counts(), EdgeCounts { edges: 6, boundary: 0, non_manifold: 0, flipped: 0 });
+    }
+
+    #[test]
+    fn fans_of_every_size_have_their_whole_ring() {
+        for sides in 2..40u32 {
+            // Around the last vertex, in an order that is none.
+            let triangle = |i: u32| [sides, i * 7 % sides, (i * 7 % sides + 1) % sides];
+            let fan: Vec<[u32; 3]> = (0..sides).map(triangle).collect();
+            for open in [false, true] {
+                let triangles = &fan[usize::from(open)..];
+                let topology = Topology::new(sides as usize + 1, triangles);
+                topology.assert_well_formed(triangles);
+            }
+        }
+    }
+
+    #[test]
+    fn an_edge_that_is_used_twice_in_either_direction_is_no_interior_edge() {
+        // Two closed fans around vertex 0 that share the edge to vertex 1.
+        let triangles = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [0, 1, 4], [0, 4, 5], [0, 5, 1]];
+        let topology = Topology::new(6, &triangles);
+        topology.assert_well_formed(&triangles);
+        assert_eq!(topology.edge(0, 1), Some(EdgeUse { forward: 2, backward: 2 }));
     }
 
     #[test]

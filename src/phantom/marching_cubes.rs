@@ -10,7 +10,7 @@ use std::ops::{ControlFlow, Range};
 use glam::DVec3;
 
 use super::cube_cases::{CubeCases, EDGES};
-use crate::mesh::{TriMesh, Vec3};
+use crate::mesh::{TriMesh, Vec3, compacted};
 
 /// A regular grid of sample points. The points on its six faces count as outside whatever the mask says, so leave
 /// one point of padding around what is to be seen.
@@ -169,7 +169,7 @@ pub(super) fn marching_cubes(
         }
     }
     // Cubes that were left out made vertices that nobody uses.
-    Some(if any_cut { mesh.filtered(|_| true) } else { mesh })
+    Some(if any_cut { compacted(&mesh.positions, mesh.triangles) } else { mesh })
 }
 
 impl EdgeMaps {

@@ -13,7 +13,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::settings::Target;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, compacted};
 
 /// The step at which a node or triangle ends that is never removed.
 pub const NEVER: u32 = u32::MAX;
@@ -250,7 +250,7 @@ impl ProgressiveMesh {
 
     /// A surface of its own of a level's triangles: nodes in use, in their order.
     pub fn extract(&self, triangles: &[[u32; 3]]) -> TriMesh {
-        TriMesh { positions: self.positions.clone(), triangles: triangles.to_vec() }.filtered(|_| true)
+        compacted(&self.positions, triangles.to_vec())
     }
 
     /// Checks every promise of the structure; for tests.

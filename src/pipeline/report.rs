@@ -60,6 +60,9 @@ pub struct Report {
     pub after_connectivity: Counts,
     /// What was written or is shown.
     pub output: Counts,
+    /// Sixteen hexadecimal digits that differ where outputs do.
+    #[serde(default)]
+    pub output_fingerprint: String,
     /// The settings that were used.
     pub settings: Settings,
     /// The part of the triangles after connectivity that is gone, in percent.
@@ -126,6 +129,7 @@ impl Report {
             },
             after_connectivity: Counts::of(&kept.mesh),
             output: Counts::of(&reduced.mesh),
+            output_fingerprint: format!("{:016x}", reduced.fingerprint),
             settings: pipeline.settings().clone(),
             reduction_percent: reduction_percent(kept.mesh.triangles.len(), reduced.mesh.triangles.len()),
             shortfall: reduced.level.shortfall.as_ref().map(Shortfall::to_string),

@@ -73,8 +73,11 @@ impl Stage {
 pub struct StageTimes {
     /// File to surface; set by whoever reads it.
     pub read: f64,
-    /// Pieces and their measures.
+    /// Pieces, and the surface of those that are kept.
     pub connectivity: f64,
+    /// Who touches whom in what is kept; smoothing and decimation rest on it.
+    #[serde(default)]
+    pub adjacency: f64,
     /// Windowed sinc.
     pub smoothing: f64,
     /// All levels.
@@ -86,6 +89,9 @@ pub struct StageTimes {
     pub level: f64,
     /// Vertex normals of the level.
     pub normals: f64,
+    /// Areas and volumes of the pieces, the kept, the smoothed and the reduced surface.
+    #[serde(default)]
+    pub areas: f64,
     /// Both deviations.
     pub deviation: f64,
     /// Shape and lumen of the smoothed surface, if it is new, and of the level.
@@ -150,6 +156,8 @@ pub struct Reduced {
     pub normals: Vec<Vec3>,
     /// Its area and volume.
     pub measures: Measures,
+    /// A number that differs where surfaces do: see [`fingerprint`].
+    pub fingerprint: u64,
 }
 
 /// How far a level is from where it came from.
@@ -208,6 +216,8 @@ struct Results {
     smoothed_measures: Option<Arc<SmoothedMeasures>>,
     level_measures: Option<Arc<LevelMeasures>>,
     times: StageTimes,
+    /// Milliseconds that area and volume took, of the kept, the smoothed and the reduced surface.
+    measuring: [f64; 3],
 }
 
 /// One opened surface and what the stages made of it so far.
@@ -215,8 +225,12 @@ pub struct Pipeline {
     opened: Arc<TriMesh>,
     samples: usize,
     connectivity: Option<Arc<Connectivity>>,
-    /// The pieces that go on, before they are measured.
-    adjacent: Option<(Arc<TriMesh>, Arc<Topology>)>,
+    /// The pieces that go on, before they are measured, and their adjacency.
+    adjacent: Option<(Arc<TriMesh>, Option<Arc<Topology>>)>,
+    /// The stage whose time is being counted.
+    timed: Option<Stage>,
+    /// Milliseconds of the present call of `advance` that are not the stage's own.
+    aside: f64,
     now: Results,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
@@ -240,6 +254,8 @@ impl Pipeline {
             samples: INTERACTIVE_SAMPLES,
             connectivity: None,
             adjacent: None,
+            timed: None,
+            aside: 0.0,
             now,
             last: None,
             running: None,
@@ -272,6 +288,8 @@ impl Pipeline {
             terms: None,
             preparation: None,
             is_smoothed_again: false,
+            timed: None,
+            aside: 0.0,
             measuring: None,
         }
     }
@@ -335,6 +353,9 @@ impl Pipeline {
         if stale {
             self.running = None;
         }
+        if stale || keep {
+            self.timed = None;
+        }
         Ok(())
     }
 
@@ -366,6 +387,7 @@ impl Pipeline {
         self.running = None;
         self.measuring = None;
         self.adjacent = None;
+        self.timed = None;
         if let (None, Some(last)) = (&self.now.reduced, self.last.take()) {
             self.now = last;
         }
@@ -384,11 +406,14 @@ impl Pipeline {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
         // The measures come in two parts, with their time begun by `set`.
-        if self.running.is_none() && stage != Stage::Measures {
+        if self.timed.replace(stage) != Some(stage) && stage != Stage::Measures {
             *self.now.times.of(stage) = 0.0;
         }
         let result = self.work(stage, budget)?;
-        *self.now.times.of(stage) += start.elapsed().as_secs_f64() * 1e3;
+        *self.now.times.of(stage) += milliseconds(start) - std::mem::take(&mut self.aside);
+        if result == Advance::Finished(stage) {
+            self.timed = None;
+        }
         Ok(result)
     }
 
@@ -448,22 +473,37 @@ impl Pipeline {
         Ok(Advance::Finished(stage))
     }
 
-    /// One of the three parts of the first stage; `None` when it was the last.
+    /// One of the four parts of the first stage; `None` when it was the last.
     fn connect(&mut self) -> Result<Option<f32>, SettingsError> {
-        let Some(found) = &self.connectivity else {
-            self.connectivity = Some(Arc::new(Connectivity::of(&self.opened)));
-            return Ok(Some(0.3));
+        let Some(found) = &mut self.connectivity else {
+            self.connectivity = Some(Arc::new(Connectivity::unmeasured(&self.opened)));
+            return Ok(Some(0.2));
         };
-        let Some((mesh, topology)) = self.adjacent.take() else {
-            let mesh = Arc::new(found.kept(&self.opened, self.now.settings.keep)?);
-            let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-            self.adjacent = Some((mesh, Arc::new(topology)));
-            return Ok(Some(0.8));
-        };
-        let loops = oriented_loops(&topology);
-        let measures = measures_within(&mesh, loops.as_deref());
-        self.now.kept = Some(Arc::new(Surface { mesh, topology, loops, measures }));
-        Ok(None)
+        let start = Instant::now();
+        match self.adjacent.take() {
+            None => {
+                self.adjacent = Some((found.kept(&self.opened, self.now.settings.keep)?, None));
+                Ok(Some(0.3))
+            }
+            Some((mesh, None)) => {
+                let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+                self.adjacent = Some((mesh, Some(Arc::new(topology))));
+                self.now.times.adjacency = milliseconds(start);
+                self.aside += self.now.times.adjacency;
+                Ok(Some(0.7))
+            }
+            Some((mesh, Some(topology))) => {
+                if found.components.is_empty() {
+                    Arc::make_mut(found).measure(&self.opened);
+                }
+                let loops = oriented_loops(&topology);
+                let measures = measures_within(&mesh, loops.as_deref());
+                self.now.kept = Some(Arc::new(Surface { mesh, topology, loops, measures }));
+                self.now.measuring[0] = milliseconds(start);
+                self.aside += self.now.measuring[0];
+                Ok(None)
+            }
+        }
     }
 
     fn skip_smoothing(&mut self) {
@@ -479,20 +519,21 @@ impl Pipeline {
 
     fn take_level(&mut self) {
         let Some(progressive) = &self.now.progressive else { return };
-        let start = Instant::now();
         let level = match &self.now.bound {
             Some(bound) => progressive.level_after(bound.steps),
             None => progressive.level(self.now.settings.target),
         };
         let mesh = Arc::new(progressive.extract(&level.triangles));
-        let taken = start.elapsed();
+        let start = Instant::now();
         let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
-        self.now.times.normals = (start.elapsed() - taken).as_secs_f64() * 1e3;
+        self.now.times.normals = milliseconds(start);
+        let measuring = Instant::now();
         let topology = Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
         let measures = measures(&mesh, &topology);
-        self.now.reduced = Some(Arc::new(Reduced { level, mesh, topology, normals, measures }));
-        // `advance` adds the whole of this to the level's time: what is not the level's is taken off again.
-        self.now.times.level -= (start.elapsed() - taken).as_secs_f64() * 1e3;
+        self.now.measuring[2] = milliseconds(measuring);
+        let fingerprint = fingerprint(&mesh);
+        self.now.reduced = Some(Arc::new(Reduced { level, mesh, topology, normals, measures, fingerprint }));
+        self.aside += milliseconds(start);
     }
 
     fn start(&self, stage: Stage) -> Option<Running> {
@@ -564,6 +605,8 @@ impl Pipeline {
             Running::Smoothing(stage) => match stage.advance(budget) {
                 Progress::Working(fraction) => return Some(fraction),
                 Progress::Done(smoothed) => {
+                    self.now.measuring[1] = stage.measuring_ms;
+                    self.aside += stage.measuring_ms;
                     self.terms = stage.terms.take().or(self.terms.take());
                     self.now.smoothed = Some(Arc::new(smoothed));
                 }
@@ -681,8 +724,21 @@ impl Pipeline {
 
     /// What each stage took.
     pub fn times(&self) -> StageTimes {
-        self.now.times
+        StageTimes { areas: self.now.measuring.iter().sum(), ..self.now.times }
     }
+}
+
+/// Milliseconds since `start`.
+fn milliseconds(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+/// A number by which two runs can see that they made the same surface: FNV-1a (Fowler, Noll, Vo), 64 bits, over the
+/// positions' and the triangles' 32-bit words.
+pub fn fingerprint(mesh: &TriMesh) -> u64 {
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+    let words = bytemuck::cast_slice::<_, u32>(&mesh.positions).iter().chain(mesh.triangles.as_flattened());
+    words.fold(0xcbf2_9ce4_8422_2325, |hash, &word| (hash ^ u64::from(word)).wrapping_mul(PRIME))
 }
 
 /// Whether two settings make the same surface: without iterations, the rest does not matter.
@@ -760,6 +816,35 @@ mod tests {
         assert!(most > 0.0 && f64::from(most) <= deviation.deviation.max);
         let gone = found.by_node.iter().filter(|&&distance| distance == 0.0).count();
         assert!(gone >= found.by_node.len() - pipeline.reduced().unwrap().mesh.positions.len());
+    }
+
+    #[test]
+    fn the_time_of_a_stage_in_slices_is_that_of_all_its_slices() {
+        let opened = Arc::new(generate(Sample::Aorta, 100_000).unwrap());
+        let mut pipeline = Pipeline::new(opened, Settings::default());
+        let (mut spent, mut told) = (0.0, 0.0);
+        while pipeline.next_stage() <= Some(Stage::Smoothing) && pipeline.next_stage().is_some() {
+            let start = Instant::now();
+            pipeline.advance(Budget::new(Duration::ZERO)).unwrap();
+            spent += milliseconds(start);
+            let times = pipeline.times();
+            let all = times.connectivity + times.adjacency + times.areas + times.smoothing;
+            assert!(all >= told, "a slice took {} ms off", told - all);
+            told = all;
+        }
+        assert!(told <= spent && told > spent * 0.5, "{told} of {spent} ms");
+    }
+
+    #[test]
+    fn surfaces_have_one_fingerprint_only_where_they_are_the_same() {
+        let mesh = TriMesh { positions: vec![Vec3::X, Vec3::Y, Vec3::Z], triangles: vec![[0, 1, 2]] };
+        let mut other = mesh.clone();
+        assert_eq!(fingerprint(&mesh), fingerprint(&other));
+        other.triangles[0].rotate_left(1);
+        assert_ne!(fingerprint(&mesh), fingerprint(&other));
+        other = mesh.clone();
+        other.positions[1].x = f32::from_bits(1);
+        assert_ne!(fingerprint(&mesh), fingerprint(&other));
     }
 
     #[test]

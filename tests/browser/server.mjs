@@ -18,9 +18,10 @@ const MEDIA_TYPES = {
 
 /**
  * Serves `folder` on a free port of this machine. `slow` is the number of bytes per millisecond a module is sent with
- * (0: as fast as it goes), so that a download lasts long enough to be looked at.
+ * (0: as fast as it goes), so that a download lasts long enough to be looked at. `headers` go with every answer, and
+ * `files` has what is served beside the folder: { name: { type, body } }.
  */
-export async function serve(folder, { slow = 0 } = {}) {
+export async function serve(folder, { slow = 0, headers = {}, files = {} } = {}) {
   const server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
     const name = normalize(path.slice(PREFIX.length) || "index.html");
@@ -29,10 +30,10 @@ export async function serve(folder, { slow = 0 } = {}) {
       return;
     }
     try {
-      const body = await readFile(join(folder, name));
-      const type = MEDIA_TYPES[extname(name)] ?? "application/octet-stream";
+      const body = files[name]?.body ?? (await readFile(join(folder, name)));
+      const type = files[name]?.type ?? MEDIA_TYPES[extname(name)] ?? "application/octet-stream";
       // No policy, no length, no caching: the plainest host there is.
-      response.writeHead(200, { "Content-Type": type, "Cache-Control": "no-store" });
+      response.writeHead(200, { "Content-Type": type, "Cache-Control": "no-store", ...headers });
       if (slow > 0 && type === "application/wasm") await trickle(response, body, slow);
       else response.end(body);
     } catch {

@@ -1,10 +1,13 @@
-//! Developer commands: `cargo xtask serve | build | test`.
+//! Developer commands: `cargo xtask serve | build | test | peers | curve`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
 
 mod build;
+mod curve;
+mod document;
 mod page;
+mod peers;
 mod serve;
 mod step;
 mod test;
@@ -41,6 +44,10 @@ enum Command {
         #[arg(long, value_enum, value_delimiter = ',')]
         only: Vec<test::Suite>,
     },
+    /// Run Lumen beside VTK, meshoptimizer and fast-simplification and write docs/benchmarks.md.
+    Peers(peers::Options),
+    /// Draw what `cargo bench` measured, cost against size, into docs/.
+    Curve,
 }
 
 fn main() -> ExitCode {
@@ -48,6 +55,8 @@ fn main() -> ExitCode {
         Command::Serve { port, open } => build::build().and_then(|dist| serve::serve(&dist, port, open)),
         Command::Build => build::build().map(|_| ()),
         Command::Test { only } => test::test(&only),
+        Command::Peers(options) => peers::peers(&options),
+        Command::Curve => curve::curve(),
     };
     if let Err(error) = done {
         eprintln!("error: {error:#}");

@@ -56,18 +56,27 @@ fn is_version(program: &Path, version: &str) -> bool {
 
 /// The version of a package in Cargo.lock.
 fn locked_version(package: &str) -> Result<String> {
-    let lock = std::fs::read_to_string(root().join("Cargo.lock")).context("Cargo.lock cannot be read")?;
+    locked("Cargo.lock", package)
+}
+
+/// The version of a package in a lock file of the checkout.
+pub(crate) fn locked(file: &str, package: &str) -> Result<String> {
+    let lock = std::fs::read_to_string(root().join(file)).with_context(|| format!("{file} cannot be read"))?;
     let mut lines = lock.lines();
     let name = format!("name = \"{package}\"");
-    lines.find(|line| *line == name).with_context(|| format!("Cargo.lock has no {package}"))?;
+    lines.find(|line| *line == name).with_context(|| format!("{file} has no {package}"))?;
     let version = lines.next().and_then(|line| line.strip_prefix("version = \"")?.strip_suffix('"'));
-    version.map(str::to_owned).with_context(|| format!("Cargo.lock has no version of {package}"))
+    version.map(str::to_owned).with_context(|| format!("{file} has no version of {package}"))
 }
 
 /// The folder with `node_modules`, as `xtask/npm` asks.
 pub(crate) fn npm() -> Result<PathBuf> {
-    let folder = target().join("npm");
-    let asked = root().join("xtask/npm");
+    npm_packages("xtask/npm", "npm", "Install wasm-opt and playwright-core from npm")
+}
+
+/// The folder of the target directory with `node_modules`, as the package.json in `asked` says.
+pub(crate) fn npm_packages(asked: &str, folder: &str, what: &str) -> Result<PathBuf> {
+    let (folder, asked) = (target().join(folder), root().join(asked));
     let same = |name: &str| std::fs::read(folder.join(name)).ok() == std::fs::read(asked.join(name)).ok();
     // npm writes this file last.
     let done = folder.join("node_modules/.package-lock.json").is_file();
@@ -77,7 +86,7 @@ pub(crate) fn npm() -> Result<PathBuf> {
     if on_path(&["npm", "npm.cmd"]).is_none() {
         bail!("npm is missing: install Node.js 20 or newer");
     }
-    step("Install wasm-opt and playwright-core from npm", || {
+    step(what, || {
         std::fs::create_dir_all(&folder)?;
         for name in ["package.json", "package-lock.json"] {
             std::fs::copy(asked.join(name), folder.join(name))?;
@@ -86,6 +95,43 @@ pub(crate) fn npm() -> Result<PathBuf> {
         run(Command::new(npm).args(["ci", "--silent", "--no-audit", "--no-fund", "--prefix"]).arg(&folder))
     })?;
     Ok(folder)
+}
+
+/// A Python with what `benches/peers/requirements.txt` asks for, in a virtual environment below `folder`.
+pub(crate) fn peers_python(folder: &Path) -> Result<PathBuf> {
+    let asked = root().join("benches/peers/requirements.txt");
+    let (environment, done) = (folder.join("venv"), folder.join("venv/requirements.txt"));
+    let bin = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    if bin.is_file() && std::fs::read(&done).ok() == std::fs::read(&asked).ok() {
+        return Ok(bin);
+    }
+    let python = on_path(&["python3", "python.exe"]).context("Python is missing: install Python 3.10 or newer")?;
+    // Debian has the module that this needs in a package of its own.
+    if output(Command::new(&python).args(["-c", "import ensurepip, venv"])).is_none() {
+        apt("Python's venv", "python3-venv", "install Python with its standard library")?;
+    }
+    step("Install VTK, fast-simplification, Open3D and MeshLab with pip (a minute or two, once)", || {
+        run(Command::new(&python).args(["-m", "venv"]).arg(&environment))?;
+        run(Command::new(&bin)
+            .args(["-m", "pip", "--quiet", "--disable-pip-version-check", "install", "--requirement"])
+            .arg(&asked))?;
+        Ok(())
+    })?;
+    // Open3D and MeshLab load libraries of the system.
+    let loads = |python: &Path| output(Command::new(python).args(["-c", "import open3d, pymeshlab, vtk"])).is_some();
+    if !loads(&bin) {
+        apt("What Open3D loads", "libusb-1.0-0 libgomp1 libgl1 libegl1", "see what `import open3d` says")?;
+    }
+    std::fs::copy(&asked, &done)?;
+    Ok(bin)
+}
+
+/// Sees to it that C++ can be compiled.
+pub(crate) fn cpp_compiler() -> Result<()> {
+    if std::env::var_os("CXX").is_some() || on_path(&["c++", "g++", "clang++"]).is_some() || cfg!(windows) {
+        return Ok(());
+    }
+    apt("A C++ compiler", "g++", "name one in the environment variable CXX")
 }
 
 /// The browser the tests drive: the environment's `CHROMIUM`, else the one on the PATH, else apt's.
@@ -124,7 +170,7 @@ pub(crate) fn vulkan() -> Result<()> {
     apt("A Vulkan driver", "mesa-vulkan-drivers", "install the driver of your graphics card")
 }
 
-/// Installs a Debian package where that is allowed, else says in one line what is missing and how to get it.
+/// Installs Debian packages where that is allowed, else says in one line what is missing and how to get it.
 fn apt(what: &str, package: &str, instead: &str) -> Result<()> {
     let is_root = output(Command::new("id").arg("-u")).as_deref() == Some("0");
     let may_sudo = !is_root && output(Command::new("sudo").args(["-n", "true"])).is_some();
@@ -140,6 +186,7 @@ fn apt(what: &str, package: &str, instead: &str) -> Result<()> {
     };
     step(&format!("Install {package} with apt"), || {
         apt_get(&["update"])?;
-        apt_get(&["install", "--yes", "--no-install-recommends", package])
+        let packages: Vec<&str> = package.split(' ').collect();
+        apt_get(&[&["install", "--yes", "--no-install-recommends"], &packages[..]].concat())
     })
 }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use web_time::Instant;
+
 use super::volume::{Before, VolumeTask};
 use super::{SmoothingTask, Terms};
 use crate::mesh::{TriMesh, Vec3, measures_within};
@@ -75,6 +77,8 @@ pub(crate) struct SmoothingStage {
     step: Step,
     /// Terms that came of the run, for the next.
     pub(crate) terms: Option<KeptTerms>,
+    /// Milliseconds that area and volume of the result took.
+    pub(crate) measuring_ms: f64,
 }
 
 enum Step {
@@ -87,7 +91,8 @@ impl SmoothingStage {
     /// Starts the stage on `kept`; `terms` that suit are used, and with `keeps_terms` new ones kept where they fit.
     pub(crate) fn new(kept: &Arc<Surface>, settings: Smoothing, terms: Option<&KeptTerms>, keeps_terms: bool) -> Self {
         let filter = Filter::new(&settings);
-        let mut stage = Self { kept: kept.clone(), settings, filter, step: Step::Done(Vec::new(), None), terms: None };
+        let step = Step::Done(Vec::new(), None);
+        let mut stage = Self { kept: kept.clone(), settings, filter, step, terms: None, measuring_ms: 0.0 };
         stage.step = match terms.filter(|terms| terms.suit(kept, &settings)) {
             Some(known) => stage.after_filter(known.terms.smooth(&stage.filter)),
             None if keeps_terms => Step::Filter(Box::new(keeping(kept, &settings, &stage.filter))),
@@ -147,9 +152,11 @@ impl SmoothingStage {
         Some(Before { mesh, topology, loops: loops.as_deref()?, volume: measures.volume_mm3? })
     }
 
-    fn result(&self, positions: Vec<Vec3>, volume_held: Option<bool>) -> Smoothed {
+    fn result(&mut self, positions: Vec<Vec3>, volume_held: Option<bool>) -> Smoothed {
         let mesh = TriMesh { positions, triangles: self.kept.mesh.triangles.clone() };
+        let start = Instant::now();
         let measures = measures_within(&mesh, self.kept.loops.as_deref());
+        self.measuring_ms = start.elapsed().as_secs_f64() * 1e3;
         let response = SmoothingResponse::new(&self.filter, self.settings.pass_band, edge_length(&mesh));
         let filter = Some(self.filter.clone());
         Smoothed { mesh: Arc::new(mesh), filter, response: Some(response), volume_held, measures }

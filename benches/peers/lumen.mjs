@@ -1,0 +1,112 @@
+// Lumen's engine as the browser runs it: dist/'s own Worker with dist/'s own module, in headless Chromium. A line of
+// JSON in, a line of JSON out.
+//
+// {"do": "stages", "file": PATH, "steps": [SETTINGS, ...]} opens the file in a Worker with the first settings, then
+// goes through the others, and answers {"reports": [...], "bytes": N}: the engine's own report of each, as soon as its
+// level is there, and the size of the Worker's memory after them.
+//
+// {"do": "app", "file": PATH} opens the file in the app itself, as a user does, waits until everything is measured, and
+// answers {"texts": [...], "page": N, "worker": N, "seconds": N}: what the page shows, and the bytes of both memories.
+
+import { readFile } from "node:fs/promises";
+import { createInterface } from "node:readline";
+import { openFile, settled } from "../../tests/browser/app.mjs";
+import { dist, launch, started } from "../../tests/browser/browser.mjs";
+import { serve } from "../../tests/browser/server.mjs";
+
+/** With these a page may read its clock to 5 microseconds, not to 100. */
+const ISOLATED = { "Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp" };
+const HOUR = 3_600_000;
+
+const browser = await launch();
+const files = {};
+const server = await serve(dist, { headers: ISOLATED, files });
+let stages;
+
+for await (const line of createInterface({ input: process.stdin })) {
+  const { do: what, ...question } = JSON.parse(line);
+  const answer = what === "app" ? await app(question) : await (await (stages ??= engine()))(question);
+  console.log(JSON.stringify({ ...answer, chromium: browser.version() }));
+}
+await browser.close();
+await server.close();
+
+/** An empty page with a Worker, which serves one question after another, so that its code is warm. */
+async function engine() {
+  files["bench.html"] = { type: "text/html", body: "<!doctype html><title>bench</title>" };
+  const page = await browser.newPage();
+  page.setDefaultTimeout(HOUR);
+  await page.goto(`${server.address}bench.html`);
+  await page.evaluate(startWorker);
+  let opened = 0;
+  return async ({ file, steps }) => {
+    files["input"] = { type: "application/octet-stream", body: await readFile(file) };
+    const reports = await page.evaluate(runSteps, { name: file.split("/").at(-1), steps, first: opened });
+    opened += steps.length;
+    return { reports, bytes: await memory(page.workers()[0]) };
+  };
+}
+
+/** In the page: starts the Worker as web/src/worker.rs does. */
+async function startWorker() {
+  const module = await WebAssembly.compileStreaming(fetch("lumen-web_bg.wasm"));
+  window.worker = new Worker("worker.js", { type: "module" });
+  window.worker.postMessage({ module, job: "pipeline" });
+}
+
+/** In the page: opens the file with the first settings and goes through the others; the report of each. */
+async function runSteps({ name, steps, first }) {
+  const { worker } = window;
+  const answer = (generation) =>
+    new Promise((resolve, reject) => {
+      worker.onerror = (event) => reject(new Error(event.message || "the Worker could not be started"));
+      worker.onmessage = ({ data: [header] }) => {
+        const event = JSON.parse(header);
+        const [failed] = [event.Failed, event.OpenFailed].filter(Boolean);
+        if (failed) reject(new Error(failed.message));
+        if (event.Measured?.generation === generation) resolve(event.Measured.report);
+      };
+    });
+  const bytes = await (await fetch("input", { cache: "no-store" })).arrayBuffer();
+  const reports = [];
+  for (const [step, settings] of steps.entries()) {
+    const generation = first + step + 1;
+    const heard = answer(generation);
+    if (step === 0) {
+      const header = { OpenFile: { id: generation, name, options: { unit: null }, settings } };
+      worker.postMessage([JSON.stringify(header), bytes], [bytes]);
+    } else {
+      worker.postMessage([JSON.stringify({ Set: { generation, settings } })]);
+    }
+    reports.push(await heard);
+  }
+  return reports;
+}
+
+/** Bytes of the memory of Lumen's instance in a page or a Worker: its glue gives the instance that is there already. */
+function memory(realm) {
+  return realm.evaluate(async () => {
+    const loaded = performance.getEntriesByType("resource").map(({ name }) => name);
+    const glue = loaded.find((name) => /lumen-web\.js/.test(name)) ?? new URL(`lumen-web.js${self.location.search}`, self.location).href;
+    return (await import(glue)).initSync().memory.buffer.byteLength;
+  });
+}
+
+async function app({ file }) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const page = await context.newPage();
+  try {
+    await page.goto(server.address);
+    await started(page);
+    await settled(page);
+    const begun = performance.now();
+    await openFile(page, file);
+    const name = file.split("/").at(-1);
+    await page.waitForFunction((name) => document.querySelector("#twins").textContent.includes(name), name, { timeout: HOUR });
+    const texts = await settled(page, HOUR);
+    const seconds = (performance.now() - begun) / 1000;
+    return { texts, page: await memory(page), worker: await memory(page.workers()[0]), seconds };
+  } finally {
+    await context.close();
+  }
+}

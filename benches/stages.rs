@@ -1,0 +1,119 @@
+//! What does each stage cost as the surface grows? `cargo bench --bench stages`, then `cargo xtask curve`.
+//!
+//! Each time is that of the stage as the program runs it, by the pipeline's own clock: what a stage needs is there
+//! already, and a changed setting makes it alone stale. Sizes are those of the aorta sample's largest piece;
+//! `LUMEN_BENCH_TRIANGLES` is the largest that is measured.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use lumen::mesh::TriMesh;
+use lumen::phantom::{Sample, generate};
+use lumen::pipeline::normals::{Weighting, vertex_normals};
+use lumen::pipeline::run::{Advance, Pipeline, Stage, StageTimes};
+use lumen::pipeline::settings::{Settings, Target};
+use lumen::pipeline::task::Budget;
+
+const SIZES: [usize; 6] = [10_000, 30_000, 100_000, 300_000, 1_000_000, 4_000_000];
+
+/// Milliseconds of one run of a stage.
+type Measure = fn(&mut Bench) -> f64;
+
+/// The stages, and how their time is taken.
+const STAGES: [(&str, Measure); 8] = [
+    ("connectivity", |bench| bench.anew().connectivity),
+    ("topology", |bench| bench.anew().adjacency),
+    ("smoothing-100", |bench| {
+        bench.again(Stage::Smoothing, |settings| other(&mut settings.smoothing.pass_band, [0.01, 0.010_01])).smoothing
+    }),
+    ("normals", Bench::normals),
+    ("decimation", |bench| {
+        bench
+            .again(Stage::Decimation, |settings| other(&mut settings.decimation.feature_angle, [60.0, 60.01]))
+            .decimation
+    }),
+    ("level-90", |bench| bench.another_level(Stage::Level).level),
+    ("measures", |bench| bench.anew().measures),
+    ("deviation", |bench| bench.another_level(Stage::Deviation).deviation),
+];
+
+/// Sets `value` to the one of two that it is not.
+fn other<T: Copy + PartialEq>(value: &mut T, [first, second]: [T; 2]) {
+    *value = if *value == first { second } else { first };
+}
+
+/// A surface, and a pipeline that has gone through it.
+struct Bench {
+    opened: Arc<TriMesh>,
+    pipeline: Pipeline,
+}
+
+impl Bench {
+    fn new(triangles: usize) -> Self {
+        let opened = Arc::new(generate(Sample::Aorta, triangles).expect("the size is in range"));
+        let mut pipeline = Pipeline::new(opened.clone(), Settings::default());
+        pipeline.finish().expect("the defaults fit any surface");
+        Self { opened, pipeline }
+    }
+
+    /// The times of the first stage of a pipeline of its own.
+    fn anew(&mut self) -> StageTimes {
+        let mut pipeline = Pipeline::new(self.opened.clone(), Settings::default());
+        run_to(&mut pipeline, Stage::Connectivity);
+        pipeline.times()
+    }
+
+    /// The times after a change of settings, up to `stage`.
+    fn again(&mut self, stage: Stage, change: impl FnOnce(&mut Settings)) -> StageTimes {
+        let mut settings = self.pipeline.settings().clone();
+        change(&mut settings);
+        self.pipeline.set(settings).expect("the settings are in range");
+        run_to(&mut self.pipeline, stage);
+        self.pipeline.times()
+    }
+
+    fn another_level(&mut self, stage: Stage) -> StageTimes {
+        self.again(stage, |settings| other(&mut settings.target, [Target::Reduction(900), Target::Reduction(899)]))
+    }
+
+    fn normals(&mut self) -> f64 {
+        let begun = Instant::now();
+        std::hint::black_box(vertex_normals(&self.opened.positions, &self.opened.triangles, Weighting::Area));
+        begun.elapsed().as_secs_f64() * 1e3
+    }
+}
+
+/// Runs a pipeline until `stage` is finished.
+fn run_to(pipeline: &mut Pipeline, stage: Stage) {
+    loop {
+        match pipeline.advance(Budget::UNLIMITED).expect("the settings fit the surface") {
+            Advance::Finished(done) if done == stage => return,
+            Advance::Idle => panic!("{stage:?} was finished before"),
+            _ => {}
+        }
+    }
+}
+
+fn stages(criterion: &mut Criterion) {
+    let most = std::env::var("LUMEN_BENCH_TRIANGLES").ok().and_then(|text| text.parse().ok()).unwrap_or(usize::MAX);
+    for triangles in SIZES.into_iter().filter(|&size| size <= most) {
+        let mut bench = Bench::new(triangles);
+        for (stage, measure) in STAGES {
+            let mut group = criterion.benchmark_group(stage);
+            // A run can take a minute: one a sample, and no more samples than there have to be.
+            group.sampling_mode(SamplingMode::Flat).sample_size(10);
+            group.warm_up_time(Duration::from_millis(1)).measurement_time(Duration::from_millis(200));
+            group.throughput(Throughput::Elements(triangles as u64));
+            group.bench_function(BenchmarkId::from_parameter(triangles), |bencher| {
+                bencher.iter_custom(|runs| (0..runs).map(|_| Duration::from_secs_f64(measure(&mut bench) / 1e3)).sum());
+            });
+            group.finish();
+            // The next stage begins with everything in place.
+            bench.pipeline.finish().expect("the settings fit the surface");
+        }
+    }
+}
+
+criterion_group!(benches, stages);
+criterion_main!(benches);
