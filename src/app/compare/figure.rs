@@ -113,7 +113,7 @@ impl Studio {
         }
         drawn?;
         let jobs = ctx.tessellate(shapes, scale);
-        Ok(self.paint(&jobs, egui_wgpu::ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale })?)
+        Ok(self.paint(&jobs, &egui_wgpu::ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale })?)
     }
 
     /// Uploads what the window library wrote to its textures: letters.
@@ -133,7 +133,7 @@ impl Studio {
     fn paint(
         &self,
         jobs: &[egui::ClippedPrimitive],
-        screen: egui_wgpu::ScreenDescriptor,
+        screen: &egui_wgpu::ScreenDescriptor,
     ) -> Result<Picture, PictureError> {
         let (device, queue) = (&self.state.device, &self.state.queue);
         let [width, height] = screen.size_in_pixels;
@@ -150,7 +150,7 @@ impl Studio {
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("figure") });
         let mut renderer = self.state.renderer.write();
-        let uploads = renderer.update_buffers(device, queue, &mut encoder, jobs, &screen);
+        let uploads = renderer.update_buffers(device, queue, &mut encoder, jobs, screen);
         let mut pass = encoder
             .begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("figure"),
@@ -166,7 +166,7 @@ impl Studio {
                 ..Default::default()
             })
             .forget_lifetime();
-        renderer.render(&mut pass, jobs, &screen);
+        renderer.render(&mut pass, jobs, screen);
         drop(pass);
         queue.submit(uploads.into_iter().chain([encoder.finish()]));
         Picture::read_texture_now(&texture, device, queue)

@@ -47,7 +47,7 @@ impl CompareScene {
     }
 
     /// Forgets all surfaces but these.
-    pub(super) fn keep_only<'a>(&mut self, meshes: impl Iterator<Item = &'a Arc<TriMesh>> + Clone) {
+    pub(super) fn keep_only<'a>(&mut self, meshes: &(impl Iterator<Item = &'a Arc<TriMesh>> + Clone)) {
         let is_kept = |mesh: &Arc<TriMesh>| meshes.clone().any(|kept| Arc::ptr_eq(kept, mesh));
         self.surfaces.retain(|(mesh, _)| is_kept(mesh));
         for slot in &mut self.pictures {

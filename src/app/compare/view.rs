@@ -61,7 +61,7 @@ impl CompareView {
             Outcome::Waiting | Outcome::Failed(_) => None,
         });
         if let Some(scene) = &mut self.scene {
-            scene.keep_only(made);
+            scene.keep_only(&made);
         }
         let fill = ui.visuals().panel_fill;
         ui.spacing_mut().item_spacing.y = 1.0;

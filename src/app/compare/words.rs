@@ -4,8 +4,11 @@ use crate::app::control::grouped;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Settings, Target};
 
+/// Parts of a setting.
+const PARTS: usize = 7;
+
 /// A setting, part by part; a part that does not apply is empty.
-fn parts(settings: &Settings) -> [String; 5] {
+fn parts(settings: &Settings) -> [String; PARTS] {
     let smoothing = &settings.smoothing;
     let [band, iterations, window] = if smoothing.iterations == 0 {
         ["not smoothed".to_owned(), String::new(), String::new()]
@@ -20,17 +23,22 @@ fn parts(settings: &Settings) -> [String; 5] {
         Target::Reduction(0) => "not reduced".to_owned(),
         Target::Reduction(per_mille) => format!("reduction {} %", f64::from(per_mille) / 10.0),
         Target::Triangles(count) => format!("{} triangles wanted", grouped(count as usize)),
+        Target::Deviation(micrometres) => format!("deviation up to {} mm", f64::from(micrometres) / 1000.0),
     };
-    [band, iterations, window, format!("feature angle {}°", settings.decimation.feature_angle), target]
+    let holds_volume = smoothing.preserve_volume && smoothing.iterations > 0;
+    let volume = if holds_volume { "volume preserved".to_owned() } else { String::new() };
+    let decimation = &settings.decimation;
+    let method = format!("{} method", decimation.method.name());
+    [band, iterations, window, volume, method, format!("feature angle {}°", decimation.feature_angle), target]
 }
 
 /// What all settings share, and for each what sets it apart: its title. Where nothing does, the title says the most.
 pub(super) fn titles(all: &[&Settings]) -> (String, Vec<String>) {
     let parts: Vec<_> = all.iter().map(|settings| parts(settings)).collect();
-    let differs: [bool; 5] = std::array::from_fn(|i| parts.windows(2).any(|pair| pair[0][i] != pair[1][i]));
-    // The window and the feature angle say little to most readers.
-    let named = if differs.contains(&true) { differs } else { [true, true, false, false, true] };
-    let join = |parts: &[String; 5], wanted: bool| {
+    let differs: [bool; PARTS] = std::array::from_fn(|i| parts.windows(2).any(|pair| pair[0][i] != pair[1][i]));
+    // The window, the method and the feature angle say little to most readers.
+    let named = if differs.contains(&true) { differs } else { [true, true, false, true, false, false, true] };
+    let join = |parts: &[String; PARTS], wanted: bool| {
         let chosen = parts.iter().zip(named).filter(|(part, named)| *named == wanted && !part.is_empty());
         capital(&chosen.map(|(part, _)| part.as_str()).collect::<Vec<_>>().join(", "))
     };

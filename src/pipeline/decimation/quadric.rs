@@ -162,7 +162,7 @@ impl Method for Quadric {
             let stays = rings.stays(u) || rings.is_open(u) && !is_open;
             let place = if stays { None } else { form.least(way * 0.5) };
             let cost = form.at(place.unwrap_or(way));
-            self.candidates.push(Candidate { cost: cost as f32, to, place: place.map(|p| p.as_vec3a()) });
+            self.candidates.push(Candidate { cost: cost as f32, to, place: place.map(DVec3::as_vec3a) });
             let priority = cost.sqrt() as f32;
             if priority < judged.priority {
                 judged.priority = priority;

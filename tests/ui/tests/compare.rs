@@ -132,7 +132,7 @@ fn the_tab_key_reaches_every_cell() {
         harness.key_press(Key::Tab);
         harness.run_steps(1);
         let cells = harness.query_all_by_role(Role::RadioButton);
-        reached.extend(cells.filter(|cell| cell.is_focused()).filter_map(|cell| cell.accesskit_node().label()));
+        reached.extend(cells.filter(egui_kittest::Node::is_focused).filter_map(|cell| cell.accesskit_node().label()));
     }
     assert_eq!(reached.len(), 3, "{reached:?}");
 }
