@@ -45,13 +45,27 @@ struct Patch {
     axis: Vec3A,
     /// Between the axis and the normal farthest from it, in radians.
     angle: f32,
+    /// The cosine of that angle; of leaves only.
+    cosine: f32,
     /// Between the axis and the leaf's axis farthest from it, in radians; 0 for a leaf.
     spread: f32,
 }
 
 impl Patch {
-    const NOTHING: Self =
-        Self { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY, axis: Vec3A::ZERO, angle: 0.0, spread: 0.0 };
+    const NOTHING: Self = Self {
+        low: Vec3A::INFINITY,
+        high: Vec3A::NEG_INFINITY,
+        axis: Vec3A::ZERO,
+        angle: 0.0,
+        cosine: 1.0,
+        spread: 0.0,
+    };
+
+    /// Gives the cone this angle.
+    fn widen(&mut self, angle: f32) {
+        self.angle = angle.min(std::f32::consts::PI);
+        self.cosine = libm::cosf(self.angle);
+    }
 
     fn overlaps(&self, low: Vec3A, high: Vec3A) -> bool {
         (self.low.cmple(high) & self.high.cmpge(low)).all()
@@ -87,13 +101,20 @@ pub(super) struct Guard {
     starts: Vec<u32>,
     /// Corners of the boxes around the leaves' triangles as they are now.
     boxes: Vec<[Vec3A; 2]>,
-    /// For each leaf its first pair in `pairs`: the other leaf, and where the next one stands.
+    /// The pairs found at first: those of a leaf are `others[offsets[leaf]..offsets[leaf + 1]]`.
+    offsets: Vec<u32>,
+    others: Vec<u32>,
+    /// For each leaf the first of its later pairs in `pairs`: the other leaf, and where the next one stands.
     first: Vec<u32>,
     pairs: Vec<[u32; 2]>,
     margin: f32,
     /// Whether the surface has more than one piece: then sheets that look the same way may lie upon each other.
     several: bool,
     near: Vec<u32>,
+    stack: Vec<(usize, u32)>,
+    /// For each leaf the last search that knew it.
+    marks: Vec<u32>,
+    mark: u32,
     found: Vec<[u32; 3]>,
 }
 
@@ -127,7 +148,7 @@ impl Guard {
                 leaf.low -= margin;
                 leaf.high += margin;
             }
-            leaf.angle += SLACK;
+            leaf.widen(leaf.angle + SLACK);
         }
         let mut levels = vec![leaves];
         while levels[levels.len() - 1].len() > 1 {
@@ -143,7 +164,12 @@ impl Guard {
             pairs: Vec::new(),
             margin,
             several,
+            offsets: vec![0; count + 1],
+            others: Vec::new(),
             near: Vec::new(),
+            stack: Vec::new(),
+            marks: vec![0; count],
+            mark: 0,
             found: Vec::new(),
         };
         guard.find_pairs();
@@ -158,6 +184,7 @@ impl Guard {
     fn find_pairs(&mut self) {
         let top = self.levels.len() - 1;
         let mut stack = vec![(top, 0u32, 0u32)];
+        let mut found = Vec::new();
         while let Some((level, a, b)) = stack.pop() {
             let patches = &self.levels[level];
             let (Some(p), Some(q)) = (patches.get(a as usize), patches.get(b as usize)) else { continue };
@@ -165,7 +192,7 @@ impl Guard {
                 continue;
             }
             if level == 0 {
-                self.pair(a, b);
+                found.push([a, b]);
                 continue;
             }
             let below = self.levels[level - 1].len() as u32;
@@ -177,6 +204,18 @@ impl Guard {
                     }
                 }
             }
+        }
+        // Each pair stands with both of its leaves.
+        let both = |&[a, b]: &[u32; 2]| [Some([a, b]), (a != b).then_some([b, a])].into_iter().flatten();
+        for [of, _] in found.iter().flat_map(both) {
+            self.offsets[of as usize + 1] += 1;
+        }
+        (1..self.offsets.len()).for_each(|i| self.offsets[i] += self.offsets[i - 1]);
+        self.others = vec![0; self.offsets[self.offsets.len() - 1] as usize];
+        let mut cursor = self.offsets.clone();
+        for [of, other] in found.iter().flat_map(both) {
+            self.others[cursor[of as usize] as usize] = other;
+            cursor[of as usize] += 1;
         }
     }
 
@@ -195,27 +234,29 @@ impl Guard {
     }
 
     fn pairs_of(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {
+        let known = self.offsets[leaf as usize] as usize..self.offsets[leaf as usize + 1] as usize;
         let mut next = self.first[leaf as usize];
-        std::iter::from_fn(move || {
+        let later = std::iter::from_fn(move || {
             let &[other, after] = self.pairs.get(next as usize)?;
             next = after;
             Some(other)
-        })
+        });
+        self.others[known].iter().copied().chain(later)
     }
 
-    /// Sees to it that the leaf has room for a box and its cone for an angle, and that it knows its pairs then.
-    fn grow(&mut self, leaf: u32, low: Vec3A, high: Vec3A, angle: f32) {
+    /// Sees to it that the leaf has room for a box, and its cone for a cosine, and that it knows its pairs then.
+    fn grow(&mut self, leaf: u32, low: Vec3A, high: Vec3A, cosine: f32) {
         let mut patch = self.levels[0][leaf as usize];
         let fits = patch.holds(low, high);
-        if fits && angle <= patch.angle {
+        if fits && cosine >= patch.cosine {
             return;
         }
         if !fits {
             patch.low = patch.low.min(low - self.margin);
             patch.high = patch.high.max(high + self.margin);
         }
-        if angle > patch.angle {
-            patch.angle = (angle + SLACK).min(std::f32::consts::PI);
+        if cosine < patch.cosine {
+            patch.widen(angle(cosine) + SLACK);
         }
         self.levels[0][leaf as usize] = patch;
         let mut at = leaf as usize;
@@ -228,19 +269,28 @@ impl Guard {
             node.low = node.low.min(patch.low);
             node.high = node.high.max(patch.high);
         }
-        let mut near = std::mem::take(&mut self.near);
+        self.find_pairs_of(leaf, &patch);
+    }
+
+    /// Adds the pairs of a leaf that it does not know yet.
+    fn find_pairs_of(&mut self, leaf: u32, patch: &Patch) {
+        let (mut near, mut stack) = (std::mem::take(&mut self.near), std::mem::take(&mut self.stack));
         near.clear();
-        self.leaves_near(patch.low, patch.high, &mut near);
+        self.leaves_near(patch.low, patch.high, &mut near, &mut stack);
+        let mut marks = std::mem::take(&mut self.marks);
+        self.mark += 1;
+        self.pairs_of(leaf).for_each(|other| marks[other as usize] = self.mark);
         for &other in &near {
-            if !self.is_one_sheet(&patch, &self.levels[0][other as usize]) && !self.pairs_of(leaf).any(|o| o == other) {
+            if marks[other as usize] != self.mark && !self.is_one_sheet(patch, &self.levels[0][other as usize]) {
                 self.pair(leaf, other);
             }
         }
-        self.near = near;
+        (self.near, self.stack, self.marks) = (near, stack, marks);
     }
 
-    fn leaves_near(&self, low: Vec3A, high: Vec3A, near: &mut Vec<u32>) {
-        let mut stack = vec![(self.levels.len() - 1, 0u32)];
+    fn leaves_near(&self, low: Vec3A, high: Vec3A, near: &mut Vec<u32>, stack: &mut Vec<(usize, u32)>) {
+        stack.clear();
+        stack.push((self.levels.len() - 1, 0));
         while let Some((level, at)) = stack.pop() {
             let Some(patch) = self.levels[level].get(at as usize) else { continue };
             if !patch.overlaps(low, high) {
@@ -272,7 +322,7 @@ impl Guard {
         if let Some((other, at)) = planned.other {
             cosine = cosine.min(other.least_cosine(planned.end - rings.at(u), at, axis));
         }
-        self.grow(leaf, low, high, angle(cosine));
+        self.grow(leaf, low, high, cosine);
         let near = |guard: &Self, other: u32| {
             let [least, most] = guard.boxes[other as usize];
             (least.cmple(high) & most.cmpge(low)).all()
@@ -479,6 +529,7 @@ fn parent(children: &[Patch]) -> Patch {
             high: all.high.max(child.high),
             axis,
             angle: all.angle.max(apart + child.angle),
+            cosine: -1.0,
             spread: all.spread.max(apart + child.spread),
         }
     })

@@ -99,8 +99,10 @@ impl Star {
             self.entries[i] = entry;
             self.put(i, rings.at(neighbour(entry)) - p);
         }
-        if !is_open && self.count > 0 {
-            self.put(self.count, self.edge(0));
+        // The first again where the ring closes, and to fill the four that it stands in.
+        if self.count > 0 {
+            let first = self.edge(0);
+            (self.count..(self.count + 1).next_multiple_of(4)).for_each(|i| self.put(i, first));
         }
     }
 
@@ -280,10 +282,16 @@ impl Star {
         Vec3A::new(sum(all[0]), sum(all[1]), sum(all[2]))
     }
 
-    /// Corners of the box around the neighbours, relative to the vertex.
+    /// Corners of the box around the neighbours, relative to the vertex, with the vertex.
     pub(super) fn reach(&self) -> [Vec3A; 2] {
-        let edges = (0..self.count).map(|i| self.edge(i));
-        edges.fold([Vec3A::ZERO; 2], |[low, high], e| [low.min(e), high.max(e)])
+        let (mut low, mut high) = ([Vec4::ZERO; 3], [Vec4::ZERO; 3]);
+        for quad in &self.quads[..self.count.div_ceil(4)] {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(quad.e[axis]);
+                high[axis] = high[axis].max(quad.e[axis]);
+            }
+        }
+        [Vec3A::from(low.map(Vec4::min_element)), Vec3A::from(high.map(Vec4::max_element))]
     }
 }
 
