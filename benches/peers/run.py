@@ -192,6 +192,15 @@ def machine():
     return dict(cpu=cpu, cores=len(CORES) or os.cpu_count(), system=platform.platform(terse=True))
 
 
+def store(report, setup, file):
+    """Writes what there is so far: a run takes long, and may be stopped."""
+    chromium = {"Chromium": entry["chromium"] for entry in report["surfaces"] if "chromium" in entry}
+    report["versions"] = {"VTK": version("vtk"), "fast-simplification": version("fast-simplification"),
+                          "Open3D": version("open3d"), "MeshLab (pymeshlab)": version("pymeshlab"),
+                          "Python": platform.python_version(), **chromium, **setup["versions"]}
+    Path(file).write_text(json.dumps(report, indent=1))
+
+
 def main(setup_file, report_file):
     setup = json.loads(Path(setup_file).read_text())
     report = dict(machine=machine(), runs=setup["runs"], surfaces=[], memory=[])
@@ -204,23 +213,20 @@ def main(setup_file, report_file):
         wasm = Meshoptimizer("meshoptWasm", ["node", setup["meshoptimizer_wasm"], setup["peers_npm"]], folder)
         for surface in setup["surfaces"]:
             say(surface["name"])
-            entry = dict(name=surface["name"])
+            entry = dict(name=surface["name"], quality=[])
             times(surface["file"], (lumen, browser, native, wasm), setup["runs"], entry)
+            report["surfaces"].append(entry)
+            store(report, setup, report_file)
             pin(False)
             qualities(surface["file"], lumen, native, QUALITY[:surface["qualities"]], entry)
-            report["surfaces"].append(entry)
+            store(report, setup, report_file)
         for line in [native.line, wasm.line]:
             line.close()
         for file in setup["memory"]:
             report["memory"].append(memory(file, lumen, browser))
+            store(report, setup, report_file)
         if browser:
             browser.line.close()
-    entries = report["surfaces"]
-    report["versions"] = {"VTK": version("vtk"), "fast-simplification": version("fast-simplification"),
-                          "Open3D": version("open3d"), "MeshLab (pymeshlab)": version("pymeshlab"),
-                          "Python": platform.python_version(),
-                          **({"Chromium": entries[0]["chromium"]} if browser else {}), **setup["versions"]}
-    Path(report_file).write_text(json.dumps(report, indent=1))
 
 
 main(*sys.argv[1:])
