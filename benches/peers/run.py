@@ -203,7 +203,7 @@ def store(report, setup, file):
 
 def main(setup_file, report_file):
     setup = json.loads(Path(setup_file).read_text())
-    report = dict(machine=machine(), runs=setup["runs"], surfaces=[], memory=[])
+    report = dict(machine=machine(), surfaces=[], memory=[])
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         lumen = Lumen(setup["lumen"], folder)
@@ -213,8 +213,8 @@ def main(setup_file, report_file):
         wasm = Meshoptimizer("meshoptWasm", ["node", setup["meshoptimizer_wasm"], setup["peers_npm"]], folder)
         for surface in setup["surfaces"]:
             say(surface["name"])
-            entry = dict(name=surface["name"], quality=[])
-            times(surface["file"], (lumen, browser, native, wasm), setup["runs"], entry)
+            entry = dict(name=surface["name"], runs=surface["runs"], quality=[])
+            times(surface["file"], (lumen, browser, native, wasm), surface["runs"], entry)
             report["surfaces"].append(entry)
             store(report, setup, report_file)
             pin(False)
