@@ -24,6 +24,9 @@ CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else
 TIMED = [(0.1, 30), (0.1, 60), (0.01, 100)]
 QUALITY = [(0.1, 60), (0.01, 100)]
 METHODS = ["schroeder", "quadric"]
+#: Runs a command and prints the largest memory it had, in the system's unit.
+PEAK = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode; "
+        "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss); sys.exit(code)")
 
 
 def pin(one):
@@ -45,16 +48,17 @@ class Lumen:
 
     def optimise(self, file, pass_band, iterations, rate, method="schroeder", name="level.ply"):
         """The report, the surface's file and the peak memory in bytes."""
+        # A process of its own in between: what one forks from counts as its own memory, and this one is large.
+        between = [sys.executable, "-c", PEAK]
         output, report = self.folder / name, self.folder / "report.json"
         command = [self.program, "optimise", file, "-o", output, "--report", report, "--pass-band", str(pass_band),
                    "--iterations", str(iterations), "--reduction", str(rate), "--window", "hamming"]
         command += ["--method", method] if len(self.methods) > 1 else []
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        complaint = process.stderr.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        if status:
-            raise SystemExit(f"lumen failed: {complaint.decode()}")
-        return json.loads(report.read_text()), output, usage.ru_maxrss * 1024
+        done = subprocess.run(between + command, capture_output=True, text=True)
+        if done.returncode:
+            raise SystemExit(f"lumen failed: {done.stderr}")
+        peak = int(done.stdout.split()[-1]) * (1 if sys.platform == "darwin" else 1024)
+        return json.loads(report.read_text()), output, peak
 
     def run(self, file):
         """Milliseconds of each stage, and what they were taken with and came to."""
