@@ -24,6 +24,9 @@ CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else
 TIMED = [(0.1, 30), (0.1, 60), (0.01, 100)]
 QUALITY = [(0.1, 60), (0.01, 100)]
 METHODS = ["schroeder", "quadric"]
+#: Runs a command and prints the largest memory it had, in the system's unit.
+PEAK = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode; "
+        "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss); sys.exit(code)")
 
 
 def pin(one):
@@ -45,16 +48,17 @@ class Lumen:
 
     def optimise(self, file, pass_band, iterations, rate, method="schroeder", name="level.ply"):
         """The report, the surface's file and the peak memory in bytes."""
+        # A process of its own in between: what one forks from counts as its own memory, and this one is large.
+        between = [sys.executable, "-c", PEAK]
         output, report = self.folder / name, self.folder / "report.json"
         command = [self.program, "optimise", file, "-o", output, "--report", report, "--pass-band", str(pass_band),
                    "--iterations", str(iterations), "--reduction", str(rate), "--window", "hamming"]
         command += ["--method", method] if len(self.methods) > 1 else []
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        complaint = process.stderr.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        if status:
-            raise SystemExit(f"lumen failed: {complaint.decode()}")
-        return json.loads(report.read_text()), output, usage.ru_maxrss * 1024
+        done = subprocess.run(between + command, capture_output=True, text=True)
+        if done.returncode:
+            raise SystemExit(f"lumen failed: {done.stderr}")
+        peak = int(done.stdout.split()[-1]) * (1 if sys.platform == "darwin" else 1024)
+        return json.loads(report.read_text()), output, peak
 
     def run(self, file):
         """Milliseconds of each stage, and what they were taken with and came to."""
@@ -192,9 +196,18 @@ def machine():
     return dict(cpu=cpu, cores=len(CORES) or os.cpu_count(), system=platform.platform(terse=True))
 
 
+def store(report, setup, file):
+    """Writes what there is so far: a run takes long, and may be stopped."""
+    chromium = {"Chromium": entry["chromium"] for entry in report["surfaces"] if "chromium" in entry}
+    report["versions"] = {"VTK": version("vtk"), "fast-simplification": version("fast-simplification"),
+                          "Open3D": version("open3d"), "MeshLab (pymeshlab)": version("pymeshlab"),
+                          "Python": platform.python_version(), **chromium, **setup["versions"]}
+    Path(file).write_text(json.dumps(report, indent=1))
+
+
 def main(setup_file, report_file):
     setup = json.loads(Path(setup_file).read_text())
-    report = dict(machine=machine(), runs=setup["runs"], surfaces=[], memory=[])
+    report = dict(machine=machine(), surfaces=[], memory=[])
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         lumen = Lumen(setup["lumen"], folder)
@@ -204,23 +217,20 @@ def main(setup_file, report_file):
         wasm = Meshoptimizer("meshoptWasm", ["node", setup["meshoptimizer_wasm"], setup["peers_npm"]], folder)
         for surface in setup["surfaces"]:
             say(surface["name"])
-            entry = dict(name=surface["name"])
-            times(surface["file"], (lumen, browser, native, wasm), setup["runs"], entry)
+            entry = dict(name=surface["name"], runs=surface["runs"], quality=[])
+            times(surface["file"], (lumen, browser, native, wasm), surface["runs"], entry)
+            report["surfaces"].append(entry)
+            store(report, setup, report_file)
             pin(False)
             qualities(surface["file"], lumen, native, QUALITY[:surface["qualities"]], entry)
-            report["surfaces"].append(entry)
+            store(report, setup, report_file)
         for line in [native.line, wasm.line]:
             line.close()
         for file in setup["memory"]:
             report["memory"].append(memory(file, lumen, browser))
+            store(report, setup, report_file)
         if browser:
             browser.line.close()
-    entries = report["surfaces"]
-    report["versions"] = {"VTK": version("vtk"), "fast-simplification": version("fast-simplification"),
-                          "Open3D": version("open3d"), "MeshLab (pymeshlab)": version("pymeshlab"),
-                          "Python": platform.python_version(),
-                          **({"Chromium": entries[0]["chromium"]} if browser else {}), **setup["versions"]}
-    Path(report_file).write_text(json.dumps(report, indent=1))
 
 
 main(*sys.argv[1:])

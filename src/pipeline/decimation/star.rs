@@ -214,7 +214,7 @@ impl Star {
             if (counts & (folds | is_poor)).any() {
                 return None;
             }
-            worst = worst.min(Vec4::select(counts, quality + quad.none, Vec4::ONE));
+            worst = worst.min(Vec4::select(counts & quad.none.cmpeq(Vec4::ZERO), quality, Vec4::ONE));
             number += 4.0;
         }
         Some(worst.min_element().max(0.0).sqrt())

@@ -21,7 +21,7 @@ pub(crate) struct Options {
     /// Fewer runs, one setting of quality, no five million triangles; the document stays as it is
     #[arg(long)]
     quick: bool,
-    /// Runs of every contender, in turn
+    /// Runs of every contender, in turn; 7 and 5 for the two surfaces
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     runs: Option<u32>,
     /// Leave the browser out
@@ -80,7 +80,6 @@ fn prepare(options: &Options, folder: &Path) -> Result<serde_json::Value> {
         "meshoptimizer (native, crate meshopt)": tools::locked("benches/peers/native/Cargo.lock", "meshopt")?,
     });
     Ok(json!({
-        "runs": options.runs.unwrap_or(if options.quick { 2 } else { 7 }),
         "surfaces": surfaces,
         "memory": memory,
         "lumen": lumen,
@@ -124,13 +123,14 @@ fn native_meshoptimizer(folder: &Path) -> Result<PathBuf> {
 
 /// The surfaces of the bench: those named, or the two of `LUMEN_DATA`, or samples of the same size.
 fn surfaces(options: &Options, folder: &Path, lumen: &Path) -> Result<Vec<serde_json::Value>> {
-    let entry = |file: PathBuf, qualities: usize| -> Result<serde_json::Value> {
+    let entry = |file: PathBuf, runs: u32, qualities: usize| -> Result<serde_json::Value> {
         let file = file.canonicalize().with_context(|| format!("{} is not there", file.display()))?;
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(json!({ "name": name, "file": file, "qualities": qualities }))
+        let runs = options.runs.unwrap_or(runs);
+        Ok(json!({ "name": name, "file": file, "runs": runs, "qualities": qualities }))
     };
     if !options.input.is_empty() {
-        return options.input.iter().map(|file| entry(file.clone(), 1)).collect();
+        return options.input.iter().map(|file| entry(file.clone(), 3, 1)).collect();
     }
     let data = std::env::var_os("LUMEN_DATA").map_or_else(|| root().join("../shared/data"), PathBuf::from);
     let found = |(triangles, name): (u32, &str)| match data.join("bench").join(name) {
@@ -138,8 +138,11 @@ fn surfaces(options: &Options, folder: &Path, lumen: &Path) -> Result<Vec<serde_
         _ => phantom(folder, lumen, triangles, "ply"),
     };
     let [small, large] = SURFACES;
-    let (of_small, of_large) = if options.quick { (1, 0) } else { (2, 1) };
-    Ok(vec![entry(found(small)?, of_small)?, entry(found(large)?, of_large)?])
+    Ok(if options.quick {
+        vec![entry(found(small)?, 3, 1)?, entry(found(large)?, 1, 0)?]
+    } else {
+        vec![entry(found(small)?, 7, 2)?, entry(found(large)?, 5, 1)?]
+    })
 }
 
 fn memory(options: &Options, folder: &Path, lumen: &Path) -> Result<Vec<PathBuf>> {

@@ -10,7 +10,6 @@ use serde::Deserialize;
 pub(crate) struct Report {
     pub(crate) machine: Machine,
     pub(crate) versions: BTreeMap<String, String>,
-    pub(crate) runs: usize,
     pub(crate) surfaces: Vec<Surface>,
     pub(crate) memory: Vec<Memory>,
 }
@@ -27,6 +26,8 @@ pub(crate) struct Machine {
 #[derive(Debug, Deserialize)]
 pub(crate) struct Surface {
     pub(crate) name: String,
+    /// How often each contender ran.
+    pub(crate) runs: usize,
     /// Triangles that enter decimation.
     pub(crate) triangles: usize,
     /// Milliseconds of each run, by what was timed.
@@ -91,7 +92,7 @@ impl Report {
         let report: Self = serde_json::from_str(text).context("this is no report of the peers")?;
         for surface in &report.surfaces {
             for (what, ms) in &surface.ms {
-                ensure!(ms.len() == report.runs, "{}: {what} has {} of {} runs", surface.name, ms.len(), report.runs);
+                ensure!(ms.len() == surface.runs, "{}: {what} has {} of {} runs", surface.name, ms.len(), surface.runs);
                 ensure!(ms.iter().all(|ms| ms.is_finite() && *ms >= 0.0), "{}: {what} is no time", surface.name);
             }
         }

@@ -115,12 +115,11 @@ fn conditions(report: &Report) -> String {
     let versions: Vec<String> = report.versions.iter().map(|(what, version)| format!("{what} {version}")).collect();
     let machine = &report.machine;
     format!(
-        "{} cores of {}, {}. {}. Medians of {} runs in turn, one thread each; the least in brackets.",
+        "{} cores of {}, {}. {}. Medians of runs in turn, one thread each; the least in brackets.",
         machine.cores,
         machine.cpu,
         machine.system,
-        versions.join(", "),
-        report.runs
+        versions.join(", ")
     )
 }
 
@@ -128,7 +127,7 @@ fn times(report: &Report) -> String {
     let mut text = String::new();
     for surface in &report.surfaces {
         let size = usize::from(surface.triangles >= LARGE);
-        let _ = writeln!(text, "### {}: {} triangles\n", surface.name, surface.triangles);
+        let _ = writeln!(text, "### {}: {} triangles, {} runs\n", surface.name, surface.triangles, surface.runs);
         text += "| stage | VTK ms | Lumen ms | ratio | target | Lumen in the browser ms | ratio | target |\n";
         text += "|---|---|---|---|---|---|---|---|\n";
         for row in rows() {

@@ -57,9 +57,8 @@ fn sample() -> Value {
     json!({
         "machine": { "cpu": "a processor", "cores": 2, "system": "a system" },
         "versions": { "VTK": "9.7.1" },
-        "runs": 2,
         "surfaces": [{
-            "name": "aorta.ply", "triangles": 74_312, "vertices": 37_317, "ms": ms, "chromium": "150.0",
+            "name": "aorta.ply", "runs": 2, "triangles": 74_312, "vertices": 37_317, "ms": ms, "chromium": "150.0",
             "lumen": { "schroeder": made }, "wasm_fingerprints": { "schroeder": "00ff" },
             "quality": [{ "pass_band": 0.1, "iterations": 60, "rows": rows }],
         }],
