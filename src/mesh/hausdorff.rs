@@ -47,6 +47,8 @@ pub struct Reach {
     beyond: f64,
     pieces: Vec<Piece>,
     last: Option<Nearest>,
+    /// The triangle that settled a piece last.
+    by: Option<u32>,
 }
 
 /// A convex piece of a triangle: its corners in order.
@@ -67,12 +69,12 @@ enum Verdict {
 impl Reach {
     /// Nothing tested yet; `bound` in mm, above 0.
     pub fn new(bound: f64) -> Self {
-        Self { within: bound, beyond: bound * (1.0 - TOLERANCE), pieces: Vec::new(), last: None }
+        Self { within: bound, beyond: bound * (1.0 - TOLERANCE), pieces: Vec::new(), last: None, by: None }
     }
 
     /// The triangle of the surface that settled a piece last.
     pub fn nearest(&self) -> Option<u32> {
-        self.last.map(|last| last.triangle)
+        self.by
     }
 
     /// Puts a triangle to the test.
@@ -101,7 +103,9 @@ impl Reach {
     fn judge(&mut self, piece: &Piece, surface: &SurfaceIndex) -> Verdict {
         let bound = self.within * self.within;
         let hint = self.last.and_then(|last| surface.leaves.get(last.slot as usize));
-        if hint.is_some_and(|leaf| piece.is_within(leaf, bound)) {
+        // The hint may be of another surface: what counts is the triangle that stands in its place here.
+        if let Some(leaf) = hint.filter(|leaf| piece.is_within(leaf, bound)) {
+            self.by = Some(leaf.triangle);
             return Verdict::Within;
         }
         let middle = piece.middle();
@@ -115,6 +119,7 @@ impl Reach {
         };
         self.last = Some(found);
         let leaf = surface.leaves[found.slot as usize];
+        self.by = Some(leaf.triangle);
         // The query is the middle but for rounding.
         let aside = middle.distance(query.as_dvec3());
         let found = f64::from(found.distance);

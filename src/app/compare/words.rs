@@ -100,15 +100,15 @@ mod tests {
     fn titles_say_what_sets_a_setting_apart() {
         let six = paper::figure_6(Keep::Largest);
         let (shared, names) = titles(&six.iter().collect::<Vec<_>>());
-        assert_eq!(shared, "Hamming window, feature angle 60°, not reduced");
+        assert_eq!(shared, "Hamming window, Schroeder method, feature angle 60°, not reduced");
         assert_eq!((&*names[0], &*names[5]), ("Pass band 0.1, 30 iterations", "Pass band 0.01, 100 iterations"));
         let (shared, names) = titles(&paper::figure_7(Keep::Largest).iter().collect::<Vec<_>>());
-        assert_eq!(shared, "Pass band 0.01, 100 iterations, Hamming window, feature angle 60°");
+        assert_eq!(shared, "Pass band 0.01, 100 iterations, Hamming window, Schroeder method, feature angle 60°");
         assert_eq!(names, ["Reduction 10 %", "Reduction 90 %", "Reduction 99 %"]);
         let (shared, names) = titles(&[&Settings::default()]);
         assert_eq!(
             (&*shared, &*names[0]),
-            ("Hamming window, feature angle 60°", "Pass band 0.01, 100 iterations, reduction 90 %")
+            ("Hamming window, Schroeder method, feature angle 60°", "Pass band 0.01, 100 iterations, reduction 90 %")
         );
         assert_eq!(titles(&[]), (String::new(), vec![]));
     }

@@ -10,8 +10,10 @@
 //! leaves against itself, with room to grow; a leaf that outgrows its box or its cone looks for its pairs anew.
 //!
 //! A collapse then asks the pairs of the leaf it happens in, and most have none near. Where boxes do overlap, triangles
-//! are tested one by one (`mesh::crossing`). A surface may enter with crossings: then a collapse is allowed if those that
-//! it leaves are among those that it found.
+//! are tested one by one (`mesh::crossing`). A surface may enter with crossings: then a collapse is allowed if it leaves no
+//! more triangles that cross than it found.
+
+use std::f32::consts::{PI, SQRT_2};
 
 use glam::Vec3A;
 
@@ -63,7 +65,7 @@ impl Patch {
 
     /// Gives the cone this angle.
     fn widen(&mut self, angle: f32) {
-        self.angle = angle.min(std::f32::consts::PI);
+        self.angle = angle.min(PI);
         self.cosine = libm::cosf(self.angle);
     }
 
@@ -84,8 +86,14 @@ impl Patch {
     }
 }
 
+/// The angle of a cosine, or a little more: the first terms of the series about 0, the third enlarged to make up for
+/// the rest.
 fn angle(cosine: f32) -> f32 {
-    libm::acosf(cosine.clamp(-1.0, 1.0))
+    if cosine < 0.0 {
+        return libm::acosf(cosine.max(-1.0));
+    }
+    let u = (1.0 - cosine).max(0.0);
+    (2.0 * u).sqrt() * (1.0 + u * (1.0 / 12.0 + 0.0275 * u))
 }
 
 /// End of a list of pairs.
@@ -101,6 +109,8 @@ pub(super) struct Guard {
     starts: Vec<u32>,
     /// Corners of the boxes around the leaves' triangles as they are now.
     boxes: Vec<[Vec3A; 2]>,
+    /// Along any axis, the longest way from a vertex of each leaf to a neighbour.
+    reaches: Vec<f32>,
     /// The pairs found at first: those of a leaf are `others[offsets[leaf]..offsets[leaf + 1]]`.
     offsets: Vec<u32>,
     others: Vec<u32>,
@@ -135,7 +145,7 @@ impl Guard {
     /// A guard over the surface as it is now.
     pub(super) fn new(rings: &Rings, star: &mut Star, several: bool) -> Self {
         let edge = mean_edge(rings);
-        let (mut leaves, starts) = leaves_of(rings, star, edge);
+        let (mut leaves, starts, reaches) = leaves_of(rings, star, edge);
         let count = leaves.len();
         let mut leaf_of = vec![0; rings.len()];
         for (leaf, ends) in starts.windows(2).enumerate() {
@@ -160,6 +170,7 @@ impl Guard {
             leaf_of,
             starts,
             boxes,
+            reaches,
             first: vec![NONE; count],
             pairs: Vec::new(),
             margin,
@@ -332,6 +343,8 @@ impl Guard {
         pairs.extend(self.pairs_of(leaf).filter(|&other| near(self, other)));
         let [least, most] = &mut self.boxes[leaf as usize];
         (*least, *most) = (least.min(low), most.max(high));
+        let reach = (planned.end - low).max(high - planned.end).max_element();
+        self.reaches[leaf as usize] = self.reaches[leaf as usize].max(reach);
         let allowed = pairs.is_empty()
             || self.crossings_allow(rings, mesh, planned, &pairs, (low, high), (cosine > FACING).then_some(axis));
         self.near = pairs;
@@ -355,6 +368,10 @@ impl Guard {
             let slots = self.starts[leaf as usize]..self.starts[leaf as usize + 1];
             for s in slots.filter(|&s| s != v && !(moves && s == u)) {
                 let p = rings.at(s);
+                let reach = Vec3A::splat(self.reaches[leaf as usize]);
+                if (p.cmpgt(high + reach) | p.cmplt(low - reach)).any() {
+                    continue;
+                }
                 for [a, b] in rings.pairs(s) {
                     let (q, r) = (rings.at(a), rings.at(b));
                     let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
@@ -435,9 +452,11 @@ impl Crossing {
         self.own == 0
     }
 
-    /// Whether there are no more than there, and none of the second list that is not there.
+    /// Whether no more triangles cross than did: each that is gone makes up for one that is new, of the first list or of
+    /// the second.
     fn is_within(&self, before: &Self) -> bool {
-        self.own <= before.own && self.others.iter().zip(&before.others).all(|(&after, &before)| before || !after)
+        let newly_hit = self.others.iter().zip(&before.others).filter(|&(&after, &before)| after && !before).count();
+        self.own + newly_hit <= before.own
     }
 }
 
@@ -465,16 +484,20 @@ fn mean_edge(rings: &Rings) -> f32 {
     if count > 0 { (sum / f64::from(count)) as f32 } else { 0.0 }
 }
 
-/// Parts the slots into leaves: their boxes and cones without room to grow, and where they start.
-fn leaves_of(rings: &Rings, star: &mut Star, edge: f32) -> (Vec<Patch>, Vec<u32>) {
+/// Parts the slots into leaves: their boxes and cones without room to grow, where they start, and how far they reach.
+fn leaves_of(rings: &Rings, star: &mut Star, edge: f32) -> (Vec<Patch>, Vec<u32>, Vec<f32>) {
     let count = rings.len() as u32;
-    let (mut leaves, mut starts) = (Vec::new(), Vec::new());
+    let (mut leaves, mut starts, mut reaches) = (Vec::new(), Vec::new(), Vec::new());
+    // Of each vertex of a leaf: a mean normal, and the chord to the normal farthest from it.
+    let mut cones: Vec<(Vec3A, f32)> = Vec::new();
     let mut v = 0;
     while v < count {
         let first = v;
         let mut patch = Patch::NOTHING;
         let mut sum = Vec3A::ZERO;
         let mut is_loose = false;
+        let mut reach = 0.0f32;
+        cones.clear();
         while v < count && v < first + LEAF {
             let p = rings.at(v);
             if p.distance(rings.at(first)) > LEAF_SIZE * edge {
@@ -483,8 +506,9 @@ fn leaves_of(rings: &Rings, star: &mut Star, edge: f32) -> (Vec<Patch>, Vec<u32>
             if rings.is_gone(v) || rings.around(v).len() > MOST_AROUND {
                 is_loose |= !rings.is_gone(v);
                 for &entry in rings.around(v) {
-                    let p = rings.at(neighbour(entry));
-                    (patch.low, patch.high) = (patch.low.min(p), patch.high.max(p));
+                    let q = rings.at(neighbour(entry));
+                    (patch.low, patch.high) = (patch.low.min(q), patch.high.max(q));
+                    reach = reach.max((q - p).abs().max_element());
                 }
                 v += 1;
                 continue;
@@ -496,25 +520,26 @@ fn leaves_of(rings: &Rings, star: &mut Star, edge: f32) -> (Vec<Patch>, Vec<u32>
                 break;
             }
             let [low, high] = star.reach();
+            reach = reach.max(high.max(-low).max_element());
             (patch.low, patch.high) = (patch.low.min(low + p), patch.high.max(high + p));
             sum += normal;
+            let axis = normal.normalize_or_zero();
+            cones.push((axis, (2.0 - 2.0 * star.cosine_to(axis)).max(0.0).sqrt()));
             // Beyond a boundary, or a cut, another sheet may follow.
             is_loose |= rings.is_open(v) || rings.stays(v);
             v += 1;
         }
         patch.axis = sum.normalize_or_zero();
-        let mut least = 1.0f32;
-        for v in (first..v).filter(|&v| !rings.is_gone(v) && !is_loose) {
-            star.load(rings, v);
-            star.span();
-            least = least.min(star.cosine_to(patch.axis));
-        }
-        patch.angle = if is_loose { std::f32::consts::PI } else { angle(least) };
+        // As chords of the unit sphere, which add up at least as angles do.
+        let chords = cones.iter().map(|&(axis, chord)| chord + axis.distance(patch.axis));
+        let chord = chords.fold(0.0, f32::max);
+        patch.angle = if is_loose || chord >= SQRT_2 { PI } else { angle(1.0 - chord * chord / 2.0) };
         starts.push(first);
         leaves.push(patch);
+        reaches.push(reach);
     }
     starts.push(count);
-    (leaves, starts)
+    (leaves, starts, reaches)
 }
 
 fn parent(children: &[Patch]) -> Patch {

@@ -74,6 +74,12 @@ const GROWTH: f32 = 1.1;
 /// Up to so many vertices a round are taken by their distances, the smallest first.
 const FEW: usize = 4096;
 
+/// Of so many slots one is left when those that are gone are dropped.
+const SPARSE: usize = 3;
+
+/// Keys that are passed over at once where none is small enough.
+const BLOCK: usize = 32;
+
 /// Vertices between two looks at the clock.
 const CHUNK: usize = 64;
 
@@ -433,17 +439,25 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
 
     /// The slots of the next round. Returns false when there is none.
     fn next_round(&mut self) -> bool {
-        if self.alive * 2 < self.rings.len() {
+        if self.alive * SPARSE < self.rings.len() {
             self.compact();
         }
         self.round.clear();
         self.next = 0;
         let mut least = f32::INFINITY;
-        for (v, &key) in self.keys.iter().enumerate() {
-            if key <= self.threshold {
-                self.round.push(v as u32);
-            } else {
-                least = least.min(key);
+        let smaller = |a: f32, b: f32| if b < a { b } else { a };
+        for (block, keys) in self.keys.chunks(BLOCK).enumerate() {
+            let smallest = keys.iter().fold(f32::INFINITY, |smallest, &key| smaller(smallest, key));
+            if smallest > self.threshold {
+                least = smaller(least, smallest);
+                continue;
+            }
+            for (i, &key) in keys.iter().enumerate() {
+                if key <= self.threshold {
+                    self.round.push((block * BLOCK + i) as u32);
+                } else {
+                    least = smaller(least, key);
+                }
             }
         }
         if self.round.is_empty() {

@@ -12,7 +12,7 @@ use glam::{Vec3, Vec3A};
 
 use super::fan::{Fan, fans_of};
 use super::order::curve_order;
-use crate::mesh::{Topology, TriMesh};
+use crate::mesh::{Bounds, Topology, TriMesh};
 
 /// Bit of a ring's entry: the edge to that neighbour is a feature edge.
 pub(super) const CREASE: u32 = 1 << 31;
@@ -52,9 +52,15 @@ pub(super) struct Rings {
     scratch: Vec<u32>,
 }
 
+/// The longest side of a box; unlike its diagonal it needs no squares.
+fn longest_side(bounds: &Bounds) -> f32 {
+    (Vec3::from(bounds.max) - Vec3::from(bounds.min)).max_element()
+}
+
 /// The power of two that makes a size of `size` about [`SIZE`].
 fn unit_of(size: f32) -> f32 {
     let ratio = size / SIZE;
+    // Without the digits after the leading one; 1 where that is no number to divide by.
     if ratio.is_normal() { f32::from_bits(ratio.to_bits() & 0x7f80_0000) } else { 1.0 }
 }
 
@@ -67,7 +73,7 @@ impl Rings {
     /// The rings of `mesh`, as yet without feature edges.
     pub(super) fn new(mesh: &TriMesh, topology: &Topology) -> Self {
         let bounds = mesh.bounds();
-        let (centre, unit) = (bounds.centre(), unit_of(bounds.diagonal()));
+        let (centre, unit) = (bounds.centre(), unit_of(longest_side(&bounds)));
         let nodes = curve_order(&mesh.positions);
         let mut slots = vec![0; nodes.len()];
         for (slot, &v) in nodes.iter().enumerate() {

@@ -129,7 +129,7 @@ impl Star {
             quad.area = square.sqrt();
             quad.side = dot(d, d);
             let edges = dot(e, e) + quad.side + dot(next, next);
-            quad.quality = Vec4::select(is_there, square * NORM / (edges * edges), zero);
+            quad.quality = quality(square, edges);
             quad.none = Vec4::select(is_there, zero, Vec4::ONE);
             area += quad.area;
             number += 4.0;
@@ -207,7 +207,7 @@ impl Star {
             let near = subtract(quad.e, way);
             let far = add(near, quad.d);
             let edges = dot(near, near) + quad.side + dot(far, far);
-            let quality = square * NORM / (edges * edges);
+            let quality = quality(square, edges);
             let folds = along.cmplt(turn * square.sqrt() * quad.area);
             let is_poor = quality.cmplt(least) & quality.cmplt(quad.quality);
             let counts = number.cmpne(first) & number.cmpne(second);
@@ -300,4 +300,10 @@ fn cosine(n: Vectors, axis: Vec3A) -> Vec4 {
     let square = dot(n, n);
     let cosine = dot(n, axis.to_array().map(Vec4::splat)) / square.sqrt();
     Vec4::select(square.cmpgt(Vec4::ZERO), cosine, Vec4::NEG_ONE)
+}
+
+/// Squares of the quality of triangles, from the squares of their areas, doubled, and the sums of those of their sides; 0
+/// for a point.
+fn quality(square: Vec4, edges: Vec4) -> Vec4 {
+    square * NORM / (edges * edges).max(Vec4::splat(f32::MIN_POSITIVE))
 }

@@ -88,13 +88,13 @@ fn a_deviation_to_stop_at_is_chosen_set_and_left_again() {
     let bound = harness.state().state().settings.target.deviation_mm().unwrap();
     assert!((bound - deviation).abs() <= 1e-3, "it goes on from what is shown: {bound} beside {deviation}");
     assert!(harness.query_by_role_and_label(Role::Slider, "Reduction").is_none());
-    for (typed, part) in [("0.3", 0.2), ("2", 0.6)] {
+    for (typed, part) in [("0.3", 0.8), ("2", 0.95)] {
         type_into(&mut harness, "Largest deviation value", typed);
         settle(&mut harness);
         assert_eq!(harness.state().state().settings.target.deviation_mm(), typed.parse().ok());
         assert!(largest(&harness) <= typed.parse::<f64>().unwrap());
         let fine = shown(&harness);
-        press_at(&mut harness, "Largest deviation", part + 0.3);
+        press_at(&mut harness, "Largest deviation", part);
         settle(&mut harness);
         assert!(shown(&harness) < fine, "a larger bound needs fewer triangles");
     }
