@@ -68,6 +68,8 @@ pub struct Document {
     pub pieces: Pieces,
     /// All levels, once they are there, and the pieces they are made from.
     pub levels: Option<(Keep, Arc<ProgressiveMesh>)>,
+    /// Vertices of the finest level.
+    pub entering_vertices: usize,
     /// The level that is shown.
     pub shown: Option<Shown>,
     /// The newest numbers.
@@ -105,6 +107,7 @@ impl Document {
             opened: mesh,
             pieces: Pieces::default(),
             levels: None,
+            entering_vertices: 0,
             shown: None,
             measured: None,
             found: None,
@@ -122,6 +125,7 @@ impl Document {
 
     /// Takes new levels and shows the one that `target` asks for.
     pub fn set_levels(&mut self, reduced: Reduced, target: Target) {
+        self.entering_vertices = nodes_in_use(&reduced.mesh.triangles, reduced.mesh.positions.len());
         self.levels = Some((reduced.keep, reduced.mesh));
         self.revision.levels += 1;
         self.found = None;

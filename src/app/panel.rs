@@ -346,13 +346,14 @@ fn result(ui: &mut Ui, state: &State) {
     let (before, after) = (levels.triangles.len(), shown.level.triangles.len());
     let counts = format!("{} of {}", grouped(after), grouped(before));
     number(ui, "Triangles", &counts, "After and before the reduction");
-    let vertices = format!("{} of {}", grouped(shown.vertices), grouped(levels.positions.len()));
+    let vertices = format!("{} of {}", grouped(shown.vertices), grouped(document.entering_vertices));
     number(ui, "Vertices", &vertices, "After and before the reduction");
     number(ui, "Removed", &format!("{:.2} %", reduction_percent(before, after)), "");
     let Some(measured) = &document.measured else { return };
     let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
     let report = &measured.report;
-    if let Some(warning) = report.volume_warning().filter(|_| is_current) {
+    let warnings = [report.volume_warning(), report.smoothing_warning()];
+    for warning in warnings.into_iter().flatten().filter(|_| is_current) {
         let text = RichText::new(warning).small().color(ui.visuals().error_fg_color);
         ui.add(egui::Label::new(text).wrap());
     }

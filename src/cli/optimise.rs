@@ -216,6 +216,9 @@ impl Optimise {
                 "lumen: warning: the volume could not be held: the surface is smoothed as without --preserve-volume"
             );
         }
+        if let Some(warning) = report.smoothing_warning() {
+            eprintln!("lumen: warning: {warning}");
+        }
         if let Some(warning) = report.pinch_warning() {
             eprintln!("lumen: warning: {warning}");
         }

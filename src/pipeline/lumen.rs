@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use super::narrowest::{CLEAR, ball_centre, is_inside, ring_median};
 use super::progressive::ProgressiveMesh;
+use super::response::edge_length;
 use super::settings::{Target, reduction_percent};
 use super::shape::ShapeTask;
 use super::task::{Budget, Progress, Task};
@@ -30,6 +31,8 @@ pub const PINCHED: f32 = 0.5;
 const MOST: usize = 20_000;
 /// A ball's radius must agree with the median around it to this factor, to be a sample.
 const AGREE: f32 = 1.4;
+/// The least diameter of a vessel that can be lost, in mean edges: smoothing may have drawn thinner ones shut before.
+const OPEN: f64 = 0.25;
 /// Samples that are measured in one piece.
 const PIECE: usize = 64;
 /// Triangles that are indexed between two looks at the clock.
@@ -87,9 +90,10 @@ pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &
     let mut ring = Vec::new();
     let mut taken = HashSet::new();
     let mut chosen = Vec::new();
+    let least = (edge_length(mesh) * OPEN / 2.0) as f32;
     for &v in &balls.own {
         let radius = balls.radii[v as usize];
-        let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > 0.0) else { continue };
+        let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > least) else { continue };
         let median = ring_median(topology, &balls.radii, v, &mut ring);
         if radius * AGREE >= median && radius <= median * AGREE && taken.insert(cell(centre, radius)) {
             chosen.push((centre, radius));

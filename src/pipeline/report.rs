@@ -156,7 +156,26 @@ impl Report {
     }
 }
 
+/// A smoothed vessel of less than so many mean edges in diameter counts as drawn shut.
+const SHUT: f64 = 0.25;
+
 impl Report {
+    /// A sentence where smoothing has drawn a vessel shut.
+    pub fn smoothing_warning(&self) -> Option<String> {
+        let response = self.smoothing_response.as_ref()?;
+        let lumen = self.smoothed_shape.as_ref()?.smallest_lumen?;
+        let wave = response.wavelength_mm_at_half_gain?;
+        if lumen.diameter_mm >= SHUT * response.edge_length_mm {
+            return None;
+        }
+        let [x, y, z] = lumen.at_mm;
+        Some(format!(
+            "Smoothing has drawn a vessel shut at ({x:.1}, {y:.1}, {z:.1}): it takes away waves below {wave:.1} mm, \
+             the way around a vessel of {:.1} mm. A wider pass band keeps thin vessels open.",
+            wave / std::f64::consts::PI
+        ))
+    }
+
     /// A sentence where the output pinches a vessel.
     pub fn pinch_warning(&self) -> Option<String> {
         let narrowed = self.narrowing.filter(|found| found.pinched_places > 0)?;

@@ -556,7 +556,75 @@ pub fn decimate(mesh: &TriMesh, topology: &Topology, settings: &Decimation) -> P
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::self_intersections;
+    use crate::mesh::shapes::icosphere;
+    use crate::pipeline::settings::Target;
     use glam::Vec3;
+
+    fn levels_of(mesh: &TriMesh, method: Method) -> ProgressiveMesh {
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let levels = decimate(mesh, &topology, &Decimation { method, ..Decimation::default() });
+        levels.assert_well_formed();
+        levels
+    }
+
+    fn joined(meshes: &[TriMesh]) -> TriMesh {
+        let mut all = TriMesh::default();
+        for mesh in meshes {
+            let first = all.positions.len() as u32;
+            all.positions.extend(&mesh.positions);
+            all.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first)));
+        }
+        all
+    }
+
+    #[test]
+    fn the_two_faces_of_a_thin_wall_never_cross() {
+        let outer = icosphere(5, 10.0, Vec3::ZERO);
+        let mut inner = icosphere(5, 9.8, Vec3::ZERO);
+        inner.triangles.iter_mut().for_each(|t| t.swap(0, 1));
+        let wall = joined(&[outer.clone(), inner.clone()]);
+        for method in Method::ALL {
+            let together = levels_of(&wall, method);
+            let alone = [&outer, &inner].map(|mesh| levels_of(mesh, method));
+            for rate in [500, 900, 950, 980, 995] {
+                let target = Target::Reduction(rate);
+                let level = together.extract(&together.level(target).triangles);
+                assert!(self_intersections(&level).is_empty(), "{method:?} at {rate}");
+            }
+            // Reduced apart they do: chords of the outer sphere lie farther inside than the wall is thick.
+            let apart = alone.map(|levels| levels.extract(&levels.level(Target::Reduction(995)).triangles));
+            assert!(!self_intersections(&joined(&apart)).is_empty(), "{method:?} has nothing to keep apart");
+        }
+    }
+
+    #[test]
+    fn a_sphere_of_quadrics_keeps_its_volume_and_that_of_vertices_shrinks() {
+        let sphere = icosphere(5, 10.0, Vec3::ZERO);
+        let volume = |mesh: &TriMesh| crate::mesh::volume(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+        let [schroeder, quadric] = Method::ALL.map(|method| {
+            let levels = levels_of(&sphere, method);
+            let level = levels.extract(&levels.level(Target::Reduction(900)).triangles);
+            volume(&level) / volume(&sphere) - 1.0
+        });
+        // Points of a sphere make a polyhedron inside of it.
+        assert!(schroeder < -1e-3, "{schroeder}");
+        assert!(quadric.abs() < 1e-4, "{quadric}");
+    }
+
+    #[test]
+    fn the_order_of_the_file_does_not_matter() {
+        let sphere = icosphere(4, 10.0, Vec3::new(3.0, 2.0, 1.0));
+        let mut turned = sphere.clone();
+        turned.triangles.reverse();
+        turned.triangles.iter_mut().step_by(3).for_each(|t| t.rotate_left(1));
+        for method in Method::ALL {
+            let [a, b] = [&sphere, &turned].map(|mesh| levels_of(mesh, method));
+            assert_eq!(a.triangles_after(2000), b.triangles_after(2000));
+            let [worst_a, worst_b] = [a, b].map(|levels| levels.errors[2000]);
+            assert!((worst_a / worst_b - 1.0).abs() < 0.05, "{method:?}: {worst_a} {worst_b}");
+        }
+    }
 
     #[test]
     fn caps_with_thousands_of_triangles_around_one_vertex_go_as_far_as_any() {

@@ -32,3 +32,28 @@ fn spread(x: u32) -> u32 {
     let x = (x | x << 4) & 0x030c_30c3;
     (x | x << 2) & 0x0924_9249
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_corners_of_a_cube_follow_their_bits() {
+        let corner = |i: u32| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+        let scattered = [5, 2, 7, 0, 3, 6, 1, 4];
+        let points = scattered.map(corner);
+        assert_eq!(
+            curve_order(&points).into_iter().map(|i| scattered[i as usize]).collect::<Vec<_>>(),
+            [0, 1, 2, 3, 4, 5, 6, 7]
+        );
+    }
+
+    #[test]
+    fn points_in_one_place_keep_their_order_and_none_is_lost() {
+        assert_eq!(curve_order(&[Vec3::ONE; 5]), [0, 1, 2, 3, 4]);
+        assert!(curve_order(&[]).is_empty());
+        let mut found = curve_order(&[Vec3::NAN, Vec3::X, Vec3::splat(f32::INFINITY), Vec3::Y]);
+        found.sort_unstable();
+        assert_eq!(found, [0, 1, 2, 3]);
+    }
+}

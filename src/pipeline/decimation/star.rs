@@ -307,3 +307,55 @@ fn cosine(n: Vectors, axis: Vec3A) -> Vec4 {
 fn quality(square: Vec4, edges: Vec4) -> Vec4 {
     square * NORM / (edges * edges).max(Vec4::splat(f32::MIN_POSITIVE))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Topology, TriMesh};
+
+    /// A cone of `sides` triangles around vertex 0, the apex, which is `height` above the others' circle of radius 1.
+    fn cone(sides: u32, height: f32) -> Star {
+        let at = |i: u32| libm::sincosf(i as f32 / sides as f32 * std::f32::consts::TAU);
+        let rim = (0..sides).map(|i| Vec3::new(at(i).1, at(i).0, 0.0));
+        let positions = std::iter::once(Vec3::Z * height).chain(rim).collect();
+        let triangles = (0..sides).map(|i| [0, 1 + i, 1 + (i + 1) % sides]).collect();
+        let mesh = TriMesh { positions, triangles };
+        let rings = Rings::new(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+        let apex = (0..rings.len() as u32).find(|&v| rings.nodes[v as usize] == 0).unwrap();
+        let mut star = Star::new();
+        star.load(&rings, apex);
+        star.span();
+        star
+    }
+
+    #[test]
+    fn a_flat_star_is_swept_over_no_height_and_a_cone_over_what_it_stands_out() {
+        for sides in [3, 4, 5, 6, 7, 8, 11, 128] {
+            let flat = cone(sides, 0.0);
+            assert!((flat.flatness() - 1.0).abs() < 1e-5);
+            assert!((0..sides as usize).all(|j| flat.height(j) < 1e-5 * flat.edge(0).length()));
+            // Its triangles' normals lean by the angle between the axis and the slant; onto the axis falls the cosine.
+            let steep = cone(sides, 2.0);
+            let inner = libm::cosf(std::f32::consts::PI / sides as f32);
+            let cosine = inner / (inner * inner + 4.0).sqrt();
+            assert!((steep.flatness() - cosine).abs() < 1e-5, "{sides}: {} {cosine}", steep.flatness());
+            let axis = Vec3A::Z;
+            assert!((steep.cosine_to(axis) - cosine).abs() < 1e-5);
+            // The apex goes down to the circle: every triangle comes to lie in its plane.
+            let way = steep.edge(0);
+            assert!((steep.least_cosine(way, 0, axis) - 1.0).abs() < 1e-4 || sides == 3);
+        }
+    }
+
+    #[test]
+    fn quality_is_one_for_equilateral_triangles_and_folding_is_refused() {
+        let star = cone(6, 0.0);
+        assert!(
+            star.quads().iter().all(|quad| (0..4).all(|i| quad.none[i] > 0.0 || (quad.quality[i] - 1.0).abs() < 1e-5))
+        );
+        // On the spot nothing changes; the two triangles at the edge do not count.
+        assert!((star.worst_after(Vec3A::ZERO, 0, 0.5, 0.1).unwrap() - 1.0).abs() < 1e-5);
+        // Beyond the opposite side triangles turn over.
+        assert_eq!(star.worst_after(star.edge(3) * 1.5, 0, 0.0, 0.0), None);
+    }
+}

@@ -5,7 +5,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
-use lumen::pipeline::settings::{Keep, Target, Window};
+use lumen::pipeline::settings::{Keep, Method, Target, Window};
 use lumen_ui_tests::{app, settle};
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
@@ -111,6 +111,20 @@ fn a_deviation_to_stop_at_is_chosen_set_and_left_again() {
     }
     settle(&mut harness);
     assert_eq!(shown(&harness), before);
+}
+
+#[test]
+fn the_other_method_leaves_less_deviation() {
+    let mut harness = open();
+    let mean = |harness: &Harness<'_, LumenApp>| {
+        let document = harness.state().state().document.as_ref().unwrap();
+        document.measured.as_ref().unwrap().report.deviation_mm.unwrap().mean
+    };
+    let (count, before) = (shown(&harness), mean(&harness));
+    choose(&mut harness, "Method", "Quadric");
+    settle(&mut harness);
+    assert_eq!(harness.state().state().settings.decimation.method, Method::Quadric);
+    assert!(shown(&harness).abs_diff(count) <= 1 && mean(&harness) < 0.7 * before, "{} {before}", mean(&harness));
 }
 
 /// Chooses from a list.
