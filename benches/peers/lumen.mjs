@@ -67,6 +67,7 @@ async function runSteps({ name, steps, first }) {
         if (event.Measured?.generation === generation) resolve(event.Measured.report);
       };
     });
+  const LOOK = 1500;
   const bytes = await (await fetch("input", { cache: "no-store" })).arrayBuffer();
   const reports = [];
   for (const [step, settings] of steps.entries()) {
@@ -76,6 +77,8 @@ async function runSteps({ name, steps, first }) {
       const header = { OpenFile: { id: generation, name, options: { unit: null }, settings } };
       worker.postMessage([JSON.stringify(header), bytes], [bytes]);
     } else {
+      // As after a look at the result: what the engine gets ready while nothing is asked of it is there.
+      await new Promise((resolve) => setTimeout(resolve, LOOK));
       worker.postMessage([JSON.stringify({ Set: { generation, settings } })]);
     }
     reports.push(await heard);

@@ -20,9 +20,9 @@ use super::star::Star;
 /// Weight of the plane that stands on a boundary edge, beside that of a triangle of the same size.
 const BOUNDARY: f64 = 10.0;
 /// Pull of the middle of an edge, as a part of the mean stiffness of its planes.
-const PULL: f64 = 1e-5;
+const PULL: f64 = 1e-6;
 /// What a triangle without area adds to the cost of a candidate, as a part of it.
-const SHAPE_COST: f32 = 0.5;
+const SHAPE_COST: f32 = 0.2;
 /// Most of its edge's length that a new vertex moves to keep the volume.
 const MOST_LEVELLED: f64 = 0.5;
 
@@ -177,7 +177,7 @@ impl Method for Quadric {
     }
 
     fn fair_quality(&self) -> f32 {
-        0.24
+        0.25
     }
 
     fn shape_cost(&self, _: &Star, cost: f32) -> f32 {
