@@ -14,22 +14,11 @@ use lumen::pipeline::settings::{Settings, Smoothing, Target};
 mod common;
 #[path = "common/shape.rs"]
 mod shape;
+#[path = "common/vessels.rs"]
+mod vessels;
 
 use shape::Shape;
-
-const FILES: [&str; 11] = [
-    "bench/aorta74k.ply",
-    "real/aorta-surface-open-ends.stl",
-    "real/aorta-surface-segment-2.stl",
-    "real/beamadapter_carotids.stl",
-    "real/beamadapter_phantom.obj",
-    "real/cathsim_low_tort_arch.stl",
-    "real/matteopescio_abdominal_aorta_phantom.stl",
-    "real/steve_mechanical_thrombectomy.obj",
-    "real/steve_vessel_architecture.obj",
-    "real/vmtk_aorta_mra_iso1000.ply",
-    "real/vmtk_aorta_mra_iso800.stl",
-];
+use vessels::VESSELS;
 
 /// Figure 6 of the paper: pass bands and iterations.
 const SMOOTHING: [(f64, u32); 6] = [(0.1, 30), (0.1, 60), (0.1, 100), (0.01, 30), (0.01, 60), (0.01, 100)];
@@ -46,7 +35,7 @@ fn main() {
             let path = data.join(file);
             Trial::test(file, move || check(&path))
         };
-        FILES.into_iter().map(trial).collect()
+        VESSELS.into_iter().map(trial).collect()
     })
 }
 

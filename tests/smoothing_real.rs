@@ -18,20 +18,10 @@ use lumen::pipeline::smoothing::{SmoothingTask, smooth};
 use lumen::pipeline::task::{Budget, Progress, Task};
 
 mod common;
+#[path = "common/vessels.rs"]
+mod vessels;
 
-const FILES: [&str; 11] = [
-    "bench/aorta74k.ply",
-    "real/aorta-surface-open-ends.stl",
-    "real/aorta-surface-segment-2.stl",
-    "real/beamadapter_carotids.stl",
-    "real/beamadapter_phantom.obj",
-    "real/cathsim_low_tort_arch.stl",
-    "real/matteopescio_abdominal_aorta_phantom.stl",
-    "real/steve_mechanical_thrombectomy.obj",
-    "real/steve_vessel_architecture.obj",
-    "real/vmtk_aorta_mra_iso1000.ply",
-    "real/vmtk_aorta_mra_iso800.stl",
-];
+use vessels::VESSELS;
 
 /// Surfaces with open ends cut by a plane, and their voxels in mm.
 const OPEN_ENDS: [(&str, usize, f64); 2] =
@@ -39,7 +29,7 @@ const OPEN_ENDS: [(&str, usize, f64); 2] =
 
 fn main() {
     common::run("smoothing of real vessels", |data| {
-        let everywhere = FILES.iter().map(|file| {
+        let everywhere = VESSELS.iter().map(|file| {
             let path = data.join(file);
             Trial::test(*file, move || check(&path))
         });

@@ -216,16 +216,18 @@ fn reduce(ui: &mut Ui, state: &mut State) {
             name(&response.response, Role::ComboBox, "Method");
         });
     });
-    let angle = Setting {
-        name: "Feature angle",
-        help: "Edges sharper than this are kept as edges.",
-        unit: "°",
-        range: 0.0..=180.0,
-        default: crate::pipeline::settings::Decimation::default().feature_angle,
-        decimals: 0,
-        logarithmic: false,
-    };
-    angle.show(ui, &mut decimation.feature_angle);
+    if decimation.method == Method::Schroeder {
+        let angle = Setting {
+            name: "Feature angle",
+            help: "Edges sharper than this are kept as edges.",
+            unit: "°",
+            range: 0.0..=180.0,
+            default: crate::pipeline::settings::Decimation::default().feature_angle,
+            decimals: 0,
+            logarithmic: false,
+        };
+        angle.show(ui, &mut decimation.feature_angle);
+    }
     let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
     if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
         let text = RichText::new(format!("{shortfall}.")).small();

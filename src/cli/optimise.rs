@@ -51,7 +51,7 @@ pub struct Optimise {
     /// How to reduce
     #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Method::default())]
     method: Method,
-    /// Edges sharper than this are kept as edges, degrees, 0 to 180
+    /// Edges sharper than this are kept as edges, degrees, 0 to 180; for schroeder
     #[arg(long, value_name = "DEG", default_value_t = Decimation::default().feature_angle)]
     feature_angle: f64,
     /// The unit of the numbers in the file: mm, cm or m

@@ -101,17 +101,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::mesh::shapes::{icosphere, square};
-
-    fn joined(meshes: &[TriMesh]) -> TriMesh {
-        let mut all = TriMesh::default();
-        for mesh in meshes {
-            let first = all.positions.len() as u32;
-            all.positions.extend(&mesh.positions);
-            all.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first)));
-        }
-        all
-    }
+    use crate::mesh::shapes::{icosphere, joined, square};
 
     /// Pair by pair.
     fn one_by_one(mesh: &TriMesh) -> Vec<u32> {

@@ -99,6 +99,17 @@ pub(crate) fn tube(sides: u32, rings: u32, length: f32, radius: impl Fn(f32) -> 
     TriMesh { positions, triangles }
 }
 
+/// Several surfaces as one, in their order.
+pub(crate) fn joined(meshes: &[TriMesh]) -> TriMesh {
+    let mut all = TriMesh::default();
+    for mesh in meshes {
+        let first = all.positions.len() as u32;
+        all.positions.extend(&mesh.positions);
+        all.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first)));
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -131,7 +131,8 @@ pub struct Decimation {
     /// The method.
     #[serde(default)]
     pub method: Method,
-    /// An edge whose two triangles' normals differ by more than this is a feature edge; degrees, 0 to 180.
+    /// An edge whose two triangles' normals differ by more than this is a feature edge, for [`Method::Schroeder`];
+    /// degrees, 0 to 180.
     pub feature_angle: f64,
 }
 

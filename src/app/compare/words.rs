@@ -2,7 +2,7 @@
 
 use crate::app::control::grouped;
 use crate::pipeline::report::Report;
-use crate::pipeline::settings::{Settings, Target};
+use crate::pipeline::settings::{Method, Settings, Target};
 
 /// Parts of a setting.
 const PARTS: usize = 7;
@@ -29,7 +29,12 @@ fn parts(settings: &Settings) -> [String; PARTS] {
     let volume = if holds_volume { "volume preserved".to_owned() } else { String::new() };
     let decimation = &settings.decimation;
     let method = format!("{} method", decimation.method.name());
-    [band, iterations, window, volume, method, format!("feature angle {}°", decimation.feature_angle), target]
+    // The method of least error has no use for it.
+    let angle = match decimation.method {
+        Method::Schroeder => format!("feature angle {}°", decimation.feature_angle),
+        Method::Quadric => String::new(),
+    };
+    [band, iterations, window, volume, method, angle, target]
 }
 
 /// What all settings share, and for each what sets it apart: its title. Where nothing does, the title says the most.

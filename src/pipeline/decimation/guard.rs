@@ -397,10 +397,11 @@ impl Guard {
             vertices: corners.map(node),
             corners: corners.map(|s| if s == u || s == v { end } else { place(s) }),
         };
-        let of_v = rings.pairs(v).filter(|pair| !pair.contains(&u)).map(|[a, b]| [v, a, b]);
+        // Those around both, each once: around v all, around u the others, where it moves.
         let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
-        let new: Vec<[u32; 3]> = of_v.chain(of_u).collect();
-        let new_faces: Vec<Face> = new.iter().map(|&corners| face(corners)).collect();
+        let old: Vec<[u32; 3]> = rings.pairs(v).map(|[a, b]| [v, a, b]).chain(of_u).collect();
+        let lives = |corners: &&[u32; 3]| !(corners.contains(&u) && corners.contains(&v));
+        let new_faces: Vec<Face> = old.iter().filter(lives).map(|&corners| face(corners)).collect();
         let old_face = |corners: [u32; 3]| Face {
             vertices: corners.map(|s| rings.nodes[s as usize]),
             corners: corners.map(place),
@@ -410,16 +411,13 @@ impl Guard {
         if after.is_none() {
             return true;
         }
-        let of_v = rings.pairs(v).map(|[a, b]| [v, a, b]);
-        let of_u = rings.pairs(u).filter(|pair| moves && !pair.contains(&v)).map(|[a, b]| [u, a, b]);
-        let old: Vec<Face> = of_v.chain(of_u).map(old_face).collect();
+        let old: Vec<Face> = old.into_iter().map(old_face).collect();
         let before = crossing(&old, &others);
         after.is_within(&before)
     }
 }
 
 /// Which triangles of two lists, or of the first alone, run into each other.
-#[derive(Default)]
 struct Crossing {
     /// How many of the first.
     own: usize,

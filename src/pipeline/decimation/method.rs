@@ -6,31 +6,17 @@ use glam::Vec3A;
 use super::rings::Rings;
 use super::star::Star;
 
-/// The class of a vertex: Schroeder, Zarge and Lorensen (1992), section 3 (the paper's Figure 3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
-    /// A full ring of triangles, no feature edge.
-    Simple,
-    /// Not one disc or half-disc of triangles: stays.
-    Complex,
-    /// A half ring: moves along the boundary.
-    Boundary,
-    /// A full ring with two feature edges: moves along them.
-    InteriorEdge,
-    /// One feature edge, or three and more, or a feature edge that meets the boundary.
-    Corner,
-}
-
-/// What a vertex is and what its removal costs.
+/// What the removal of a vertex costs, and where it may go.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Judged {
-    pub(super) class: Class,
     /// Distance by which the surface would suffer, in the unit of the rings.
     pub(super) distance: f32,
     /// What it is ordered by: grows with the distance.
     pub(super) priority: f32,
     /// The neighbours, by their place in the ring, that it may go to; `None` for all.
     pub(super) along: Option<[usize; 2]>,
+    /// Whether it is feature edges that leave it no more.
+    pub(super) is_held: bool,
 }
 
 impl Judged {
@@ -56,8 +42,7 @@ pub(super) trait Method {
     /// Makes room for so many slots.
     fn start(&mut self, slots: usize);
 
-    /// Looks at a vertex for the first time, before any is judged. The triangles of the star are worked
-    /// out.
+    /// Looks at a vertex for the first time, before any is judged. The triangles of the star are worked out.
     fn meet(&mut self, rings: &Rings, star: &Star, v: u32);
 
     /// Judges a vertex; feature edges count only `with_features`. The triangles of the star are not worked out.

@@ -33,7 +33,6 @@ use std::ops::Deref;
 use glam::Vec3A;
 
 use self::guard::{Guard, Planned};
-pub use self::method::Class;
 use self::method::{Candidate, Judged};
 use self::quadric::Quadric;
 use self::rings::{Rings, gather, neighbour};
@@ -285,7 +284,7 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     fn is_eased(&mut self, v: u32, judged: &Judged, stuck: Stuck) -> bool {
         let last = STRICTNESS.len() as u8 - 1;
         let strictness = &mut self.states[v as usize].strictness;
-        if *strictness == last || (stuck == Stuck::Topology && judged.class != Class::InteriorEdge) {
+        if *strictness == last || (stuck == Stuck::Topology && !judged.is_held) {
             return false;
         }
         *strictness = if stuck == Stuck::Topology { last } else { *strictness + 1 };
@@ -557,7 +556,7 @@ pub fn decimate(mesh: &TriMesh, topology: &Topology, settings: &Decimation) -> P
 mod tests {
     use super::*;
     use crate::mesh::self_intersections;
-    use crate::mesh::shapes::icosphere;
+    use crate::mesh::shapes::{icosphere, joined};
     use crate::pipeline::settings::Target;
     use glam::Vec3;
 
@@ -566,16 +565,6 @@ mod tests {
         let levels = decimate(mesh, &topology, &Decimation { method, ..Decimation::default() });
         levels.assert_well_formed();
         levels
-    }
-
-    fn joined(meshes: &[TriMesh]) -> TriMesh {
-        let mut all = TriMesh::default();
-        for mesh in meshes {
-            let first = all.positions.len() as u32;
-            all.positions.extend(&mesh.positions);
-            all.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first)));
-        }
-        all
     }
 
     #[test]

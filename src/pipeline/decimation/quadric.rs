@@ -9,12 +9,13 @@
 //!
 //! Where the planes leave a direction free (on a plane, along a tube), the new vertex stays near the middle of its edge,
 //! which counts as a faint point of attraction, so that the system is never singular. Boundary edges add a plane that
-//! stands on the surface; a vertex inside that meets the boundary goes where the boundary is.
+//! stands on the surface; a vertex inside that meets the boundary goes where the boundary is. Feature edges need no rule:
+//! the planes on both sides hold them.
 
 use glam::{DVec3, Vec3A};
 
-use super::method::{Candidate, Class, Judged, Method};
-use super::rings::{CREASE, Rings, gather, neighbour};
+use super::method::{Candidate, Judged, Method};
+use super::rings::{Rings, gather, neighbour};
 use super::star::Star;
 
 /// Weight of the plane that stands on a boundary edge, beside that of a triangle of the same size.
@@ -138,20 +139,13 @@ impl Method for Quadric {
         self.forms[v as usize] = form;
     }
 
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, with_features: bool) -> Judged {
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, _: bool) -> Judged {
         let entries = star.entries();
         let is_open = rings.is_open(v);
         let along = is_open.then(|| [0, entries.len() - 1]);
-        let creases = entries.iter().filter(|&&entry| with_features && entry & CREASE != 0).count();
-        let class = match creases {
-            0 if is_open => Class::Boundary,
-            0 => Class::Simple,
-            2 if !is_open => Class::InteriorEdge,
-            _ => Class::Corner,
-        };
         let own = &self.forms[v as usize];
         self.candidates.clear();
-        let mut judged = Judged { class, distance: f32::INFINITY, priority: f32::INFINITY, along };
+        let mut judged = Judged { distance: f32::INFINITY, priority: f32::INFINITY, along, is_held: false };
         for (to, &entry) in entries.iter().enumerate() {
             if !judged.allows(to) {
                 continue;

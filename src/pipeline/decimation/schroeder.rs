@@ -5,12 +5,15 @@
 //! average plane of the triangles around the vertex as they are now, and so forgets what is already gone, and looks at
 //! a vertex alone, whatever takes its place. Here each vertex keeps the planes of all triangles that it stands for, as
 //! a quadratic form (Garland and Heckbert 1997), and the distance is the root mean square distance from them, by area,
-//! of the neighbour that would take over: it counts what was lost before and what the patch will do. A boundary vertex
-//! and one on a feature edge count at least their distance from the line through their two neighbours on it.
+//! of the neighbour that would take over: it counts what was lost before and what the patch will do.
+//!
+//! Of the five classes (section 3; the paper's Figure 3), complex vertices stay (`rings.rs`), simple ones and corners
+//! are measured from planes, which lie far off where a corner is sharp, and boundary and interior-edge vertices count at
+//! least their distance from the line through their two neighbours on it, along which alone they move.
 
 use glam::Vec3A;
 
-use super::method::{Candidate, Class, Judged, Method, distance_to_segment};
+use super::method::{Candidate, Judged, Method, distance_to_segment};
 use super::rings::{CREASE, Rings, gather, neighbour};
 use super::star::{MOST_AROUND, Star};
 
@@ -98,19 +101,16 @@ impl Method for Schroeder {
             if area > 0.0 { (values[j].max(0.0) + other.lost) / area } else { 0.0 }
         };
         let mut creases = (0..entries.len()).filter(|&j| with_features && entries[j] & CREASE != 0);
-        let creases = [creases.next(), creases.next(), creases.next()];
-        let (class, along) = match creases {
-            [None, ..] if rings.is_open(v) => (Class::Boundary, Some([0, entries.len() - 1])),
-            _ if rings.is_open(v) => (Class::Corner, Some([0, entries.len() - 1])),
-            [None, ..] => (Class::Simple, None),
-            [Some(a), Some(b), None] => (Class::InteriorEdge, Some([a, b])),
-            _ => (Class::Corner, None),
+        let edge = match [creases.next(), creases.next(), creases.next()] {
+            [Some(a), Some(b), None] => Some([a, b]),
+            _ => None,
         };
+        let along = if rings.is_open(v) { Some([0, entries.len() - 1]) } else { edge };
         let distance = match along {
             Some([a, b]) => square(a).min(square(b)).sqrt().max(distance_to_segment(star.edge(a), star.edge(b))),
             None => (0..entries.len()).map(square).fold(f32::INFINITY, f32::min).sqrt(),
         };
-        Judged { class, distance, priority: distance, along }
+        Judged { distance, priority: distance, along, is_held: !rings.is_open(v) && edge.is_some() }
     }
 
     /// By the mean height over which the star would be swept.
