@@ -45,8 +45,9 @@ pub(super) trait Method {
     /// Looks at a vertex for the first time, before any is judged. The triangles of the star are worked out.
     fn meet(&mut self, rings: &Rings, star: &Star, v: u32);
 
-    /// Judges a vertex; feature edges count only `with_features`. The triangles of the star are not worked out.
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, with_features: bool) -> Judged;
+    /// Judges a vertex; if it `is_last`, nothing else has helped, and feature edges no longer count. The triangles of the
+    /// star are not worked out.
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool) -> Judged;
 
     /// Adds to `candidates` where the vertex, judged just now, may go.
     fn offer(&mut self, star: &Star, v: u32, judged: &Judged, candidates: &mut Vec<Candidate>);

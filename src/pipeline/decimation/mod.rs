@@ -50,8 +50,6 @@ struct Strictness {
     turn: f32,
     /// Smallest quality of a triangle that gets worse: 1 is equilateral, 0 has no area.
     quality: f32,
-    /// Whether feature edges hold their vertices.
-    features: bool,
     /// By what the distance of a vertex counts that is held to no more than this: it waits until the others have come
     /// as far.
     price: f32,
@@ -61,11 +59,14 @@ struct Strictness {
 /// the end of a branch does that is drawn in, but not fold over, and no longer heeds feature edges. The quality of the
 /// first is the method's ([`method::Method::fair_quality`]).
 const STRICTNESS: [Strictness; 4] = [
-    Strictness { turn: 0.5, quality: 1.0, features: true, price: 1.0 },
-    Strictness { turn: 0.2, quality: 0.03, features: true, price: 2.0 },
-    Strictness { turn: 0.0, quality: 1e-3, features: true, price: 8.0 },
-    Strictness { turn: -0.8, quality: 1e-4, features: false, price: 64.0 },
+    Strictness { turn: 0.5, quality: 1.0, price: 1.0 },
+    Strictness { turn: 0.2, quality: 0.03, price: 2.0 },
+    Strictness { turn: 0.0, quality: 1e-3, price: 8.0 },
+    Strictness { turn: -0.8, quality: 1e-4, price: 64.0 },
 ];
+
+/// The last of them.
+const LAST: u8 = STRICTNESS.len() as u8 - 1;
 
 /// By what the threshold grows from round to round.
 const GROWTH: f32 = 1.1;
@@ -239,8 +240,7 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
 
     /// Judges `v`, whose star is loaded.
     fn judge(&mut self, v: u32) -> Judged {
-        let features = self.limits(v).features;
-        self.method.judge(&self.rings, &self.star, v, features)
+        self.method.judge(&self.rings, &self.star, v, self.states[v as usize].strictness == LAST)
     }
 
     fn set_stuck(&mut self, v: u32, stuck: Stuck) {
@@ -282,12 +282,11 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
 
     /// Holds `v` to less, if that can help: what is stuck by topology is helped only where a feature edge holds it.
     fn is_eased(&mut self, v: u32, judged: &Judged, stuck: Stuck) -> bool {
-        let last = STRICTNESS.len() as u8 - 1;
         let strictness = &mut self.states[v as usize].strictness;
-        if *strictness == last || (stuck == Stuck::Topology && !judged.is_held) {
+        if *strictness == LAST || (stuck == Stuck::Topology && !judged.is_held) {
             return false;
         }
-        *strictness = if stuck == Stuck::Topology { last } else { *strictness + 1 };
+        *strictness = if stuck == Stuck::Topology { LAST } else { *strictness + 1 };
         true
     }
 

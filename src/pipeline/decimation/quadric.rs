@@ -10,7 +10,7 @@
 //! Where the planes leave a direction free (on a plane, along a tube), the new vertex stays near the middle of its edge,
 //! which counts as a faint point of attraction, so that the system is never singular. Boundary edges add a plane that
 //! stands on the surface; a vertex inside that meets the boundary goes where the boundary is. Feature edges need no rule:
-//! the planes on both sides hold them.
+//! the planes on both sides hold them. Where a vertex can go in no better way, it may go to where a neighbour is.
 
 use glam::{DVec3, Vec3A};
 
@@ -139,7 +139,7 @@ impl Method for Quadric {
         self.forms[v as usize] = form;
     }
 
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, _: bool) -> Judged {
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool) -> Judged {
         let entries = star.entries();
         let is_open = rings.is_open(v);
         let along = is_open.then(|| [0, entries.len() - 1]);
@@ -157,6 +157,9 @@ impl Method for Quadric {
             let place = if stays { None } else { form.least(way * 0.5) };
             let cost = form.at(place.unwrap_or(way));
             self.candidates.push(Candidate { cost: cost as f32, to, place: place.map(DVec3::as_vec3a) });
+            if is_last && place.is_some() {
+                self.candidates.push(Candidate { cost: form.at(way) as f32, to, place: None });
+            }
             let priority = cost.sqrt() as f32;
             if priority < judged.priority {
                 judged.priority = priority;

@@ -90,7 +90,7 @@ impl Method for Schroeder {
         self.own[v as usize] = Own { lost: 0.0, area };
     }
 
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, with_features: bool) -> Judged {
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool) -> Judged {
         let entries = star.entries();
         let (planes, own) = (&self.planes[v as usize], self.own[v as usize]);
         let mut values = [0.0; MOST_AROUND + 4];
@@ -100,7 +100,7 @@ impl Method for Schroeder {
             let area = own.area + other.area;
             if area > 0.0 { (values[j].max(0.0) + other.lost) / area } else { 0.0 }
         };
-        let mut creases = (0..entries.len()).filter(|&j| with_features && entries[j] & CREASE != 0);
+        let mut creases = (0..entries.len()).filter(|&j| !is_last && entries[j] & CREASE != 0);
         let edge = match [creases.next(), creases.next(), creases.next()] {
             [Some(a), Some(b), None] => Some([a, b]),
             _ => None,
