@@ -185,7 +185,7 @@ pub enum Advance {
 
 enum Running {
     Smoothing(Box<SmoothingStage>),
-    Decimation(Box<DecimationTask<Arc<TriMesh>>>),
+    Decimation(Box<DecimationTask<Arc<TriMesh>, Arc<Topology>>>),
     Bound(Box<BoundTask>),
     Deviation(Box<DeviationRun>),
     Level(Box<LevelTask>),
@@ -464,6 +464,9 @@ impl Pipeline {
             Stage::Smoothing | Stage::Decimation | Stage::Bound | Stage::Deviation | Stage::Measures => {
                 if self.running.is_none() {
                     self.running = self.start(stage);
+                    if self.running.is_some() && budget.is_spent() {
+                        return Ok(Advance::Working(stage, 0.0));
+                    }
                 }
                 if let Some(fraction) = self.run(budget) {
                     return Ok(Advance::Working(stage, fraction));
@@ -546,7 +549,7 @@ impl Pipeline {
             }
             Stage::Decimation => {
                 let smoothed = self.now.smoothed.as_ref()?;
-                let task = DecimationTask::new(smoothed.mesh.clone(), &kept.topology, &self.now.settings.decimation);
+                let task = DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), &self.now.settings.decimation);
                 Running::Decimation(Box::new(task))
             }
             Stage::Bound => {

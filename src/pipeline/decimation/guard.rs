@@ -100,6 +100,7 @@ fn angle(cosine: f32) -> f32 {
 const NONE: u32 = u32::MAX;
 
 /// See the head of the file.
+#[derive(Default)]
 pub(super) struct Guard {
     /// Leaves first, then each level of nodes above; the last has one.
     levels: Vec<Vec<Patch>>,
@@ -119,7 +120,7 @@ pub(super) struct Guard {
     pairs: Vec<[u32; 2]>,
     margin: f32,
     /// Whether the surface has more than one piece: then sheets that look the same way may lie upon each other.
-    several: bool,
+    pub(super) several: bool,
     near: Vec<u32>,
     stack: Vec<(usize, u32)>,
     /// For each leaf the last search that knew it.
@@ -143,7 +144,7 @@ pub(super) struct Planned<'a> {
 
 impl Guard {
     /// A guard over the surface as it is now.
-    pub(super) fn new(rings: &Rings, star: &mut Star, several: bool) -> Self {
+    fn new(rings: &Rings, star: &mut Star, several: bool) -> Self {
         let edge = mean_edge(rings);
         let (mut leaves, starts, reaches) = leaves_of(rings, star, edge);
         let count = leaves.len();

@@ -83,6 +83,9 @@ const BLOCK: usize = 32;
 /// Vertices between two looks at the clock.
 const CHUNK: usize = 64;
 
+/// Slots that get their rings between two looks at the clock before the first vertex is met.
+const LINKED: usize = 1 << 15;
+
 /// A star of less flatness may be the end of something thin: no plane says how far it reaches.
 const FLAT: f32 = 0.8;
 /// What the distance of such a vertex from what it leaves behind counts for, beside the mean distance of a star.
@@ -116,8 +119,16 @@ struct State {
 }
 
 /// How far a run is.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd)]
 enum Phase {
+    /// Slots get their rings.
+    Linking,
+    /// Slots without a ring are dropped.
+    Numbering,
+    /// Pieces are counted.
+    Counting,
+    /// The guard looks at the surface for the first time.
+    Guarding,
     /// Feature edges are found and the method sees each slot; the next one.
     Meeting(u32),
     /// Each slot is judged for the first time; the next one.
@@ -126,9 +137,10 @@ enum Phase {
     Collapsing,
 }
 
-/// A decimation run in slices; `M` is any pointer to a mesh.
-pub struct DecimationTask<M> {
+/// A decimation run in slices; `M` is any pointer to a mesh, `T` any to its topology.
+pub struct DecimationTask<M, T> {
     mesh: M,
+    topology: T,
     rings: Rings,
     method: Box<dyn method::Method + Send>,
     guard: Guard,
@@ -152,39 +164,65 @@ pub struct DecimationTask<M> {
     candidates: Vec<Candidate>,
 }
 
-impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
+impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, T> {
     /// Starts decimating `mesh`, whose topology is `topology`.
-    pub fn new(mesh: M, topology: &Topology, settings: &Decimation) -> Self {
-        let mut rings = Rings::new(&mesh, topology);
-        rings.compact();
-        let count = rings.len();
-        let mut method: Box<dyn method::Method + Send> = match settings.method {
+    pub fn new(mesh: M, topology: T, settings: &Decimation) -> Self {
+        let method: Box<dyn method::Method + Send> = match settings.method {
             Method::Schroeder => Box::new(Schroeder::default()),
             Method::Quadric => Box::new(Quadric::default()),
         };
-        method.start(count);
-        let mut star = Star::new();
-        let several = components(mesh.positions.len(), &mesh.triangles).count() > 1;
-        let guard = Guard::new(&rings, &mut star, several);
         Self {
+            rings: Rings::new(&mesh),
             mesh,
+            topology,
             method,
-            guard,
-            phase: Phase::Meeting(0),
-            keys: vec![f32::INFINITY; count],
-            states: vec![State::default(); count],
+            guard: Guard::default(),
+            phase: Phase::Linking,
+            keys: Vec::new(),
+            states: Vec::new(),
             round: Vec::new(),
             next: 0,
             threshold: 0.0,
             crease: libm::cos(settings.feature_angle.to_radians()) as f32,
-            merges: Vec::with_capacity(count),
-            errors: Vec::with_capacity(count),
-            alive: count,
-            total: count,
-            rings,
-            star,
+            merges: Vec::new(),
+            errors: Vec::new(),
+            alive: 0,
+            total: 0,
+            star: Star::new(),
             other: Star::new(),
             candidates: Vec::new(),
+        }
+    }
+
+    /// The next piece of what comes before the first vertex is met; at most some 20 ms at a million triangles.
+    fn prepare(&mut self) {
+        match self.phase {
+            Phase::Linking => {
+                if self.rings.link(&self.mesh, &self.topology, LINKED) {
+                    self.phase = Phase::Numbering;
+                }
+            }
+            Phase::Numbering => {
+                self.rings.compact();
+                let count = self.rings.len();
+                self.method.start(count);
+                self.keys = vec![f32::INFINITY; count];
+                self.states = vec![State::default(); count];
+                self.merges.reserve(count);
+                self.errors.reserve(count);
+                (self.alive, self.total) = (count, count);
+                self.phase = Phase::Counting;
+            }
+            Phase::Counting => {
+                let count = components(self.mesh.positions.len(), &self.mesh.triangles).count();
+                self.guard.several = count > 1;
+                self.phase = Phase::Guarding;
+            }
+            Phase::Guarding => {
+                self.guard.renew(&self.rings, &mut self.star);
+                self.phase = Phase::Meeting(0);
+            }
+            Phase::Meeting(_) | Phase::Judging(_) | Phase::Collapsing => {}
         }
     }
 
@@ -497,6 +535,7 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     fn step(&mut self) -> bool {
         let count = self.rings.len() as u32;
         match self.phase {
+            Phase::Linking | Phase::Numbering | Phase::Counting | Phase::Guarding => self.prepare(),
             Phase::Meeting(v) if v < count => {
                 self.meet(v);
                 self.phase = Phase::Meeting(v + 1);
@@ -522,6 +561,7 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
         let total = self.total.max(1) as f32;
         // Seeing and judging all vertices once takes about a tenth of the run.
         match self.phase {
+            Phase::Linking | Phase::Numbering | Phase::Counting | Phase::Guarding => 0.0,
             Phase::Meeting(v) => 0.05 * v as f32 / total,
             Phase::Judging(v) => 0.05 + 0.05 * v as f32 / total,
             Phase::Collapsing => 0.1 + 0.9 * (1.0 - self.alive as f32 / total),
@@ -529,12 +569,13 @@ impl<M: Deref<Target = TriMesh>> DecimationTask<M> {
     }
 }
 
-impl<M: Deref<Target = TriMesh>> Task for DecimationTask<M> {
+impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for DecimationTask<M, T> {
     type Output = ProgressiveMesh;
 
     fn advance(&mut self, budget: Budget) -> Progress<ProgressiveMesh> {
         loop {
-            for _ in 0..CHUNK {
+            let steps = if self.phase < Phase::Meeting(0) { 1 } else { CHUNK };
+            for _ in 0..steps {
                 if !self.step() {
                     return Progress::Done(self.result());
                 }

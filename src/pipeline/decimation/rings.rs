@@ -50,6 +50,10 @@ pub(super) struct Rings {
     /// For the slots of cut vertices, `(node, slot)`, ascending.
     cut: Vec<(u32, u32)>,
     scratch: Vec<u32>,
+    /// Until all slots have a ring: the slot of each vertex, and the slots found at which the surface is no fan.
+    slots: Vec<u32>,
+    complex: Vec<u32>,
+    fan: Fan,
 }
 
 /// The longest side of a box; unlike its diagonal it needs no squares.
@@ -70,8 +74,8 @@ pub(super) fn neighbour(entry: u32) -> u32 {
 }
 
 impl Rings {
-    /// The rings of `mesh`, as yet without feature edges.
-    pub(super) fn new(mesh: &TriMesh, topology: &Topology) -> Self {
+    /// The slots of `mesh`, as yet without rings.
+    pub(super) fn new(mesh: &TriMesh) -> Self {
         let bounds = mesh.bounds();
         let (centre, unit) = (bounds.centre(), unit_of(longest_side(&bounds)));
         let nodes = curve_order(&mesh.positions);
@@ -79,7 +83,7 @@ impl Rings {
         for (slot, &v) in nodes.iter().enumerate() {
             slots[v as usize] = slot as u32;
         }
-        let mut rings = Self {
+        Self {
             positions: nodes.iter().map(|&v| Vec3A::from((mesh.positions[v as usize] - centre) / unit)).collect(),
             unit,
             centre,
@@ -90,31 +94,43 @@ impl Rings {
             made: Vec::new(),
             cut: Vec::new(),
             scratch: Vec::new(),
-        };
-        let mut fan = Fan::default();
-        let mut complex = Vec::new();
-        for slot in 0..rings.nodes.len() {
-            let v = rings.nodes[slot];
+            slots,
+            complex: Vec::new(),
+            fan: Fan::default(),
+        }
+    }
+
+    /// Adds the rings of the next slots, as yet without feature edges, `count` of them at most; whether all have one.
+    pub(super) fn link(&mut self, mesh: &TriMesh, topology: &Topology, count: usize) -> bool {
+        let all = self.vertices as usize;
+        let (mut fan, slots) = (std::mem::take(&mut self.fan), std::mem::take(&mut self.slots));
+        for slot in self.heads.len()..all.min(self.heads.len() + count) {
+            let v = self.nodes[slot];
             fan.load(v, topology.triangles(v), &mesh.triangles);
             let is_fan = fan.order();
             if is_fan {
-                rings.add(fan.entries().map(|n| slots[n as usize]), !fan.is_closed);
+                self.add(fan.entries().map(|n| slots[n as usize]), !fan.is_closed);
             } else {
-                rings.heads.push(Head {
-                    start: rings.entries.len() as u32,
+                self.heads.push(Head {
+                    start: self.entries.len() as u32,
                     stays: true,
                     is_gone: true,
                     ..Head::default()
                 });
                 if !fan.spokes.is_empty() {
-                    complex.push(slot as u32);
+                    self.complex.push(slot as u32);
                 }
             }
         }
-        if !complex.is_empty() {
-            rings.cut_open(mesh, topology, &slots, &complex);
+        if self.heads.len() < all {
+            (self.fan, self.slots) = (fan, slots);
+            return false;
         }
-        rings
+        let complex = std::mem::take(&mut self.complex);
+        if !complex.is_empty() {
+            self.cut_open(mesh, topology, &slots, &complex);
+        }
+        true
     }
 
     /// Adds the ring of the next slot.

@@ -320,7 +320,8 @@ mod tests {
         let positions = std::iter::once(Vec3::Z * height).chain(rim).collect();
         let triangles = (0..sides).map(|i| [0, 1 + i, 1 + (i + 1) % sides]).collect();
         let mesh = TriMesh { positions, triangles };
-        let rings = Rings::new(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
+        let mut rings = Rings::new(&mesh);
+        assert!(rings.link(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), mesh.positions.len()));
         let apex = (0..rings.len() as u32).find(|&v| rings.nodes[v as usize] == 0).unwrap();
         let mut star = Star::new();
         star.load(&rings, apex);

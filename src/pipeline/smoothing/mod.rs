@@ -22,6 +22,8 @@ mod strip;
 mod terms;
 mod volume;
 
+use std::ops::Deref;
+
 use glam::{Vec3, Vec4};
 
 use self::order::Order;
@@ -44,8 +46,19 @@ const CACHE: usize = 1 << 20;
 /// Bytes of a vertex and its row that a pass touches.
 const BYTES_A_VERTEX: usize = 3 * 16 + 6 * 4;
 
-/// A smoothing run in slices.
-pub struct SmoothingTask {
+/// What the strips are made from.
+struct Layout<T> {
+    order: Order,
+    stencil: Stencil<T>,
+    /// Three numbers at each vertex, and the middle of their bounds.
+    values: Vec<Vec3>,
+    centre: Vec3,
+}
+
+/// A smoothing run in slices; `T` is any pointer to the topology.
+pub struct SmoothingTask<T> {
+    /// Until the strips are laid out.
+    layout: Option<Layout<T>>,
     strips: Vec<Strip>,
     coefficients: Vec<f32>,
     placement: Placement,
@@ -58,39 +71,34 @@ pub struct SmoothingTask {
     depth: usize,
 }
 
-impl SmoothingTask {
+impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
     /// Starts smoothing `positions` (mm) with `filter`; `topology` is that of the surface.
-    pub fn new(positions: &[Vec3], topology: &Topology, boundary: Boundary, filter: &Filter) -> Self {
-        Self::of_field(positions, topology, &Stencil::new(positions, topology, boundary), filter)
+    pub fn new(positions: &[Vec3], topology: T, boundary: Boundary, filter: &Filter) -> Self {
+        let stencil = Stencil::new(positions, topology.clone(), boundary);
+        Self::of_field(positions.to_vec(), &topology, stencil, filter)
     }
 
     /// Starts smoothing any three numbers at each vertex.
-    fn of_field(values: &[Vec3], topology: &Topology, stencil: &Stencil, filter: &Filter) -> Self {
-        let centre = Bounds::of(values).centre();
-        let order = Order::new(topology, stencil);
+    fn of_field(values: Vec<Vec3>, topology: &Topology, stencil: Stencil<T>, filter: &Filter) -> Self {
+        let centre = Bounds::of(&values).centre();
+        let mut order = Order::new(topology, &stencil);
         let chunks = order.chunks.len() - 1;
         let count = strip_count(chunks);
         let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);
         let depth = (CACHE / (widest * BYTES_A_VERTEX)).clamp(2, DEEPEST).min((chunks / count / 2).max(1));
         let own = |i: usize| i * chunks / count..(i + 1) * chunks / count;
-        let x0 = |v: u32| (values[v as usize] - centre).extend(0.0);
-        let coefficients: Vec<f32> = filter.coefficients.iter().map(|&c| c as f32).collect();
-        let strip = |i| Strip::new(&order, stencil, own(i), depth, coefficients[0], x0);
-        let strips = parallel::map((0..count).collect(), strip);
         let fixed = (0..values.len() as u32).filter(|&v| stencil.stays(v));
-        let placement =
-            Placement { fixed: fixed.map(|v| (v, values[v as usize])).collect(), places: order.places, centre };
-        let mut task = Self {
-            strips,
-            coefficients,
-            placement,
+        let fixed = fixed.map(|v| (v, values[v as usize])).collect();
+        Self {
+            strips: (0..count).map(|i| Strip::new(&order, own(i), depth)).collect(),
+            coefficients: filter.coefficients.iter().map(|&c| c as f32).collect(),
+            placement: Placement { fixed, places: std::mem::take(&mut order.places), centre },
+            layout: Some(Layout { order, stencil, values, centre }),
             gain: filter.dc_gain(),
             keeps_terms: false,
             wave: Wave { first: 1, count: 0 },
             depth,
-        };
-        task.next_wave(1);
-        task
+        }
     }
 
     /// Keeps the terms, for [`Self::into_terms`], if they take no more than `bytes`.
@@ -98,10 +106,25 @@ impl SmoothingTask {
     pub fn keeping_terms(mut self, bytes: usize) -> Self {
         let degree = self.coefficients.len() - 1;
         self.keeps_terms = Terms::bytes(self.placement.places.len(), degree) <= bytes as u64;
+        self
+    }
+
+    /// Lays out the strips; whether they are.
+    fn lay_out(&mut self, budget: Budget) -> bool {
+        let Some(layout) = &self.layout else { return true };
+        let (c0, places) = (self.coefficients[0], &self.placement.places);
+        let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
+        let done = parallel::map(strips, |strip| strip.lay_out(layout, places, c0, budget));
+        if !done.into_iter().all(|done| done) {
+            return false;
+        }
+        self.layout = None;
         if self.keeps_terms {
+            let degree = self.coefficients.len() - 1;
             self.strips.iter_mut().for_each(|strip| strip.keep_terms(degree));
         }
-        self
+        self.next_wave(1);
+        true
     }
 
     fn next_wave(&mut self, first: usize) {
@@ -122,10 +145,13 @@ impl SmoothingTask {
     }
 }
 
-impl Task for SmoothingTask {
+impl<T: Deref<Target = Topology> + Clone + Sync> Task for SmoothingTask<T> {
     type Output = Vec<Vec3>;
 
     fn advance(&mut self, budget: Budget) -> Progress<Vec<Vec3>> {
+        if !self.lay_out(budget) {
+            return Progress::Working(0.0);
+        }
         while self.wave.count > 0 {
             let (wave, coefficients) = (self.wave, &self.coefficients);
             let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();

@@ -6,6 +6,8 @@
 //! chunk behind the one before it, while a few chunks stay in the cache. Within a chunk vertices stand by the length
 //! of their rows, so that the inner loop has no count to guess.
 
+use std::ops::Deref;
+
 use super::stencil::Stencil;
 use crate::mesh::Topology;
 
@@ -23,7 +25,7 @@ pub(super) struct Order {
 }
 
 impl Order {
-    pub(super) fn new(topology: &Topology, stencil: &Stencil) -> Self {
+    pub(super) fn new<T: Deref<Target = Topology>>(topology: &Topology, stencil: &Stencil<T>) -> Self {
         let count = topology.vertex_count();
         let mut order = Self { vertices: Vec::with_capacity(count), places: vec![UNSEEN; count], chunks: vec![0] };
         for seed in 0..count as u32 {
@@ -66,7 +68,7 @@ impl Order {
     }
 
     /// Sorts each chunk by the length of the rows, by counting; equals keep their order.
-    fn sort_chunks(&mut self, stencil: &Stencil) {
+    fn sort_chunks<T: Deref<Target = Topology>>(&mut self, stencil: &Stencil<T>) {
         let mut unsorted: Vec<(u32, u32)> = Vec::new();
         for bounds in self.chunks.windows(2) {
             let chunk = &mut self.vertices[bounds[0] as usize..bounds[1] as usize];

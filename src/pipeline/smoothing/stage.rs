@@ -6,7 +6,7 @@ use web_time::Instant;
 
 use super::volume::{Before, VolumeTask};
 use super::{SmoothingTask, Terms};
-use crate::mesh::{TriMesh, Vec3, measures_within};
+use crate::mesh::{Topology, TriMesh, Vec3, measures_within};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, edge_length};
 use crate::pipeline::run::{Smoothed, Surface};
@@ -41,7 +41,7 @@ impl KeptTerms {
 pub(crate) struct Preparation {
     kept: Arc<Surface>,
     boundary: Boundary,
-    task: SmoothingTask,
+    task: SmoothingTask<Arc<Topology>>,
 }
 
 impl Preparation {
@@ -60,12 +60,12 @@ impl Preparation {
     }
 }
 
-fn keeping(kept: &Surface, settings: &Smoothing, filter: &Filter) -> SmoothingTask {
-    let task = SmoothingTask::new(&kept.mesh.positions, &kept.topology, settings.boundary, filter);
+fn keeping(kept: &Surface, settings: &Smoothing, filter: &Filter) -> SmoothingTask<Arc<Topology>> {
+    let task = SmoothingTask::new(&kept.mesh.positions, kept.topology.clone(), settings.boundary, filter);
     task.keeping_terms(TERMS_BYTES)
 }
 
-fn kept_terms(task: SmoothingTask, of: Arc<Surface>, boundary: Boundary) -> Option<KeptTerms> {
+fn kept_terms(task: SmoothingTask<Arc<Topology>>, of: Arc<Surface>, boundary: Boundary) -> Option<KeptTerms> {
     Some(KeptTerms { of, boundary, terms: task.into_terms()? })
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct SmoothingStage {
 }
 
 enum Step {
-    Filter(Box<SmoothingTask>),
+    Filter(Box<SmoothingTask<Arc<Topology>>>),
     Volume(Box<VolumeTask>),
     Done(Vec<Vec3>, Option<bool>),
 }
@@ -97,7 +97,7 @@ impl SmoothingStage {
             Some(known) => stage.after_filter(known.terms.smooth(&stage.filter)),
             None if keeps_terms => Step::Filter(Box::new(keeping(kept, &settings, &stage.filter))),
             None => {
-                let task = SmoothingTask::new(&kept.mesh.positions, &kept.topology, settings.boundary, &stage.filter);
+                let task = SmoothingTask::new(&kept.mesh.positions, kept.topology.clone(), settings.boundary, &stage.filter);
                 Step::Filter(Box::new(task))
             }
         };

@@ -5,12 +5,13 @@
 //! a halo, copies of the next strip's chunks, as deep as there are passes in a wave; it is computed twice and shrinks
 //! by a chunk a pass. What a vertex comes to depends on none of this.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 use glam::Vec4;
 
+use super::Layout;
 use super::order::Order;
-use super::stencil::Stencil;
+use crate::mesh::Topology;
 use crate::pipeline::task::Budget;
 
 /// Vertices of a chunk that have rows of one length.
@@ -29,6 +30,8 @@ pub(super) struct Strip {
     places: Range<usize>,
     /// The ones that are its own.
     own: Range<usize>,
+    /// The chunks of the order that it has.
+    all: Range<usize>,
     /// Runs of each chunk.
     chunks: Vec<Range<usize>>,
     runs: Vec<Run>,
@@ -53,41 +56,52 @@ pub(super) struct Wave {
 }
 
 impl Strip {
-    /// The strip of the chunks `own`, with halos of up to `depth` chunks; the sum begins with
-    /// `c0 x_0`, and `x0` gives the position of a vertex.
-    pub(super) fn new(
-        order: &Order,
-        stencil: &Stencil,
-        own: Range<usize>,
-        depth: usize,
-        c0: f32,
-        x0: impl Fn(u32) -> Vec4,
-    ) -> Self {
+    /// The strip of the chunks `own`, with halos of up to `depth` chunks, not yet laid out.
+    pub(super) fn new(order: &Order, own: Range<usize>, depth: usize) -> Self {
         let all = own.start.saturating_sub(depth)..(own.end + depth).min(order.chunks.len() - 1);
         let place = |chunk: usize| order.chunks[chunk] as usize;
         let places = place(all.start)..place(all.end);
-        let mut strip = Self {
+        Self {
             own: place(own.start)..place(own.end),
             chunks: Vec::with_capacity(all.len()),
             runs: Vec::new(),
             rows: Vec::with_capacity(places.len() * 6),
             halo: [all.start < own.start, own.end < all.end],
-            values: [Vec::new(), Vec::new()],
-            sum: Vec::new(),
+            values: [Vec::with_capacity(places.len()), Vec::new()],
+            sum: Vec::with_capacity(places.len()),
             terms: Vec::new(),
             step: 0,
             places,
-        };
-        for chunk in all {
-            strip.add_chunk(order, stencil, place(chunk)..place(chunk + 1));
+            all,
         }
-        let x: Vec<Vec4> = order.vertices[strip.places.clone()].iter().map(|&v| x0(v)).collect();
-        strip.sum = x.iter().map(|&x| x * c0).collect();
-        strip.values = [x, vec![Vec4::ZERO; strip.places.len()]];
-        strip
     }
 
-    fn add_chunk(&mut self, order: &Order, stencil: &Stencil, places: Range<usize>) {
+    /// Lays out chunk after chunk; `places` says where each vertex is in the order, and the sum begins with `c0 x_0`.
+    /// Returns whether all are.
+    pub(super) fn lay_out<T>(&mut self, layout: &Layout<T>, places: &[u32], c0: f32, budget: Budget) -> bool
+    where
+        T: Deref<Target = Topology>,
+    {
+        let Layout { order, values, centre, .. } = layout;
+        for chunk in self.all.start + self.chunks.len()..self.all.end {
+            let own = order.chunks[chunk] as usize..order.chunks[chunk + 1] as usize;
+            let x = order.vertices[own.clone()].iter().map(|&v| (values[v as usize] - *centre).extend(0.0));
+            self.values[0].extend(x.clone());
+            self.sum.extend(x.map(|x| x * c0));
+            self.add_chunk(layout, places, own);
+            if chunk % 4 == 0 && chunk + 1 < self.all.end && budget.is_spent() {
+                return false;
+            }
+        }
+        self.values[1].resize(self.places.len(), Vec4::ZERO);
+        true
+    }
+
+    fn add_chunk<T>(&mut self, layout: &Layout<T>, all_places: &[u32], places: Range<usize>)
+    where
+        T: Deref<Target = Topology>,
+    {
+        let Layout { order, stencil, .. } = layout;
         let first_run = self.runs.len();
         let base = self.places.start;
         for place in places {
@@ -99,7 +113,7 @@ impl Strip {
             }
             // Neighbours outside the halo belong to chunks of it that are only read, never computed.
             let rows = &mut self.rows;
-            stencil.for_each(v, |n| rows.push(order.places[n as usize].wrapping_sub(base as u32)));
+            stencil.for_each(v, |n| rows.push(all_places[n as usize].wrapping_sub(base as u32)));
         }
         self.chunks.push(first_run..self.runs.len());
     }

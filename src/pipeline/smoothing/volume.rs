@@ -15,6 +15,8 @@
 //! blurred, take their place. `m` is 1 at most; where that does not suffice the surface is left as the filter made it.
 //! Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 
 use super::{SmoothingTask, Stencil};
@@ -33,7 +35,7 @@ const MOST: f64 = 1.0;
 /// The surface before smoothing.
 pub(super) struct Before<'a> {
     pub mesh: &'a TriMesh,
-    pub topology: &'a Topology,
+    pub topology: &'a Arc<Topology>,
     /// Its boundary, each loop in the direction of its triangles.
     pub loops: &'a [Vec<u32>],
     /// Its volume in mm3.
@@ -52,7 +54,7 @@ pub(super) struct VolumeTask {
 struct Attempt {
     normals: Vec<Vec3>,
     /// Filters (loss, length of the way, 0) at each vertex.
-    field: SmoothingTask,
+    field: SmoothingTask<Arc<Topology>>,
     is_last: bool,
 }
 
@@ -73,7 +75,7 @@ impl VolumeTask {
     /// cannot, they are the smoothed ones.
     pub(super) fn advance(&mut self, before: &Before, budget: Budget) -> Progress<(Vec<Vec3>, bool)> {
         let field = match self.attempt.field.advance(budget) {
-            Progress::Working(fraction) => return Progress::Working(fraction),
+            Progress::Working(fraction) => return Progress::Working((self.attempt.begun() + fraction) / 2.0),
             Progress::Done(field) => field,
         };
         if let Some(positions) = self.attempt.place(before, &self.smoothed, &field) {
@@ -85,7 +87,7 @@ impl VolumeTask {
         let normals = blurred_normals(before);
         self.attempt = Attempt::new(before, &self.smoothed, normals, self.boundary, &self.filter);
         self.attempt.is_last = true;
-        Progress::Working(0.0)
+        Progress::Working(0.5)
     }
 }
 
@@ -109,9 +111,14 @@ impl Attempt {
     fn new(before: &Before, smoothed: &[Vec3], normals: Vec<Vec3>, boundary: Boundary, filter: &Filter) -> Self {
         let ways = before.mesh.positions.iter().zip(smoothed).map(|(&x, &s)| x - s);
         let field: Vec<Vec3> = ways.zip(&normals).map(|(way, n)| Vec3::new(way.dot(*n), way.length(), 0.0)).collect();
-        let stencil = Stencil::new(&before.mesh.positions, before.topology, boundary);
-        let field = SmoothingTask::of_field(&field, before.topology, &stencil, filter);
+        let stencil = Stencil::new(&before.mesh.positions, before.topology.clone(), boundary);
+        let field = SmoothingTask::of_field(field, before.topology, stencil, filter);
         Self { normals, field, is_last: false }
+    }
+
+    /// The attempts before this one.
+    fn begun(&self) -> f32 {
+        if self.is_last { 1.0 } else { 0.0 }
     }
 
     /// The positions that hold the volume, if there are any.
