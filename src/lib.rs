@@ -4,7 +4,7 @@
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! parallel < mesh < io, phantom, pipeline < engine < app < desktop, web
+//! parallel < mesh < io, phantom, pipeline, trial < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
@@ -12,6 +12,7 @@
 //! - [`io`]: bytes to mesh and back, one file a format, with a report of what was mended.
 //! - [`phantom`]: vessel trees that Lumen makes itself, cut from a voxel mask by marching cubes.
 //! - [`pipeline`]: connectivity, windowed-sinc smoothing, normals, decimation, the progressive mesh, deviation.
+//! - [`trial`]: the guidewire: rod, contact, route, autopilot, log.
 //! - [`engine`]: the pipeline as work that never blocks a frame: commands in, events out.
 //! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
 //! - `app`: the window's content, the same on the desktop and in the browser (feature `gui`).
@@ -32,3 +33,4 @@ pub mod phantom;
 pub mod pipeline;
 #[cfg(feature = "gui")]
 pub mod render;
+pub mod trial;

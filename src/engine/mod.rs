@@ -13,6 +13,7 @@
 
 mod compare;
 mod message;
+pub mod trial;
 pub mod wire;
 
 use std::collections::VecDeque;

@@ -1,0 +1,180 @@
+//! The trial as work beside the app: commands in, frames out, in a worker of its own.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::mesh::TriMesh;
+use crate::phantom::Sample;
+use crate::trial::frame::{Frame, Summary};
+use crate::trial::setup::{Entry, Input, Setup};
+
+/// What the trial is asked to do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TrialCommand {
+    /// Build the wall and the route, and put the wire at the entry; the trial before is over then.
+    Start {
+        /// Comes back with all that belongs to this trial.
+        id: u64,
+        /// The surface: the level that is shown.
+        mesh: Arc<TriMesh>,
+        /// The sample that it was made from, if it was one: samples bring entry and target with them.
+        sample: Option<Sample>,
+        /// All else.
+        setup: Setup,
+    },
+    /// Goes on with this input until the next.
+    Drive(Input),
+    /// Steers by itself, or no longer.
+    Autopilot(bool),
+    /// Stands still, or goes on.
+    Pause(bool),
+    /// Simulated seconds a second of the clock: 1, or less for slow motion.
+    Pace(f32),
+    /// Begins again with the same setup.
+    Restart,
+    /// Goes back by a second of simulated time, and stands still.
+    StepBack,
+    /// Asks for the log.
+    Save,
+    /// Plays a saved log on the same surface, from the start.
+    Replay {
+        /// The log, as it was saved.
+        csv: Arc<Vec<u8>>,
+    },
+    /// Replays the present trial's input on another surface, to the end, and compares the two.
+    Compare {
+        /// That surface: the one that was not reduced.
+        mesh: Arc<TriMesh>,
+    },
+    /// Runs the autopilot to the end as fast as it goes, on a surface of its own, and tells the summary alone; what is
+    /// being shown goes on afterwards.
+    Measure {
+        /// Comes back with the summary.
+        id: u64,
+        /// The surface.
+        mesh: Arc<TriMesh>,
+        /// The sample, as for `Start`.
+        sample: Option<Sample>,
+        /// All else.
+        setup: Setup,
+    },
+    /// Ends the trial and lets go of its surface.
+    Stop,
+}
+
+/// The way from the entry to the target, as it is shown.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RouteShown {
+    /// Places along the middle of the lumen, in mm.
+    pub points: Vec<[f32; 3]>,
+    /// The radius of the lumen at each, in mm.
+    pub radii: Vec<f32>,
+    /// The five stations.
+    pub stations: Vec<[f32; 3]>,
+    /// Its length in mm.
+    pub length_mm: f64,
+    /// Length over the straight distance.
+    pub tortuosity: f64,
+    /// The smallest radius in mm, and where.
+    pub smallest_radius_mm: f64,
+    /// That place.
+    pub smallest_at: [f32; 3],
+    /// Branches passed on the way.
+    pub branches_passed: usize,
+}
+
+/// A trial that is ready to go.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrialReady {
+    /// That of the command.
+    pub id: u64,
+    /// The setup with its entry and target filled in.
+    pub setup: Setup,
+    /// The way.
+    pub route: RouteShown,
+    /// Other places where a wire could enter.
+    pub entries: Vec<Entry>,
+    /// Other places where it could go, with names.
+    pub targets: Vec<(String, [f32; 3])>,
+    /// Milliseconds to build the hierarchy of boxes over the wall.
+    pub wall_ms: f64,
+    /// Milliseconds to find tree and route.
+    pub route_ms: f64,
+}
+
+/// How one trial's wire differs from another's under the same input.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrialComparison {
+    /// One sentence.
+    pub verdict: String,
+    /// Inserted length in mm at each sample.
+    pub inserted_mm: Vec<f32>,
+    /// Distance between the two tips, in mm.
+    pub deviation_mm: Vec<f32>,
+    /// The way of the tip on the level that is shown.
+    pub tip: Vec<[f32; 3]>,
+    /// The way of the tip on the other surface.
+    pub other_tip: Vec<[f32; 3]>,
+    /// Places where the wall's forces differ most: where, and by how much in N.
+    pub force_differences: Vec<([f32; 3], f32)>,
+    /// Places along the route where the lumen is pinched, if there are any.
+    pub pinched: Vec<[f32; 3]>,
+    /// The smallest diameter of the lumen along the route before reduction, in mm.
+    pub smallest_before_mm: f64,
+    /// And after.
+    pub smallest_after_mm: f64,
+    /// What came of the two.
+    pub summaries: [Summary; 2],
+}
+
+/// What the trial tells.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TrialEvent {
+    /// The wall is being built; the part that is done.
+    Preparing {
+        /// That of the command.
+        id: u64,
+        /// 0 to 1.
+        fraction: f32,
+    },
+    /// The wire stands at the entry.
+    Ready(Box<TrialReady>),
+    /// It cannot be tried, and why; the trial before stands.
+    Refused {
+        /// That of the command.
+        id: u64,
+        /// One sentence.
+        message: String,
+    },
+    /// The wire now.
+    Frame(Box<Frame>),
+    /// The trial is over.
+    Ended(Box<Summary>),
+    /// The log.
+    Saved {
+        /// Sample by sample.
+        csv: String,
+        /// The summary.
+        json: String,
+    },
+    /// What `Compare` was asked for.
+    Compared(Box<TrialComparison>),
+    /// How far a comparison or a measurement is.
+    Busy {
+        /// 0 to 1.
+        fraction: f32,
+    },
+    /// What `Measure` was asked for.
+    Measured {
+        /// That of the command.
+        id: u64,
+        /// What came of it.
+        summary: Box<Summary>,
+    },
+    /// Something else could not be done, and why.
+    Failed {
+        /// One sentence.
+        message: String,
+    },
+}

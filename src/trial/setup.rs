@@ -1,0 +1,50 @@
+//! What a trial is to be: the wire, where it enters, where it should go.
+
+use serde::{Deserialize, Serialize};
+
+use super::wire::Wire;
+
+/// Where the wire comes out of its sheath or guide catheter, which is rigid.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// The mouth of the guide, inside the lumen, in mm.
+    pub at: [f32; 3],
+    /// Where it points, of length 1.
+    pub direction: [f32; 3],
+}
+
+/// All that decides a trial beside the surface and the input.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Setup {
+    /// The wire.
+    pub wire: Wire,
+    /// Where it enters; `None` for the place that the route proposes.
+    pub entry: Option<Entry>,
+    /// Where it should go, a point in or near the lumen, in mm; `None` for what the route proposes.
+    pub target: Option<[f32; 3]>,
+    /// Varies the entry by 0.5 mm and 2 degrees, the roll, and friction by 20 %. 0 varies nothing.
+    pub seed: u64,
+}
+
+/// What the operator does during a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Input {
+    /// Speed of the feed in mm/s; negative withdraws. Up to 50 either way.
+    pub feed: f32,
+    /// Speed of the roll in rad/s, right-handed about the way in. Up to two turns a second.
+    pub roll: f32,
+}
+
+impl Input {
+    /// The fastest feed in mm/s.
+    pub const MOST_FEED: f32 = 50.0;
+    /// The fastest roll in rad/s: two turns a second.
+    pub const MOST_ROLL: f32 = 4.0 * std::f32::consts::PI;
+
+    /// The input within what is allowed; what is no number is 0.
+    #[must_use]
+    pub fn limited(self) -> Self {
+        let within = |x: f32, most: f32| if x.is_finite() { x.clamp(-most, most) } else { 0.0 };
+        Self { feed: within(self.feed, Self::MOST_FEED), roll: within(self.roll, Self::MOST_ROLL) }
+    }
+}
