@@ -5,6 +5,7 @@
 mod angles;
 mod boundary;
 mod bounds;
+mod capsule;
 mod closest_point;
 mod components;
 pub(crate) mod crossing;
@@ -25,6 +26,7 @@ pub(crate) use angles::AngleCounts;
 pub use angles::{Angles, angles};
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
+pub use capsule::{PointFoot, SegmentFoot};
 pub use closest_point::distance_to_triangle;
 pub(crate) use closest_point::foot_on_triangle;
 pub use components::{Components, components};

@@ -9,8 +9,13 @@
 //! Units are mm, N, s, t (tonne), MPa; forces in N, moments in N mm. The step is [`STEP`] of simulated time; input is
 //! latched by step, so a log replays to the same end, to the bit on one platform.
 
+pub mod body;
+pub mod contact;
 pub mod frame;
+pub mod rod;
 pub mod setup;
+pub mod simulation;
+pub mod wall;
 pub mod wire;
 
 /// Seconds of simulated time in a step.

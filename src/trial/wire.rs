@@ -31,6 +31,8 @@ pub struct Wire {
     pub friction: [f64; 2],
     /// Density of the material in t/mm3.
     pub density: f64,
+    /// Lengths of an element at the tip and of the shaft, in mm.
+    pub elements_mm: [f64; 2],
 }
 
 impl Default for Wire {
@@ -87,6 +89,7 @@ impl Wire {
             length_mm: 1800.0,
             friction: [0.06, 0.04],
             density: STEEL,
+            elements_mm: if diameter_mm < 0.6 { [0.5, 2.0] } else { [1.0, 3.0] },
         })
     }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use libtest_mimic::{Arguments, Trial};
 
+pub mod tubes;
 mod data;
 
 use data::data;

@@ -1,0 +1,387 @@
+//! Contact of a rod with the wall, with Coulomb friction.
+//!
+//! A node touches the wall where it is nearest, and where it was nearest before as long as that is another facet at hand:
+//! in a corner it rests on both, and slides from the one to the other without a jolt. So does the inside of an edge where that comes nearer than both of its
+//! ends: at a ridge or on the inside of a bend. The gap is the distance from the flat triangles less the radius. A
+//! contact's force is found with the step itself, as an augmented Lagrangian (Hestenes 1969; Powell 1969):
+//!
+//! ```text
+//! N = max(0, N_before - k gap)
+//! ```
+//!
+//! so that what lies still against the wall lies at a gap of 0, however hard it is pressed. Friction is a spring across
+//! the normal that begins where the contact last stuck and gives no more than `mu N` (return mapping, as in plasticity:
+//! Simo and Laursen 1992); the way it is stretched by has the roll of the wire's surface in it, so that turning and
+//! pushing share one cone.
+
+use glam::DVec3;
+
+use super::rod::Rod;
+use super::wall::Wall;
+use crate::mesh::{PointFoot, SegmentFoot};
+
+/// Stiffness of a contact in N/mm: how much its force changes before the next step corrects the gap.
+const STIFFNESS: f64 = 40.0;
+/// Stiffness of what sticks, in N/mm.
+const GRIP: f64 = 40.0;
+/// A gap of less than this, in mm, is looked after in the step: nothing moves farther than that in one.
+const REACH: f64 = 0.25;
+/// Below this gap in mm the inside of an edge is looked after.
+const EDGE_REACH: f64 = 0.05;
+/// The part of the radius by which the inside of an edge must be nearer than its ends to be a contact of its own.
+const DEEPER: f64 = 0.01;
+
+/// Cosine of the turn below which two feet are on one facet, to a wire.
+const SAME: f64 = 0.9994;
+/// Facets that a node can touch at once.
+const FACETS: usize = 3;
+/// Ridges that an edge can touch at once.
+const RIDGES: usize = 2;
+/// Places of an edge that are nearer than this part of it are one.
+const APART: f64 = 0.2;
+
+/// How far a node is from the wall.
+#[derive(Clone, Copy, Debug)]
+struct Clearance {
+    /// The distance that was measured last, in mm, and from where.
+    distance: f64,
+    from: DVec3,
+    /// The leaf of the index in which the nearest point was.
+    hint: u32,
+}
+
+impl Clearance {
+    const UNKNOWN: Self = Self { distance: 0.0, from: DVec3::ZERO, hint: u32::MAX };
+
+    /// A bound below which the distance of `p` cannot be.
+    fn at_least(&self, p: DVec3) -> f64 {
+        self.distance - p.distance(self.from)
+    }
+}
+
+/// A place where the rod touches, or nearly does.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// Whether it takes part in the step.
+    is_near: bool,
+    /// The leaf of the index that it is with.
+    slot: u32,
+    /// Where on the edge that begins at its node: 0 at the node.
+    along: f64,
+    /// The nearest point of the wall, in mm.
+    pub point: DVec3,
+    /// Its triangle.
+    pub triangle: u32,
+    /// From the wall to the rod, of length 1.
+    pub normal: DVec3,
+    /// The interpolated normal of the wall: friction acts at right angles to it, so that facets do not change it.
+    smooth: DVec3,
+    gap: f64,
+    /// Where the rod was when the gap was measured.
+    at: DVec3,
+    /// Normal force in N.
+    pub force: f64,
+    /// How far what sticks is stretched, in mm.
+    stretch: DVec3,
+    /// What friction does to the rod, in N.
+    pub friction: DVec3,
+    /// Whether it slides.
+    pub is_sliding: bool,
+    /// What friction can give in the step, in N.
+    grip: f64,
+}
+
+impl Contact {
+    const NONE: Self = Self {
+        is_near: false,
+        slot: u32::MAX,
+        along: 0.0,
+        point: DVec3::ZERO,
+        triangle: 0,
+        normal: DVec3::Z,
+        smooth: DVec3::Z,
+        gap: 0.0,
+        at: DVec3::ZERO,
+        force: 0.0,
+        stretch: DVec3::ZERO,
+        friction: DVec3::ZERO,
+        is_sliding: false,
+        grip: 0.0,
+    };
+
+    /// Is with this foot from now on, with the force that it had.
+    fn meet(&mut self, wall: &Wall, p: DVec3, along: f64, foot: &PointFoot, radius: f64) {
+        if !self.is_near || (along - self.along).abs() > 0.3 {
+            *self = Self::NONE;
+        }
+        self.is_near = true;
+        self.slot = foot.slot;
+        self.along = along;
+        self.point = foot.point;
+        self.triangle = foot.triangle;
+        self.smooth = wall.inward(p, foot);
+        self.normal = (p - foot.point).normalize_or(self.smooth);
+        self.gap = foot.distance - radius;
+        self.at = p;
+    }
+
+    /// Where the contact is on the rod now.
+    fn place(&self, rod: &Rod, node: usize) -> DVec3 {
+        let a = rod.positions[node];
+        if self.along > 0.0 { a.lerp(rod.positions[node + 1], self.along) } else { a }
+    }
+
+    /// The normal force in the step, as the rod is now.
+    fn pressure(&self, rod: &Rod, node: usize) -> f64 {
+        let gap = self.gap + self.normal.dot(self.place(rod, node) - self.at);
+        (self.force - STIFFNESS * gap).max(0.0)
+    }
+
+    /// How far what sticks would be stretched now, and the direction in which the wire's surface goes when it rolls.
+    fn trial(&self, rod: &Rod, node: usize, radius: f64) -> (DVec3, DVec3) {
+        let edge = node.min(rod.len() - 2);
+        let mut start = rod.start(node);
+        if self.along > 0.0 {
+            start = start.lerp(rod.start(node + 1), self.along);
+        }
+        let roll = rod.tangent(edge).cross(self.smooth) * -radius;
+        let way = self.place(rod, node) - start + roll * rod.spin(edge);
+        ((self.stretch + way).reject_from_normalized(self.smooth), roll)
+    }
+
+    /// Stiffness of the friction at a stretch of this length, in N/mm.
+    fn hold(&self, length: f64) -> f64 {
+        if length * GRIP > self.grip { self.grip / length } else { GRIP }
+    }
+
+    /// The energy of the contact, in N mm: what the normal force and friction are the derivatives of.
+    fn potential(&self, rod: &Rod, node: usize, radius: f64) -> f64 {
+        let force = self.pressure(rod, node);
+        let pressed = 0.5 * force * force / STIFFNESS;
+        if self.grip <= 0.0 {
+            return pressed;
+        }
+        let length = self.trial(rod, node, radius).0.length();
+        let most = self.grip / GRIP;
+        pressed + if length > most { self.grip * (length - 0.5 * most) } else { 0.5 * GRIP * length * length }
+    }
+}
+
+/// The contacts of a rod.
+#[derive(Clone, Debug, Default)]
+pub struct Contacts {
+    clearances: Vec<Clearance>,
+    /// Of each node. In a corner between facets it touches several.
+    nodes: Vec<[Contact; FACETS]>,
+    /// Of the inside of each edge.
+    edges: Vec<[Contact; RIDGES]>,
+    /// Radius of the rod in mm.
+    pub radius: f64,
+    /// Coefficients of friction, sticking and sliding.
+    pub friction: [f64; 2],
+}
+
+impl Contacts {
+    /// None yet, for a rod of this radius in mm and these coefficients of friction.
+    pub fn new(radius: f64, friction: [f64; 2]) -> Self {
+        Self { radius, friction, ..Self::default() }
+    }
+
+    /// Measures the gaps of the first `count` nodes and of the edges between them. Returns how far the rod reaches into
+    /// the wall, in mm; less than 0 where it is clear of it by more.
+    pub fn look(&mut self, rod: &Rod, count: usize, wall: &Wall) -> f64 {
+        self.clearances.resize(count, Clearance::UNKNOWN);
+        self.nodes.resize(count, [Contact::NONE; FACETS]);
+        self.edges.resize(count.saturating_sub(1), [Contact::NONE; RIDGES]);
+        let mut deepest = f64::NEG_INFINITY;
+        for i in 0..count {
+            deepest = deepest.max(self.radius - self.look_at_node(rod.positions[i], i, wall));
+        }
+        for i in 1..count {
+            deepest = deepest.max(self.radius - self.look_at_edge(rod, i - 1, wall));
+        }
+        deepest
+    }
+
+    /// Measures the gaps of a node. Returns a distance from the wall that it has at least, in mm.
+    fn look_at_node(&mut self, p: DVec3, i: usize, wall: &Wall) -> f64 {
+        let (radius, known) = (self.radius, &mut self.clearances[i]);
+        let contacts = &mut self.nodes[i];
+        if known.hint != u32::MAX && known.at_least(p) >= radius + REACH {
+            *contacts = [Contact::NONE; FACETS];
+            return known.at_least(p);
+        }
+        let Some(foot) = wall.index().foot(p, f64::INFINITY, known.hint) else { return f64::INFINITY };
+        *known = Clearance { distance: foot.distance, from: p, hint: foot.slot };
+        if foot.distance >= radius + REACH {
+            *contacts = [Contact::NONE; FACETS];
+            return foot.distance;
+        }
+        let away = (p - foot.point).normalize_or_zero();
+        let mut same = None;
+        for (k, contact) in contacts.iter_mut().enumerate().filter(|(_, contact)| contact.is_near) {
+            let Some(own) = wall.index().foot_in(contact.slot, p).filter(|own| own.distance < radius + REACH) else {
+                *contact = Contact::NONE;
+                continue;
+            };
+            let is_same = own.triangle == foot.triangle || (p - own.point).normalize_or_zero().dot(away) > SAME;
+            if is_same && same.is_none() {
+                same = Some(k);
+            } else if is_same {
+                // Two that have come together are one.
+                *contact = Contact::NONE;
+            } else {
+                contact.meet(wall, p, 0.0, &own, radius);
+            }
+        }
+        // A new facet takes the place of what presses least.
+        let least = || (0..FACETS).min_by(|&a, &b| rank(&contacts[a]).total_cmp(&rank(&contacts[b])));
+        if let Some(k) = same.or_else(least) {
+            if same.is_none() {
+                contacts[k] = Contact::NONE;
+            }
+            contacts[k].meet(wall, p, 0.0, &foot, radius);
+        }
+        foot.distance
+    }
+
+    /// Measures the gap of the inside of an edge. Returns a distance from the wall that it has at least, in mm, unless
+    /// its ends are nearer.
+    fn look_at_edge(&mut self, rod: &Rod, i: usize, wall: &Wall) -> f64 {
+        let (a, b) = (rod.positions[i], rod.positions[i + 1]);
+        let (near_a, near_b) = (self.clearances[i].at_least(a), self.clearances[i + 1].at_least(b));
+        let within = (near_a.min(near_b) - DEEPER * self.radius).min(self.radius + EDGE_REACH);
+        let may_be = (near_a + near_b - a.distance(b)) / 2.0 < within;
+        let (radius, contacts) = (self.radius, &mut self.edges[i]);
+        let mut least = f64::INFINITY;
+        for contact in contacts.iter_mut().filter(|contact| contact.is_near) {
+            match wall.index().segment_foot_in(contact.slot, a, b, radius + EDGE_REACH) {
+                Some(own) => {
+                    contact.meet(wall, a.lerp(b, own.along), own.along, &own.foot, radius);
+                    least = least.min(own.foot.distance);
+                }
+                None => *contact = Contact::NONE,
+            }
+        }
+        let found = if may_be { wall.index().segment_foot(a, b, within) } else { None };
+        let Some(SegmentFoot { along, foot }) = found else { return least };
+        let is_same = |contact: &Contact| contact.is_near && (contact.along - along).abs() < APART;
+        let same = contacts.iter().position(is_same);
+        let free = || (0..RIDGES).min_by(|&a, &b| rank(&contacts[a]).total_cmp(&rank(&contacts[b])));
+        if let Some(k) = same.or_else(free) {
+            if same.is_none() {
+                contacts[k] = Contact::NONE;
+            }
+            contacts[k].meet(wall, a.lerp(b, along), along, &foot, radius);
+        }
+        least.min(foot.distance)
+    }
+
+    /// How far the wall is at least from a node and the edges beside it, in mm; 0 where that is not known.
+    pub fn clearance(&self, rod: &Rod, node: usize) -> f64 {
+        let at_least = |i: usize| self.clearances.get(i).map_or(0.0, |known| known.at_least(rod.start(i)));
+        let edge = |i: usize| (at_least(i) + at_least(i + 1) - rod.start(i).distance(rod.start(i + 1))) / 2.0;
+        let before = if node > 0 { edge(node - 1) } else { f64::INFINITY };
+        let after = if node + 1 < rod.len() { edge(node) } else { f64::INFINITY };
+        before.min(after).min(at_least(node)).max(0.0)
+    }
+
+    /// Every contact that takes part in the step, with the node at which its edge begins.
+    fn near(&self) -> impl Iterator<Item = (usize, &Contact)> {
+        let nodes = self.nodes.iter().enumerate().flat_map(|(i, all)| all.iter().map(move |contact| (i, contact)));
+        let edges = self.edges.iter().enumerate().flat_map(|(i, all)| all.iter().map(move |contact| (i, contact)));
+        nodes.chain(edges).filter(|(_, contact)| contact.is_near)
+    }
+
+    fn near_mut(&mut self) -> impl Iterator<Item = (usize, &mut Contact)> {
+        let nodes = self.nodes.iter_mut().enumerate();
+        let nodes = nodes.flat_map(|(i, all)| all.iter_mut().map(move |contact| (i, contact)));
+        let edges = self.edges.iter_mut().enumerate();
+        let edges = edges.flat_map(|(i, all)| all.iter_mut().map(move |contact| (i, contact)));
+        nodes.chain(edges).filter(|(_, contact)| contact.is_near)
+    }
+
+    /// Sets what friction can give by the forces as they are now, for the corrections that follow.
+    pub fn set_grip(&mut self, rod: &Rod) {
+        let friction = self.friction;
+        for (node, contact) in self.near_mut() {
+            contact.grip = friction[usize::from(contact.is_sliding)] * contact.pressure(rod, node);
+        }
+    }
+
+    /// The energy of all contacts, in N mm.
+    pub fn potential(&self, rod: &Rod) -> f64 {
+        self.near().map(|(node, contact)| contact.potential(rod, node, self.radius)).sum()
+    }
+
+    /// Adds the springs of all contacts to the rod's equations.
+    pub fn apply(&self, rod: &mut Rod) {
+        for (node, contact) in self.near() {
+            let (a, b) = (1.0 - contact.along, contact.along);
+            let spread = |v: DVec3, angle: f64| [v.x * a, v.y * a, v.z * a, angle, v.x * b, v.y * b, v.z * b];
+            let normal = contact.smooth;
+            let force = contact.pressure(rod, node);
+            if force > 0.0 {
+                rod.add_spring(node, &spread(contact.normal, 0.0), -force, STIFFNESS);
+            }
+            if contact.grip <= 0.0 {
+                continue;
+            }
+            let (stretch, roll) = contact.trial(rod, node, self.radius);
+            let hold = contact.hold(stretch.length());
+            let across = normal.any_orthonormal_vector();
+            for axis in [across, normal.cross(across)] {
+                rod.add_spring(node, &spread(axis, axis.dot(roll)), hold * stretch.dot(axis), hold);
+            }
+        }
+    }
+
+    /// Ends a step: the forces are now those of the next step's start.
+    pub fn finish(&mut self, rod: &Rod) {
+        let (radius, friction) = (self.radius, self.friction);
+        for (node, contact) in self.near_mut() {
+            let force = contact.pressure(rod, node);
+            if force <= 0.0 {
+                contact.force = 0.0;
+                contact.stretch = DVec3::ZERO;
+                contact.friction = DVec3::ZERO;
+                contact.is_sliding = false;
+                // The inside of an edge is found again when it is nearer than the ends.
+                contact.is_near = contact.along <= 0.0;
+                continue;
+            }
+            let (stretch, _) = contact.trial(rod, node, radius);
+            let most = friction[usize::from(contact.is_sliding)] * force / GRIP;
+            let length = stretch.length();
+            contact.is_sliding = length > most;
+            contact.stretch = if length > most { stretch * (most / length) } else { stretch };
+            contact.friction = contact.stretch * -GRIP;
+            contact.force = force;
+        }
+    }
+
+    /// What the wall does to each of the first `count` nodes, in N.
+    pub fn forces(&self, count: usize) -> Vec<DVec3> {
+        let mut forces = vec![DVec3::ZERO; count];
+        for (node, contact) in self.near() {
+            let force = contact.normal * contact.force + contact.friction;
+            if let Some(entry) = forces.get_mut(node) {
+                *entry += force * (1.0 - contact.along);
+            }
+            if let Some(entry) = forces.get_mut(node + 1) {
+                *entry += force * contact.along;
+            }
+        }
+        forces
+    }
+
+    /// The contacts that press, each with its node.
+    pub fn pressing(&self) -> impl Iterator<Item = (usize, &Contact)> {
+        self.near().filter(|(_, contact)| contact.force > 0.0)
+    }
+}
+
+/// How much a contact matters: none at all, one that does not press, one that does.
+fn rank(contact: &Contact) -> f64 {
+    if contact.is_near { contact.force } else { -1.0 }
+}

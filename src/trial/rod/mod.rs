@@ -1,0 +1,491 @@
+//! An elastic rod with stretch, bending, twist and a curved rest shape: discrete elastic rods (Bergou et al., "Discrete
+//! elastic rods", 2008, and "Discrete viscous threads", 2010, for the derivatives).
+//!
+//! Nodes have positions, the edges between them a material frame: the tangent and a director `m` across it. At an inner
+//! node the discrete curvature `2 tan(turn / 2)` has a component about each director; its twist is the angle between
+//! one director, carried over the bend without turning, and the other. Energies are
+//!
+//! ```text
+//! bend   EI / 2c |kappa - rest|^2     twist   GJ / 2c tau^2     stretch   EA / 2 l (|e| / l - 1)^2
+//! ```
+//!
+//! with the length `c` of the node's cell, which reaches half-way to its neighbours. A time step is implicit (backward
+//! Euler): it is found by Newton's method with the squares of first derivatives in place of the Hessian, which is
+//! always positive definite and has a half bandwidth of 10 (`band`). The gradient is exact, so what a step comes to,
+//! and what stands still, are too.
+//!
+//! Nodes are numbered from the tip; tangents point away from it.
+
+mod band;
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use self::band::{Band, HALF, PER_NODE};
+
+/// Numbers of a node, its cell and the edge that begins there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Section {
+    /// Rest length of the edge to the next node, in mm; of the last node unused.
+    pub length: f64,
+    /// Length of the cell that bends and twists at the node, in mm.
+    pub cell: f64,
+    /// Bending stiffness EI in N mm2.
+    pub ei: f64,
+    /// Torsional stiffness GJ in N mm2.
+    pub gj: f64,
+    /// Axial stiffness EA of the edge in N.
+    pub ea: f64,
+    /// Discrete curvature at rest: towards the director, and across.
+    pub rest: [f64; 2],
+    /// Mass of the node in t.
+    pub mass: f64,
+    /// Viscous drag of the node in N s/mm.
+    pub drag: f64,
+}
+
+/// What is held of a node and of the edge that begins there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Held {
+    /// Its position.
+    pub position: bool,
+    /// The angle of the edge's frame.
+    pub angle: bool,
+}
+
+/// An edge as it is now.
+#[derive(Clone, Copy, Debug, Default)]
+struct Edge {
+    length: f64,
+    tangent: DVec3,
+    /// The directors, at right angles to the tangent and each other.
+    m1: DVec3,
+    m2: DVec3,
+}
+
+/// A rod, at rest or on its way through a time step.
+#[derive(Clone, Debug, Default)]
+pub struct Rod {
+    /// Position of each node in mm.
+    pub positions: Vec<DVec3>,
+    /// Velocities in mm/s.
+    pub velocities: Vec<DVec3>,
+    /// Stiffness and rest shape.
+    pub sections: Vec<Section>,
+    /// What is held.
+    pub held: Vec<Held>,
+    /// Forces on nodes, in N.
+    pub forces: Vec<(usize, DVec3)>,
+    /// Moments about the tangents of edges, in N mm.
+    pub moments: Vec<(usize, f64)>,
+    /// Where the nodes were at the start of the step.
+    start: Vec<DVec3>,
+    /// Tangent and director of each edge at the start of the step.
+    frames: Vec<[DVec3; 2]>,
+    /// How far each edge has turned about its tangent in the step, in radians.
+    spins: Vec<f64>,
+    /// The twist at each node when it was last looked at: it may pass half a turn.
+    twists: Vec<f64>,
+    edges: Vec<Edge>,
+    gradient: Vec<f64>,
+    band: Band,
+    change: Vec<f64>,
+    /// Positions and spins from which the change leads on.
+    base: (Vec<DVec3>, Vec<f64>),
+}
+
+/// `v`, at right angles to `from`, carried to where `from` becomes `to` by the shortest turn; both of length 1.
+pub(super) fn carried(v: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+    let axis = from.cross(to);
+    let cosine = from.dot(to);
+    if cosine < -0.999_999 {
+        // The turn is not defined; any will do that keeps it across.
+        return (v - to * to.dot(v)).try_normalize().unwrap_or_else(|| to.any_orthonormal_vector());
+    }
+    let turned = v * cosine + axis.cross(v) + axis * (axis.dot(v) / (1.0 + cosine));
+    // Rounding adds up over many steps.
+    (turned - to * to.dot(turned)).normalize_or(v)
+}
+
+/// The angle by which `a` must turn about `axis` to become `b`, in radians.
+fn angle_about(axis: DVec3, a: DVec3, b: DVec3) -> f64 {
+    libm::atan2(axis.dot(a.cross(b)), a.dot(b))
+}
+
+/// `angle` plus the number of whole turns that brings it next to `near`.
+fn unwrapped(angle: f64, near: f64) -> f64 {
+    use std::f64::consts::TAU;
+    angle + TAU * ((near - angle) / TAU).round()
+}
+
+impl Rod {
+    /// A straight or bent rod through `positions`, without twist; `side` is the first edge's director, made to be at
+    /// right angles to it.
+    ///
+    /// # Panics
+    /// When there are fewer than two nodes, or not a section for each.
+    pub fn new(positions: Vec<DVec3>, sections: Vec<Section>, side: DVec3) -> Self {
+        assert!(positions.len() >= 2 && positions.len() == sections.len(), "a rod has a section for each of its nodes");
+        let count = positions.len();
+        let mut rod = Self {
+            velocities: vec![DVec3::ZERO; count],
+            held: vec![Held::default(); count],
+            start: positions.clone(),
+            spins: vec![0.0; count],
+            twists: vec![0.0; count],
+            positions,
+            sections,
+            ..Self::default()
+        };
+        let mut director = side;
+        let mut before = None;
+        for i in 0..count - 1 {
+            let tangent = (rod.positions[i + 1] - rod.positions[i]).normalize_or(DVec3::Z);
+            director = match before {
+                None => director.reject_from_normalized(tangent).try_normalize(),
+                Some(before) => Some(carried(director, before, tangent)),
+            }
+            .unwrap_or_else(|| tangent.any_orthonormal_vector());
+            rod.frames.push([tangent, director]);
+            before = Some(tangent);
+        }
+        rod.refresh();
+        rod
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Adds a node after the last, on from it; `director` is that of the new edge.
+    pub fn push(&mut self, position: DVec3, section: Section, director: DVec3) {
+        let last = self.positions[self.len() - 1];
+        let tangent = (position - last).normalize_or(DVec3::Z);
+        self.positions.push(position);
+        self.velocities.push(DVec3::ZERO);
+        self.sections.push(section);
+        self.held.push(Held::default());
+        self.start.push(position);
+        self.spins.push(0.0);
+        self.twists.push(0.0);
+        let across = director.reject_from_normalized(tangent).try_normalize();
+        self.frames.push([tangent, across.unwrap_or_else(|| tangent.any_orthonormal_vector())]);
+        self.refresh();
+        self.twists[self.positions.len() - 2] = self.twist(self.positions.len() - 2);
+    }
+
+    /// Takes the last node off.
+    pub fn pop(&mut self) {
+        let count = self.len() - 1;
+        self.positions.truncate(count);
+        self.velocities.truncate(count);
+        self.sections.truncate(count);
+        self.held.truncate(count);
+        self.start.truncate(count);
+        self.spins.truncate(count);
+        self.twists.truncate(count);
+        self.frames.truncate(count - 1);
+        self.refresh();
+    }
+
+    /// The director of an edge as it is now.
+    pub fn director(&self, edge: usize) -> DVec3 {
+        self.edges[edge].m1
+    }
+
+    /// The tangent of an edge as it is now, away from the tip.
+    pub fn tangent(&self, edge: usize) -> DVec3 {
+        self.edges[edge].tangent
+    }
+
+    /// Where a node was at the start of the step.
+    pub fn start(&self, node: usize) -> DVec3 {
+        self.start[node]
+    }
+
+    /// How far an edge has turned about its tangent since the start of the step, in radians.
+    pub fn spin(&self, edge: usize) -> f64 {
+        self.spins[edge]
+    }
+
+    /// Turns the frame of an edge whose angle is held about its tangent.
+    pub fn turn(&mut self, edge: usize, angle: f64) {
+        self.spins[edge] += angle;
+    }
+
+    /// Works out edges and frames from the positions.
+    pub fn refresh(&mut self) {
+        self.edges.resize(self.len() - 1, Edge::default());
+        for (i, edge) in self.edges.iter_mut().enumerate() {
+            let along = self.positions[i + 1] - self.positions[i];
+            let length = along.length();
+            let [before, director] = self.frames[i];
+            let tangent = if length > 0.0 { along / length } else { before };
+            let across = carried(director, before, tangent);
+            let (sine, cosine) = libm::sincos(self.spins[i]);
+            let m1 = across * cosine + tangent.cross(across) * sine;
+            *edge = Edge { length, tangent, m1, m2: tangent.cross(m1) };
+        }
+    }
+
+    /// The twist at an inner node, in radians.
+    pub fn twist(&self, node: usize) -> f64 {
+        let (a, b) = (&self.edges[node - 1], &self.edges[node]);
+        unwrapped(angle_about(b.tangent, carried(a.m1, a.tangent, b.tangent), b.m1), self.twists[node])
+    }
+
+    /// The discrete curvature at an inner node: towards the directors, and across.
+    pub fn curvature(&self, node: usize) -> [f64; 2] {
+        let (a, b) = (&self.edges[node - 1], &self.edges[node]);
+        let binormal = a.tangent.cross(b.tangent) * (2.0 / chi(a.tangent, b.tangent));
+        [0.5 * binormal.dot(a.m2 + b.m2), -0.5 * binormal.dot(a.m1 + b.m1)]
+    }
+
+    /// Elastic energy in N mm.
+    pub fn energy(&self) -> f64 {
+        let stretch = |i: usize| {
+            let section = &self.sections[i];
+            let strain = self.edges[i].length / section.length - 1.0;
+            0.5 * section.ea * section.length * strain * strain
+        };
+        let bend = |i: usize| {
+            let section = &self.sections[i];
+            let [k1, k2] = self.curvature(i);
+            let [r1, r2] = section.rest;
+            let twist = self.twist(i);
+            0.5 / section.cell
+                * (section.ei * ((k1 - r1) * (k1 - r1) + (k2 - r2) * (k2 - r2)) + section.gj * twist * twist)
+        };
+        (0..self.len() - 1).map(stretch).sum::<f64>() + (1..self.len() - 1).map(bend).sum::<f64>()
+    }
+
+    /// Sets up the equations of a step of `dt` seconds at the present positions; an infinite `dt` asks for rest.
+    /// `brake` is drag beyond that of the nodes, in N s/mm each.
+    pub fn assemble(&mut self, dt: f64, brake: f64) {
+        let rows = self.len() * PER_NODE;
+        self.band.reset(rows);
+        self.gradient.clear();
+        self.gradient.resize(rows, 0.0);
+        self.add_inertia(dt, brake);
+        for &(node, force) in &self.forces {
+            for axis in 0..3 {
+                self.gradient[node * PER_NODE + axis] -= force[axis];
+            }
+        }
+        for &(edge, moment) in &self.moments {
+            self.gradient[edge * PER_NODE + 3] -= moment;
+        }
+        (0..self.edges.len()).for_each(|i| self.add_stretch(i));
+        (1..self.edges.len()).for_each(|i| self.add_bend(i));
+    }
+
+    /// Works out the elastic part of the gradient anew from node `first + 2` on, for [`Self::holding_force`] and
+    /// [`Self::holding_moment`] there.
+    pub fn assemble_from(&mut self, first: usize) {
+        let rows = self.len() * PER_NODE;
+        self.band.reset(rows);
+        self.gradient.clear();
+        self.gradient.resize(rows, 0.0);
+        (first..self.edges.len()).for_each(|i| self.add_stretch(i));
+        (first.max(1)..self.edges.len()).for_each(|i| self.add_bend(i));
+    }
+
+    fn add_inertia(&mut self, dt: f64, brake: f64) {
+        let inverse = if dt.is_finite() { 1.0 / dt } else { 0.0 };
+        for i in 0..self.len() {
+            let Section { mass, drag, .. } = self.sections[i];
+            let (inertia, drag) = (mass * inverse * inverse, (drag + brake) * inverse);
+            let moved = self.positions[i] - self.start[i];
+            let way = if dt.is_finite() { self.velocities[i] * dt } else { DVec3::ZERO };
+            let force = (moved - way) * inertia + moved * drag;
+            for axis in 0..3 {
+                self.gradient[i * PER_NODE + axis] += force[axis];
+                self.band.add(i * PER_NODE + axis, i * PER_NODE + axis, inertia + drag);
+            }
+        }
+        // The last node has no edge.
+        self.band.add(self.len() * PER_NODE - 1, self.len() * PER_NODE - 1, 1.0);
+    }
+
+    fn add_stretch(&mut self, i: usize) {
+        let Section { length, ea, .. } = self.sections[i];
+        let edge = self.edges[i];
+        let tension = ea * (edge.length / length - 1.0);
+        let t = edge.tangent;
+        let g = [-t.x, -t.y, -t.z, 0.0, t.x, t.y, t.z];
+        let first = i * PER_NODE;
+        for (entry, g) in self.gradient[first..].iter_mut().zip(&g) {
+            *entry += tension * g;
+        }
+        self.band.add_square(first, &g, ea / length);
+        // Under tension it is stiff across, too; what pressure takes away would not be positive definite.
+        if tension > 0.0 {
+            let across = tension / edge.length;
+            for (axis, along) in t.to_array().into_iter().enumerate() {
+                for (other, also) in t.to_array().into_iter().enumerate() {
+                    let value = across * (f64::from(u8::from(axis == other)) - along * also);
+                    if other >= axis {
+                        self.band.add(first + axis, first + other, value);
+                        self.band.add(first + PER_NODE + axis, first + PER_NODE + other, value);
+                    }
+                    self.band.add(first + axis, first + PER_NODE + other, -value);
+                }
+            }
+        }
+    }
+
+    fn add_bend(&mut self, i: usize) {
+        let Section { cell, ei, gj, rest, .. } = self.sections[i];
+        let twist = self.twist(i);
+        let (a, b) = (self.edges[i - 1], self.edges[i]);
+        let inverse = 1.0 / chi(a.tangent, b.tangent);
+        let binormal = a.tangent.cross(b.tangent) * (2.0 * inverse);
+        let middle = (a.tangent + b.tangent) * inverse;
+        let (m1, m2) = ((a.m1 + b.m1) * inverse, (a.m2 + b.m2) * inverse);
+        let k1 = 0.5 * binormal.dot(a.m2 + b.m2);
+        let k2 = -0.5 * binormal.dot(a.m1 + b.m1);
+        let (la, lb) = (1.0 / a.length, 1.0 / b.length);
+        let k1_a = (b.tangent.cross(m2) - middle * k1) * la;
+        let k1_b = (-a.tangent.cross(m2) - middle * k1) * lb;
+        let k2_a = (-b.tangent.cross(m1) - middle * k2) * la;
+        let k2_b = (a.tangent.cross(m1) - middle * k2) * lb;
+        let twist_a = binormal * (0.5 * la);
+        let twist_b = binormal * (0.5 * lb);
+        let spread = |from_a: DVec3, angle_a: f64, from_b: DVec3, angle_b: f64| -> [f64; HALF + 1] {
+            let middle = from_a - from_b;
+            [
+                -from_a.x, -from_a.y, -from_a.z, angle_a, middle.x, middle.y, middle.z, angle_b, from_b.x, from_b.y,
+                from_b.z,
+            ]
+        };
+        let parts = [
+            (spread(k1_a, -0.5 * binormal.dot(a.m1), k1_b, -0.5 * binormal.dot(b.m1)), ei / cell, k1 - rest[0]),
+            (spread(k2_a, -0.5 * binormal.dot(a.m2), k2_b, -0.5 * binormal.dot(b.m2)), ei / cell, k2 - rest[1]),
+            (spread(twist_a, -1.0, twist_b, 1.0), gj / cell, twist),
+        ];
+        let first = (i - 1) * PER_NODE;
+        for (g, stiffness, strain) in parts {
+            for (entry, g) in self.gradient[first..].iter_mut().zip(&g) {
+                *entry += stiffness * strain * g;
+            }
+            self.band.add_square(first, &g, stiffness);
+        }
+    }
+
+    /// Adds a spring to the equations: `pull` is its derivative by positions and angle of node `node` and by the position
+    /// of the next, `force` what it pulls with along that, `stiffness` its stiffness.
+    pub fn add_spring(&mut self, node: usize, pull: &[f64; 7], force: f64, stiffness: f64) {
+        let first = node * PER_NODE;
+        for (entry, pull) in self.gradient[first..].iter_mut().zip(pull) {
+            *entry += force * pull;
+        }
+        self.band.add_square(first, pull, stiffness);
+    }
+
+    /// What it takes to hold a node where it is, in N: the gradient of all that was assembled.
+    pub fn holding_force(&self, node: usize) -> DVec3 {
+        DVec3::from_slice(&self.gradient[node * PER_NODE..node * PER_NODE + 3])
+    }
+
+    /// The moment that it takes to hold an edge's frame, in N mm about the tangent.
+    pub fn holding_moment(&self, edge: usize) -> f64 {
+        self.gradient[edge * PER_NODE + 3]
+    }
+
+    /// What a step makes least: elastic energy, loads, and what stands for inertia and drag, in N mm.
+    pub fn potential(&self, dt: f64, brake: f64) -> f64 {
+        let inverse = if dt.is_finite() { 1.0 / dt } else { 0.0 };
+        let motion = |i: usize| {
+            let Section { mass, drag, .. } = self.sections[i];
+            let moved = self.positions[i] - self.start[i];
+            let way = if dt.is_finite() { self.velocities[i] * dt } else { DVec3::ZERO };
+            0.5 * (mass * inverse * inverse * (moved - way).length_squared()
+                + (drag + brake) * inverse * moved.length_squared())
+        };
+        let pulled: f64 = self.forces.iter().map(|&(node, force)| force.dot(self.positions[node])).sum();
+        let turned: f64 = self.moments.iter().map(|&(edge, moment)| moment * self.spins[edge]).sum();
+        self.energy() + (0..self.len()).map(motion).sum::<f64>() - pulled - turned
+    }
+
+    /// Solves the equations for a change of positions and angles, for [`Self::advance`]. Returns the largest move of a node
+    /// in mm and the slope of the potential along the change; an infinite move when there is no answer.
+    pub fn solve(&mut self) -> (f64, f64) {
+        self.change.clear();
+        self.change.extend(self.gradient.iter().map(|g| -g));
+        for (i, held) in self.held.iter().enumerate() {
+            let axes: Range<usize> = if held.position { 0..3 } else { 0..0 };
+            for row in axes.chain(held.angle.then_some(3)) {
+                self.band.hold(i * PER_NODE + row);
+                self.change[i * PER_NODE + row] = 0.0;
+            }
+        }
+        self.band.factor();
+        self.band.solve(&mut self.change);
+        let mut largest = 0.0f64;
+        let mut scale = 1.0f64;
+        for change in self.change.chunks_exact(PER_NODE) {
+            let (way, spin) = (DVec3::from_slice(change).length(), change[3].abs());
+            if !(way.is_finite() && spin.is_finite()) {
+                return (f64::INFINITY, 0.0);
+            }
+            largest = largest.max(way);
+            scale = scale.min(MOST_WAY / way.max(MOST_WAY)).min(MOST_SPIN / spin.max(MOST_SPIN));
+        }
+        self.change.iter_mut().for_each(|change| *change *= scale);
+        self.base.0.clone_from(&self.positions);
+        self.base.1.clone_from(&self.spins);
+        let slope = self.change.iter().zip(&self.gradient).map(|(change, gradient)| change * gradient).sum();
+        (largest, slope)
+    }
+
+    /// Goes this part of the change that was found last.
+    pub fn advance(&mut self, part: f64) {
+        for (i, change) in self.change.chunks_exact(PER_NODE).enumerate() {
+            self.positions[i] = self.base.0[i] + DVec3::from_slice(change) * part;
+            self.spins[i] = self.base.1[i] + change[3] * part;
+        }
+        self.refresh();
+    }
+
+    /// Ends a time step: what is now becomes the start of the next.
+    pub fn finish(&mut self, dt: f64) {
+        for i in 0..self.len() {
+            let moved = self.positions[i] - self.start[i];
+            self.velocities[i] = if dt.is_finite() { moved / dt } else { DVec3::ZERO };
+        }
+        for i in 1..self.len() - 1 {
+            self.twists[i] = self.twist(i);
+        }
+        for (frame, edge) in self.frames.iter_mut().zip(&self.edges) {
+            *frame = [edge.tangent, edge.m1];
+        }
+        self.start.clone_from(&self.positions);
+        self.spins.fill(0.0);
+        self.refresh();
+    }
+
+    /// Goes back to the start of the step, where everything stands still.
+    pub fn undo(&mut self) {
+        self.positions.clone_from(&self.start);
+        self.velocities.fill(DVec3::ZERO);
+        self.spins.fill(0.0);
+        self.refresh();
+    }
+}
+
+/// The farthest that one correction moves a node, in mm.
+const MOST_WAY: f64 = 1.0;
+/// The largest turn of an edge about its tangent in one correction, in radians.
+const MOST_SPIN: f64 = 0.5;
+
+/// `1 + cos` of the turn; never 0.
+fn chi(a: DVec3, b: DVec3) -> f64 {
+    (1.0 + a.dot(b)).max(1e-6)
+}

@@ -1,0 +1,350 @@
+//! A wire that grows out of its guide into a vessel, step by step.
+//!
+//! The wire is cut into elements once, fine at the tip; element and node keep their place in the material. The part
+//! outside the guide is the rod; two nodes inside follow the guide's axis. The cell of a node ends at the guide's
+//! mouth, so that the length which bends grows with the feed and does not jump from element to element.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::STEP;
+use super::body::{Body, Stepped};
+use super::rod::{Held, Rod, Section};
+use super::setup::{Entry, Input};
+use super::wall::Wall;
+use super::wire::Wire;
+
+/// Length outside the guide at the start, in elements.
+const FIRST: usize = 2;
+/// The least part of an element that a cell has: what is still inside the guide hardly bends.
+const LEAST_CELL: f64 = 0.02;
+/// The stiffest that an edge is along itself, in N. Under a push of 1 N it gives by 0.05 %.
+const STIFFEST: f64 = 2000.0;
+/// Young's modulus of steel in MPa.
+const STEEL: f64 = 200_000.0;
+/// Drag of blood on a thin cylinder, N s/mm2: about `4 pi mu / ln(length / radius)` with 4 mPa s.
+const BLOOD: f64 = 3e-8;
+
+/// Why a wire cannot be put where it should be.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum PlacementError {
+    /// No number, or none that makes sense.
+    #[error("the wire's {what} of {value} is not possible")]
+    Wire {
+        /// Which number.
+        what: &'static str,
+        /// It.
+        value: f64,
+    },
+    /// A wall is too near.
+    #[error("the wire does not fit where it enters: the wall is {distance_mm:.2} mm away, the wire's radius is {radius_mm:.2} mm")]
+    Tight {
+        /// Distance of the entry from the wall.
+        distance_mm: f64,
+        /// Radius of the wire.
+        radius_mm: f64,
+    },
+    /// The direction of the entry is no direction.
+    #[error("the entry has no direction")]
+    Direction,
+    /// It is not in the vessel.
+    #[error("the entry is not inside the vessel")]
+    Outside,
+}
+
+/// A wire on its way.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    body: Body,
+    /// Place of each node in the material, in mm from the tip.
+    grid: Vec<f64>,
+    sections: Vec<Section>,
+    mouth: DVec3,
+    /// Into the vessel.
+    way: DVec3,
+    inserted: f64,
+    roll: f64,
+    steps: u64,
+    /// What the guide feels.
+    push: f64,
+    torque: f64,
+    most_push: f64,
+}
+
+impl Simulation {
+    /// A wire whose tip looks out of the guide.
+    ///
+    /// # Errors
+    /// When the wire's numbers make no sense, or it does not fit.
+    pub fn new(wire: &Wire, friction: [f64; 2], entry: &Entry, wall: Option<Arc<Wall>>) -> Result<Self, PlacementError> {
+        wire.check()?;
+        let grid = wire.grid();
+        let sections = wire.sections(&grid);
+        let mouth = DVec3::from(entry.at.map(f64::from));
+        let way = DVec3::from(entry.direction.map(f64::from)).try_normalize().ok_or(PlacementError::Direction)?;
+        if !mouth.is_finite() {
+            return Err(PlacementError::Outside);
+        }
+        if let Some(wall) = &wall {
+            let (radius_mm, index) = (wire.radius(), wall.index());
+            let reach = grid[FIRST];
+            let ends = [mouth, mouth + way * (reach + radius_mm)];
+            for p in ends {
+                let distance_mm = index.foot(p, f64::INFINITY, u32::MAX).map_or(f64::INFINITY, |foot| foot.distance);
+                if distance_mm < radius_mm * 1.02 {
+                    return Err(PlacementError::Tight { distance_mm, radius_mm });
+                }
+                if index.winding(p.as_vec3(), crate::mesh::Vec3::new(0.267, 0.535, 0.802)) <= 0 && wall.is_closed() {
+                    return Err(PlacementError::Outside);
+                }
+            }
+        }
+        let inserted = grid[FIRST] + 0.5 * (grid[FIRST + 1] - grid[FIRST]);
+        let count = FIRST + 3;
+        let positions = grid[..count].iter().map(|s| mouth + way * (inserted - s)).collect();
+        let rod = Rod::new(positions, sections[..count].to_vec(), way.any_orthonormal_vector());
+        let mut simulation = Self {
+            body: Body::new(rod, wire.radius(), friction, wall),
+            grid,
+            sections,
+            mouth,
+            way,
+            inserted,
+            roll: 0.0,
+            steps: 0,
+            push: 0.0,
+            torque: 0.0,
+            // More than a hand gives without noticing: 20 times the load under which a floppy tip buckles.
+            most_push: if wire.diameter_mm < 0.6 { 3.0 } else { 10.0 },
+        };
+        simulation.place();
+        simulation.body.look(simulation.outside());
+        Ok(simulation)
+    }
+
+    /// The first node inside the guide.
+    fn outside(&self) -> usize {
+        self.body.rod.len() - 2
+    }
+
+    /// Ends cells at the guide's mouth, and holds what is inside.
+    fn place(&mut self) {
+        let (first, inserted) = (self.outside(), self.inserted);
+        let rod = &mut self.body.rod;
+        for i in 0..rod.len() {
+            rod.held[i] = Held { position: i >= first, angle: i >= first };
+            if i + 3 < first || i == 0 {
+                continue;
+            }
+            let half = |a: usize, b: usize| f64::midpoint(self.grid[a], self.grid[b]);
+            let (from, to) = (half(i - 1, i), half(i, i + 1));
+            let part = ((to.min(inserted) - from) / (to - from)).max(LEAST_CELL);
+            rod.sections[i].cell = part * (to - from);
+            rod.sections[i].rest = self.sections[i].rest.map(|rest| rest * part);
+        }
+    }
+
+    /// A step of [`STEP`] seconds. Returns whether the wire did what it was told.
+    pub fn step(&mut self, input: Input) -> Stepped {
+        let input = input.limited();
+        let held_back = self.push > self.most_push && input.feed > 0.0;
+        let feed = if held_back { 0.0 } else { f64::from(input.feed) * STEP };
+        let least = f64::midpoint(self.grid[FIRST], self.grid[FIRST + 1]);
+        let most = self.grid[self.grid.len() - 4];
+        let before = self.inserted;
+        self.inserted = (before + feed).clamp(least, most);
+        self.renumber();
+        self.place();
+        let turn = f64::from(input.roll) * STEP;
+        let (first, inserted) = (self.outside(), self.inserted);
+        let (mouth, way, grid) = (self.mouth, self.way, &self.grid);
+        let prepare = |rod: &mut Rod| {
+            for i in first..rod.len() {
+                rod.positions[i] = mouth + way * (inserted - grid[i]);
+            }
+            // Tangents look back to the guide.
+            rod.turn(first, -turn);
+        };
+        let stepped = self.body.step(STEP, first, prepare);
+        self.steps += 1;
+        if stepped == Stepped::Held {
+            self.inserted = before;
+            self.renumber();
+            self.place();
+        } else {
+            self.roll += turn;
+        }
+        self.feel();
+        stepped
+    }
+
+    /// Adds the nodes that come out of the guide, and takes off those that went back.
+    fn renumber(&mut self) {
+        let rod = &mut self.body.rod;
+        while self.grid[rod.len() - 2] < self.inserted {
+            let i = rod.len();
+            let director = rod.director(i - 2);
+            rod.push(self.mouth + self.way * (self.inserted - self.grid[i]), self.sections[i], director);
+        }
+        while rod.len() > FIRST + 3 && self.grid[rod.len() - 3] >= self.inserted {
+            rod.pop();
+        }
+        // A node that was inside had its cell cut.
+        let count = rod.len();
+        for i in count.saturating_sub(6)..count {
+            rod.sections[i] = self.sections[i];
+        }
+    }
+
+    /// What the guide holds the wire with, now that it is where it is.
+    fn feel(&mut self) {
+        let first = self.outside();
+        let rod = &mut self.body.rod;
+        rod.assemble_from(first.saturating_sub(2));
+        let force: DVec3 = (first..rod.len()).map(|i| rod.holding_force(i)).sum();
+        self.push = force.dot(self.way);
+        self.torque = -rod.holding_moment(first);
+    }
+
+    /// The rod and its contacts.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Nodes outside the guide, from the tip, and the mouth.
+    pub fn nodes(&self) -> impl Iterator<Item = DVec3> {
+        self.body.rod.positions[..self.outside()].iter().copied().chain([self.mouth])
+    }
+
+    /// Number of nodes outside the guide.
+    pub fn count(&self) -> usize {
+        self.outside()
+    }
+
+    /// Position of the tip in mm.
+    pub fn tip(&self) -> DVec3 {
+        self.body.rod.positions[0]
+    }
+
+    /// Direction of the tip, and the side to which it is bent.
+    pub fn tip_frame(&self) -> [DVec3; 2] {
+        [-self.body.rod.tangent(0), self.body.rod.director(0)]
+    }
+
+    /// Length outside the guide in mm.
+    pub fn inserted(&self) -> f64 {
+        self.inserted
+    }
+
+    /// Roll at the guide in radians.
+    pub fn roll(&self) -> f64 {
+        self.roll
+    }
+
+    /// Steps so far.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// What it takes at the guide to hold the wire against its way in, in N, and about it, in N mm.
+    pub fn push_and_torque(&self) -> [f64; 2] {
+        [self.push, self.torque]
+    }
+
+    /// Material places of the nodes, in mm from the tip.
+    pub fn grid(&self) -> &[f64] {
+        &self.grid
+    }
+}
+
+impl Wire {
+    /// Refuses numbers that make no wire.
+    ///
+    /// # Errors
+    /// Names the number.
+    pub fn check(&self) -> Result<(), PlacementError> {
+        let positive = [
+            ("diameter", self.diameter_mm, 10.0),
+            ("stiffness of the shaft", self.shaft_ei, 1e5),
+            ("stiffness of the tip", self.tip_ei, 1e5),
+            ("torsion ratio", self.torsion_ratio, 100.0),
+            ("length", self.length_mm, 10_000.0),
+            ("density", self.density, 1e-6),
+            ("element at the tip", self.elements_mm[0], 20.0),
+            ("element of the shaft", self.elements_mm[1], 20.0),
+        ];
+        let others = [
+            ("soft part", self.soft_mm, 10_000.0),
+            ("taper", self.taper_mm, 10_000.0),
+            ("bend", self.bend_mm, 100.0),
+            ("angle of the bend", self.bend_degrees, 360.0),
+            ("straight end", self.straight_end_mm, 100.0),
+            ("static friction", self.friction[0], 2.0),
+            ("kinetic friction", self.friction[1], 2.0),
+        ];
+        let wrong = |&(what, value, most): &(&'static str, f64, f64), least: f64| {
+            (!(least..=most).contains(&value)).then_some(PlacementError::Wire { what, value })
+        };
+        let found = positive.iter().find_map(|number| wrong(number, 1e-9));
+        let found = found.or_else(|| others.iter().find_map(|number| wrong(number, 0.0)));
+        let long = 20.0 * self.elements_mm[0].max(self.elements_mm[1]);
+        match found {
+            Some(error) => Err(error),
+            None if self.length_mm < long => Err(PlacementError::Wire { what: "length", value: self.length_mm }),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the nodes are, in mm from the tip: fine over the first 10 mm, coarser from there on.
+    fn grid(&self) -> Vec<f64> {
+        const FINE: f64 = 10.0;
+        const GROWTH: f64 = 1.08;
+        let [fine, coarse] = self.elements_mm;
+        let mut grid = vec![0.0];
+        let (mut at, mut length) = (0.0, fine);
+        while at < self.length_mm {
+            at += length;
+            grid.push(at);
+            if at >= FINE.max(self.bend_mm + self.straight_end_mm) {
+                length = if coarse > fine { (length * GROWTH).min(coarse) } else { coarse };
+            }
+        }
+        grid
+    }
+
+    /// Bending stiffness in N mm2 at a place in mm from the tip.
+    pub fn ei(&self, at: f64) -> f64 {
+        let along = (at - self.soft_mm) / (self.taper_mm - self.soft_mm).max(1e-9);
+        let logarithm = libm::log(self.shaft_ei / self.tip_ei) * along.clamp(0.0, 1.0);
+        self.tip_ei * libm::exp(logarithm)
+    }
+
+    fn sections(&self, grid: &[f64]) -> Vec<Section> {
+        let area = std::f64::consts::PI * self.radius() * self.radius();
+        let last = grid.len() - 1;
+        let section = |i: usize| {
+            let (from, to) = (grid[i.max(1) - 1], grid[(i + 1).min(last)]);
+            let (from, to) = (f64::midpoint(from, grid[i]), f64::midpoint(grid[i], to));
+            let ei = self.ei(grid[i]);
+            // A core of steel with this EI has an EA of sqrt(4 pi E EI).
+            let ea = libm::sqrt(4.0 * std::f64::consts::PI * STEEL * ei).min(STIFFEST);
+            let bent = |at: f64| {
+                ((at - self.straight_end_mm) / (self.bend_mm - self.straight_end_mm).max(1e-6)).clamp(0.0, 1.0)
+            };
+            let turn = (bent(to) - bent(from)) * self.bend_degrees.to_radians();
+            Section {
+                length: if i < last { grid[i + 1] - grid[i] } else { grid[i] - grid[i - 1] },
+                cell: to - from,
+                ei,
+                gj: ei * self.torsion_ratio,
+                ea,
+                rest: [2.0 * libm::tan(turn / 2.0), 0.0],
+                mass: self.density * area * (to - from),
+                drag: BLOOD * (to - from),
+            }
+        };
+        (0..grid.len()).map(section).collect()
+    }
+}
