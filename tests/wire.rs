@@ -13,7 +13,9 @@ use lumen::trial::wire::Wire;
 
 #[test]
 fn a_wire_follows_a_bend() {
-    for (name, radius, bend, sides) in [("workhorse", 1.5, 20.0, 24), ("floppy", 1.0, 12.0, 64), ("stiff", 1.5, 15.0, 8), ("035-j", 4.0, 30.0, 24)] {
+    for (name, radius, bend, sides) in
+        [("workhorse", 1.5, 20.0, 24), ("floppy", 1.0, 12.0, 64), ("stiff", 1.5, 15.0, 8), ("035-j", 4.0, 30.0, 24)]
+    {
         let path = curve(&[(20.0, f64::INFINITY), (40.0, bend), (40.0, -bend), (20.0, f64::INFINITY)], 0.5);
         let wall = Arc::new(Wall::new(Arc::new(tube(&path, |_| radius, sides))));
         let entry = Entry { at: [4.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
@@ -23,7 +25,8 @@ fn a_wire_follows_a_bend() {
         let (mut braked, mut held, mut deepest, mut most, mut push) = (0, 0, f64::NEG_INFINITY, 0.0f64, 0.0f64);
         let mut steps = 0;
         while simulation.inserted() < 100.0 && steps < 6000 {
-            let stepped = simulation.step(Input { feed: 20.0, roll: std::env::var("ROLL").map_or(3.0, |r| r.parse().unwrap()) });
+            let stepped =
+                simulation.step(Input { feed: 20.0, roll: std::env::var("ROLL").map_or(3.0, |r| r.parse().unwrap()) });
             braked += u32::from(stepped == Stepped::Braked);
             held += u32::from(stepped == Stepped::Held);
             deepest = deepest.max(simulation.body().depth);
@@ -31,9 +34,22 @@ fn a_wire_follows_a_bend() {
             push = push.max(simulation.push_and_torque()[0]);
             steps += 1;
             if steps % 500 == 0 {
-                println!("{steps} {:.1} tip {:.2} nodes {} push {:.3} torque {:.4} wall {:.3?}", simulation.inserted(), simulation.tip(), simulation.count(), simulation.push_and_torque()[0], simulation.push_and_torque()[1], simulation.body().pressure());
+                println!(
+                    "{steps} {:.1} tip {:.2} nodes {} push {:.3} torque {:.4} wall {:.3?}",
+                    simulation.inserted(),
+                    simulation.tip(),
+                    simulation.count(),
+                    simulation.push_and_torque()[0],
+                    simulation.push_and_torque()[1],
+                    simulation.body().pressure()
+                );
             }
         }
-        println!("{name}: {steps} steps, {:.0} per s, braked {braked}, held {held}, deepest {:.2} % of radius, most {most:.3} N, push {push:.3} N, tip {:.2}", steps as f64 / start.elapsed().as_secs_f64(), 100.0 * deepest / wire.radius(), simulation.tip());
+        println!(
+            "{name}: {steps} steps, {:.0} per s, braked {braked}, held {held}, deepest {:.2} % of radius, most {most:.3} N, push {push:.3} N, tip {:.2}",
+            steps as f64 / start.elapsed().as_secs_f64(),
+            100.0 * deepest / wire.radius(),
+            simulation.tip()
+        );
     }
 }

@@ -12,7 +12,6 @@ use super::wall::Wall;
 const DEPTH: f64 = 0.035;
 /// The part of the radius that a node may move in a step: its middle then cannot pass the wall unseen.
 const STRIDE: f64 = 0.9;
-const DEBUG: bool = option_env!("DBG").is_some();
 /// The part of its slope by which the potential must fall.
 const FALL: f64 = 1e-4;
 /// Corrections before the gaps are measured again.
@@ -20,7 +19,7 @@ const CORRECTIONS: usize = 8;
 /// Times the gaps are measured in a step.
 const ROUNDS: usize = 6;
 /// A correction of less than this, in mm, is the last.
-const SETTLED: f64 = 1e-4;
+const SETTLED: f64 = 5e-4;
 /// At this, in mm, a step can still be taken as done.
 const ALMOST: f64 = 2e-2;
 /// The least drag of each node when something snaps, in N s/mm.
@@ -106,19 +105,18 @@ impl Body {
         let is_too_far = |rod: &Rod| (0..rod.len()).any(|i| rod.positions[i].distance(rod.start(i)) > strides[i]);
         for _ in 0..ROUNDS {
             self.contacts.set_grip(&self.rod);
-            let mut moved = f64::INFINITY;
+            let (mut moved, mut potential) = (f64::INFINITY, None);
             for _ in 0..CORRECTIONS {
-                moved = self.correct(dt, brake);
+                moved = self.correct(dt, brake, &mut potential);
                 if moved < SETTLED {
                     break;
                 }
             }
-            if DEBUG {eprintln!("brake {brake:.1e} moved {moved:.2e} energy {:.6}",self.rod.energy());}
             if !moved.is_finite() || is_too_far(&self.rod) {
                 return false;
             }
+            self.contacts.balance(&self.rod);
             self.look(count);
-            if DEBUG {eprintln!("   depth {:.3} pressing {}",self.depth/radius,self.contacts.pressing().count());}
             if moved < ALMOST && self.depth <= DEPTH * radius {
                 return true;
             }
@@ -126,12 +124,13 @@ impl Body {
         false
     }
 
-    /// One step of Newton's method, made shorter until the potential falls. Returns the largest move of a node in mm.
-    fn correct(&mut self, dt: f64, brake: f64) -> f64 {
+    /// One step of Newton's method, made shorter until the potential falls. `known` is the potential before, if it is
+    /// known, and then that after. Returns the largest move of a node in mm.
+    fn correct(&mut self, dt: f64, brake: f64, known: &mut Option<f64>) -> f64 {
         let potential = |body: &Self| body.rod.potential(dt, brake) + body.contacts.potential(&body.rod);
         self.rod.assemble(dt, brake);
         self.contacts.apply(&mut self.rod);
-        let before = potential(self);
+        let before = known.unwrap_or_else(|| potential(self));
         let (moved, slope) = self.rod.solve();
         if !moved.is_finite() {
             return moved;
@@ -139,8 +138,10 @@ impl Body {
         let mut part = 1.0;
         loop {
             self.rod.advance(part);
+            let after = potential(self);
             // What rounding leaves of the potential is no reason to stop.
-            if moved * part < SETTLED || potential(self) <= before + FALL * part * slope + 1e-12 * before.abs() {
+            if moved * part < SETTLED || after <= before + FALL * part * slope + 1e-12 * before.abs() {
+                *known = Some(after);
                 return moved * part;
             }
             part /= 2.0;
@@ -149,7 +150,9 @@ impl Body {
 
     /// Sum over the wall of normal forces, in N, and the largest.
     pub fn pressure(&self) -> (f64, f64) {
-        self.contacts.pressing().fold((0.0, 0.0), |(sum, most), (_, contact)| (sum + contact.force, contact.force.max(most)))
+        self.contacts
+            .pressing()
+            .fold((0.0, 0.0), |(sum, most), (_, contact)| (sum + contact.force, contact.force.max(most)))
     }
 
     /// Where the wire touches: node, place, force.

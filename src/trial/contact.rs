@@ -79,8 +79,10 @@ pub struct Contact {
     gap: f64,
     /// Where the rod was when the gap was measured.
     at: DVec3,
-    /// Normal force in N.
+    /// Normal force in N at the end of the last step.
     pub force: f64,
+    /// The one that the corrections have come to, from the gap as it was measured before them.
+    balanced: f64,
     /// How far what sticks is stretched, in mm.
     stretch: DVec3,
     /// What friction does to the rod, in N.
@@ -103,6 +105,7 @@ impl Contact {
         gap: 0.0,
         at: DVec3::ZERO,
         force: 0.0,
+        balanced: 0.0,
         stretch: DVec3::ZERO,
         friction: DVec3::ZERO,
         is_sliding: false,
@@ -147,11 +150,6 @@ impl Contact {
         let roll = rod.tangent(edge).cross(self.smooth) * -radius;
         let way = self.place(rod, node) - start + roll * rod.spin(edge);
         ((self.stretch + way).reject_from_normalized(self.smooth), roll)
-    }
-
-    /// Stiffness of the friction at a stretch of this length, in N/mm.
-    fn hold(&self, length: f64) -> f64 {
-        if length * GRIP > self.grip { self.grip / length } else { GRIP }
     }
 
     /// The energy of the contact, in N mm: what the normal force and friction are the derivatives of.
@@ -309,6 +307,13 @@ impl Contacts {
         }
     }
 
+    /// Notes the forces that the corrections have come to.
+    pub fn balance(&mut self, rod: &Rod) {
+        for (node, contact) in self.near_mut() {
+            contact.balanced = contact.pressure(rod, node);
+        }
+    }
+
     /// The energy of all contacts, in N mm.
     pub fn potential(&self, rod: &Rod) -> f64 {
         self.near().map(|(node, contact)| contact.potential(rod, node, self.radius)).sum()
@@ -328,11 +333,14 @@ impl Contacts {
                 continue;
             }
             let (stretch, roll) = contact.trial(rod, node, self.radius);
-            let hold = contact.hold(stretch.length());
-            let across = normal.any_orthonormal_vector();
-            for axis in [across, normal.cross(across)] {
-                rod.add_spring(node, &spread(axis, axis.dot(roll)), hold * stretch.dot(axis), hold);
-            }
+            let length = stretch.length();
+            let is_sliding = length * GRIP > contact.grip;
+            let along = if is_sliding { stretch / length } else { normal.any_orthonormal_vector() };
+            let across = normal.cross(along);
+            let [stiff_along, stiff_across] = if is_sliding { [0.0, contact.grip / length] } else { [GRIP; 2] };
+            let force = if is_sliding { contact.grip } else { GRIP * stretch.dot(along) };
+            rod.add_spring(node, &spread(along, along.dot(roll)), force, stiff_along);
+            rod.add_spring(node, &spread(across, across.dot(roll)), stiff_across * stretch.dot(across), stiff_across);
         }
     }
 
@@ -340,7 +348,7 @@ impl Contacts {
     pub fn finish(&mut self, rod: &Rod) {
         let (radius, friction) = (self.radius, self.friction);
         for (node, contact) in self.near_mut() {
-            let force = contact.pressure(rod, node);
+            let force = contact.balanced;
             if force <= 0.0 {
                 contact.force = 0.0;
                 contact.stretch = DVec3::ZERO;

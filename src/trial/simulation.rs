@@ -39,7 +39,9 @@ pub enum PlacementError {
         value: f64,
     },
     /// A wall is too near.
-    #[error("the wire does not fit where it enters: the wall is {distance_mm:.2} mm away, the wire's radius is {radius_mm:.2} mm")]
+    #[error(
+        "the wire does not fit where it enters: the wall is {distance_mm:.2} mm away, the wire's radius is {radius_mm:.2} mm"
+    )]
     Tight {
         /// Distance of the entry from the wall.
         distance_mm: f64,
@@ -78,7 +80,12 @@ impl Simulation {
     ///
     /// # Errors
     /// When the wire's numbers make no sense, or it does not fit.
-    pub fn new(wire: &Wire, friction: [f64; 2], entry: &Entry, wall: Option<Arc<Wall>>) -> Result<Self, PlacementError> {
+    pub fn new(
+        wire: &Wire,
+        friction: [f64; 2],
+        entry: &Entry,
+        wall: Option<Arc<Wall>>,
+    ) -> Result<Self, PlacementError> {
         wire.check()?;
         let grid = wire.grid();
         let sections = wire.sections(&grid);
@@ -165,7 +172,7 @@ impl Simulation {
                 rod.positions[i] = mouth + way * (inserted - grid[i]);
             }
             // Tangents look back to the guide.
-            rod.turn(first, -turn);
+            (first..rod.len()).for_each(|i| rod.turn_to(i, if i == first { -turn } else { 0.0 }));
         };
         let stepped = self.body.step(STEP, first, prepare);
         self.steps += 1;

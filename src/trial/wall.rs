@@ -54,7 +54,8 @@ impl Wall {
     /// facets are not felt, and the way from the wall where that is another one, at ridges and slivers.
     pub(super) fn inward(&self, p: DVec3, foot: &PointFoot) -> DVec3 {
         let corners = self.mesh.triangles[foot.triangle as usize];
-        let outward: DVec3 = corners.iter().zip(foot.barycentric).map(|(&v, w)| self.normals[v as usize].as_dvec3() * w).sum();
+        let outward: DVec3 =
+            corners.iter().zip(foot.barycentric).map(|(&v, w)| self.normals[v as usize].as_dvec3() * w).sum();
         let smooth = -outward.normalize_or_zero();
         let Some(away) = (p - foot.point).try_normalize() else { return smooth };
         let cosine = smooth.dot(away);

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use libtest_mimic::{Arguments, Trial};
 
-pub mod tubes;
 mod data;
+pub mod tubes;
 
 use data::data;
 

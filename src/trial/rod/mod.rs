@@ -215,9 +215,9 @@ impl Rod {
         self.spins[edge]
     }
 
-    /// Turns the frame of an edge whose angle is held about its tangent.
-    pub fn turn(&mut self, edge: usize, angle: f64) {
-        self.spins[edge] += angle;
+    /// Sets how far the frame of an edge whose angle is held turns in this step, in radians.
+    pub fn turn_to(&mut self, edge: usize, angle: f64) {
+        self.spins[edge] = angle;
     }
 
     /// Works out edges and frames from the positions.
