@@ -10,6 +10,7 @@
 //! latched by step, so a log replays to the same end, to the bit on one platform.
 
 pub mod frame;
+pub mod route;
 pub mod setup;
 pub mod wire;
 
