@@ -24,6 +24,8 @@ const PASSAGE: f32 = 0.5;
 const SMALLER: f32 = 0.5;
 /// Nor does one begin with a ball whose radius is below this part of a mean edge.
 const LEAST: f32 = 0.05;
+/// Or below this part of the largest radius: a tenth of a millimetre or so in a tree with an aorta.
+const THINNEST: f32 = 0.01;
 /// Cells of the grid along the longest side of the surface's box.
 const CELLS: f32 = 128.0;
 /// No ball.
@@ -138,15 +140,15 @@ struct Filling<'a> {
 
 /// Fills the inside of `mesh`.
 pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
+    let normals = vertex_normals(mesh);
     let grid = Grid::new(&mesh.bounds());
     let wall = Wall::new(&grid, &mesh.positions);
     let first = vec![NONE; grid.len()];
     let found = Balls::default();
     let (feet, next, pending) = (Vec::new(), Vec::new(), Vec::new());
-    let least = LEAST * mean_edge(mesh);
+    let least = (LEAST * mean_edge(mesh)).max(THINNEST * largest(mesh, space, &normals));
     let mut filling =
         Filling { space, positions: &mesh.positions, grid, wall, found, feet, first, next, pending, least, floor: 0.0 };
-    let normals = vertex_normals(mesh);
     for (v, normal) in normals.iter().enumerate() {
         if !filling.wall.is_explained[v]
             && let Some(normal) = normal.try_normalize()
@@ -155,6 +157,16 @@ pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
         }
     }
     filling.finished()
+}
+
+/// The largest radius behind a few hundred places of the wall.
+fn largest(mesh: &TriMesh, space: &Space, normals: &[Vec3]) -> f32 {
+    let stride = (normals.len() / 256).max(1);
+    let radius = |v: usize| {
+        let (ball, _) = space.behind_wall(mesh.positions[v], normals[v].try_normalize()?)?;
+        (!space.is_beyond(ball.centre)).then_some(ball.radius)
+    };
+    (0..normals.len()).step_by(stride).filter_map(radius).fold(0.0, f32::max)
 }
 
 fn mean_edge(mesh: &TriMesh) -> f32 {
@@ -187,7 +199,7 @@ impl Filling<'_> {
         if ball.radius < self.least || self.space.is_beyond(ball.centre) || self.like(&ball).is_some() {
             return;
         }
-        self.floor = SMALLER * ball.radius;
+        self.floor = (SMALLER * ball.radius).max(self.least);
         self.add(ball, foot, false);
         while let Some(from) = self.pending.pop() {
             self.look_around(from);

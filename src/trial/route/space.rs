@@ -2,7 +2,8 @@
 //!
 //! A point is moved to the middle by going away from the nearest wall, to half way between it and the wall behind, as
 //! long as the distance to the wall grows. A move is never longer than that distance, so that the balls on the way
-//! overlap: the way itself lies inside.
+//! overlap: the way itself lies inside. In a crevice the middle between the walls is no middle of a vessel: where the two
+//! walls do not face each other, the point goes on away from both.
 
 use std::sync::Arc;
 
@@ -14,6 +15,8 @@ use crate::mesh::{Nearest, SurfaceIndex, Topology, TriMesh, boundary_loops};
 const MOVES: usize = 16;
 /// A move must gain this part of the distance.
 const GAIN: f32 = 2e-3;
+/// Walls face each other when the cosine between the ways from them is less: 25 degrees from opposite.
+const FACING: f32 = -0.906;
 /// Directions without relation to any axis or to each other.
 const RAYS: [[f32; 3]; 3] =
     [[0.534_522, 0.267_261, 0.801_784], [-0.742_781, 0.557_086, 0.371_391], [0.196_116, -0.784_465, -0.588_348]];
@@ -107,25 +110,44 @@ impl Space {
     pub(super) fn ascend(&self, ball: Ball, nearest: Nearest, mut visit: impl FnMut(Ball)) -> (Ball, Nearest) {
         let (mut ball, mut nearest) = (ball, nearest);
         for _ in 0..MOVES {
-            let Some(away) = (ball.centre - nearest.point).try_normalize() else { break };
-            let Some(behind) = self.index.depth(ball.centre, away) else { break };
-            let mut step = ((behind - ball.radius) / 2.0).min(ball.radius);
-            let mut moved = None;
-            // In a corner half of the way is too far.
-            for _ in 0..2 {
-                let Some((next, at)) = self.ball(ball.centre + away * step, Some(&nearest)) else { break };
-                let is_in = self.is_before(next.centre, &at) && !self.is_beyond(next.centre);
-                if step > 0.0 && next.radius > ball.radius * (1.0 + GAIN) && is_in {
-                    moved = Some((next, at));
-                    break;
-                }
-                step *= 0.4;
-            }
-            let Some((next, at)) = moved else { break };
-            (ball, nearest) = (next, at);
+            let Some((next, foot)) = self.across(ball, &nearest).or_else(|| self.out_of_crevice(ball, &nearest)) else {
+                break;
+            };
+            (ball, nearest) = (next, foot);
             visit(ball);
         }
         (ball, nearest)
+    }
+
+    /// A larger ball farther from the nearest wall.
+    fn across(&self, ball: Ball, nearest: &Nearest) -> Option<(Ball, Nearest)> {
+        let away = (ball.centre - nearest.point).try_normalize()?;
+        let behind = self.index.depth_within(ball.centre, away, 3.0 * ball.radius).unwrap_or(3.0 * ball.radius);
+        let step = (behind - ball.radius) / 2.0;
+        if step <= GAIN * ball.radius {
+            return None;
+        }
+        // In a corner half of the way is too far.
+        [step, 0.4 * step].into_iter().find_map(|step| self.larger(ball, away * step, nearest))
+    }
+
+    /// A larger ball farther from both walls, where they do not face each other.
+    fn out_of_crevice(&self, ball: Ball, nearest: &Nearest) -> Option<(Ball, Nearest)> {
+        let away = (ball.centre - nearest.point).try_normalize()?;
+        let (_, other) = self.ball(ball.centre + away * (0.3 * ball.radius), Some(nearest))?;
+        let from_other = (ball.centre - other.point).try_normalize()?;
+        let cosine = away.dot(from_other);
+        if !(FACING..0.99).contains(&cosine) {
+            return None;
+        }
+        let out = (away + from_other).try_normalize()?;
+        self.larger(ball, out * (0.7 * ball.radius), nearest)
+    }
+
+    fn larger(&self, ball: Ball, step: Vec3, nearest: &Nearest) -> Option<(Ball, Nearest)> {
+        let (next, foot) = self.ball(ball.centre + step, Some(nearest))?;
+        let is_in = self.is_before(next.centre, &foot) && !self.is_beyond(next.centre);
+        (next.radius > ball.radius * (1.0 + GAIN) && is_in).then_some((next, foot))
     }
 
     /// The middle of the lumen behind a point of the wall with this outward normal, of length 1.

@@ -13,8 +13,8 @@ use crate::mesh::{SurfaceIndex, Topology, TriMesh, volume};
 
 /// Segments of a branch that are left out together in a search.
 const CHUNK: usize = 8;
-/// Groups of fewer balls are no vessels.
-const FEWEST: usize = 3;
+/// A group of balls with less than this part of the largest group's volume is a speck, and has no branches.
+const SPECK: f64 = 0.005;
 
 /// What is at an end of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,19 +161,16 @@ impl Tree {
 
     /// Groups of linked balls, by what they measure along, longest first.
     fn largest_groups(&self) -> Vec<u32> {
-        let mut sizes: Vec<(f64, usize, u32)> = (0..self.graph.balls.len() as u32).map(|ball| (0.0, 0, ball)).collect();
+        let mut sizes: Vec<(f64, u32)> = (0..self.graph.balls.len() as u32).map(|ball| (0.0, ball)).collect();
         for (ball, &group) in self.graph.balls.iter().zip(&self.graph.group) {
             // Their distance is about their radius, so the sum grows as the volume does.
-            sizes[group as usize].0 += {
-                let radius = f64::from(ball.radius);
-                radius * radius * radius
-            };
-            sizes[group as usize].1 += 1;
+            let radius = f64::from(ball.radius);
+            sizes[group as usize].0 += radius * radius * radius;
         }
-        let most = sizes.iter().map(|size| size.1).max().unwrap_or(0);
-        sizes.retain(|size| size.1 >= FEWEST.min(most));
-        sizes.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
-        sizes.into_iter().map(|size| size.2).collect()
+        let most = sizes.iter().map(|size| size.0).fold(0.0, f64::max);
+        sizes.retain(|size| size.0 > SPECK * most);
+        sizes.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        sizes.into_iter().map(|size| size.1).collect()
     }
 
     fn add_group(&mut self, group: u32) {
