@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::trial::frame::{Frame, Summary};
+use crate::trial::route::{Route, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
 
 /// What the trial is asked to do.
@@ -82,6 +83,22 @@ pub struct RouteShown {
     pub smallest_at: [f32; 3],
     /// Branches passed on the way.
     pub branches_passed: usize,
+}
+
+impl From<&Route> for RouteShown {
+    fn from(route: &Route) -> Self {
+        let place = |point: RoutePoint| point.at.as_vec3().to_array();
+        Self {
+            points: route.points.iter().copied().map(place).collect(),
+            radii: route.points.iter().map(|point| point.radius as f32).collect(),
+            stations: route.stations.iter().map(|&arc| place(route.at(arc))).collect(),
+            length_mm: route.length_mm,
+            tortuosity: route.tortuosity,
+            smallest_radius_mm: route.smallest_radius_mm,
+            smallest_at: place(route.points[route.smallest_at]),
+            branches_passed: route.branches_passed,
+        }
+    }
 }
 
 /// A trial that is ready to go.

@@ -214,15 +214,20 @@ impl SurfaceIndex {
 
     /// How far it is from `p` along `direction` (of length 1) to where the surface is left, in mm.
     pub(crate) fn depth(&self, p: Vec3, direction: Vec3) -> Option<f32> {
-        let (p, direction) = (p.as_dvec3(), direction.as_dvec3());
+        self.depth_within(p, direction, f32::INFINITY)
+    }
+
+    /// As [`Self::depth`], if it is at most `farthest` mm.
+    pub(crate) fn depth_within(&self, p: Vec3, direction: Vec3, farthest: f32) -> Option<f32> {
+        let (p, direction, farthest) = (p.as_dvec3(), direction.as_dvec3(), f64::from(farthest));
         let mut least = f64::INFINITY;
-        self.along(p, direction, f64::INFINITY, |leaf, farthest| {
+        self.along(p, direction, farthest, |leaf, farthest| {
             if let Some(hit) = Hit::of(p, direction, leaf.corners).filter(|hit| hit.is_outward) {
                 least = least.min(hit.depth);
-                *farthest = least;
+                *farthest = farthest.min(least);
             }
         });
-        least.is_finite().then_some(least as f32)
+        (least <= farthest && least.is_finite()).then_some(least as f32)
     }
 
     /// A first, small ball: as deep as the inward normal goes before it leaves the surface.

@@ -13,6 +13,7 @@ pub mod body;
 pub mod contact;
 pub mod frame;
 pub mod rod;
+pub mod route;
 pub mod setup;
 pub mod simulation;
 pub mod wall;

@@ -1,0 +1,344 @@
+//! Fills a lumen with overlapping balls, each as large as fits, and links those that a wire could pass between.
+//!
+//! From every place of the wall that no ball explains, a ball is begun in the middle behind it. From each ball new ones
+//! are looked for in twelve directions near its surface, moved to the middle, and kept if none like it is there. So
+//! wide vessels have few balls and thin ones many, none is missed for being thin, and two linked balls overlap: the way
+//! between them is open, whatever the wall around looks like.
+
+use glam::Vec3;
+
+use super::space::{Ball, Space};
+use crate::mesh::{Bounds, Nearest, TriMesh};
+
+/// Two balls closer than this part of the smaller radius are the same.
+const SAME: f32 = 0.4;
+/// How far out, as a part of the radius, the next ball is looked for.
+const REACH: f32 = 0.9;
+/// There the wall must be this part of the radius away.
+const OPEN: f32 = 0.3;
+/// A wall is explained by a ball that reaches it when it is this much larger.
+const EXPLAINED: f32 = 1.3;
+/// What has to fit through between two linked balls, as a part of the smaller radius.
+const PASSAGE: f32 = 0.5;
+/// A ball found from others is not smaller than this part of the one that was begun with.
+const SMALLER: f32 = 0.5;
+/// Nor does one begin with a ball whose radius is below this part of a mean edge.
+const LEAST: f32 = 0.05;
+/// Or below this part of the largest radius: a tenth of a millimetre or so in a tree with an aorta.
+const THINNEST: f32 = 0.01;
+/// Cells of the grid along the longest side of the surface's box.
+const CELLS: f32 = 128.0;
+/// No ball.
+const NONE: u32 = u32::MAX;
+
+/// Balls and the links between them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Balls {
+    pub(super) balls: Vec<Ball>,
+    /// Whether a ball only stands on the way between two others, and is not in the middle.
+    pub(super) is_passing: Vec<bool>,
+    /// Pairs of linked balls.
+    pub(super) links: Vec<[u32; 2]>,
+    /// A ball of each group of linked balls, for each ball.
+    pub(super) group: Vec<u32>,
+}
+
+/// A dense grid of cells over the surface's box.
+struct Grid {
+    low: Vec3,
+    size: f32,
+    counts: [i32; 3],
+}
+
+impl Grid {
+    fn new(bounds: &Bounds) -> Self {
+        let low = Vec3::from(bounds.min);
+        let extent = Vec3::from(bounds.max) - low;
+        let size = (extent.max_element() / CELLS).max(f32::MIN_POSITIVE);
+        let counts = extent.to_array().map(|e| (e / size) as i32 + 1);
+        Self { low, size, counts }
+    }
+
+    fn len(&self) -> usize {
+        self.counts.iter().map(|&n| n as usize).product()
+    }
+
+    fn place(&self, p: Vec3) -> [i32; 3] {
+        let at = ((p - self.low) / self.size).to_array();
+        [0, 1, 2].map(|axis| (at[axis] as i32).clamp(0, self.counts[axis] - 1))
+    }
+
+    fn cell(&self, [x, y, z]: [i32; 3]) -> usize {
+        ((z * self.counts[1] + y) * self.counts[0] + x) as usize
+    }
+
+    /// The cells that a ball touches.
+    fn around(&self, centre: Vec3, radius: f32) -> impl Iterator<Item = usize> + '_ {
+        let (low, high) = (self.place(centre - Vec3::splat(radius)), self.place(centre + Vec3::splat(radius)));
+        (low[2]..=high[2]).flat_map(move |z| {
+            (low[1]..=high[1]).flat_map(move |y| (low[0]..=high[0]).map(move |x| self.cell([x, y, z])))
+        })
+    }
+}
+
+/// The vertices of the wall, cell by cell, and which of them are explained.
+struct Wall {
+    offsets: Vec<u32>,
+    order: Vec<u32>,
+    is_explained: Vec<bool>,
+}
+
+impl Wall {
+    fn new(grid: &Grid, positions: &[Vec3]) -> Self {
+        let mut offsets = vec![0u32; grid.len() + 1];
+        let cells: Vec<u32> = positions.iter().map(|&p| grid.cell(grid.place(p)) as u32).collect();
+        for &cell in &cells {
+            offsets[cell as usize + 1] += 1;
+        }
+        for cell in 0..grid.len() {
+            offsets[cell + 1] += offsets[cell];
+        }
+        let mut cursor = offsets.clone();
+        let mut order = vec![0; positions.len()];
+        for (v, &cell) in cells.iter().enumerate() {
+            order[cursor[cell as usize] as usize] = v as u32;
+            cursor[cell as usize] += 1;
+        }
+        Self { offsets, order, is_explained: vec![false; positions.len()] }
+    }
+
+    fn explain(&mut self, grid: &Grid, positions: &[Vec3], centre: Vec3, radius: f32) {
+        for cell in grid.around(centre, radius) {
+            for &v in &self.order[self.offsets[cell] as usize..self.offsets[cell + 1] as usize] {
+                if positions[v as usize].distance_squared(centre) <= radius * radius {
+                    self.is_explained[v as usize] = true;
+                }
+            }
+        }
+    }
+}
+
+/// Balls while they are being found.
+struct Filling<'a> {
+    space: &'a Space,
+    positions: &'a [Vec3],
+    grid: Grid,
+    wall: Wall,
+    found: Balls,
+    feet: Vec<Nearest>,
+    /// The first ball of each cell, and the next one in the same cell for each ball.
+    first: Vec<u32>,
+    next: Vec<u32>,
+    /// Balls to look around from.
+    pending: Vec<u32>,
+    /// Smaller balls are not begun with.
+    least: f32,
+    /// Smaller balls are not gone on with: from a crevice it would go ever deeper. What is thinner is begun from its own
+    /// wall.
+    floor: f32,
+}
+
+/// Fills the inside of `mesh`.
+pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
+    let normals = vertex_normals(mesh);
+    let grid = Grid::new(&mesh.bounds());
+    let wall = Wall::new(&grid, &mesh.positions);
+    let first = vec![NONE; grid.len()];
+    let found = Balls::default();
+    let (feet, next, pending) = (Vec::new(), Vec::new(), Vec::new());
+    let least = (LEAST * mean_edge(mesh)).max(THINNEST * largest(mesh, space, &normals));
+    let mut filling =
+        Filling { space, positions: &mesh.positions, grid, wall, found, feet, first, next, pending, least, floor: 0.0 };
+    for (v, normal) in normals.iter().enumerate() {
+        if !filling.wall.is_explained[v]
+            && let Some(normal) = normal.try_normalize()
+        {
+            filling.begin(mesh.positions[v], normal);
+        }
+    }
+    filling.finished()
+}
+
+/// The largest radius behind a few hundred places of the wall.
+fn largest(mesh: &TriMesh, space: &Space, normals: &[Vec3]) -> f32 {
+    let stride = (normals.len() / 256).max(1);
+    let radius = |v: usize| {
+        let (ball, _) = space.behind_wall(mesh.positions[v], normals[v].try_normalize()?)?;
+        (!space.is_beyond(ball.centre)).then_some(ball.radius)
+    };
+    (0..normals.len()).step_by(stride).filter_map(radius).fold(0.0, f32::max)
+}
+
+fn mean_edge(mesh: &TriMesh) -> f32 {
+    let around = |t: usize| {
+        let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
+        a.distance(b) + b.distance(c) + c.distance(a)
+    };
+    let sum: f64 = (0..mesh.triangles.len()).map(around).sum();
+    (sum / (3 * mesh.triangles.len()).max(1) as f64) as f32
+}
+
+fn vertex_normals(mesh: &TriMesh) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; mesh.positions.len()];
+    for (t, corners) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = mesh.corners(t);
+        let normal = (b - a).cross(c - a);
+        for &v in corners {
+            normals[v as usize] += normal;
+        }
+    }
+    normals
+}
+
+impl Filling<'_> {
+    /// Begins in the middle behind a point of the wall, and goes on from there as far as it goes.
+    fn begin(&mut self, p: Vec3, normal: Vec3) {
+        let Some((ball, foot)) = self.space.behind_wall(p, normal) else { return };
+        // Not again from the places around, whatever came of this one.
+        self.wall.explain(&self.grid, self.positions, p, 0.3 * ball.radius);
+        if ball.radius < self.least || self.space.is_beyond(ball.centre) || self.like(&ball).is_some() {
+            return;
+        }
+        self.floor = (SMALLER * ball.radius).max(self.least);
+        self.add(ball, foot, false);
+        while let Some(from) = self.pending.pop() {
+            self.look_around(from);
+        }
+    }
+
+    fn add(&mut self, ball: Ball, foot: Nearest, is_passing: bool) -> u32 {
+        let number = self.found.balls.len() as u32;
+        let cell = self.grid.cell(self.grid.place(ball.centre));
+        self.found.balls.push(ball);
+        self.found.is_passing.push(is_passing);
+        self.found.group.push(number);
+        self.feet.push(foot);
+        self.next.push(self.first[cell]);
+        self.first[cell] = number;
+        if !is_passing {
+            self.wall.explain(&self.grid, self.positions, ball.centre, EXPLAINED * ball.radius);
+            self.pending.push(number);
+        }
+        number
+    }
+
+    /// The nearest ball within `reach` for which `is_it`.
+    fn nearest(&self, p: Vec3, reach: f32, is_it: impl Fn(&Ball, f32) -> bool) -> Option<u32> {
+        let mut best = (f32::INFINITY, NONE);
+        for cell in self.grid.around(p, reach) {
+            let mut at = self.first[cell];
+            while at != NONE {
+                let ball = &self.found.balls[at as usize];
+                let distance = ball.centre.distance(p);
+                if (distance, at) < best && distance <= reach && is_it(ball, distance) {
+                    best = (distance, at);
+                }
+                at = self.next[at as usize];
+            }
+        }
+        (best.1 != NONE).then_some(best.1)
+    }
+
+    /// A ball that is as good as this one.
+    fn like(&self, ball: &Ball) -> Option<u32> {
+        self.nearest(ball.centre, SAME * ball.radius, |other, distance| {
+            distance <= SAME * other.radius && other.radius >= 0.5 * ball.radius
+        })
+    }
+
+    fn look_around(&mut self, from: u32) {
+        let ball = self.found.balls[from as usize];
+        let mut on_the_way = Vec::new();
+        for direction in directions() {
+            let p = ball.centre + direction * (REACH * ball.radius);
+            if self.space.is_beyond(p) {
+                continue;
+            }
+            let near = |other: &Ball, distance: f32| {
+                distance <= 0.3 * other.radius && other.radius >= 0.5 * ball.radius && other.centre != ball.centre
+            };
+            if let Some(other) = self.nearest(p, 0.6 * ball.radius, near)
+                && self.found.balls[other as usize].passage(&ball) >= PASSAGE * ball.radius
+            {
+                self.link(from, other);
+                continue;
+            }
+            let Some((start, foot)) = self.space.ball(p, Some(&self.feet[from as usize])) else { continue };
+            if start.radius < OPEN * ball.radius {
+                continue;
+            }
+            on_the_way.clear();
+            on_the_way.push(start);
+            let (found, foot) = self.space.ascend(start, foot, |next| on_the_way.push(next));
+            if found.radius < self.floor || self.space.is_beyond(found.centre) {
+                continue;
+            }
+            match self.like(&found) {
+                Some(other) if other == from => {}
+                Some(other) => self.link_by(from, other, &on_the_way, foot),
+                None => {
+                    let number = self.add(found, foot, false);
+                    self.link_by(from, number, &on_the_way, foot);
+                }
+            }
+        }
+    }
+
+    /// Links two balls, by those on the way between them if they do not overlap enough.
+    fn link_by(&mut self, from: u32, to: u32, on_the_way: &[Ball], foot: Nearest) {
+        let [a, b] = [from, to].map(|ball| self.found.balls[ball as usize]);
+        if a.passage(&b) >= PASSAGE * a.radius.min(b.radius) {
+            self.link(from, to);
+        } else if self.root(from) != self.root(to) {
+            let mut last = from;
+            for &ball in on_the_way {
+                let passing = self.add(ball, foot, true);
+                self.link(last, passing);
+                last = passing;
+            }
+            self.link(last, to);
+        }
+    }
+
+    fn link(&mut self, a: u32, b: u32) {
+        self.found.links.push([a.min(b), a.max(b)]);
+        let (one, other) = (self.root(a), self.root(b));
+        self.found.group[one.max(other) as usize] = one.min(other);
+    }
+
+    fn root(&mut self, mut ball: u32) -> u32 {
+        let group = &mut self.found.group;
+        while group[ball as usize] != ball {
+            group[ball as usize] = group[group[ball as usize] as usize];
+            ball = group[ball as usize];
+        }
+        ball
+    }
+
+    fn finished(mut self) -> Balls {
+        for ball in 0..self.found.balls.len() as u32 {
+            self.found.group[ball as usize] = self.root(ball);
+        }
+        self.found.links.sort_unstable();
+        self.found.links.dedup();
+        self.found
+    }
+}
+
+/// The corners of an icosahedron, turned so that none lies along an axis.
+fn directions() -> [Vec3; 12] {
+    const GOLDEN: f32 = 1.618_034;
+    // Columns of a rotation.
+    let [x, y, z] = [
+        Vec3::new(0.804_738, 0.505_879, -0.310_617),
+        Vec3::new(-0.310_617, 0.804_738, 0.505_879),
+        Vec3::new(0.505_879, -0.310_617, 0.804_738),
+    ];
+    let corners = [[0.0, 1.0, GOLDEN], [0.0, -1.0, GOLDEN], [0.0, 1.0, -GOLDEN], [0.0, -1.0, -GOLDEN]];
+    let mut all = [Vec3::ZERO; 12];
+    for (slot, [a, b, c]) in all.iter_mut().zip(corners.iter().flat_map(|&[a, b, c]| [[a, b, c], [b, c, a], [c, a, b]]))
+    {
+        *slot = (x * a + y * b + z * c).normalize();
+    }
+    all
+}

@@ -1,0 +1,95 @@
+//! Where a wire can go: the vessel tree of a surface, and routes through it.
+//!
+//! ```text
+//! surface --space--> distance to the wall, open ends
+//!   --balls--> overlapping balls that fill the lumen, linked where a wire fits through
+//!   --paths--> the cheapest ways, and the tree they make
+//!   --course--> smooth centrelines with radii
+//!   --tree--> branches, ends, the branch of a point
+//!   --way--> a route from an entry to a target
+//! ```
+//!
+//! What is found rests on the balls: two places are connected when overlapping balls lead from one to the other.
+//! A lumen that is pinched shut is not passed, however thin the wall between.
+
+mod balls;
+mod course;
+mod paths;
+mod propose;
+mod space;
+mod tree;
+mod way;
+
+use thiserror::Error;
+
+pub use course::Place;
+pub use propose::{Target, phantom_task};
+pub use tree::{Branch, End, Located, Tree};
+pub use way::{CrossSection, OnRoute, Route, RoutePoint};
+
+/// Why there is no tree, or no route.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum RouteError {
+    /// There is nothing to go through.
+    #[error("the surface has no triangles")]
+    NoTriangles,
+    /// Every wall faces away.
+    #[error("the surface is inside out: its triangles face into the vessel")]
+    InsideOut,
+    /// No wall faces another.
+    #[error("the surface has no inside: of its {triangles} triangles none faces another")]
+    NoInside {
+        /// Triangles.
+        triangles: usize,
+    },
+    /// The wire would begin outside.
+    #[error("the entry ({:.1}, {:.1}, {:.1}) lies outside of the vessel, {distance_mm:.1} mm from its wall", at[0], at[1], at[2])]
+    EntryOutside {
+        /// The entry in mm.
+        at: [f32; 3],
+        /// Its distance from the wall in mm.
+        distance_mm: f32,
+    },
+    /// The target cannot be reached from inside.
+    #[error("the target ({:.1}, {:.1}, {:.1}) lies outside of the vessel, {distance_mm:.1} mm from its wall", at[0], at[1], at[2])]
+    TargetOutside {
+        /// The target in mm.
+        at: [f32; 3],
+        /// Its distance from the wall in mm.
+        distance_mm: f32,
+    },
+    /// No lumen leads from the one to the other.
+    #[error(
+        "there is no open way from the entry to the target: the lumen ends at ({:.1}, {:.1}, {:.1}), \
+         {gap_mm:.1} mm from where the target's begins",
+        at[0], at[1], at[2]
+    )]
+    NoWay {
+        /// Where the part of the lumen with the entry comes nearest to the other, in mm.
+        at: [f32; 3],
+        /// From there to the other part, in mm.
+        gap_mm: f32,
+    },
+    /// Entry and target are the same place of the centreline.
+    #[error("entry and target are {length_mm:.1} mm apart: too near for a route")]
+    TooShort {
+        /// Distance along the vessel in mm.
+        length_mm: f64,
+    },
+    /// The wire does not fit.
+    #[error(
+        "the lumen is too thin for a wire of {wire_mm:.2} mm: it is {lumen_mm:.2} mm wide at ({:.1}, {:.1}, {:.1}), \
+         {arc_mm:.0} mm along the route",
+        at[0], at[1], at[2]
+    )]
+    TooThin {
+        /// Diameter of the wire in mm.
+        wire_mm: f64,
+        /// Diameter of the lumen in mm.
+        lumen_mm: f64,
+        /// Where, in mm.
+        at: [f32; 3],
+        /// Arc length along the route in mm.
+        arc_mm: f64,
+    },
+}

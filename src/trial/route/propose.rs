@@ -1,0 +1,154 @@
+//! Where a wire could enter and where it could go.
+
+use glam::{DVec3, Vec3};
+
+use super::course::direction;
+use super::tree::{Branch, End, Tree};
+use crate::phantom::{Sample, Vessel, vessels};
+use crate::trial::setup::Entry;
+
+/// A guide's mouth lies this many radii inside of the vessel's end, at least.
+const INSIDE: f64 = 1.0;
+/// And this far, in mm, unless the branch is too short.
+const INSIDE_MM: f64 = 3.0;
+
+/// A place where a wire could go.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// The branch, by name, and what is there.
+    pub name: String,
+    /// In the middle of the lumen, in mm.
+    pub at: Vec3,
+    /// Radius of the lumen there, in mm.
+    pub radius_mm: f64,
+}
+
+/// An end of a vessel.
+struct Tip<'a> {
+    branch: &'a Branch,
+    is_first: bool,
+    end: End,
+    /// The place a little inside.
+    at: usize,
+    /// Radius there, in mm.
+    radius: f64,
+}
+
+impl Tree {
+    /// Places where a wire could enter, a little inside of the vessels' ends and pointing inwards, best first: those of
+    /// the largest tree, the widest first, as an artery is entered where it is wide.
+    pub fn entries(&self) -> Vec<Entry> {
+        let mut tips = self.tips();
+        tips.sort_by(|a, b| {
+            let key = |tip: &Tip<'_>| (tip.branch.tree, tip.end != End::Open);
+            key(a).cmp(&key(b)).then(b.radius.total_cmp(&a.radius)).then(a.branch.id.cmp(&b.branch.id))
+        });
+        tips.iter().map(Tip::entry).collect()
+    }
+
+    /// Places where a wire could go, best first: in the largest tree, far from the first of [`Self::entries`] and thin.
+    pub fn targets(&self) -> Vec<Target> {
+        let Some(entry) = self.entries().first().copied() else { return Vec::new() };
+        let from = Vec3::from(entry.at);
+        let lengths = self.nearest_ball(from).map(|ball| self.graph.ways(ball).length);
+        let mut found: Vec<(f64, Target)> = Vec::new();
+        for tip in self.tips() {
+            let at = tip.branch.points[tip.at].at.as_vec3();
+            let way =
+                self.nearest_ball(at).zip(lengths.as_ref()).map_or(f32::INFINITY, |(ball, all)| all[ball as usize]);
+            if way.is_finite() && from.distance(at) > 2.0 * tip.radius as f32 {
+                let what = if tip.end == End::Open { "open end" } else { "closed end" };
+                let name = format!("{}, {what}", tip.branch.name);
+                let worth = f64::from(way) / tip.radius.sqrt();
+                found.push((worth, Target { name, at, radius_mm: tip.radius }));
+            }
+        }
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        found.into_iter().map(|(_, target)| target).collect()
+    }
+
+    fn tips(&self) -> Vec<Tip<'_>> {
+        let mut tips = Vec::new();
+        for branch in self.branches().iter().filter(|branch| branch.points.len() > 1) {
+            for (is_first, end) in [(true, branch.ends[0]), (false, branch.ends[1])] {
+                if end == End::Joint {
+                    continue;
+                }
+                let last = branch.points.len() - 1;
+                let radius = branch.points[if is_first { 0 } else { last }].radius;
+                let inside = (INSIDE * radius).max(INSIDE_MM).min(branch.length_mm() / 2.0);
+                let at = if is_first {
+                    branch.arcs.partition_point(|&arc| arc < inside).min(last)
+                } else {
+                    branch.arcs.partition_point(|&arc| arc < branch.length_mm() - inside)
+                };
+                tips.push(Tip { branch, is_first, end, at, radius: branch.points[at].radius });
+            }
+        }
+        tips
+    }
+
+    fn nearest_ball(&self, p: Vec3) -> Option<u32> {
+        let power = |i: usize| {
+            let ball = self.graph.balls[i];
+            ball.centre.distance_squared(p) - ball.radius * ball.radius
+        };
+        let powers = (0..self.graph.balls.len()).map(|i| (power(i), i as u32));
+        powers.reduce(|least, next| if next.0 < least.0 { next } else { least }).map(|(_, ball)| ball)
+    }
+}
+
+impl Tip<'_> {
+    fn entry(&self) -> Entry {
+        let along = direction(&self.branch.points, self.at);
+        let inward = if self.is_first { along } else { -along };
+        Entry { at: self.branch.points[self.at].at.as_vec3().to_array(), direction: inward.as_vec3().to_array() }
+    }
+}
+
+/// Entry and target of a sample.
+///
+/// The aorta is entered by a sheath in the right common iliac artery, from the groin; a wire alone goes up past the
+/// bifurcation and both renal arteries to the upper end. (Into a renal artery, square to a vessel three times as wide,
+/// it is led by a shaped catheter.) The coronary arteries are entered by a guide catheter in the left main artery, 3 mm
+/// behind its ostium and in line with it; the target is the distal left anterior descending artery, where it is still
+/// 1.8 mm wide.
+pub fn phantom_task(sample: Sample) -> (Entry, Vec3) {
+    let vessels = vessels(sample);
+    let vessel = |name: &str| {
+        vessels.iter().find(|vessel| vessel.name == name).unwrap_or_else(|| unreachable!("{sample} has a {name}"))
+    };
+    match sample {
+        Sample::Aorta => {
+            let iliac = vessel("right common iliac artery");
+            let last = iliac.stations.len() - 1;
+            let at = back(iliac, last, 8.0);
+            let aorta = vessel("abdominal aorta");
+            (entry(iliac, at, -1.0), aorta.stations[onward(aorta, 0, 6.0)].position.as_vec3())
+        }
+        Sample::Coronary => {
+            let main = vessel("left main coronary artery");
+            let lad = vessel("left anterior descending artery");
+            let target = lad.stations.iter().rposition(|station| station.diameter >= 1.8).unwrap_or(0);
+            (entry(main, onward(main, main.ostium, 3.0), 1.0), lad.stations[target].position.as_vec3())
+        }
+    }
+}
+
+/// The first station at least `mm` behind another, along the vessel.
+fn onward(vessel: &Vessel, from: usize, mm: f64) -> usize {
+    let start = vessel.stations[from].position;
+    (from..vessel.stations.len()).find(|&i| vessel.stations[i].position.distance(start) >= mm).unwrap_or(from)
+}
+
+/// The last station at least `mm` before another.
+fn back(vessel: &Vessel, from: usize, mm: f64) -> usize {
+    let start = vessel.stations[from].position;
+    (0..from).rev().find(|&i| vessel.stations[i].position.distance(start) >= mm).unwrap_or(from)
+}
+
+fn entry(vessel: &Vessel, station: usize, sense: f64) -> Entry {
+    let direction: DVec3 = vessel.direction(station) * sense;
+    let at = vessel.stations[station].position.as_vec3();
+    Entry { at: at.to_array(), direction: direction.as_vec3().to_array() }
+}

@@ -1,0 +1,368 @@
+//! The vessel tree: branches between the places where vessels divide.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+
+use super::RouteError;
+use super::balls::fill;
+use super::course::{Place, arcs, course};
+use super::paths::{Graph, Path};
+use super::space::{Ball, Space};
+use crate::mesh::{SurfaceIndex, Topology, TriMesh, volume};
+
+/// Segments of a branch that are left out together in a search.
+const CHUNK: usize = 8;
+/// A group of balls with less than this part of the largest group's volume is a speck, and has no branches.
+const SPECK: f64 = 0.005;
+
+/// What is at an end of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The surface is open there.
+    Open,
+    /// The vessel is closed there.
+    Closed,
+    /// It goes on in other branches.
+    Joint,
+}
+
+/// A vessel between two places where vessels divide or end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    /// Its place in [`Tree::branches`].
+    pub id: u32,
+    /// "branch 1" for the first.
+    pub name: String,
+    /// The branch that it comes out of; `None` for the first of each tree.
+    pub parent: Option<u32>,
+    /// Which of the surface's separate trees it belongs to.
+    pub tree: u32,
+    /// The centreline, away from the root. That of a side branch begins on its parent's centreline.
+    pub points: Vec<Place>,
+    /// Arc length at each point, in mm.
+    pub arcs: Vec<f64>,
+    /// The first point outside of the parent's lumen; 0 where the branch goes straight on.
+    pub ostium: usize,
+    /// What is at the first and at the last point.
+    pub ends: [End; 2],
+}
+
+impl Branch {
+    /// Length of the centreline in mm.
+    pub fn length_mm(&self) -> f64 {
+        self.arcs.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// Where a point is in the tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Located {
+    /// The branch.
+    pub branch: u32,
+    /// Arc length along its centreline of the place next to the point, in mm.
+    pub arc_mm: f64,
+    /// Radius of the lumen there, in mm.
+    pub radius_mm: f64,
+    /// Distance of the point from that place, in mm.
+    pub distance_mm: f64,
+    /// The segment of the centreline, for a faster search near by.
+    pub(super) segment: u32,
+}
+
+/// A segment of a centreline, with the radii at its ends.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    from: Place,
+    to: Place,
+    branch: u32,
+    arc: f64,
+}
+
+impl Segment {
+    /// The power of a point with regard to the balls along the segment, least where a ball holds it deepest; where along
+    /// the segment, 0 to 1; the squared distance.
+    #[inline]
+    fn power(&self, p: DVec3) -> (f64, f64, f64) {
+        let along = self.to.at - self.from.at;
+        let part = ((p - self.from.at).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let squared = p.distance_squared(self.from.at + along * part);
+        let radius = self.from.radius + (self.to.radius - self.from.radius) * part;
+        (squared - radius * radius, part, squared)
+    }
+}
+
+/// The box around a few segments, and the largest radius there.
+#[derive(Clone, Copy, Debug)]
+struct Chunk {
+    low: DVec3,
+    high: DVec3,
+    squared_radius: f64,
+    first: u32,
+    count: u32,
+}
+
+/// The vessel tree of a surface.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    pub(super) space: Space,
+    pub(super) graph: Graph,
+    branches: Vec<Branch>,
+    /// Balls of each tree's group.
+    pub(super) groups: Vec<u32>,
+    segments: Vec<Segment>,
+    chunks: Vec<Chunk>,
+}
+
+impl Tree {
+    /// Finds the tree of a surface.
+    ///
+    /// # Errors
+    /// [`RouteError::NoTriangles`], [`RouteError::InsideOut`], [`RouteError::NoInside`].
+    pub fn new(mesh: &TriMesh) -> Result<Self, RouteError> {
+        Self::with_index(mesh, Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles)))
+    }
+
+    /// As [`Self::new`], with an index of this surface that is there already.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_index(mesh: &TriMesh, index: Arc<SurfaceIndex>) -> Result<Self, RouteError> {
+        let is_whole = |[a, b, c]: [u32; 3]| a != b && b != c && c != a;
+        if mesh.triangles.iter().all(|&triangle| !is_whole(triangle)) {
+            return Err(RouteError::NoTriangles);
+        }
+        let topology = if mesh.triangles.iter().all(|&triangle| is_whole(triangle)) {
+            Topology::new(mesh.positions.len(), &mesh.triangles)
+        } else {
+            let whole: Vec<[u32; 3]> = mesh.triangles.iter().copied().filter(|&triangle| is_whole(triangle)).collect();
+            Topology::new(mesh.positions.len(), &whole)
+        };
+        let space = Space::new(mesh, &topology, index);
+        let graph = Graph::new(fill(mesh, &space));
+        if graph.balls.is_empty() {
+            let is_turned = volume(mesh, &topology) < 0.0;
+            let triangles = mesh.triangles.len();
+            return Err(if is_turned { RouteError::InsideOut } else { RouteError::NoInside { triangles } });
+        }
+        let mut tree =
+            Self { space, graph, branches: Vec::new(), groups: Vec::new(), segments: Vec::new(), chunks: Vec::new() };
+        for group in tree.largest_groups() {
+            tree.add_group(group);
+        }
+        tree.index_segments();
+        Ok(tree)
+    }
+
+    /// The branches, those of the largest tree first; a parent comes before its branches.
+    pub fn branches(&self) -> &[Branch] {
+        &self.branches
+    }
+
+    /// Groups of linked balls, by what they measure along, longest first.
+    fn largest_groups(&self) -> Vec<u32> {
+        let mut sizes: Vec<(f64, u32)> = (0..self.graph.balls.len() as u32).map(|ball| (0.0, ball)).collect();
+        for (ball, &group) in self.graph.balls.iter().zip(&self.graph.group) {
+            // Their distance is about their radius, so the sum grows as the volume does.
+            let radius = f64::from(ball.radius);
+            sizes[group as usize].0 += radius * radius * radius;
+        }
+        let most = sizes.iter().map(|size| size.0).fold(0.0, f64::max);
+        sizes.retain(|size| size.0 > SPECK * most);
+        sizes.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        sizes.into_iter().map(|size| size.1).collect()
+    }
+
+    fn add_group(&mut self, group: u32) {
+        let Some(root) = self.root(group) else { return };
+        let tree = self.groups.len() as u32;
+        self.groups.push(group);
+        let paths = self.graph.tree(root, |ball| self.is_open(ball));
+        // Each path's centreline, and where others leave it.
+        let mut lines: Vec<Vec<Place>> = Vec::new();
+        let mut cuts: Vec<Vec<usize>> = vec![Vec::new(); paths.len()];
+        let mut joints = Vec::new();
+        for path in &paths {
+            let (line, joint) = self.line(path, &lines, &paths);
+            if let Some(joint) = joint {
+                cuts[path.parent].push(joint);
+            }
+            joints.push(joint);
+            lines.push(line);
+        }
+        // The branch of each path that ends at a cut or after it.
+        let mut pieces: Vec<Vec<(usize, u32)>> = Vec::new();
+        for (i, (path, line)) in paths.iter().zip(&lines).enumerate() {
+            let last = line.len() - 1;
+            cuts[i].retain(|&cut| cut > 0 && cut < last);
+            cuts[i].push(last);
+            cuts[i].sort_unstable();
+            cuts[i].dedup();
+            let mut parent = joints[i].and_then(|joint| {
+                let piece = pieces[path.parent].iter().find(|piece| piece.0 >= joint);
+                piece.map(|piece| piece.1)
+            });
+            let mut start = 0;
+            let mut own = Vec::new();
+            for &cut in &cuts[i] {
+                let id = self.branches.len() as u32;
+                let points = line[start..=cut].to_vec();
+                let ostium = match parent {
+                    Some(_) if start == 0 => ostium(&points, &lines[path.parent]),
+                    _ => 0,
+                };
+                let end_at = |place: Place| if self.opening_at(place).is_some() { End::Open } else { End::Closed };
+                let first = if start > 0 || parent.is_some() { End::Joint } else { end_at(points[0]) };
+                let end = if cut < last { End::Joint } else { end_at(line[last]) };
+                let name = format!("branch {}", id + 1);
+                let arcs = arcs(&points);
+                self.branches.push(Branch { id, name, parent, tree, points, arcs, ostium, ends: [first, end] });
+                own.push((cut, id));
+                parent = Some(id);
+                start = cut;
+            }
+            pieces.push(own);
+        }
+    }
+
+    /// The end to begin from: that of the widest vessel.
+    fn root(&self, group: u32) -> Option<u32> {
+        let members = (0..self.graph.balls.len() as u32).filter(|&ball| self.graph.group[ball as usize] == group);
+        let radius = |ball: u32| self.graph.balls[ball as usize].radius;
+        let largest = members.filter(|&ball| !self.graph.is_passing[ball as usize]);
+        let largest = largest.reduce(|best, ball| if radius(ball) > radius(best) { ball } else { best })?;
+        let paths = self.graph.tree(largest, |ball| self.is_open(ball));
+        let ends = paths.iter().filter_map(|path| path.balls.last().copied());
+        ends.reduce(|best, end| if radius(end) > radius(best) { end } else { best })
+    }
+
+    /// The centreline of a path, and the place on its parent's where it begins.
+    fn line(&self, path: &Path, lines: &[Vec<Place>], paths: &[Path]) -> (Vec<Place>, Option<usize>) {
+        let ball = |&number: &u32| self.graph.balls[number as usize];
+        let mut balls: Vec<Ball> = path.balls.iter().map(ball).collect();
+        let Some(parent) = lines.get(path.parent) else {
+            self.extend(&mut balls, true);
+            self.extend(&mut balls, false);
+            return (course(&self.space, &balls, 0.0), None);
+        };
+        let at = self.graph.balls[paths[path.parent].balls[path.joint] as usize].centre.as_dvec3();
+        let joint = nearest_place(parent, at);
+        let trunk = parent[joint];
+        balls.insert(0, Ball { centre: trunk.at.as_vec3(), radius: trunk.radius as f32 });
+        self.extend(&mut balls, false);
+        let mut line = course(&self.space, &balls, trunk.radius);
+        line[0] = trunk;
+        (line, Some(joint))
+    }
+
+    /// The open end at an end of a centreline.
+    pub(super) fn opening_at(&self, place: Place) -> Option<usize> {
+        let p = place.at.as_vec3();
+        let reach = |i: &usize| {
+            let opening = &self.space.openings[*i];
+            let to = p - opening.centre;
+            let across = to - opening.outward * to.dot(opening.outward);
+            let fits = opening.radius > 0.5 * place.radius as f32;
+            fits && across.length() <= opening.radius && to.dot(opening.outward).abs() <= 1.2 * opening.radius
+        };
+        let distance = |i: usize| self.space.openings[i].centre.distance(p);
+        let near = (0..self.space.openings.len()).filter(reach);
+        near.reduce(|least, next| if distance(next) < distance(least) { next } else { least })
+    }
+
+    /// Whether a ball lies in an open end.
+    fn is_open(&self, ball: &Ball) -> bool {
+        self.opening_at(Place { at: ball.centre.as_dvec3(), radius: f64::from(ball.radius) }).is_some()
+    }
+
+    /// Leads a chain of balls out to the middle of the open end that it comes to.
+    pub(super) fn extend(&self, balls: &mut Vec<Ball>, at_start: bool) {
+        let Some(&tip) = (if at_start { balls.first() } else { balls.last() }) else { return };
+        let place = Place { at: tip.centre.as_dvec3(), radius: f64::from(tip.radius) };
+        let Some(opening) = self.opening_at(place).map(|i| self.space.openings[i]) else { return };
+        // Balls whose middle lies in the end's own plane or past it make the line double back.
+        let is_past = |ball: &Ball| (ball.centre - opening.centre).dot(opening.outward) > -0.1 * opening.radius;
+        let radius = tip.radius.min(opening.radius);
+        let end = Ball { centre: opening.centre, radius };
+        if at_start {
+            while balls.len() > 1 && is_past(&balls[0]) {
+                balls.remove(0);
+            }
+            balls.insert(0, end);
+        } else {
+            while balls.len() > 1 && balls.last().is_some_and(is_past) {
+                balls.pop();
+            }
+            balls.push(end);
+        }
+    }
+
+    fn index_segments(&mut self) {
+        for branch in &self.branches {
+            let bottom = self.segments.len();
+            for i in branch.ostium..branch.points.len().saturating_sub(1) {
+                let (from, to) = (branch.points[i], branch.points[i + 1]);
+                self.segments.push(Segment { from, to, branch: branch.id, arc: branch.arcs[i] });
+            }
+            for (i, piece) in self.segments[bottom..].chunks(CHUNK).enumerate() {
+                let ends = || piece.iter().flat_map(|segment| [segment.from, segment.to]);
+                let low = ends().map(|place| place.at).fold(DVec3::INFINITY, DVec3::min);
+                let high = ends().map(|place| place.at).fold(DVec3::NEG_INFINITY, DVec3::max);
+                let radius = ends().map(|place| place.radius).fold(0.0, f64::max);
+                let first = (bottom + i * CHUNK) as u32;
+                let count = piece.len() as u32;
+                self.chunks.push(Chunk { low, high, squared_radius: radius * radius, first, count });
+            }
+        }
+    }
+
+    /// Where `p` is: the branch whose lumen holds it deepest, or is nearest to it. `last` is the answer for a point near
+    /// by, if there is one; it makes this faster and changes nothing.
+    pub fn locate(&self, p: DVec3, last: Option<&Located>) -> Option<Located> {
+        let mut best = (f64::INFINITY, u32::MAX);
+        if let Some(segment) = last.and_then(|last| self.segments.get(last.segment as usize).map(|_| last.segment)) {
+            best = (self.segments[segment as usize].power(p).0, segment);
+        }
+        for chunk in &self.chunks {
+            let gap = (chunk.low - p).max(p - chunk.high).max(DVec3::ZERO);
+            if gap.length_squared() - chunk.squared_radius > best.0 {
+                continue;
+            }
+            for number in chunk.first..chunk.first + chunk.count {
+                let power = self.segments[number as usize].power(p).0;
+                if (power, number) < best {
+                    best = (power, number);
+                }
+            }
+        }
+        let segment = self.segments.get(best.1 as usize)?;
+        let (_, part, squared) = segment.power(p);
+        Some(Located {
+            branch: segment.branch,
+            arc_mm: segment.arc + part * segment.from.at.distance(segment.to.at),
+            radius_mm: segment.from.radius + (segment.to.radius - segment.from.radius) * part,
+            distance_mm: squared.sqrt(),
+            segment: best.1,
+        })
+    }
+
+    /// Whether a point lies in the lumen.
+    pub fn is_inside(&self, p: Vec3) -> bool {
+        self.space.is_inside(p)
+    }
+}
+
+/// The place of a line that is nearest to a point.
+pub(super) fn nearest_place(line: &[Place], p: DVec3) -> usize {
+    let places = line.iter().map(|place| place.at.distance_squared(p)).enumerate();
+    places.reduce(|least, next| if next.1 < least.1 { next } else { least }).map_or(0, |(place, _)| place)
+}
+
+/// The first of `points` out of the lumen of the line that they leave.
+fn ostium(points: &[Place], parent: &[Place]) -> usize {
+    let is_out = |point: &Place| {
+        let nearest = parent[nearest_place(parent, point.at)];
+        nearest.at.distance(point.at) >= nearest.radius
+    };
+    points.iter().position(is_out).unwrap_or(points.len().saturating_sub(2))
+}
