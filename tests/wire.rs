@@ -20,7 +20,7 @@ fn a_wire_follows_a_bend() {
         let wall = Arc::new(Wall::new(Arc::new(tube(&path, |_| radius, sides))));
         let entry = Entry { at: [4.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
         let wire = Wire::preset(name).unwrap();
-        let mut simulation = Simulation::new(&wire, wire.friction, &entry, Some(wall)).unwrap();
+        let mut simulation = Simulation::new(&wire, wire.friction, &entry, 0.0, Some(wall)).unwrap();
         let start = std::time::Instant::now();
         let (mut braked, mut held, mut deepest, mut most, mut push) = (0, 0, f64::NEG_INFINITY, 0.0f64, 0.0f64);
         let mut steps = 0;

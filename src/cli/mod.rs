@@ -11,6 +11,7 @@ mod phantom;
 mod sheet;
 mod source;
 mod tables;
+mod trial;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -52,6 +53,8 @@ pub enum Command {
     Phantom(phantom::Phantom),
     /// Make Tables I and II of the paper for a surface, the paper's numbers beside them
     Tables(tables::Tables),
+    /// Steer a guidewire through a surface by autopilot
+    Trial(trial::Trial),
 }
 
 impl Command {
@@ -64,6 +67,7 @@ impl Command {
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
             Self::Tables(command) => command.run(),
+            Self::Trial(command) => command.run(),
         };
         match result {
             Ok(()) => ExitCode::SUCCESS,

@@ -86,7 +86,7 @@ impl ValueEnum for Method {
 }
 
 /// A reduction rate in percent, with or without the sign.
-fn percent(text: &str) -> Result<f64, String> {
+pub(super) fn percent(text: &str) -> Result<f64, String> {
     let number = text.trim().trim_end_matches('%').trim_end();
     let value: f64 = number.parse().map_err(|_| format!("{text} is not a percentage"))?;
     let most = f64::from(Target::MAX_PER_MILLE) / 10.0;
@@ -134,6 +134,10 @@ impl Optimise {
         let format = output_format(&self.output);
         if same_file(std::path::Path::new(&self.file), &self.output) {
             misuse(format!("{} would be overwritten: choose another output", self.file));
+        }
+        if let Some(report) = self.report.as_ref().filter(|report| same_file(std::path::Path::new(&self.file), report))
+        {
+            misuse(format!("{} would be overwritten by the report", report.display()));
         }
         if self.report.as_ref() == Some(&self.output) {
             misuse(format!("the surface and the report cannot both go to {}", self.output.display()));

@@ -12,8 +12,8 @@ pub(super) fn read(name: &str, unit: Option<Unit>) -> Result<Imported> {
             if unit.is_some() {
                 bail!("a sample is in millimetres: --unit makes no sense here");
             }
-            let sample: Sample = sample.parse()?;
-            io::import_mesh(phantom::generate(sample, sample.default_triangles())?, "sample")
+            let made: Sample = sample.parse()?;
+            self::sample(made, made.default_triangles())?
         }
         None => {
             let bytes = std::fs::read(name).with_context(|| format!("cannot read {name}"))?;
@@ -24,4 +24,9 @@ pub(super) fn read(name: &str, unit: Option<Unit>) -> Result<Imported> {
         eprintln!("lumen: warning: {warning}");
     }
     Ok(imported)
+}
+
+/// Makes a sample with so many triangles.
+pub(super) fn sample(sample: Sample, triangles: usize) -> Result<Imported> {
+    Ok(io::import_mesh(phantom::generate(sample, triangles)?, "sample"))
 }

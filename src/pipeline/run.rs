@@ -224,6 +224,8 @@ struct Results {
 pub struct Pipeline {
     opened: Arc<TriMesh>,
     samples: usize,
+    /// Whether the level is measured.
+    is_measured: bool,
     connectivity: Option<Arc<Connectivity>>,
     /// The pieces that go on, before they are measured, and their adjacency.
     adjacent: Option<(Arc<TriMesh>, Option<Arc<Topology>>)>,
@@ -252,6 +254,7 @@ impl Pipeline {
         Self {
             opened,
             samples: INTERACTIVE_SAMPLES,
+            is_measured: true,
             connectivity: None,
             adjacent: None,
             timed: None,
@@ -273,6 +276,13 @@ impl Pipeline {
         self
     }
 
+    /// Leaves out deviation, shape and lumen: for who wants the level alone.
+    #[must_use]
+    pub fn without_measures(mut self) -> Self {
+        self.is_measured = false;
+        self
+    }
+
     /// Another pipeline for the same surface, with all that this one has made and nothing under way: the results are
     /// shared, not copied.
     #[must_use]
@@ -280,6 +290,7 @@ impl Pipeline {
         Self {
             opened: self.opened.clone(),
             samples: self.samples,
+            is_measured: self.is_measured,
             connectivity: self.connectivity.clone(),
             adjacent: None,
             now: self.now.clone(),
@@ -438,6 +449,8 @@ impl Pipeline {
             Some(Stage::Bound)
         } else if self.now.reduced.is_none() {
             Some(Stage::Level)
+        } else if !self.is_measured {
+            None
         } else if self.now.deviations.is_none() {
             Some(Stage::Deviation)
         } else if self.now.level_measures.is_none() {
@@ -536,6 +549,7 @@ impl Pipeline {
         self.now.measuring[2] = milliseconds(measuring);
         let fingerprint = fingerprint(&mesh);
         self.now.reduced = Some(Arc::new(Reduced { level, mesh, topology, normals, measures, fingerprint }));
+        self.last = None;
         self.aside += milliseconds(start);
     }
 

@@ -9,13 +9,18 @@
 //! Units are mm, N, s, t (tonne), MPa; forces in N, moments in N mm. The step is [`STEP`] of simulated time; input is
 //! latched by step, so a log replays to the same end, to the bit on one platform.
 
+pub mod autopilot;
 pub mod body;
 pub mod contact;
+pub mod course;
 pub mod frame;
+pub mod log;
+pub mod meter;
 pub mod rod;
 pub mod route;
 pub mod setup;
 pub mod simulation;
+pub mod trial;
 pub mod wall;
 pub mod wire;
 

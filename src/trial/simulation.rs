@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use thiserror::Error;
 
 use super::STEP;
@@ -76,7 +76,7 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// A wire whose tip looks out of the guide.
+    /// A wire whose tip looks out of the guide, rolled by an angle in radians.
     ///
     /// # Errors
     /// When the wire's numbers make no sense, or it does not fit.
@@ -84,6 +84,7 @@ impl Simulation {
         wire: &Wire,
         friction: [f64; 2],
         entry: &Entry,
+        roll: f64,
         wall: Option<Arc<Wall>>,
     ) -> Result<Self, PlacementError> {
         wire.check()?;
@@ -111,7 +112,11 @@ impl Simulation {
         let inserted = grid[FIRST] + 0.5 * (grid[FIRST + 1] - grid[FIRST]);
         let count = FIRST + 3;
         let positions = grid[..count].iter().map(|s| mouth + way * (inserted - s)).collect();
-        let rod = Rod::new(positions, sections[..count].to_vec(), way.any_orthonormal_vector());
+        let rod = Rod::new(
+            positions,
+            sections[..count].to_vec(),
+            DQuat::from_axis_angle(way, roll) * way.any_orthonormal_vector(),
+        );
         let mut simulation = Self {
             body: Body::new(rod, wire.radius(), friction, wall),
             grid,
@@ -119,7 +124,7 @@ impl Simulation {
             mouth,
             way,
             inserted,
-            roll: 0.0,
+            roll,
             steps: 0,
             push: 0.0,
             torque: 0.0,
@@ -156,7 +161,7 @@ impl Simulation {
     /// A step of [`STEP`] seconds. Returns whether the wire did what it was told.
     pub fn step(&mut self, input: Input) -> Stepped {
         let input = input.limited();
-        let held_back = self.push > self.most_push && input.feed > 0.0;
+        let held_back = self.is_held_back() && input.feed > 0.0;
         let feed = if held_back { 0.0 } else { f64::from(input.feed) * STEP };
         let least = f64::midpoint(self.grid[FIRST], self.grid[FIRST + 1]);
         let most = self.grid[self.grid.len() - 4];
@@ -258,6 +263,11 @@ impl Simulation {
     /// What it takes at the guide to hold the wire against its way in, in N, and about it, in N mm.
     pub fn push_and_torque(&self) -> [f64; 2] {
         [self.push, self.torque]
+    }
+
+    /// Whether the guide holds the wire back: more force would be needed than a hand gives.
+    pub fn is_held_back(&self) -> bool {
+        self.push > self.most_push
     }
 
     /// Material places of the nodes, in mm from the tip.

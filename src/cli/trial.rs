@@ -1,0 +1,207 @@
+//! `lumen trial`: the autopilot steers a guidewire through a surface; what happens is printed, and logged on request.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::{Context, Result, anyhow};
+use clap::Args;
+
+use super::optimise::{advance, percent, same_file};
+use super::{misuse, row, source, write_whole};
+use crate::io::Unit;
+use crate::mesh::TriMesh;
+use crate::phantom::Sample;
+use crate::pipeline::run::Pipeline;
+use crate::pipeline::settings::{Settings, Smoothing, Target};
+use crate::trial::course::Course;
+use crate::trial::frame::Summary;
+use crate::trial::setup::{Entry, Setup};
+use crate::trial::trial::Trial as Run;
+use crate::trial::wire::Wire;
+
+/// Steers a guidewire through a surface.
+#[derive(Debug, Args)]
+pub struct Trial {
+    /// A surface file, or sample:aorta, sample:coronary
+    file: String,
+    /// Percentage of triangles to remove first
+    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = percent)]
+    reduction: f64,
+    /// Triangles that a sample is made with; of a file, those that are left (in place of --reduction)
+    #[arg(long, value_name = "N")]
+    triangles: Option<u32>,
+    /// The wire
+    #[arg(long, value_name = "NAME")]
+    wire: Option<String>,
+    /// Where the wire enters: x,y,z in mm; it points along the vessel
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    entry: Option<[f32; 3]>,
+    /// Where it points there: x,y,z
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true, requires = "entry")]
+    direction: Option<[f32; 3]>,
+    /// Where it should go: x,y,z in mm
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    target: Option<[f32; 3]>,
+    /// Varies entry, roll and friction; 0 varies nothing
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Length of an element in mm, from the tip to the end, in place of the wire's own
+    #[arg(long, value_name = "MM")]
+    element: Option<f64>,
+    /// Pass band of the smoothing that comes first, 0 to 2
+    #[arg(long, value_name = "K", default_value_t = SMOOTHING.0)]
+    pass_band: f64,
+    /// Its iterations; 0 leaves the surface as it is
+    #[arg(long, value_name = "N", default_value_t = SMOOTHING.1)]
+    iterations: u32,
+    /// Write the log here
+    #[arg(long, value_name = "OUT.csv")]
+    log: Option<PathBuf>,
+    /// Write the summary here
+    #[arg(long, value_name = "OUT.json")]
+    json: Option<PathBuf>,
+    /// The unit of the numbers in the file: mm, cm or m
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<Unit>,
+}
+
+/// Pass band and iterations. The paper's 0.01 and 100 draw coronary arteries shut (docs/benchmarks.md); these take the
+/// stairs of a segmentation out and leave vessels of 1.5 mm open.
+pub(super) const SMOOTHING: (f64, u32) = (0.1, 30);
+
+/// `x,y,z`.
+fn point(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.ok().and_then(|numbers| <[f32; 3]>::try_from(numbers).ok()) {
+        Some(point) if point.iter().all(|x| x.is_finite()) => Ok(point),
+        _ => Err(format!("{text} is not a place: three numbers with commas between are")),
+    }
+}
+
+/// A surface, and the sample it is, if it is one.
+pub(super) fn surface(
+    file: &str,
+    triangles: Option<u32>,
+    unit: Option<Unit>,
+) -> Result<(Arc<TriMesh>, Option<Sample>)> {
+    let sample = file.strip_prefix("sample:").map(str::parse).transpose()?;
+    let imported = match (sample, triangles) {
+        (Some(sample), Some(triangles)) => source::sample(sample, triangles as usize)?,
+        _ => source::read(file, unit)?,
+    };
+    Ok((Arc::new(imported.mesh), sample))
+}
+
+/// The pipeline at settings for a trial.
+pub(super) fn settings(smoothing: (f64, u32), target: Target) -> Settings {
+    let smoothing = Smoothing { pass_band: smoothing.0, iterations: smoothing.1, ..Smoothing::default() };
+    Settings { smoothing, target, ..Settings::default() }
+}
+
+impl Trial {
+    /// Runs the trial.
+    pub(super) fn run(&self) -> Result<()> {
+        for output in [&self.log, &self.json].into_iter().flatten() {
+            if same_file(Path::new(&self.file), output) {
+                misuse(format!("{} would be overwritten: choose another output", self.file));
+            }
+        }
+        if self.log.is_some() && self.log == self.json {
+            misuse("the log and the summary cannot both go to one file");
+        }
+        let setup = self.setup();
+        let (opened, sample) = surface(&self.file, self.triangles, self.unit)?;
+        let target = match self.triangles {
+            Some(count) if sample.is_none() => Target::Triangles(count),
+            _ => Target::Reduction((self.reduction * 10.0).round() as u32),
+        };
+        let settings = settings((self.pass_band, self.iterations), target);
+        settings.check().unwrap_or_else(|error| misuse(error));
+        let mut pipeline = Pipeline::new(opened, settings).without_measures();
+        advance(&mut pipeline)?;
+        let mesh = pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone();
+        let run = trial(&mesh, sample, setup)?;
+        let summary = run.summary();
+        if let Some(path) = &self.log {
+            write_whole(path, run.log().csv()?.as_bytes())?;
+        }
+        if let Some(path) = &self.json {
+            write_whole(path, serde_json::to_string_pretty(&summary)?.as_bytes())?;
+        }
+        print(&summary);
+        Ok(())
+    }
+
+    fn setup(&self) -> Setup {
+        let sample = self.file.strip_prefix("sample:");
+        let usual = if sample == Some("aorta") { "035-j" } else { "workhorse" };
+        let name = self.wire.as_deref().unwrap_or(usual);
+        let mut wire = Wire::preset(name).unwrap_or_else(|| {
+            let names: Vec<_> = Wire::names().collect();
+            misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
+        });
+        if let Some(element) = self.element {
+            wire.elements_mm = [element; 2];
+        }
+        wire.check().unwrap_or_else(|error| misuse(error));
+        let entry = self.entry.map(|at| Entry { at, direction: self.direction.unwrap_or([0.0; 3]) });
+        Setup { wire, entry, target: self.target, seed: self.seed }
+    }
+}
+
+/// Runs the autopilot on a surface to the end.
+pub(super) fn trial(mesh: &Arc<TriMesh>, sample: Option<Sample>, mut setup: Setup) -> Result<Run> {
+    let course = Course::new(mesh, sample, &mut setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
+    let mut run = Run::new(Arc::new(course), setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
+    run.set_autopilot(true);
+    run.finish();
+    Ok(run)
+}
+
+fn print(summary: &Summary) {
+    row("result", &summary.reason);
+    row("triangles", summary.triangles);
+    row(
+        "route",
+        format!(
+            "{:.1} mm, smallest radius {:.2} mm, {} branches passed",
+            summary.route_length_mm, summary.route_smallest_radius_mm, summary.branches_passed
+        ),
+    );
+    row("time", format!("{:.2} s, {} steps", summary.time_s, summary.steps));
+    let times = summary.step_ms;
+    row(
+        "speed",
+        format!(
+            "{:.0} steps a second; a step {:.3} ms, 99 % within {:.3}, at most {:.3}",
+            summary.steps_per_second, times.mean, times.p99, times.max
+        ),
+    );
+    row("preparation", format!("{:.0} ms wall, {:.0} ms route", summary.wall_build_ms, summary.route_build_ms));
+    row(
+        "wire",
+        format!(
+            "{}, up to {} nodes, {:.0} % of them touching",
+            summary.wire,
+            summary.max_nodes,
+            100.0 * summary.max_contact_share
+        ),
+    );
+    row(
+        "wall force",
+        format!("{:.4} N at most, {:.4} N in all on average", summary.max_wall_force_n, summary.mean_wall_force_n),
+    );
+    row(
+        "push, torque at the guide",
+        format!("{:.3} N, {:.4} N mm at most", summary.max_push_n, summary.max_torque_n_mm),
+    );
+    row("reached into the wall", format!("{:.4} mm at most", summary.max_penetration_mm));
+    row(
+        "tries",
+        format!(
+            "{} retractions, {} wrong branches, {} loops; path {:.2} times the route",
+            summary.retractions, summary.wrong_branches, summary.loops, summary.path_ratio
+        ),
+    );
+    println!("{}", summary.notice);
+}

@@ -1,0 +1,135 @@
+//! What a trial takes place in: the wall, the vessel tree, the way through it, and where the wire stands.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use thiserror::Error;
+use web_time::Instant;
+
+use super::route::{Route, RouteError, Tree, phantom_task};
+use super::setup::{Entry, Setup};
+use super::simulation::{PlacementError, Simulation};
+use super::wall::Wall;
+use crate::mesh::{TriMesh, Vec3};
+use crate::phantom::Sample;
+use crate::pipeline::run::fingerprint;
+
+/// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
+const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
+
+/// Why a trial cannot begin.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum TrialError {
+    /// There is no way.
+    #[error(transparent)]
+    Route(#[from] RouteError),
+    /// The wire cannot be put there.
+    #[error(transparent)]
+    Placement(#[from] PlacementError),
+    /// No place is known where a wire could enter.
+    #[error("no vessel of this surface has an end where a wire could enter; give an entry")]
+    NoEntry,
+    /// No place is known where it could go.
+    #[error("no vessel of this surface is far enough from the entry to be a target; give a target")]
+    NoTarget,
+}
+
+/// A vessel that is ready for trials, and the way through it.
+#[derive(Debug)]
+pub struct Course {
+    /// The wall.
+    pub wall: Arc<Wall>,
+    /// The vessel tree.
+    pub tree: Tree,
+    /// The way.
+    pub route: Route,
+    /// Places where a wire could enter.
+    pub entries: Vec<Entry>,
+    /// Places where it could go, by name.
+    pub targets: Vec<(String, [f32; 3])>,
+    /// Milliseconds to build the hierarchy of boxes.
+    pub wall_ms: f64,
+    /// Milliseconds to find tree and route.
+    pub route_ms: f64,
+    /// A number that differs where surfaces do.
+    pub fingerprint: u64,
+}
+
+impl Course {
+    /// Finds the way, and fills in what `setup` leaves open: samples bring their own entry and target.
+    ///
+    /// # Errors
+    /// When there is no way for this wire.
+    pub fn new(mesh: &Arc<TriMesh>, sample: Option<Sample>, setup: &mut Setup) -> Result<Self, TrialError> {
+        setup.wire.check()?;
+        let start = Instant::now();
+        let wall = Arc::new(Wall::new(mesh.clone()));
+        let wall_ms = milliseconds(start);
+        let start = Instant::now();
+        let tree = Tree::with_index(mesh, wall.index().clone())?;
+        let task = sample.map(phantom_task);
+        let entries: Vec<Entry> = task.iter().map(|(entry, _)| *entry).chain(tree.entries()).collect();
+        let own = task.iter().map(|(_, target)| ("the sample's own".to_owned(), target.to_array()));
+        let found = tree.targets().into_iter().map(|target| (target.name, target.at.to_array()));
+        let targets: Vec<_> = own.chain(found).collect();
+        let entry = *setup.entry.get_or_insert(*entries.first().ok_or(TrialError::NoEntry)?);
+        let target = *setup.target.get_or_insert(targets.first().ok_or(TrialError::NoTarget)?.1);
+        let route = tree.route(Vec3::from(entry.at), Vec3::from(target))?;
+        route.clearance(setup.wire.diameter_mm)?;
+        let route_ms = milliseconds(start);
+        let fingerprint = fingerprint(mesh);
+        Ok(Self { wall, tree, route, entries, targets, wall_ms, route_ms, fingerprint })
+    }
+
+    /// The wire at its entry, varied by the seed; also the coefficients of friction.
+    ///
+    /// # Errors
+    /// When it does not fit there.
+    pub fn place(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
+        let entry = setup.entry.ok_or(TrialError::NoEntry)?;
+        let mut chance = Chance(setup.seed);
+        let is_varied = setup.seed != 0;
+        let part = |x: f64| if is_varied { x } else { 0.0 };
+        let (angle, out, tilt, tilted) = (chance.next(), chance.next(), chance.next(), chance.next());
+        let roll = part(std::f64::consts::TAU * chance.next());
+        let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * chance.next() - 1.0))));
+        let way = DVec3::from(entry.direction.map(f64::from)).try_normalize().ok_or(PlacementError::Direction)?;
+        let across = way.any_orthonormal_vector();
+        let turned = |angle: f64| DQuat::from_axis_angle(way, std::f64::consts::TAU * angle) * across;
+        let mut shift = turned(angle) * part(VARIED.0 * out.sqrt());
+        let mut lean = part(VARIED.1 * tilted.sqrt());
+        // In a narrow vessel there is less room than the seed asks for.
+        for _ in 0..4 {
+            let direction = DQuat::from_axis_angle(turned(tilt), lean) * way;
+            let at = DVec3::from(entry.at.map(f64::from)) + shift;
+            let varied = Entry { at: at.as_vec3().to_array(), direction: direction.as_vec3().to_array() };
+            match Simulation::new(&setup.wire, friction, &varied, roll, Some(self.wall.clone())) {
+                Ok(simulation) => return Ok((simulation, friction)),
+                Err(PlacementError::Tight { .. } | PlacementError::Outside) => {
+                    shift /= 2.0;
+                    lean /= 2.0;
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+        Ok((Simulation::new(&setup.wire, friction, &entry, roll, Some(self.wall.clone()))?, friction))
+    }
+}
+
+/// Milliseconds since `start`.
+pub(super) fn milliseconds(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+/// Numbers from 0 to 1 that a seed decides: `SplitMix64` (Steele, Lea and Flood 2014).
+struct Chance(u64);
+
+impl Chance {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}

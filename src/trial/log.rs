@@ -1,0 +1,222 @@
+//! The log of a trial: a row every ten steps, as CSV. The input of a row is in force from its step on, so that the log
+//! replays to the same end.
+//!
+//! Every field is a number, so a line is split at its commas; the setup stands in a comment line as JSON.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::STEP;
+use super::frame::Progress;
+use super::meter::SCHEMA;
+use super::setup::{Input, Setup};
+
+/// The columns.
+const COLUMNS: &str = "step,time_s,feed_mm_s,roll_rad_s,inserted_mm,roll_rad,tip_x,tip_y,tip_z,tip_dx,tip_dy,tip_dz,\
+arc_mm,branch,off_route,target_mm,path_ratio,contacts,wall_force_n,max_wall_force_n,max_x,max_y,max_z,tip_force_n,\
+push_n,torque_n_mm,retractions,wrong_branches,step_ms";
+
+/// A moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Steps since the start.
+    pub step: u64,
+    /// From this step on.
+    pub input: Input,
+    /// Length outside the guide in mm.
+    pub inserted_mm: f64,
+    /// Roll at the guide in radians.
+    pub roll: f64,
+    /// The tip in mm, and its direction.
+    pub tip: DVec3,
+    /// Of length 1.
+    pub tip_direction: DVec3,
+    /// Arc length along the route in mm.
+    pub arc_mm: f64,
+    /// The branch that the tip is in.
+    pub branch: u32,
+    /// Whether that is off the route.
+    pub is_off: bool,
+    /// Distance from the target in mm.
+    pub target_mm: f64,
+    /// Length of the tip's way so far over the route's length.
+    pub path_ratio: f64,
+    /// Places that press against the wall.
+    pub contacts: usize,
+    /// Sum of normal forces in N.
+    pub wall_force_n: f64,
+    /// The largest, in N, and where.
+    pub max_wall_force_n: f64,
+    /// In mm.
+    pub max_at: DVec3,
+    /// Within 5 mm of the tip, in N.
+    pub tip_force_n: f64,
+    /// At the guide, in N.
+    pub push_n: f64,
+    /// At the guide, in N mm.
+    pub torque_n_mm: f64,
+    /// Times withdrawn.
+    pub retractions: u32,
+    /// Times in a wrong branch.
+    pub wrong_branches: u32,
+    /// Mean milliseconds of the steps since the last row.
+    pub step_ms: f64,
+}
+
+/// All rows of a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    setup: Setup,
+    surface: u64,
+    /// The rows.
+    pub rows: Vec<Row>,
+    /// How it ended, if it has.
+    pub end: Option<Progress>,
+}
+
+/// Why a log cannot be replayed.
+#[derive(Debug, Error)]
+pub enum LogError {
+    /// Not one of ours.
+    #[error("this is no log of a Lumen trial: its first line is not \"# lumen trial log\"")]
+    NoLog,
+    /// From another version.
+    #[error("the log has schema {found}; this version reads schema {SCHEMA}")]
+    Schema {
+        /// The number that stands there.
+        found: String,
+    },
+    /// The setup cannot be read.
+    #[error("the setup in the log cannot be read: {0}")]
+    Setup(#[from] serde_json::Error),
+    /// The setup is not there.
+    #[error("the log does not say what the setup was")]
+    NoSetup,
+    /// A line cannot be read.
+    #[error("line {line} of the log cannot be read: {what}")]
+    Line {
+        /// Counted from 1.
+        line: usize,
+        /// What is wrong.
+        what: &'static str,
+    },
+}
+
+/// What a log says that is needed to replay it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// The setup.
+    pub setup: Setup,
+    /// The surface's fingerprint in hexadecimal, as the summary has it.
+    pub surface: String,
+    /// Input, and the step from which it is in force.
+    pub inputs: Vec<(u64, Input)>,
+}
+
+impl Log {
+    pub(super) fn new(setup: Setup, surface: u64) -> Self {
+        Self { setup, surface, rows: Vec::new(), end: None }
+    }
+
+    /// The inputs, each with its step.
+    pub fn inputs(&self) -> Vec<(u64, Input)> {
+        self.rows.iter().map(|row| (row.step, row.input)).collect()
+    }
+
+    /// The log as CSV.
+    ///
+    /// # Errors
+    /// When the setup is not to be had as JSON.
+    pub fn csv(&self) -> Result<String, serde_json::Error> {
+        let setup = serde_json::to_string(&self.setup)?;
+        let mut text = format!(
+            "# lumen trial log, schema {SCHEMA}\n# not for clinical decisions\n# surface {:016x}\n# setup {setup}\n{COLUMNS}\n",
+            self.surface
+        );
+        for row in &self.rows {
+            row.write(&mut text);
+        }
+        Ok(text)
+    }
+
+    /// Reads a log for its replay.
+    ///
+    /// # Errors
+    /// Says which line is wrong.
+    pub fn read(bytes: &[u8]) -> Result<Recorded, LogError> {
+        let text = std::str::from_utf8(bytes).map_err(|_| LogError::NoLog)?;
+        let mut lines = text.lines().enumerate();
+        let head = lines.next().and_then(|(_, line)| line.strip_prefix("# lumen trial log, schema "));
+        let schema = head.ok_or(LogError::NoLog)?.trim();
+        if schema != SCHEMA.to_string() {
+            return Err(LogError::Schema { found: schema.to_owned() });
+        }
+        let (mut setup, mut surface, mut inputs) = (None, String::new(), Vec::<(u64, Input)>::new());
+        let mut has_columns = false;
+        for (number, line) in lines {
+            let wrong = |what| LogError::Line { line: number + 1, what };
+            if let Some(json) = line.strip_prefix("# setup ") {
+                setup = Some(serde_json::from_str(json)?);
+            } else if let Some(hash) = line.strip_prefix("# surface ") {
+                surface = hash.trim().to_owned();
+            } else if line.starts_with('#') || line.trim().is_empty() {
+            } else if has_columns {
+                let mut fields = line.split(',');
+                let step = fields.next().and_then(|field| field.parse().ok()).ok_or(wrong("its step is no number"))?;
+                let mut speed = |what| {
+                    let field = fields.nth(usize::from(what == "feed")).and_then(|field| field.parse::<f32>().ok());
+                    field.filter(|x| x.is_finite()).ok_or(wrong(if what == "feed" {
+                        "its feed is no number"
+                    } else {
+                        "its roll is no number"
+                    }))
+                };
+                let input = Input { feed: speed("feed")?, roll: speed("roll")? };
+                if inputs.last().is_some_and(|&(last, _)| last >= step) {
+                    return Err(wrong("its step is not after the one before"));
+                }
+                inputs.push((step, input.limited()));
+            } else if line.starts_with("step,time_s,feed_mm_s,roll_rad_s,") {
+                has_columns = true;
+            } else {
+                return Err(wrong("the columns are not those of a log"));
+            }
+        }
+        Ok(Recorded { setup: setup.ok_or(LogError::NoSetup)?, surface, inputs })
+    }
+}
+
+impl Row {
+    fn write(&self, text: &mut String) {
+        let Self { step, input, inserted_mm, roll, tip, tip_direction, .. } = *self;
+        let point = |p: DVec3| format!("{:.4},{:.4},{:.4}", p.x, p.y, p.z);
+        // Speeds stand in full, so that a replay has the same bits.
+        let line = format!(
+            "{step},{:.3},{},{},{inserted_mm:.4},{roll:.5},{},{},{:.3},{},{},{:.3},{:.4},{},{:.6},{:.6},{},{:.6},{:.6},{:.6},{},{},{:.4}",
+            step as f64 * STEP,
+            input.feed,
+            input.roll,
+            point(tip),
+            point(tip_direction),
+            self.arc_mm,
+            self.branch,
+            u8::from(self.is_off),
+            self.target_mm,
+            self.path_ratio,
+            self.contacts,
+            self.wall_force_n,
+            self.max_wall_force_n,
+            point(self.max_at),
+            self.tip_force_n,
+            self.push_n,
+            self.torque_n_mm,
+            self.retractions,
+            self.wrong_branches,
+            self.step_ms,
+        );
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{line}");
+    }
+}

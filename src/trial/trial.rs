@@ -1,0 +1,367 @@
+//! A trial: a wire on its way through a vessel, what it is told, and what is measured of it.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use web_time::Instant;
+
+use super::STEP;
+use super::autopilot::{Autopilot, FEED, Seen};
+use super::body::Stepped;
+use super::course::{Course, TrialError};
+use super::frame::{Frame, Progress, Touch};
+use super::log::{Log, Row};
+use super::meter::Meter;
+use super::route::Located;
+use super::setup::{Input, Setup};
+use super::simulation::Simulation;
+
+/// Steps between two rows of the log, and between two decisions.
+pub const ROW_STEPS: u64 = 10;
+/// Steps between two places that can be gone back to: a second.
+const MARK_STEPS: u64 = 500;
+/// Places that can be gone back to.
+const MARKS: usize = 60;
+/// The tip has arrived within this of the target's cross-section, in mm.
+const ARRIVED: f64 = 2.0;
+/// What is at the tip, in mm from it.
+const TIP: f64 = 5.0;
+/// Cosine between the shaft's way and the route's below which the wire has turned back.
+const BACK: f64 = -0.3;
+
+/// What changes from step to step.
+#[derive(Clone, Debug)]
+struct State {
+    simulation: Simulation,
+    autopilot: Autopilot,
+    input: Input,
+    located: Option<Located>,
+    arc: f64,
+    is_off: bool,
+    is_looped: bool,
+    progress: Progress,
+    meter: Meter,
+    rows: usize,
+}
+
+/// A trial.
+#[derive(Debug)]
+pub struct Trial {
+    course: Arc<Course>,
+    setup: Setup,
+    friction: [f64; 2],
+    state: State,
+    marks: Vec<State>,
+    log: Log,
+    is_steered: bool,
+    /// Input to be replayed: from which step on, and what.
+    replay: Option<Vec<(u64, Input)>>,
+    limit_s: f64,
+}
+
+impl Trial {
+    /// The wire at the entry of a course.
+    ///
+    /// # Errors
+    /// When it does not fit there.
+    pub fn new(course: Arc<Course>, setup: Setup) -> Result<Self, TrialError> {
+        let (simulation, friction) = course.place(&setup)?;
+        let limit_s = 3.0 * course.route.length_mm / FEED + 30.0;
+        let state = State {
+            simulation,
+            autopilot: Autopilot::default(),
+            input: Input::default(),
+            located: None,
+            arc: 0.0,
+            is_off: false,
+            is_looped: false,
+            progress: Progress::Running,
+            meter: Meter::new(&course.route),
+            rows: 0,
+        };
+        let log = Log::new(setup.clone(), course.fingerprint);
+        let mut trial =
+            Self { course, setup, friction, state, marks: Vec::new(), log, is_steered: false, replay: None, limit_s };
+        trial.look();
+        trial.mark();
+        Ok(trial)
+    }
+
+    /// Plays this input, from the start, in place of any other.
+    pub fn replay(&mut self, inputs: Vec<(u64, Input)>) {
+        self.replay = Some(inputs);
+    }
+
+    /// What it takes place in.
+    pub fn course(&self) -> &Arc<Course> {
+        &self.course
+    }
+
+    /// Its setup, with entry and target.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Static and kinetic friction, varied by the seed.
+    pub fn friction(&self) -> [f64; 2] {
+        self.friction
+    }
+
+    /// The wire.
+    pub fn simulation(&self) -> &Simulation {
+        &self.state.simulation
+    }
+
+    /// What was measured so far.
+    pub fn meter(&self) -> &Meter {
+        &self.state.meter
+    }
+
+    /// What was logged so far.
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        self.state.progress
+    }
+
+    /// Times the wire was withdrawn by the autopilot.
+    pub fn retractions(&self) -> u32 {
+        self.state.meter.retractions
+    }
+
+    /// Simulated seconds after which it is over.
+    pub fn limit_s(&self) -> f64 {
+        self.limit_s
+    }
+
+    /// Steers by itself from the next decision on, or no longer.
+    pub fn set_autopilot(&mut self, on: bool) {
+        self.is_steered = on;
+        if !on {
+            self.state.input = Input::default();
+        }
+    }
+
+    /// What is done from the next row of the log on, by hand.
+    pub fn drive(&mut self, input: Input) {
+        if !self.is_steered {
+            self.state.input = input.limited();
+        }
+    }
+
+    /// One step of [`STEP`] seconds; nothing once it is over.
+    pub fn step(&mut self) {
+        if self.state.progress != Progress::Running {
+            return;
+        }
+        let steps = self.state.simulation.steps();
+        if steps.is_multiple_of(ROW_STEPS) {
+            self.decide(steps);
+            if self.state.progress != Progress::Running {
+                return;
+            }
+        }
+        let start = Instant::now();
+        let stepped = self.state.simulation.step(self.state.input);
+        self.state.meter.stepped(start.elapsed().as_secs_f64() * 1e3, &self.state.simulation);
+        if stepped == Stepped::Held {
+            self.state.meter.held += 1;
+        }
+        let steps = self.state.simulation.steps();
+        if steps.is_multiple_of(ROW_STEPS) {
+            self.look();
+            if steps.is_multiple_of(MARK_STEPS) {
+                self.mark();
+            }
+        }
+    }
+
+    /// Runs to the end.
+    pub fn finish(&mut self) {
+        while self.state.progress == Progress::Running {
+            self.step();
+        }
+    }
+
+    /// Goes back by a second of simulated time, if there is so much.
+    pub fn step_back(&mut self) {
+        let steps = self.state.simulation.steps();
+        while let Some(mark) = self.marks.last()
+            && mark.simulation.steps() + MARK_STEPS / 2 > steps
+            && self.marks.len() > 1
+        {
+            self.marks.pop();
+        }
+        if let Some(mark) = self.marks.last() {
+            self.state = mark.clone();
+            self.state.input = Input::default();
+            self.log.rows.truncate(self.state.rows);
+        }
+    }
+
+    fn mark(&mut self) {
+        if self.marks.len() == MARKS {
+            self.marks.remove(1);
+        }
+        self.state.rows = self.log.rows.len();
+        self.marks.push(self.state.clone());
+    }
+
+    /// The input of the next row.
+    fn decide(&mut self, steps: u64) {
+        if let Some(inputs) = &self.replay {
+            let known = inputs.partition_point(|&(from, _)| from <= steps);
+            if steps > 0 && inputs.last().is_some_and(|&(last, _)| steps > last) {
+                self.state.progress = self.log.end.unwrap_or(Progress::TimedOut);
+            }
+            self.state.input = known.checked_sub(1).map_or(Input::default(), |i| inputs[i].1);
+        } else if self.is_steered {
+            let seen = self.seen();
+            match self.state.autopilot.decide(&self.course.route, &seen) {
+                Some(input) => self.state.input = input.limited(),
+                None => self.state.progress = Progress::GaveUp,
+            }
+            self.state.meter.retractions = self.state.autopilot.retractions;
+        }
+        let row = self.row();
+        self.log.rows.push(row);
+    }
+
+    fn seen(&self) -> Seen {
+        let State { simulation, arc, is_off, is_looped, .. } = &self.state;
+        let [_, side] = self.tip_side();
+        Seen {
+            tip: simulation.tip(),
+            shaft: self.shaft(),
+            side,
+            arc: *arc,
+            inserted: simulation.inserted(),
+            is_off: *is_off,
+            is_looped: *is_looped,
+            is_hard: simulation.is_held_back(),
+        }
+    }
+
+    /// The direction of the shaft behind the bend of the tip.
+    fn shaft(&self) -> DVec3 {
+        let (rod, wire) = (&self.state.simulation.body().rod, &self.setup.wire);
+        let behind = wire.bend_mm + 2.0 * wire.elements_mm[0];
+        let grid = self.state.simulation.grid();
+        let edge = grid.partition_point(|&at| at < behind).min(self.state.simulation.count());
+        -rod.tangent(edge)
+    }
+
+    /// Direction of the tip, and the side to which it is bent, as the frame behind the bend has it.
+    fn tip_side(&self) -> [DVec3; 2] {
+        let simulation = &self.state.simulation;
+        let wire = &self.setup.wire;
+        let grid = simulation.grid();
+        let edge = grid.partition_point(|&at| at < wire.bend_mm).min(simulation.count());
+        [simulation.tip_frame()[0], simulation.body().rod.director(edge)]
+    }
+
+    /// Finds out where the tip is, and whether that is the end.
+    fn look(&mut self) {
+        let tip = self.state.simulation.tip();
+        let route = &self.course.route;
+        let state = &mut self.state;
+        state.located = self.course.tree.locate(tip, state.located.as_ref());
+        let was_off = state.is_off;
+        state.is_off = state.located.as_ref().is_some_and(|located| route.is_off(tip, located));
+        let on = route.locate(tip);
+        if !state.is_off {
+            state.arc = on.arc_mm;
+        }
+        let shaft = self.shaft();
+        let state = &mut self.state;
+        let was_looped = state.is_looped;
+        state.is_looped = shaft.dot(route.at(on.arc_mm).direction) < BACK && state.simulation.inserted() > 15.0;
+        state.meter.wrong_branches += u32::from(state.is_off && !was_off);
+        state.meter.loops += u32::from(state.is_looped && !was_looped);
+        state.meter.looked(&state.simulation, state.arc, TIP);
+        if state.progress == Progress::Running {
+            if !state.is_off && route.distance_to_target(tip) <= ARRIVED {
+                state.progress = Progress::Arrived;
+            } else if state.simulation.steps() as f64 * STEP > self.limit_s {
+                state.progress = Progress::TimedOut;
+            }
+        }
+        if self.state.progress != Progress::Running {
+            self.log.end = Some(self.state.progress);
+        }
+    }
+
+    fn row(&self) -> Row {
+        let state = &self.state;
+        let simulation = &state.simulation;
+        let body = simulation.body();
+        let [push_n, torque_n_mm] = simulation.push_and_torque();
+        let (wall_force_n, max_wall_force_n) = body.pressure();
+        let worst = body.touches().max_by(|a, b| a.3.total_cmp(&b.3));
+        Row {
+            step: simulation.steps(),
+            input: state.input,
+            inserted_mm: simulation.inserted(),
+            roll: simulation.roll(),
+            tip: simulation.tip(),
+            tip_direction: simulation.tip_frame()[0],
+            arc_mm: state.arc,
+            branch: state.located.map_or(0, |located| located.branch),
+            is_off: state.is_off,
+            target_mm: self.course.route.distance_to_target(simulation.tip()),
+            path_ratio: state.meter.path_mm / self.course.route.length_mm,
+            contacts: body.touches().count(),
+            wall_force_n,
+            max_wall_force_n,
+            max_at: worst.map_or(simulation.tip(), |worst| worst.1),
+            tip_force_n: state.meter.tip_force_n,
+            push_n,
+            torque_n_mm,
+            retractions: state.meter.retractions,
+            wrong_branches: state.meter.wrong_branches,
+            step_ms: state.meter.last_ms(ROW_STEPS as usize),
+        }
+    }
+
+    /// The wire and all that is told of it now. `pace` and what depends on the clock are filled in by the caller.
+    pub fn frame(&self) -> Frame {
+        let state = &self.state;
+        let simulation = &state.simulation;
+        let body = simulation.body();
+        let plain = |v: DVec3| v.as_vec3().to_array();
+        let (wall_force_n, max_wall_force_n) = body.pressure();
+        let [push_n, torque_n_mm] = simulation.push_and_torque();
+        let [direction, side] = self.tip_side();
+        let touch =
+            |(_, at, triangle, force): (usize, DVec3, u32, f64)| Touch { at: plain(at), triangle, force: force as f32 };
+        Frame {
+            step: simulation.steps(),
+            time_s: simulation.steps() as f64 * STEP,
+            nodes: simulation.nodes().map(plain).collect(),
+            forces: body.contacts.forces(simulation.count()).into_iter().chain([DVec3::ZERO]).map(plain).collect(),
+            touches: body.touches().map(touch).collect(),
+            tip_direction: plain(direction),
+            tip_side: plain(side.reject_from(direction).normalize_or(side)),
+            inserted_mm: simulation.inserted(),
+            roll: simulation.roll(),
+            feed: state.input.feed,
+            push_n,
+            torque_n_mm,
+            wall_force_n,
+            max_wall_force_n,
+            tip_force_n: state.meter.tip_force_n,
+            arc_mm: state.arc,
+            target_mm: self.course.route.distance_to_target(simulation.tip()),
+            branch: state.located.map_or(0, |located| located.branch),
+            is_wrong_branch: state.is_off,
+            is_looped: state.is_looped,
+            progress: state.progress,
+            doing: if self.is_steered { state.autopilot.words().to_owned() } else { String::new() },
+            steps_per_second: 0.0,
+            is_behind: false,
+        }
+    }
+}
