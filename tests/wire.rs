@@ -53,3 +53,26 @@ fn a_wire_follows_a_bend() {
         );
     }
 }
+
+#[test]
+fn the_tip_is_bent_to_its_side_by_its_angle() {
+    for (name, straight) in [("workhorse", 1.5), ("035-j", 0.0)] {
+        let wire = Wire::preset(name).unwrap();
+        let entry = Entry { at: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+        let mut simulation = Simulation::new(&wire, wire.friction, &entry, 0.7, None).unwrap();
+        for _ in 0..500 {
+            simulation.step(Input { feed: 30.0, roll: 0.0 });
+        }
+        (0..2000).for_each(|_| drop(simulation.step(Input::default())));
+        let behind = simulation.grid().partition_point(|&at| at < wire.bend_mm + 1.0);
+        let (rod, tip) = (&simulation.body().rod, simulation.tip());
+        let side = rod.director(behind);
+        let shaft = -rod.tangent(behind);
+        let offset = tip - rod.positions[behind];
+        let angle = shaft.angle_between(-rod.tangent(0)).to_degrees();
+        println!("{name}: {side} {offset} {angle}");
+        assert!(offset.dot(side) > 0.5, "{name}: the tip is bent away from its side");
+        assert!((angle - wire.bend_degrees).abs() < 2.0, "{name}: {angle} degrees");
+        assert!(straight == wire.straight_end_mm);
+    }
+}

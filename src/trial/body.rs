@@ -24,8 +24,12 @@ const SETTLED: f64 = 5e-4;
 const ALMOST: f64 = 2e-2;
 /// The least drag of each node when something snaps, in N s/mm.
 const BRAKE: f64 = 1e-6;
+/// The brake, in N s/mm, above which what is held waits: else it would be torn away from what cannot follow.
+const PATIENCE: f64 = 1e-5;
 /// By what it grows when that is too little, and falls when it was enough.
 const HARDER: f64 = 4.0;
+/// What a contact's force can rise by while the rod is braked, in N: the rest is what the brake does.
+const BRAKED_RISE: f64 = 0.005;
 /// Times it may grow in a step.
 const ATTEMPTS: usize = 9;
 
@@ -36,6 +40,8 @@ pub enum Stepped {
     Done,
     /// The rod had to be braked: something snapped.
     Braked,
+    /// It had to be braked so hard that what is held waited.
+    Waited,
     /// There was no way: the rod is where it was.
     Held,
 }
@@ -74,26 +80,34 @@ impl Body {
     }
 
     /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is held where it
-    /// should be at the end of the step.
+    /// should be at the end of the step; while something snaps it may have to wait where it is.
     pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
         let mut brake = self.brake / HARDER;
         if brake < BRAKE {
             brake = 0.0;
         }
         for _ in 0..ATTEMPTS {
-            prepare(&mut self.rod);
+            let waits = brake > PATIENCE;
+            if !waits {
+                prepare(&mut self.rod);
+            }
             self.rod.refresh();
             if self.try_step(dt, count, brake) {
-                self.contacts.finish(&self.rod);
+                self.contacts.finish(&self.rod, if brake > 0.0 { BRAKED_RISE } else { f64::INFINITY });
                 self.rod.finish(dt);
                 self.brake = brake;
-                return if brake > 0.0 { Stepped::Braked } else { Stepped::Done };
+                return match brake {
+                    _ if waits => Stepped::Waited,
+                    0.0 => Stepped::Done,
+                    _ => Stepped::Braked,
+                };
             }
             brake = (brake * HARDER).max(BRAKE);
             self.rod.undo();
             self.look(count);
         }
         self.brake = 0.0;
+        self.contacts.forget();
         Stepped::Held
     }
 

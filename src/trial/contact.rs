@@ -344,11 +344,18 @@ impl Contacts {
         }
     }
 
-    /// Ends a step: the forces are now those of the next step's start.
-    pub fn finish(&mut self, rod: &Rod) {
+    /// Lets go of all forces: the next step finds them anew.
+    pub fn forget(&mut self) {
+        for (_, contact) in self.near_mut() {
+            (contact.force, contact.stretch, contact.friction) = (0.0, DVec3::ZERO, DVec3::ZERO);
+        }
+    }
+
+    /// Ends a step: the forces are now those of the next step's start, none by more than `rise` N above what it was.
+    pub fn finish(&mut self, rod: &Rod, rise: f64) {
         let (radius, friction) = (self.radius, self.friction);
         for (node, contact) in self.near_mut() {
-            let force = contact.balanced;
+            let force = contact.balanced.min(contact.force + rise);
             if force <= 0.0 {
                 contact.force = 0.0;
                 contact.stretch = DVec3::ZERO;

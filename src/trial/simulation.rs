@@ -161,7 +161,7 @@ impl Simulation {
     /// A step of [`STEP`] seconds. Returns whether the wire did what it was told.
     pub fn step(&mut self, input: Input) -> Stepped {
         let input = input.limited();
-        let held_back = self.is_held_back() && input.feed > 0.0;
+        let held_back = self.is_held_back() && f64::from(input.feed) * self.push > 0.0;
         let feed = if held_back { 0.0 } else { f64::from(input.feed) * STEP };
         let least = f64::midpoint(self.grid[FIRST], self.grid[FIRST + 1]);
         let most = self.grid[self.grid.len() - 4];
@@ -181,7 +181,7 @@ impl Simulation {
         };
         let stepped = self.body.step(STEP, first, prepare);
         self.steps += 1;
-        if stepped == Stepped::Held {
+        if matches!(stepped, Stepped::Held | Stepped::Waited) {
             self.inserted = before;
             self.renumber();
             self.place();
@@ -267,7 +267,7 @@ impl Simulation {
 
     /// Whether the guide holds the wire back: more force would be needed than a hand gives.
     pub fn is_held_back(&self) -> bool {
-        self.push > self.most_push
+        self.push.abs() > self.most_push
     }
 
     /// Material places of the nodes, in mm from the tip.

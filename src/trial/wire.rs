@@ -47,12 +47,13 @@ impl Default for Wire {
 /// 10 mm; measured moduli of 0.035 in wires (Harrison 2011, J Endovasc Ther 18:797).
 const PRESETS: [(&str, f64, [f64; 2], [f64; 2], f64, f64, f64); 6] = [
     // name, diameter, [EI at the tip, of the shaft], [soft, taper], bend length, bend angle, straight end
-    // 0.06 mm of steel at the tip; a shaft of nitinol of 0.356 mm.
-    ("floppy", 0.356, [0.05, 38.0], [30.0, 300.0], 3.0, 45.0, 1.5),
+    // 0.06 mm of steel at the tip; a shaft of nitinol of 0.356 mm. The tip is bent by 45 degrees 3 mm from its end, for a
+    // main stem of 4 mm.
+    ("floppy", 0.356, [0.05, 38.0], [30.0, 300.0], 5.0, 45.0, 3.0),
     // 0.10 mm of steel at the tip gives 1; a tip load of 1 gf is 0.02 to 0.4.
-    ("workhorse", 0.356, [0.1, 40.0], [30.0, 300.0], 3.0, 45.0, 1.5),
+    ("workhorse", 0.356, [0.1, 40.0], [30.0, 300.0], 5.0, 45.0, 3.0),
     // A tip load of 12 gf is 0.6 to 4.8; a shaft of solid steel of 0.356 mm.
-    ("stiff", 0.356, [1.5, 150.0], [20.0, 200.0], 3.0, 45.0, 1.5),
+    ("stiff", 0.356, [1.5, 150.0], [20.0, 200.0], 5.0, 45.0, 3.0),
     // The workhorse with its end rolled to a J of 2 mm radius.
     ("workhorse-j", 0.356, [0.1, 40.0], [30.0, 300.0], 6.3, 180.0, 0.0),
     // A plain 0.035 in wire, 9.5 GPa: 291; a J of 3 mm radius.
