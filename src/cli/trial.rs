@@ -123,7 +123,7 @@ impl Trial {
         let run = trial(&mesh, sample, setup)?;
         let summary = run.summary();
         if let Some(path) = &self.log {
-            write_whole(path, run.log().csv()?.as_bytes())?;
+            write_whole(path, run.log().csv(summary.steps)?.as_bytes())?;
         }
         if let Some(path) = &self.json {
             write_whole(path, serde_json::to_string_pretty(&summary)?.as_bytes())?;

@@ -25,6 +25,8 @@ pub enum Progress {
     TimedOut,
     /// The autopilot has tried all it knows.
     GaveUp,
+    /// A replayed input is over.
+    Over,
 }
 
 /// The wire and all that is told of it at one moment.

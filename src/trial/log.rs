@@ -9,7 +9,6 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::STEP;
-use super::frame::Progress;
 use super::meter::SCHEMA;
 use super::setup::{Input, Setup};
 
@@ -72,8 +71,6 @@ pub struct Log {
     surface: u64,
     /// The rows.
     pub rows: Vec<Row>,
-    /// How it ended, if it has.
-    pub end: Option<Progress>,
 }
 
 /// Why a log cannot be replayed.
@@ -113,11 +110,13 @@ pub struct Recorded {
     pub surface: String,
     /// Input, and the step from which it is in force.
     pub inputs: Vec<(u64, Input)>,
+    /// Steps of it all.
+    pub steps: u64,
 }
 
 impl Log {
     pub(super) fn new(setup: Setup, surface: u64) -> Self {
-        Self { setup, surface, rows: Vec::new(), end: None }
+        Self { setup, surface, rows: Vec::new() }
     }
 
     /// The inputs, each with its step.
@@ -125,14 +124,14 @@ impl Log {
         self.rows.iter().map(|row| (row.step, row.input)).collect()
     }
 
-    /// The log as CSV.
+    /// The log as CSV, of a trial with so many steps.
     ///
     /// # Errors
     /// When the setup is not to be had as JSON.
-    pub fn csv(&self) -> Result<String, serde_json::Error> {
+    pub fn csv(&self, steps: u64) -> Result<String, serde_json::Error> {
         let setup = serde_json::to_string(&self.setup)?;
         let mut text = format!(
-            "# lumen trial log, schema {SCHEMA}\n# not for clinical decisions\n# surface {:016x}\n# setup {setup}\n{COLUMNS}\n",
+            "# lumen trial log, schema {SCHEMA}\n# not for clinical decisions\n# surface {:016x}\n# steps {steps}\n# setup {setup}\n{COLUMNS}\n",
             self.surface
         );
         for row in &self.rows {
@@ -154,11 +153,14 @@ impl Log {
             return Err(LogError::Schema { found: schema.to_owned() });
         }
         let (mut setup, mut surface, mut inputs) = (None, String::new(), Vec::<(u64, Input)>::new());
+        let mut steps = 0;
         let mut has_columns = false;
         for (number, line) in lines {
             let wrong = |what| LogError::Line { line: number + 1, what };
             if let Some(json) = line.strip_prefix("# setup ") {
                 setup = Some(serde_json::from_str(json)?);
+            } else if let Some(count) = line.strip_prefix("# steps ") {
+                steps = count.trim().parse().map_err(|_| wrong("the number of steps is no number"))?;
             } else if let Some(hash) = line.strip_prefix("# surface ") {
                 surface = hash.trim().to_owned();
             } else if line.starts_with('#') || line.trim().is_empty() {
@@ -184,7 +186,7 @@ impl Log {
                 return Err(wrong("the columns are not those of a log"));
             }
         }
-        Ok(Recorded { setup: setup.ok_or(LogError::NoSetup)?, surface, inputs })
+        Ok(Recorded { setup: setup.ok_or(LogError::NoSetup)?, surface, inputs, steps })
     }
 }
 

@@ -167,6 +167,9 @@ impl Trial {
                     "the time of {:.0} s was over with the tip {tip_distance_mm:.1} mm from the target",
                     self.limit_s()
                 ),
+                Progress::Over => {
+                    format!("the recorded input was over with the tip {tip_distance_mm:.1} mm from the target")
+                }
                 Progress::GaveUp => format!(
                     "the autopilot gave up after {} retractions with the tip {tip_distance_mm:.1} mm from the target",
                     meter.retractions

@@ -11,6 +11,7 @@
 
 pub mod autopilot;
 pub mod body;
+pub mod compare;
 pub mod contact;
 pub mod course;
 pub mod frame;

@@ -54,8 +54,8 @@ pub struct Trial {
     marks: Vec<State>,
     log: Log,
     is_steered: bool,
-    /// Input to be replayed: from which step on, and what.
-    replay: Option<Vec<(u64, Input)>>,
+    /// Input to be replayed: from which step on, and what; and the steps of it all.
+    replay: Option<(Vec<(u64, Input)>, u64)>,
     limit_s: f64,
 }
 
@@ -87,9 +87,14 @@ impl Trial {
         Ok(trial)
     }
 
-    /// Plays this input, from the start, in place of any other.
-    pub fn replay(&mut self, inputs: Vec<(u64, Input)>) {
-        self.replay = Some(inputs);
+    /// Plays this input, from the start, in place of any other, for so many steps.
+    pub fn replay(&mut self, inputs: Vec<(u64, Input)>, steps: u64) {
+        self.replay = Some((inputs, steps));
+    }
+
+    /// Steps that the replay has in all, if it is one.
+    pub fn replayed_steps(&self) -> Option<u64> {
+        self.replay.as_ref().map(|replay| replay.1)
     }
 
     /// What it takes place in.
@@ -212,17 +217,18 @@ impl Trial {
 
     /// The input of the next row.
     fn decide(&mut self, steps: u64) {
-        if let Some(inputs) = &self.replay {
-            let known = inputs.partition_point(|&(from, _)| from <= steps);
-            if steps > 0 && inputs.last().is_some_and(|&(last, _)| steps > last) {
-                self.state.progress = self.log.end.unwrap_or(Progress::TimedOut);
+        if let Some((inputs, all)) = &self.replay {
+            if steps >= *all {
+                self.end(Progress::Over);
+                return;
             }
+            let known = inputs.partition_point(|&(from, _)| from <= steps);
             self.state.input = known.checked_sub(1).map_or(Input::default(), |i| inputs[i].1);
         } else if self.is_steered {
             let seen = self.seen();
             match self.state.autopilot.decide(&self.course.route, &seen) {
                 Some(input) => self.state.input = input.limited(),
-                None => self.state.progress = Progress::GaveUp,
+                None => self.end(Progress::GaveUp),
             }
             self.state.meter.retractions = self.state.autopilot.retractions;
         }
@@ -289,9 +295,10 @@ impl Trial {
                 state.progress = Progress::TimedOut;
             }
         }
-        if self.state.progress != Progress::Running {
-            self.log.end = Some(self.state.progress);
-        }
+    }
+
+    fn end(&mut self, progress: Progress) {
+        self.state.progress = progress;
     }
 
     fn row(&self) -> Row {

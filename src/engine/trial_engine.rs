@@ -1,0 +1,345 @@
+//! The trial that keeps pace with the clock, and what else is asked of it.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+use std::time::Duration;
+
+use web_time::Instant;
+
+use super::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
+use crate::mesh::TriMesh;
+use crate::phantom::Sample;
+use crate::trial::STEP;
+use crate::trial::compare::Difference;
+use crate::trial::course::{Course, TrialError};
+use crate::trial::frame::Progress;
+use crate::trial::log::Log;
+use crate::trial::setup::Setup;
+use crate::trial::trial::Trial;
+
+/// Seconds by which the trial may be behind the clock before it slows down.
+const BEHIND: f64 = 0.05;
+/// Seconds between two frames.
+const FRAME: f64 = 1.0 / 60.0;
+/// Seconds over which the speed is told, and between two words on how far long work is.
+const TELL: f64 = 0.5;
+
+/// What runs to its end as fast as it goes, while the trial that is shown waits.
+struct Job {
+    trial: Box<Trial>,
+    kind: JobKind,
+    told: Instant,
+}
+
+enum JobKind {
+    Measure { id: u64 },
+    Compare,
+}
+
+/// The trial that is shown.
+struct Shown {
+    trial: Box<Trial>,
+    is_steered: bool,
+    is_paused: bool,
+    pace: f64,
+    /// Simulated seconds that the clock has asked for and that are not done.
+    owed: f64,
+    clock: Option<f64>,
+    framed: f64,
+    is_behind: bool,
+    is_told: bool,
+    /// Steps and the clock's milliseconds for them since the speed was told last, and that speed.
+    counted: (u64, f64),
+    speed: f32,
+    needs_frame: bool,
+}
+
+impl Shown {
+    fn new(trial: Trial) -> Self {
+        Self {
+            trial: Box::new(trial),
+            is_steered: false,
+            is_paused: false,
+            pace: 1.0,
+            owed: 0.0,
+            clock: None,
+            framed: f64::NEG_INFINITY,
+            is_behind: false,
+            is_told: false,
+            counted: (0, 0.0),
+            speed: 0.0,
+            needs_frame: true,
+        }
+    }
+
+    /// Begins again on the same course.
+    fn restart(&mut self) -> Result<(), TrialError> {
+        let trial = Trial::new(self.trial.course().clone(), self.trial.setup().clone())?;
+        let (is_steered, pace) = (self.is_steered, self.pace);
+        *self = Self { is_steered, pace, ..Self::new(trial) };
+        self.trial.set_autopilot(is_steered);
+        Ok(())
+    }
+}
+
+/// The trial as commands and events.
+#[derive(Default)]
+pub struct TrialEngine {
+    shown: Option<Shown>,
+    jobs: VecDeque<Job>,
+    events: VecDeque<TrialEvent>,
+}
+
+impl TrialEngine {
+    /// Without a trial.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes a command.
+    pub fn handle(&mut self, command: TrialCommand) {
+        match command {
+            TrialCommand::Start { id, mesh, sample, setup } => self.start(id, &mesh, sample, setup),
+            TrialCommand::Measure { id, mesh, sample, setup } => {
+                let job = begin(&mesh, sample, setup).map(|(trial, _)| trial);
+                self.add_job(job, JobKind::Measure { id });
+            }
+            TrialCommand::Stop => {
+                self.shown = None;
+                self.jobs.clear();
+            }
+            other => match self.shown.take() {
+                None => self.fail("no trial is on"),
+                Some(mut shown) => {
+                    self.handle_shown(other, &mut shown);
+                    shown.needs_frame = true;
+                    self.shown = Some(shown);
+                }
+            },
+        }
+    }
+
+    fn handle_shown(&mut self, command: TrialCommand, shown: &mut Shown) {
+        let trial = &mut shown.trial;
+        match command {
+            TrialCommand::Drive(input) => trial.drive(input),
+            TrialCommand::Autopilot(on) => {
+                shown.is_steered = on;
+                trial.set_autopilot(on);
+            }
+            TrialCommand::Pause(on) => shown.is_paused = on,
+            TrialCommand::Pace(pace) => {
+                shown.pace = if pace.is_finite() { f64::from(pace).clamp(0.01, 1.0) } else { 1.0 };
+            }
+            TrialCommand::Restart => {
+                if let Err(error) = shown.restart() {
+                    self.fail(&error.to_string());
+                }
+            }
+            TrialCommand::StepBack => {
+                trial.step_back();
+                (shown.is_paused, shown.owed, shown.is_told) = (true, 0.0, false);
+            }
+            TrialCommand::Save => self.save(trial),
+            TrialCommand::Replay { csv } => {
+                if let Err(message) = replay(shown, &csv) {
+                    self.fail(&message);
+                }
+            }
+            TrialCommand::Compare { mesh } => self.add_job(trial.on(&mesh), JobKind::Compare),
+            TrialCommand::Start { .. } | TrialCommand::Measure { .. } | TrialCommand::Stop => {}
+        }
+    }
+
+    fn fail(&mut self, message: &str) {
+        self.events.push_back(TrialEvent::Failed { message: sentence(message) });
+    }
+
+    fn start(&mut self, id: u64, mesh: &Arc<TriMesh>, sample: Option<Sample>, setup: Setup) {
+        self.events.push_back(TrialEvent::Preparing { id, fraction: 0.0 });
+        match begin(mesh, sample, setup) {
+            Ok((trial, course)) => {
+                let ready = ready(id, trial.setup(), &course);
+                self.events.push_back(TrialEvent::Ready(Box::new(ready)));
+                self.shown = Some(Shown::new(trial));
+            }
+            Err(error) => self.events.push_back(TrialEvent::Refused { id, message: sentence(&error.to_string()) }),
+        }
+    }
+
+    fn save(&mut self, trial: &Trial) {
+        let summary = trial.summary();
+        match (trial.log().csv(summary.steps), serde_json::to_string_pretty(&summary)) {
+            (Ok(csv), Ok(json)) => self.events.push_back(TrialEvent::Saved { csv, json }),
+            (Err(error), _) | (_, Err(error)) => self.fail(&format!("the log cannot be written: {error}")),
+        }
+    }
+
+    fn add_job(&mut self, trial: Result<Trial, TrialError>, kind: JobKind) {
+        match (trial, kind) {
+            (Ok(mut trial), kind) => {
+                if matches!(kind, JobKind::Measure { .. }) {
+                    trial.set_autopilot(true);
+                }
+                self.jobs.push_back(Job { trial: Box::new(trial), kind, told: Instant::now() });
+            }
+            (Err(error), JobKind::Measure { id }) => {
+                self.events.push_back(TrialEvent::Refused { id, message: sentence(&error.to_string()) });
+            }
+            (Err(error), JobKind::Compare) => self.fail(&error.to_string()),
+        }
+    }
+
+    /// Works for a slice at `now_s` seconds by any clock; says after what time it wants to go on, `None` for not before the
+    /// next command.
+    pub fn advance(&mut self, now_s: f64, slice: Duration) -> Option<Duration> {
+        if !self.jobs.is_empty() {
+            self.work(slice);
+            if let Some(shown) = &mut self.shown {
+                (shown.clock, shown.owed) = (Some(now_s), 0.0);
+            }
+            return Some(Duration::ZERO);
+        }
+        let shown = self.shown.as_mut()?;
+        let passed = shown.clock.replace(now_s).map_or(0.0, |before| (now_s - before).max(0.0));
+        let is_over = shown.trial.progress() != Progress::Running;
+        if !(shown.is_paused || is_over) {
+            run(shown, passed, slice);
+        }
+        let is_over = shown.trial.progress() != Progress::Running;
+        if shown.needs_frame || now_s - shown.framed >= FRAME && !shown.is_paused {
+            shown.framed = now_s;
+            shown.needs_frame = false;
+            let mut frame = shown.trial.frame();
+            (frame.steps_per_second, frame.is_behind) = (shown.speed, shown.is_behind);
+            self.events.push_back(TrialEvent::Frame(Box::new(frame)));
+        }
+        if is_over && !shown.is_told {
+            shown.is_told = true;
+            self.events.push_back(TrialEvent::Ended(Box::new(shown.trial.summary())));
+        }
+        if is_over || shown.is_paused {
+            return None;
+        }
+        let next = if shown.owed >= STEP { 0.0 } else { 2.0 * STEP };
+        Some(Duration::from_secs_f64(next))
+    }
+
+    /// What it has to tell.
+    pub fn poll(&mut self) -> Option<TrialEvent> {
+        self.events.pop_front()
+    }
+
+    /// Goes on with what runs as fast as it goes.
+    fn work(&mut self, slice: Duration) {
+        let Some(job) = self.jobs.front_mut() else { return };
+        let start = Instant::now();
+        while job.trial.progress() == Progress::Running && start.elapsed() < slice {
+            job.trial.step();
+        }
+        if job.trial.progress() == Progress::Running {
+            if job.told.elapsed().as_secs_f64() > TELL {
+                job.told = Instant::now();
+                let steps = job.trial.simulation().steps() as f64;
+                let all = job.trial.replayed_steps().map_or(job.trial.limit_s() / STEP, |all| all as f64);
+                self.events.push_back(TrialEvent::Busy { fraction: (steps / all.max(1.0)) as f32 });
+            }
+            return;
+        }
+        let Some(Job { trial, kind, .. }) = self.jobs.pop_front() else { return };
+        let event = match (kind, &self.shown) {
+            (JobKind::Measure { id }, _) => TrialEvent::Measured { id, summary: Box::new(trial.summary()) },
+            (JobKind::Compare, Some(shown)) => {
+                TrialEvent::Compared(Box::new(compared(&Difference::new(&shown.trial, &trial))))
+            }
+            (JobKind::Compare, None) => return,
+        };
+        self.events.push_back(event);
+    }
+}
+
+/// Makes as many steps as the clock asks for, and the slice allows.
+fn run(shown: &mut Shown, passed: f64, slice: Duration) {
+    shown.owed += passed * shown.pace;
+    // After a pause of the machine it goes on, and does not hurry after it.
+    shown.is_behind = shown.owed > BEHIND;
+    shown.owed = shown.owed.min(BEHIND);
+    let start = Instant::now();
+    let mut steps = 0;
+    while shown.owed >= STEP && start.elapsed() < slice && shown.trial.progress() == Progress::Running {
+        shown.trial.step();
+        shown.owed -= STEP;
+        steps += 1;
+    }
+    shown.counted.0 += steps;
+    shown.counted.1 += start.elapsed().as_secs_f64();
+    if shown.counted.0 as f64 * STEP > TELL * shown.pace && shown.counted.1 > 0.0 {
+        shown.speed = (shown.counted.0 as f64 / shown.counted.1) as f32;
+        shown.counted = (0, 0.0);
+    }
+}
+
+/// A trial on a surface, and its course.
+fn begin(mesh: &Arc<TriMesh>, sample: Option<Sample>, mut setup: Setup) -> Result<(Trial, Arc<Course>), TrialError> {
+    let course = Arc::new(Course::new(mesh, sample, &mut setup)?);
+    Ok((Trial::new(course.clone(), setup)?, course))
+}
+
+/// Begins again with what a log says.
+fn replay(shown: &mut Shown, csv: &[u8]) -> Result<(), String> {
+    let recorded = Log::read(csv).map_err(|error| error.to_string())?;
+    let course = shown.trial.course().clone();
+    if recorded.surface != format!("{:016x}", course.fingerprint) {
+        return Err("the log is of another surface, or of another level: open that first".to_owned());
+    }
+    let route = &course.route;
+    let is_same = recorded.setup.entry == shown.trial.setup().entry && recorded.setup.target == shown.trial.setup().target;
+    if !is_same {
+        return Err(format!(
+            "the log has another entry or target than the route of {:.0} mm that is shown: start a trial with those first",
+            route.length_mm
+        ));
+    }
+    let mut trial = Trial::new(course.clone(), recorded.setup).map_err(|error| error.to_string())?;
+    trial.replay(recorded.inputs, recorded.steps);
+    let pace = shown.pace;
+    *shown = Shown { pace, ..Shown::new(trial) };
+    Ok(())
+}
+
+fn ready(id: u64, setup: &Setup, course: &Course) -> TrialReady {
+    TrialReady {
+        id,
+        setup: setup.clone(),
+        route: RouteShown::from(&course.route),
+        entries: course.entries.clone(),
+        targets: course.targets.clone(),
+        wall_ms: course.wall_ms,
+        route_ms: course.route_ms,
+    }
+}
+
+fn compared(difference: &Difference) -> TrialComparison {
+    let plain = |p: &glam::DVec3| p.as_vec3().to_array();
+    let [tip, other_tip] = difference.tips.each_ref().map(|tips| tips.iter().map(plain).collect());
+    TrialComparison {
+        verdict: difference.verdict.clone(),
+        inserted_mm: difference.deviation.iter().map(|entry| entry[0] as f32).collect(),
+        deviation_mm: difference.deviation.iter().map(|entry| entry[1] as f32).collect(),
+        tip,
+        other_tip,
+        force_differences: difference.forces.iter().map(|(at, force)| (plain(at), *force as f32)).collect(),
+        pinched: difference.pinched.iter().map(plain).collect(),
+        smallest_before_mm: difference.smallest_mm[1],
+        smallest_after_mm: difference.smallest_mm[0],
+        summaries: difference.summaries.clone(),
+    }
+}
+
+/// With a capital letter and a full stop.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
+    let stop = if text.ends_with('.') { "" } else { "." };
+    format!("{first}{}{stop}", letters.as_str())
+}
