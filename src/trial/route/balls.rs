@@ -26,6 +26,12 @@ const SMALLER: f32 = 0.5;
 const LEAST: f32 = 0.05;
 /// Or below this part of the largest radius: a tenth of a millimetre or so in a tree with an aorta.
 const THINNEST: f32 = 0.01;
+/// Balls that are too many for any vessel tree.
+const MOST: usize = 200_000;
+/// From this many on, a sheet is told from vessels by how many others a ball is linked with: in vessels three to five,
+/// in a sheet nine or more.
+const MANY: usize = 16_384;
+const SHEET: usize = 7;
 /// Cells of the grid along the longest side of the surface's box.
 const CELLS: f32 = 128.0;
 /// No ball.
@@ -41,6 +47,24 @@ pub(super) struct Balls {
     pub(super) links: Vec<[u32; 2]>,
     /// A ball of each group of linked balls, for each ball.
     pub(super) group: Vec<u32>,
+    /// Whether they fill a sheet, and it was left at that.
+    pub(super) is_sheet: bool,
+    /// From this many balls on they are looked at again.
+    next_count: usize,
+}
+
+impl Balls {
+    /// Looks whether these are more than vessels have: in a sheet every ball has others all around it.
+    fn count(&mut self) {
+        let count = self.balls.len();
+        if count < self.next_count {
+            return;
+        }
+        self.next_count = 2 * count.max(MANY / 2);
+        self.links.sort_unstable();
+        self.links.dedup();
+        self.is_sheet = count >= MOST || (count >= MANY && self.links.len() * 2 > SHEET * count);
+    }
 }
 
 /// A dense grid of cells over the surface's box.
@@ -154,6 +178,9 @@ pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
             && let Some(normal) = normal.try_normalize()
         {
             filling.begin(mesh.positions[v], normal);
+            if filling.found.is_sheet {
+                break;
+            }
         }
     }
     filling.finished()
@@ -162,10 +189,8 @@ pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
 /// The largest radius behind a few hundred places of the wall.
 fn largest(mesh: &TriMesh, space: &Space, normals: &[Vec3]) -> f32 {
     let stride = (normals.len() / 256).max(1);
-    let radius = |v: usize| {
-        let (ball, _) = space.behind_wall(mesh.positions[v], normals[v].try_normalize()?)?;
-        (!space.is_beyond(ball.centre)).then_some(ball.radius)
-    };
+    let radius =
+        |v: usize| space.behind_wall(mesh.positions[v], normals[v].try_normalize()?).map(|(ball, _)| ball.radius);
     (0..normals.len()).step_by(stride).filter_map(radius).fold(0.0, f32::max)
 }
 
@@ -196,13 +221,17 @@ impl Filling<'_> {
         let Some((ball, foot)) = self.space.behind_wall(p, normal) else { return };
         // Not again from the places around, whatever came of this one.
         self.wall.explain(&self.grid, self.positions, p, 0.3 * ball.radius);
-        if ball.radius < self.least || self.space.is_beyond(ball.centre) || self.like(&ball).is_some() {
+        if ball.radius < self.least || self.like(&ball).is_some() || !self.space.is_inside(ball.centre) {
             return;
         }
         self.floor = (SMALLER * ball.radius).max(self.least);
         self.add(ball, foot, false);
         while let Some(from) = self.pending.pop() {
             self.look_around(from);
+            self.found.count();
+            if self.found.is_sheet {
+                return;
+            }
         }
     }
 
@@ -251,7 +280,7 @@ impl Filling<'_> {
         let mut on_the_way = Vec::new();
         for direction in directions() {
             let p = ball.centre + direction * (REACH * ball.radius);
-            if self.space.is_beyond(p) {
+            if self.space.leaves(ball.centre, p) {
                 continue;
             }
             let near = |other: &Ball, distance: f32| {
@@ -270,7 +299,7 @@ impl Filling<'_> {
             on_the_way.clear();
             on_the_way.push(start);
             let (found, foot) = self.space.ascend(start, foot, |next| on_the_way.push(next));
-            if found.radius < self.floor || self.space.is_beyond(found.centre) {
+            if found.radius < self.floor {
                 continue;
             }
             match self.like(&found) {

@@ -145,10 +145,10 @@ impl Tree {
         let balls = self.graph.balls.iter().enumerate();
         let power = |ball: &Ball| ball.centre.distance_squared(p) - ball.radius * ball.radius;
         let powers = balls.map(|(i, ball)| (power(ball) * if self.graph.is_passing[i] { 0.5 } else { 1.0 }, i));
-        let (power, best) = powers.reduce(|least, next| if next.0 < least.0 { next } else { least })?;
+        let (_, best) = powers.reduce(|least, next| if next.0 < least.0 { next } else { least })?;
         let radius = self.graph.balls[best].radius;
         let distance = self.space.index.nearest(p)?.distance;
-        let is_in = !self.space.is_beyond(p) && (power <= 0.0 || distance <= 0.25 * radius || self.space.is_inside(p));
+        let is_in = distance <= 0.25 * radius || self.space.is_inside(p);
         is_in.then_some(best as u32)
     }
 
