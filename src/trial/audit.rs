@@ -84,8 +84,8 @@ impl Audit {
     }
 
     /// Whether a wire of this diameter fits through a lumen along `route`: at points a quarter of the wire's diameter apart
-    /// or closer, the largest ball with its middle near the point must be larger than the wire by [`MARGIN`] of its
-    /// radius, and have its middle inside.
+    /// or closer, the largest ball with its middle straight beside the point must be larger than the wire by [`MARGIN`] of
+    /// its radius, and have its middle inside.
     ///
     /// # Errors
     /// [`Shut`], the first place where it does not fit.
@@ -99,7 +99,7 @@ impl Audit {
             for step in 1..=steps {
                 let part = step as f64 / steps as f64;
                 let p = from.lerp(to, part);
-                let (middle, clear) = self.widest(p, needed);
+                let (middle, clear) = self.widest(p, to - from, needed);
                 let clear = if self.winding(middle) > 0.5 { clear } else { 0.0 };
                 if clear < needed {
                     let arc_mm = arc_mm + length * part;
@@ -111,48 +111,32 @@ impl Audit {
         Ok(())
     }
 
-    /// The largest ball with its middle near `p`, or the first found that is large enough: the middle goes where the wall
-    /// is farther, by half of its distance or less, so it stays on its side of the wall, and not farther from `p` than
-    /// `enough` and the first distance together.
-    fn widest(&self, p: DVec3, enough: f64) -> (DVec3, f64) {
+    /// The largest ball with its middle beside `p`, across `along`, or the first found that is large enough. The middle
+    /// goes where the wall is farther, by half of its distance or less, so it stays on its side of the wall, and not
+    /// farther from `p` than `enough` and the first distance together.
+    fn widest(&self, p: DVec3, along: DVec3, enough: f64) -> (DVec3, f64) {
         let first = self.wall.clearance(p);
         let (mut middle, mut clear) = (p, first);
+        let (x, y) = along.normalize_or(DVec3::Z).any_orthonormal_pair();
         let mut step = 0.5;
         while clear < enough && step > 1e-3 {
-            let mut is_better = false;
-            for way in WAYS {
-                let next = middle + DVec3::from(way).normalize() * (step * clear);
-                let found = self.wall.clearance(next);
-                if found > clear * (1.0 + 1e-6) && next.distance(p) <= first + enough {
-                    (middle, clear, is_better) = (next, found, true);
-                    break;
-                }
-            }
-            if !is_better {
-                step /= 2.0;
+            let ways = WAYS.map(|[a, b]| middle + (x * a + y * b).normalize() * (step * clear));
+            let better = ways
+                .into_iter()
+                .map(|next| (next, self.wall.clearance(next)))
+                .find(|(next, found)| *found > clear * (1.0 + 1e-6) && next.distance(p) <= first + enough);
+            match better {
+                Some(found) => (middle, clear) = found,
+                None => step /= 2.0,
             }
         }
         (middle, clear)
     }
 }
 
-/// The sides and corners of a cube.
-const WAYS: [[f64; 3]; 14] = [
-    [1.0, 0.0, 0.0],
-    [-1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, -1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.0, 0.0, -1.0],
-    [1.0, 1.0, 1.0],
-    [1.0, 1.0, -1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, -1.0, -1.0],
-    [-1.0, 1.0, 1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [-1.0, -1.0, -1.0],
-];
+/// Eight ways across.
+const WAYS: [[f64; 2]; 8] =
+    [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0], [-1.0, -1.0], [0.0, -1.0], [1.0, -1.0]];
 
 #[cfg(test)]
 mod tests {

@@ -14,7 +14,7 @@ use glam::DVec3;
 use crate::mesh::TriMesh;
 
 /// A group is far when its middle is this many times its radius away. The error of the sum is then below 1 %.
-const FAR: f64 = 4.0;
+const FAR: f64 = 6.0;
 /// Triangles in the smallest groups.
 const LEAF: usize = 8;
 
@@ -53,7 +53,14 @@ impl Sides {
         let corners = || part.iter().flatten().copied();
         let (low, high) =
             (corners().fold(DVec3::INFINITY, DVec3::min), corners().fold(DVec3::NEG_INFINITY, DVec3::max));
-        let middle = (low + high) / 2.0;
+        // The middle of the area: about it the next order of the sum is least.
+        let (mut moment, mut whole) = (DVec3::ZERO, 0.0);
+        for [a, b, c] in part.iter() {
+            let size = (*b - *a).cross(*c - *a).length();
+            moment += (*a + *b + *c) / 3.0 * size;
+            whole += size;
+        }
+        let middle = if whole > 0.0 { moment / whole } else { (low + high) / 2.0 };
         let radius = corners().map(|p| p.distance(middle)).fold(0.0, f64::max);
         let area = part.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a) / 2.0).sum();
         let axis = if (high - low).max_element() == high.x - low.x {

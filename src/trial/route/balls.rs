@@ -218,19 +218,69 @@ fn vertex_normals(mesh: &TriMesh) -> Vec<Vec3> {
 impl Filling<'_> {
     /// Begins in the middle behind a point of the wall, and goes on from there as far as it goes.
     fn begin(&mut self, p: Vec3, normal: Vec3) {
-        let Some((ball, foot)) = self.space.behind_wall(p, normal) else { return };
+        let Some((start, start_foot)) = self.space.behind_wall(p, normal) else { return };
         // Not again from the places around, whatever came of this one.
-        self.wall.explain(&self.grid, self.positions, p, 0.3 * ball.radius);
-        if ball.radius < self.least || self.like(&ball).is_some() || !self.space.is_inside(ball.centre) {
+        self.wall.explain(&self.grid, self.positions, p, 0.3 * start.radius);
+        if start.radius < self.least {
             return;
         }
-        self.floor = (SMALLER * ball.radius).max(self.least);
-        self.add(ball, foot, false);
+        let mut on_the_way = vec![start];
+        let (ball, foot) = self.space.ascend(start, start_foot, |next| on_the_way.push(next));
+        let number = match self.like(&ball) {
+            Some(number) => number,
+            None if self.space.is_inside(ball.centre) => {
+                self.floor = (SMALLER * ball.radius).max(self.least);
+                self.add(ball, foot, false)
+            }
+            None => return,
+        };
+        self.join_at_waist(&on_the_way, start_foot, number);
         while let Some(from) = self.pending.pop() {
             self.look_around(from);
             self.found.count();
             if self.found.is_sheet {
                 return;
+            }
+        }
+    }
+
+    /// Where a vessel is narrow only for a short way, the middle goes off to where it is wider, on either side of the
+    /// waist: what lies between is kept as a way from one to the other.
+    fn join_at_waist(&mut self, on_the_way: &[Ball], foot: Nearest, to: u32) {
+        let start = on_the_way[0];
+        let end = self.found.balls[to as usize];
+        if start.centre.distance(end.centre) <= SAME * start.radius || self.like(&start).is_some() {
+            return;
+        }
+        let own = self.found.balls.len() as u32;
+        let mut last = None;
+        for &ball in on_the_way {
+            let number = self.add(ball, foot, true);
+            if let Some(last) = last {
+                self.link(last, number);
+            }
+            last = Some(number);
+            if ball.passage(&end) >= PASSAGE * ball.radius.min(end.radius) {
+                break;
+            }
+        }
+        if let Some(last) = last {
+            self.link(last, to);
+        }
+        let mut near = Vec::new();
+        for cell in self.grid.around(start.centre, 1.5 * start.radius) {
+            let mut at = self.first[cell];
+            while at != NONE {
+                if self.found.balls[at as usize].passage(&start) >= PASSAGE * start.radius {
+                    near.push(at);
+                }
+                at = self.next[at as usize];
+            }
+        }
+        near.sort_unstable();
+        for other in near {
+            if other != own {
+                self.link(own, other);
             }
         }
     }

@@ -157,13 +157,21 @@ impl Space {
         (next.radius > ball.radius * (1.0 + GAIN) && is_in).then_some((next, foot))
     }
 
-    /// The middle of the lumen behind a point of the wall with this outward normal, of length 1.
+    /// The middle between a point of the wall with this outward normal, of length 1, and the wall behind.
     pub(super) fn behind_wall(&self, p: Vec3, normal: Vec3) -> Option<(Ball, Nearest)> {
         let start = p - normal * (1e-6 * (self.high - self.low).max_element());
         let depth = self.index.depth(start, -normal)?;
         let (ball, nearest) = self.ball(p - normal * (depth / 2.0), None)?;
         let inside = ball.radius > 0.0 && self.is_before(ball.centre, &nearest) && !self.leaves(start, ball.centre);
-        inside.then(|| self.ascend(ball, nearest, |_| {}))
+        if !inside {
+            return None;
+        }
+        let (mut ball, mut nearest) = (ball, nearest);
+        for _ in 0..MOVES {
+            let Some((next, foot)) = self.across(ball, &nearest) else { break };
+            (ball, nearest) = (next, foot);
+        }
+        Some((ball, nearest))
     }
 
     /// The largest ball inside near a point of a centreline: its middle may be off by a third of its radius.

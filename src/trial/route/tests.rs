@@ -166,8 +166,8 @@ fn a_fork_has_three_branches_and_each_route_is_as_long_as_its_axes() {
         [(bottom, left, 80.0, [trunk, wide]), (bottom, right, 80.0, [trunk, thin]), (right, left, 80.0, [thin, wide])]
     {
         let route = tree.route(from.as_vec3(), to.as_vec3()).unwrap();
-        // Where it turns, a way through the middle is a little shorter than the axes.
-        let slack = if from == right { 0.06 } else { 0.015 };
+        // Where they meet, the middle of the lumen is not where the axes are: it cuts the corner, a sharp one more.
+        let slack = if from == right { 0.07 } else { 0.02 };
         near(route.length_mm, expected, slack);
         assert_eq!((route.branches.clone(), route.branches_passed), (through.to_vec(), 1));
         let aside = [trunk, wide, thin].into_iter().find(|branch| !through.contains(branch)).unwrap();

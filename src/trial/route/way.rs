@@ -12,7 +12,7 @@ use super::space::Ball;
 use super::tree::{Located, Tree};
 
 /// Number of stations.
-pub const STATIONS: usize = 5;
+const STATIONS: usize = 5;
 
 /// A point of a route.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
