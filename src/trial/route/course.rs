@@ -19,7 +19,7 @@ const SPACING: f64 = 0.3;
 const ROUNDS: usize = 3;
 const SMOOTHINGS: usize = 4;
 /// A ray counts no longer than this many times the distance to the wall.
-const FARTHEST: f64 = 2.0;
+const FARTHEST: f64 = 1.4;
 /// Points that are centred in one piece.
 const PIECE: usize = 64;
 
