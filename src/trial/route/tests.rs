@@ -141,7 +141,7 @@ fn fork() -> (TriMesh, [DVec3; 4]) {
 fn a_fork_has_three_branches_and_each_route_is_as_long_as_its_axes() {
     let (mesh, [bottom, joint, left, right]) = fork();
     let tree = Tree::new(&mesh).unwrap();
-    assert_eq!(tree.branches().len(), 3, "{:?}", tree.branches().iter().map(|b| b.length_mm()).collect::<Vec<_>>());
+    assert_eq!(tree.branches().len(), 3, "{:?}", tree.branches().iter().map(Branch::length_mm).collect::<Vec<_>>());
     for branch in tree.branches() {
         assert_eq!(branch.ends.iter().filter(|&&end| end == End::Closed).count(), 1);
         assert_eq!(branch.ends.iter().filter(|&&end| end == End::Joint).count(), 1);

@@ -110,15 +110,15 @@ impl Tree {
             return Err(RouteError::TooShort { length_mm: length_mm.max(0.0) });
         }
         let points = cut(&line, start.arc_mm, end.arc_mm);
-        Ok(self.finished(points, end))
+        Ok(self.finished(&points, end))
     }
 
-    fn finished(&self, line: Vec<Place>, end: OnRoute) -> Route {
+    fn finished(&self, line: &[Place], end: OnRoute) -> Route {
         let mut arc_mm = 0.0;
         let mut points = Vec::with_capacity(line.len());
         for (i, place) in line.iter().enumerate() {
             arc_mm += if i > 0 { place.at.distance(line[i - 1].at) } else { 0.0 };
-            points.push(RoutePoint { at: place.at, radius: place.radius, arc_mm, direction: direction(&line, i) });
+            points.push(RoutePoint { at: place.at, radius: place.radius, arc_mm, direction: direction(line, i) });
         }
         let least = |least: usize, next: usize| if line[next].radius < line[least].radius { next } else { least };
         let smallest_at = (0..line.len()).reduce(least).unwrap_or(0);
