@@ -152,9 +152,12 @@ impl Space {
     }
 
     fn larger(&self, ball: Ball, step: Vec3, nearest: &Nearest) -> Option<(Ball, Nearest)> {
-        let (next, foot) = self.ball(ball.centre + step, Some(nearest))?;
-        let is_in = self.is_before(next.centre, &foot) && !self.leaves(ball.centre, next.centre);
-        (next.radius > ball.radius * (1.0 + GAIN) && is_in).then_some((next, foot))
+        let centre = ball.centre + step;
+        // To find that a wall is near costs less than to find the nearest.
+        if self.index.is_within(centre, ball.radius * (1.0 + GAIN)) || self.leaves(ball.centre, centre) {
+            return None;
+        }
+        self.ball(centre, Some(nearest)).filter(|(next, foot)| self.is_before(next.centre, foot))
     }
 
     /// The middle between a point of the wall with this outward normal, of length 1, and the wall behind.
@@ -177,12 +180,14 @@ impl Space {
     /// The largest ball inside near a point of a centreline: its middle may be off by a third of its radius.
     pub(super) fn largest(&self, p: DVec3) -> Option<Ball> {
         let (start, nearest) = self.ball(p.as_vec3(), None)?;
-        let mut best = start;
-        self.ascend(start, nearest, |ball| {
-            if ball.centre.distance(start.centre) <= 0.35 * start.radius {
-                best = ball;
+        let (mut best, mut nearest) = (start, nearest);
+        for _ in 0..MOVES {
+            let Some((next, foot)) = self.across(best, &nearest) else { break };
+            if next.centre.distance(start.centre) > 0.35 * start.radius {
+                break;
             }
-        });
+            (best, nearest) = (next, foot);
+        }
         Some(best)
     }
 }
