@@ -212,6 +212,19 @@ impl SurfaceIndex {
         sum
     }
 
+    /// How often the surface is passed outwards, less inwards, on the straight way between two points.
+    pub(crate) fn passes(&self, from: Vec3, to: Vec3) -> i32 {
+        let (p, way) = (from.as_dvec3(), to.as_dvec3() - from.as_dvec3());
+        let Some(direction) = way.try_normalize() else { return 0 };
+        let length = way.length();
+        let mut sum = 0;
+        self.along(p, direction, length, |leaf, _| {
+            let hit = Hit::of(p, direction, leaf.corners).filter(|hit| hit.depth <= length);
+            sum += hit.map_or(0, |hit| if hit.is_outward { 1 } else { -1 });
+        });
+        sum
+    }
+
     /// How far it is from `p` along `direction` (of length 1) to where the surface is left, in mm.
     pub(crate) fn depth(&self, p: Vec3, direction: Vec3) -> Option<f32> {
         self.depth_within(p, direction, f32::INFINITY)

@@ -9,6 +9,7 @@
 //! Units are mm, N, s, t (tonne), MPa; forces in N, moments in N mm. The step is [`STEP`] of simulated time; input is
 //! latched by step, so a log replays to the same end, to the bit on one platform.
 
+pub mod audit;
 pub mod autopilot;
 pub mod body;
 pub mod compare;

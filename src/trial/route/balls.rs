@@ -26,6 +26,12 @@ const SMALLER: f32 = 0.5;
 const LEAST: f32 = 0.05;
 /// Or below this part of the largest radius: a tenth of a millimetre or so in a tree with an aorta.
 const THINNEST: f32 = 0.01;
+/// Balls that are too many for any vessel tree.
+const MOST: usize = 200_000;
+/// From this many on, a sheet is told from vessels by how many others a ball is linked with: in vessels three to five,
+/// in a sheet nine or more.
+const MANY: usize = 16_384;
+const SHEET: usize = 7;
 /// Cells of the grid along the longest side of the surface's box.
 const CELLS: f32 = 128.0;
 /// No ball.
@@ -41,6 +47,24 @@ pub(super) struct Balls {
     pub(super) links: Vec<[u32; 2]>,
     /// A ball of each group of linked balls, for each ball.
     pub(super) group: Vec<u32>,
+    /// Whether they fill a sheet, and it was left at that.
+    pub(super) is_sheet: bool,
+    /// From this many balls on they are looked at again.
+    next_count: usize,
+}
+
+impl Balls {
+    /// Looks whether these are more than vessels have: in a sheet every ball has others all around it.
+    fn count(&mut self) {
+        let count = self.balls.len();
+        if count < self.next_count {
+            return;
+        }
+        self.next_count = 2 * count.max(MANY / 2);
+        self.links.sort_unstable();
+        self.links.dedup();
+        self.is_sheet = count >= MOST || (count >= MANY && self.links.len() * 2 > SHEET * count);
+    }
 }
 
 /// A dense grid of cells over the surface's box.
@@ -154,6 +178,9 @@ pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
             && let Some(normal) = normal.try_normalize()
         {
             filling.begin(mesh.positions[v], normal);
+            if filling.found.is_sheet {
+                break;
+            }
         }
     }
     filling.finished()
@@ -162,10 +189,8 @@ pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
 /// The largest radius behind a few hundred places of the wall.
 fn largest(mesh: &TriMesh, space: &Space, normals: &[Vec3]) -> f32 {
     let stride = (normals.len() / 256).max(1);
-    let radius = |v: usize| {
-        let (ball, _) = space.behind_wall(mesh.positions[v], normals[v].try_normalize()?)?;
-        (!space.is_beyond(ball.centre)).then_some(ball.radius)
-    };
+    let radius =
+        |v: usize| space.behind_wall(mesh.positions[v], normals[v].try_normalize()?).map(|(ball, _)| ball.radius);
     (0..normals.len()).step_by(stride).filter_map(radius).fold(0.0, f32::max)
 }
 
@@ -193,16 +218,70 @@ fn vertex_normals(mesh: &TriMesh) -> Vec<Vec3> {
 impl Filling<'_> {
     /// Begins in the middle behind a point of the wall, and goes on from there as far as it goes.
     fn begin(&mut self, p: Vec3, normal: Vec3) {
-        let Some((ball, foot)) = self.space.behind_wall(p, normal) else { return };
+        let Some((start, start_foot)) = self.space.behind_wall(p, normal) else { return };
         // Not again from the places around, whatever came of this one.
-        self.wall.explain(&self.grid, self.positions, p, 0.3 * ball.radius);
-        if ball.radius < self.least || self.space.is_beyond(ball.centre) || self.like(&ball).is_some() {
+        self.wall.explain(&self.grid, self.positions, p, 0.3 * start.radius);
+        if start.radius < self.least {
             return;
         }
-        self.floor = (SMALLER * ball.radius).max(self.least);
-        self.add(ball, foot, false);
+        let mut on_the_way = vec![start];
+        let (ball, foot) = self.space.ascend(start, start_foot, |next| on_the_way.push(next));
+        let number = match self.like(&ball) {
+            Some(number) => number,
+            None if self.space.is_inside(ball.centre) => {
+                self.floor = (SMALLER * ball.radius).max(self.least);
+                self.add(ball, foot, false)
+            }
+            None => return,
+        };
+        self.join_at_waist(&on_the_way, start_foot, number);
         while let Some(from) = self.pending.pop() {
             self.look_around(from);
+            self.found.count();
+            if self.found.is_sheet {
+                return;
+            }
+        }
+    }
+
+    /// Where a vessel is narrow only for a short way, the middle goes off to where it is wider, on either side of the
+    /// waist: what lies between is kept as a way from one to the other.
+    fn join_at_waist(&mut self, on_the_way: &[Ball], foot: Nearest, to: u32) {
+        let start = on_the_way[0];
+        let end = self.found.balls[to as usize];
+        if start.centre.distance(end.centre) <= SAME * start.radius || self.like(&start).is_some() {
+            return;
+        }
+        let own = self.found.balls.len() as u32;
+        let mut last = None;
+        for &ball in on_the_way {
+            let number = self.add(ball, foot, true);
+            if let Some(last) = last {
+                self.link(last, number);
+            }
+            last = Some(number);
+            if ball.passage(&end) >= PASSAGE * ball.radius.min(end.radius) {
+                break;
+            }
+        }
+        if let Some(last) = last {
+            self.link(last, to);
+        }
+        let mut near = Vec::new();
+        for cell in self.grid.around(start.centre, 1.5 * start.radius) {
+            let mut at = self.first[cell];
+            while at != NONE {
+                if self.found.balls[at as usize].passage(&start) >= PASSAGE * start.radius {
+                    near.push(at);
+                }
+                at = self.next[at as usize];
+            }
+        }
+        near.sort_unstable();
+        for other in near {
+            if other != own {
+                self.link(own, other);
+            }
         }
     }
 
@@ -251,7 +330,7 @@ impl Filling<'_> {
         let mut on_the_way = Vec::new();
         for direction in directions() {
             let p = ball.centre + direction * (REACH * ball.radius);
-            if self.space.is_beyond(p) {
+            if self.space.leaves(ball.centre, p) {
                 continue;
             }
             let near = |other: &Ball, distance: f32| {
@@ -270,7 +349,7 @@ impl Filling<'_> {
             on_the_way.clear();
             on_the_way.push(start);
             let (found, foot) = self.space.ascend(start, foot, |next| on_the_way.push(next));
-            if found.radius < self.floor || self.space.is_beyond(found.centre) {
+            if found.radius < self.floor {
                 continue;
             }
             match self.like(&found) {

@@ -19,7 +19,7 @@ const SPACING: f64 = 0.3;
 const ROUNDS: usize = 3;
 const SMOOTHINGS: usize = 4;
 /// A ray counts no longer than this many times the distance to the wall.
-const FARTHEST: f64 = 2.0;
+const FARTHEST: f64 = 1.4;
 /// Points that are centred in one piece.
 const PIECE: usize = 64;
 
@@ -106,7 +106,7 @@ fn centred(space: &Space, points: &[Place], i: usize) -> DVec3 {
         [[1.0, 0.0], [s, s], [0.0, 1.0], [-s, s], [-1.0, 0.0], [-s, -s], [0.0, -1.0], [s, -s]]
     };
     let at = points[i].at;
-    let Some((before, nearest)) = space.ball(at.as_vec3(), None) else { return at };
+    let Some((before, _)) = space.ball(at.as_vec3(), None) else { return at };
     let (x, y) = direction(points, i).any_orthonormal_pair();
     let farthest = FARTHEST * f64::from(before.radius);
     let rays = ROUND.map(|[a, b]| {
@@ -123,10 +123,7 @@ fn centred(space: &Space, points: &[Place], i: usize) -> DVec3 {
     }
     let middle = if area > 0.0 { moment / area } else { DVec3::ZERO };
     let moved = at + middle.clamp_length_max(0.5 * points[i].radius);
-    match space.ball(moved.as_vec3(), Some(&nearest)) {
-        Some((after, _)) if after.radius >= 0.97 * before.radius => moved,
-        _ => at,
-    }
+    if space.index.is_within(moved.as_vec3(), 0.97 * before.radius) { at } else { moved }
 }
 
 /// Moves each point but the ends half way to the middle of its neighbours.

@@ -17,6 +17,8 @@ mod course;
 mod paths;
 mod propose;
 mod space;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod way;
 
@@ -41,6 +43,15 @@ pub enum RouteError {
     NoInside {
         /// Triangles.
         triangles: usize,
+    },
+    /// What is inside is flat.
+    #[error(
+        "the inside of the surface is a thin sheet and no vessel: it takes more than {balls} balls to fill it. \
+         Is it the wall of a vessel, with an inner and an outer side?"
+    )]
+    Sheet {
+        /// Balls that overlap.
+        balls: usize,
     },
     /// The wire would begin outside.
     #[error("the entry ({:.1}, {:.1}, {:.1}) lies outside of the vessel, {distance_mm:.1} mm from its wall", at[0], at[1], at[2])]

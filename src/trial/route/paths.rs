@@ -55,7 +55,7 @@ pub(super) struct Path {
 
 impl Graph {
     pub(super) fn new(found: Balls) -> Self {
-        let Balls { balls, is_passing, links: pairs, group } = found;
+        let Balls { balls, is_passing, links: pairs, group, .. } = found;
         let mut offsets = vec![0u32; balls.len() + 1];
         for pair in &pairs {
             pair.iter().for_each(|&end| offsets[end as usize + 1] += 1);

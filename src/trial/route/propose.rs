@@ -12,6 +12,9 @@ const INSIDE: f64 = 1.0;
 /// And this far, in mm, unless the branch is too short.
 const INSIDE_MM: f64 = 3.0;
 
+/// An end with less than this part of the widest end's radius is proposed last: in a noisy scan it is no vessel.
+const THREAD: f64 = 0.03;
+
 /// A place where a wire could go.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
@@ -51,8 +54,10 @@ impl Tree {
         let Some(entry) = self.entries().first().copied() else { return Vec::new() };
         let from = Vec3::from(entry.at);
         let lengths = self.nearest_ball(from).map(|ball| self.graph.ways(ball).length);
-        let mut found: Vec<(f64, Target)> = Vec::new();
-        for tip in self.tips() {
+        let tips = self.tips();
+        let widest = tips.iter().map(|tip| tip.radius).fold(0.0, f64::max);
+        let mut found: Vec<(bool, f64, Target)> = Vec::new();
+        for tip in &tips {
             let at = tip.branch.points[tip.at].at.as_vec3();
             let way =
                 self.nearest_ball(at).zip(lengths.as_ref()).map_or(f32::INFINITY, |(ball, all)| all[ball as usize]);
@@ -60,11 +65,12 @@ impl Tree {
                 let what = if tip.end == End::Open { "open end" } else { "closed end" };
                 let name = format!("{}, {what}", tip.branch.name);
                 let worth = f64::from(way) / tip.radius.sqrt();
-                found.push((worth, Target { name, at, radius_mm: tip.radius }));
+                let is_thread = tip.radius < THREAD * widest;
+                found.push((is_thread, worth, Target { name, at, radius_mm: tip.radius }));
             }
         }
-        found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        found.into_iter().map(|(_, target)| target).collect()
+        found.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        found.into_iter().map(|(.., target)| target).collect()
     }
 
     fn tips(&self) -> Vec<Tip<'_>> {

@@ -57,6 +57,8 @@ pub(super) struct Opening {
 pub(super) struct Space {
     pub(super) index: Arc<SurfaceIndex>,
     pub(super) openings: Vec<Opening>,
+    /// Triangles over the open ends.
+    caps: SurfaceIndex,
     low: Vec3,
     high: Vec3,
     /// Outward normal of each triangle, not of any length.
@@ -65,14 +67,21 @@ pub(super) struct Space {
 
 impl Space {
     pub(super) fn new(mesh: &TriMesh, topology: &Topology, index: Arc<SurfaceIndex>) -> Self {
-        let openings = boundary_loops(topology).iter().filter_map(|rim| opening(mesh, rim)).collect();
+        let rims = boundary_loops(topology);
+        let openings = rims.iter().filter_map(|rim| opening(mesh, rim)).collect();
         let normal = |t: usize| {
             let [a, b, c] = mesh.corners(t);
             (b - a).cross(c - a)
         };
         let bounds = mesh.bounds();
-        let (low, high) = (bounds.min.into(), bounds.max.into());
-        Self { index, openings, low, high, normals: (0..mesh.triangles.len()).map(normal).collect() }
+        Self {
+            index,
+            openings,
+            caps: caps(mesh, &rims),
+            low: bounds.min.into(),
+            high: bounds.max.into(),
+            normals: (0..mesh.triangles.len()).map(normal).collect(),
+        }
     }
 
     /// Whether `p` lies on the inner side of the wall that is nearest to it.
@@ -80,21 +89,19 @@ impl Space {
         (p - nearest.point).dot(self.normals[nearest.triangle as usize]) <= 0.0
     }
 
-    /// Whether `p` lies out of an open end, or out of the surface's box.
-    pub(super) fn is_beyond(&self, p: Vec3) -> bool {
-        let is_boxed = p.cmpge(self.low).all() && p.cmple(self.high).all();
-        !is_boxed
-            || self.openings.iter().any(|opening| {
-                let to = p - opening.centre;
-                to.length_squared() <= 4.0 * opening.radius * opening.radius
-                    && to.dot(opening.outward) > 0.05 * opening.radius
-            })
+    /// Whether the straight way from a point inside leads out of an open end, or out of the surface's box.
+    pub(super) fn leaves(&self, from: Vec3, to: Vec3) -> bool {
+        let is_boxed = to.cmpge(self.low).all() && to.cmple(self.high).all();
+        !is_boxed || self.caps.passes(from, to) != 0
     }
 
-    /// Whether the surface goes around `p`, as three of six rays have it: near an open end, half may leave by that.
+    /// Whether the surface and the caps over its open ends go around `p`, as most of three rays have it.
     pub(super) fn is_inside(&self, p: Vec3) -> bool {
-        let rays = RAYS.iter().flat_map(|&ray| [Vec3::from(ray), -Vec3::from(ray)]);
-        !self.is_beyond(p) && rays.filter(|&ray| self.index.winding(p, ray) > 0).count() >= 3
+        let around = |ray: &&[f32; 3]| {
+            let ray = Vec3::from(**ray);
+            self.index.winding(p, ray) + self.caps.winding(p, ray) > 0
+        };
+        RAYS.iter().filter(around).count() >= 2
     }
 
     /// The ball about a point inside, as `hint`, an earlier answer near by, helps to find.
@@ -145,30 +152,59 @@ impl Space {
     }
 
     fn larger(&self, ball: Ball, step: Vec3, nearest: &Nearest) -> Option<(Ball, Nearest)> {
-        let (next, foot) = self.ball(ball.centre + step, Some(nearest))?;
-        let is_in = self.is_before(next.centre, &foot) && !self.is_beyond(next.centre);
-        (next.radius > ball.radius * (1.0 + GAIN) && is_in).then_some((next, foot))
+        let centre = ball.centre + step;
+        // To find that a wall is near costs less than to find the nearest.
+        if self.index.is_within(centre, ball.radius * (1.0 + GAIN)) || self.leaves(ball.centre, centre) {
+            return None;
+        }
+        self.ball(centre, Some(nearest)).filter(|(next, foot)| self.is_before(next.centre, foot))
     }
 
-    /// The middle of the lumen behind a point of the wall with this outward normal, of length 1.
+    /// The middle between a point of the wall with this outward normal, of length 1, and the wall behind.
     pub(super) fn behind_wall(&self, p: Vec3, normal: Vec3) -> Option<(Ball, Nearest)> {
-        let depth = self.index.depth(p - normal * (1e-4 * (1.0 + p.abs().max_element())), -normal)?;
+        let start = p - normal * (1e-6 * (self.high - self.low).max_element());
+        let depth = self.index.depth(start, -normal)?;
         let (ball, nearest) = self.ball(p - normal * (depth / 2.0), None)?;
-        let inside = ball.radius > 0.0 && self.is_before(ball.centre, &nearest);
-        inside.then(|| self.ascend(ball, nearest, |_| {}))
+        let inside = ball.radius > 0.0 && self.is_before(ball.centre, &nearest) && !self.leaves(start, ball.centre);
+        if !inside {
+            return None;
+        }
+        let (mut ball, mut nearest) = (ball, nearest);
+        for _ in 0..MOVES {
+            let Some((next, foot)) = self.across(ball, &nearest) else { break };
+            (ball, nearest) = (next, foot);
+        }
+        Some((ball, nearest))
     }
 
     /// The largest ball inside near a point of a centreline: its middle may be off by a third of its radius.
     pub(super) fn largest(&self, p: DVec3) -> Option<Ball> {
         let (start, nearest) = self.ball(p.as_vec3(), None)?;
-        let mut best = start;
-        self.ascend(start, nearest, |ball| {
-            if ball.centre.distance(start.centre) <= 0.35 * start.radius {
-                best = ball;
+        let (mut best, mut nearest) = (start, nearest);
+        for _ in 0..MOVES {
+            let Some((next, foot)) = self.across(best, &nearest) else { break };
+            if next.centre.distance(start.centre) > 0.35 * start.radius {
+                break;
             }
-        });
+            (best, nearest) = (next, foot);
+        }
         Some(best)
     }
+}
+
+/// A fan over each rim, from the middle of its vertices.
+fn caps(mesh: &TriMesh, rims: &[Vec<u32>]) -> SurfaceIndex {
+    let mut all = TriMesh::default();
+    for rim in rims {
+        let first = all.positions.len() as u32;
+        all.positions.extend(rim.iter().map(|&v| mesh.positions[v as usize]));
+        let sum: DVec3 = rim.iter().map(|&v| mesh.positions[v as usize].as_dvec3()).sum();
+        all.positions.push((sum / rim.len() as f64).as_vec3());
+        let count = rim.len() as u32;
+        // The rim runs as its triangles do, so a cap over it runs the other way.
+        all.triangles.extend((0..count).map(|i| [first + (i + 1) % count, first + i, first + count]));
+    }
+    SurfaceIndex::new(&all.positions, &all.triangles)
 }
 
 fn opening(mesh: &TriMesh, rim: &[u32]) -> Option<Opening> {

@@ -118,7 +118,7 @@ impl Tree {
     /// Finds the tree of a surface.
     ///
     /// # Errors
-    /// [`RouteError::NoTriangles`], [`RouteError::InsideOut`], [`RouteError::NoInside`].
+    /// [`RouteError::NoTriangles`], [`RouteError::InsideOut`], [`RouteError::NoInside`], [`RouteError::Sheet`].
     pub fn new(mesh: &TriMesh) -> Result<Self, RouteError> {
         Self::with_index(mesh, Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles)))
     }
@@ -139,7 +139,11 @@ impl Tree {
             Topology::new(mesh.positions.len(), &whole)
         };
         let space = Space::new(mesh, &topology, index);
-        let graph = Graph::new(fill(mesh, &space));
+        let found = fill(mesh, &space);
+        if found.is_sheet {
+            return Err(RouteError::Sheet { balls: found.balls.len() });
+        }
+        let graph = Graph::new(found);
         if graph.balls.is_empty() {
             let is_turned = volume(mesh, &topology) < 0.0;
             let triangles = mesh.triangles.len();

@@ -12,7 +12,7 @@ use super::space::Ball;
 use super::tree::{Located, Tree};
 
 /// Number of stations.
-pub const STATIONS: usize = 5;
+const STATIONS: usize = 5;
 
 /// A point of a route.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -110,15 +110,15 @@ impl Tree {
             return Err(RouteError::TooShort { length_mm: length_mm.max(0.0) });
         }
         let points = cut(&line, start.arc_mm, end.arc_mm);
-        Ok(self.finished(points, end))
+        Ok(self.finished(&points, end))
     }
 
-    fn finished(&self, line: Vec<Place>, end: OnRoute) -> Route {
+    fn finished(&self, line: &[Place], end: OnRoute) -> Route {
         let mut arc_mm = 0.0;
         let mut points = Vec::with_capacity(line.len());
         for (i, place) in line.iter().enumerate() {
             arc_mm += if i > 0 { place.at.distance(line[i - 1].at) } else { 0.0 };
-            points.push(RoutePoint { at: place.at, radius: place.radius, arc_mm, direction: direction(&line, i) });
+            points.push(RoutePoint { at: place.at, radius: place.radius, arc_mm, direction: direction(line, i) });
         }
         let least = |least: usize, next: usize| if line[next].radius < line[least].radius { next } else { least };
         let smallest_at = (0..line.len()).reduce(least).unwrap_or(0);
@@ -145,10 +145,10 @@ impl Tree {
         let balls = self.graph.balls.iter().enumerate();
         let power = |ball: &Ball| ball.centre.distance_squared(p) - ball.radius * ball.radius;
         let powers = balls.map(|(i, ball)| (power(ball) * if self.graph.is_passing[i] { 0.5 } else { 1.0 }, i));
-        let (power, best) = powers.reduce(|least, next| if next.0 < least.0 { next } else { least })?;
+        let (_, best) = powers.reduce(|least, next| if next.0 < least.0 { next } else { least })?;
         let radius = self.graph.balls[best].radius;
         let distance = self.space.index.nearest(p)?.distance;
-        let is_in = !self.space.is_beyond(p) && (power <= 0.0 || distance <= 0.25 * radius || self.space.is_inside(p));
+        let is_in = distance <= 0.25 * radius || self.space.is_inside(p);
         is_in.then_some(best as u32)
     }
 
