@@ -29,7 +29,7 @@ use std::time::Duration;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
 
 pub use self::bar::Action;
-pub use self::platform::{Platform, PlatformEvent};
+pub use self::platform::{Gamepad, Platform, PlatformEvent};
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State};
 pub use self::views::Views;

@@ -1,35 +1,36 @@
-//! An engine on a thread.
+//! Engines on threads of their own.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
+use std::time::Instant;
 
-use crate::engine::{Command, Engine, Event, Link, SLICE};
+use crate::engine::{Link, Machine};
 
 /// The line to an engine on a thread of its own.
-pub(super) struct ThreadLink {
+pub(super) struct ThreadLink<M: Machine> {
     ctx: egui::Context,
-    commands: Sender<Command>,
-    events: Receiver<Result<Event, String>>,
+    commands: Sender<M::Command>,
+    events: Receiver<Result<M::Event, String>>,
     failure: Option<String>,
 }
 
-impl ThreadLink {
+impl<M: Machine> ThreadLink<M> {
     /// Starts an engine that wakes `ctx` when it has something to say.
     pub(super) fn new(ctx: egui::Context) -> Self {
-        let (commands, events) = start(ctx.clone());
+        let (commands, events) = start::<M>(ctx.clone());
         Self { ctx, commands, events, failure: None }
     }
 }
 
-impl Link for ThreadLink {
-    fn send(&mut self, command: Command) {
+impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
+    fn send(&mut self, command: M::Command) {
         if self.commands.send(command).is_err() {
             self.failure.get_or_insert_with(|| "its thread has ended".to_owned());
         }
     }
 
-    fn poll(&mut self) -> Option<Event> {
+    fn poll(&mut self) -> Option<M::Event> {
         match self.events.try_recv() {
             Ok(Ok(event)) => Some(event),
             Ok(Err(reason)) => {
@@ -42,7 +43,7 @@ impl Link for ThreadLink {
 
     fn restart(&mut self) {
         // The old thread ends when it next looks for a command, and its events go nowhere.
-        (self.commands, self.events) = start(self.ctx.clone());
+        (self.commands, self.events) = start::<M>(self.ctx.clone());
         self.failure = None;
     }
 
@@ -51,11 +52,13 @@ impl Link for ThreadLink {
     }
 }
 
-fn start(ctx: egui::Context) -> (Sender<Command>, Receiver<Result<Event, String>>) {
+type Ends<M> = (Sender<<M as Machine>::Command>, Receiver<Result<<M as Machine>::Event, String>>);
+
+fn start<M: Machine>(ctx: egui::Context) -> Ends<M> {
     let (commands, inbox) = channel();
     let (outbox, events) = channel();
     thread::spawn(move || {
-        let run = catch_unwind(AssertUnwindSafe(|| work(&inbox, &outbox, &ctx)));
+        let run = catch_unwind(AssertUnwindSafe(|| work::<M>(&inbox, &outbox, &ctx)));
         if let Err(panic) = run {
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let reason = text.or_else(|| panic.downcast_ref::<String>().cloned());
@@ -68,26 +71,32 @@ fn start(ctx: egui::Context) -> (Sender<Command>, Receiver<Result<Event, String>
 }
 
 /// Runs an engine until its line is cut.
-fn work(inbox: &Receiver<Command>, outbox: &Sender<Result<Event, String>>, ctx: &egui::Context) {
-    let mut engine = Engine::new();
-    let mut is_busy = false;
+fn work<M: Machine>(inbox: &Receiver<M::Command>, outbox: &Sender<Result<M::Event, String>>, ctx: &egui::Context) {
+    let mut machine = M::default();
+    let since = Instant::now();
+    let mut rest = None;
     loop {
-        if !is_busy {
-            let Ok(command) = inbox.recv() else { return };
-            engine.handle(command);
+        let heard = match rest {
+            None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
+            Some(rest) => inbox.recv_timeout(rest),
+        };
+        match heard {
+            Ok(command) => machine.handle(command),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return,
         }
-        loop {
-            match inbox.try_recv() {
-                Ok(command) => engine.handle(command),
-                Err(TryRecvError::Empty) => break,
-                Err(TryRecvError::Disconnected) => return,
-            }
+        while let Ok(command) = inbox.try_recv() {
+            machine.handle(command);
         }
-        is_busy = engine.advance(SLICE);
-        while let Some(event) = engine.poll() {
+        rest = machine.advance(since.elapsed().as_secs_f64());
+        let mut has_told = false;
+        while let Some(event) = machine.poll() {
             if outbox.send(Ok(event)).is_err() {
                 return;
             }
+            has_told = true;
+        }
+        if has_told {
             ctx.request_repaint();
         }
     }
