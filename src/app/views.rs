@@ -179,7 +179,12 @@ impl Views {
                 title: if self.show_before { "As opened" } else { title.trim_end_matches(" view") },
                 name: document.map(|document| document.name.as_str()),
                 camera: &self.camera,
-                map: style.map.filter(|_| has_scalars),
+                legend: style.map.filter(|_| has_scalars).map(|map| overlay::Legend {
+                    map,
+                    title: "Deviation",
+                    unit: "mm",
+                    decimals: 3,
+                }),
             },
         );
         if let Some(pinch) = document.and_then(Document::pinch).filter(|_| !self.show_before) {
@@ -253,7 +258,7 @@ pub(super) fn first_view(size: glam::Vec3) -> StandardView {
 }
 
 /// A point of the window in normalised device coordinates of a view: -1 to 1, y up.
-fn in_view(at: Pos2, rect: Rect) -> Vec2 {
+pub(super) fn in_view(at: Pos2, rect: Rect) -> Vec2 {
     let v = (at - rect.center()) / (rect.size() / 2.0).max(vec2(1.0, 1.0));
     Vec2::new(v.x, -v.y)
 }

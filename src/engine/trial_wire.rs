@@ -117,9 +117,7 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
             (EventHeader::Compared(rest), buffers)
         }
         TrialEvent::Busy { fraction } => (EventHeader::Busy { fraction: *fraction }, vec![]),
-        TrialEvent::Measured { id, summary } => {
-            (EventHeader::Measured { id: *id, summary: summary.clone() }, vec![])
-        }
+        TrialEvent::Measured { id, summary } => (EventHeader::Measured { id: *id, summary: summary.clone() }, vec![]),
         TrialEvent::Failed { message } => (EventHeader::Failed { message: message.clone() }, vec![]),
     };
     (line(&header), buffers)

@@ -549,7 +549,8 @@ impl Pipeline {
             }
             Stage::Decimation => {
                 let smoothed = self.now.smoothed.as_ref()?;
-                let task = DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), &self.now.settings.decimation);
+                let task =
+                    DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), &self.now.settings.decimation);
                 Running::Decimation(Box::new(task))
             }
             Stage::Bound => {

@@ -97,7 +97,8 @@ impl SmoothingStage {
             Some(known) => stage.after_filter(known.terms.smooth(&stage.filter)),
             None if keeps_terms => Step::Filter(Box::new(keeping(kept, &settings, &stage.filter))),
             None => {
-                let task = SmoothingTask::new(&kept.mesh.positions, kept.topology.clone(), settings.boundary, &stage.filter);
+                let task =
+                    SmoothingTask::new(&kept.mesh.positions, kept.topology.clone(), settings.boundary, &stage.filter);
                 Step::Filter(Box::new(task))
             }
         };
