@@ -261,7 +261,7 @@ impl eframe::App for LumenApp {
         }
         let gamepad = self.platform.gamepad();
         self.trial.follow_hand(ui, gamepad, self.platform.trial());
-        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet)) || self.sheet.is_some() && keys::closes_sheet(ui) {
+        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet, self.trial.is_open)) || self.sheet.is_some() && keys::closes_sheet(ui) {
             self.sheet = None;
         }
         let is_held = ctx.input(|input| input.pointer.any_down()) || ctx.egui_wants_keyboard_input();
