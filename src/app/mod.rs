@@ -138,6 +138,10 @@ impl LumenApp {
             Action::Fit => self.views.fit(state.document.as_ref(), keep),
             Action::View(view) => self.views.look_from(view, state.document.as_ref(), keep),
             Action::Compare => state.toggle_comparison(),
+            Action::Trial => {
+                let ask = if self.trial.is_open { trial::Ask::Close } else { trial::Ask::Start };
+                self.act_on_trial(&ask, ctx);
+            }
             Action::Theme => {
                 let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
                 ctx.set_theme(other);
@@ -162,7 +166,7 @@ impl LumenApp {
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
         let mut action = None;
         Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
-            action = bar::top(ui, &self.state, &mut self.views, is_narrow);
+            action = bar::top(ui, &self.state, &mut self.views, self.trial.is_open, is_narrow);
         });
         Panel::bottom("status").frame(bar).exact_size(40.0).show(ui, |ui| {
             action = action.or(bar::status(ui, &mut self.state, &self.views, is_narrow));
@@ -261,7 +265,9 @@ impl eframe::App for LumenApp {
         }
         let gamepad = self.platform.gamepad();
         self.trial.follow_hand(ui, gamepad, self.platform.trial());
-        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet, self.trial.is_open)) || self.sheet.is_some() && keys::closes_sheet(ui) {
+        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet, self.trial.is_open))
+            || self.sheet.is_some() && keys::closes_sheet(ui)
+        {
             self.sheet = None;
         }
         let is_held = ctx.input(|input| input.pointer.any_down()) || ctx.egui_wants_keyboard_input();

@@ -27,7 +27,7 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
   const workers = page.workers().length;
   assert(workers >= 2, `${workers} Workers: the trial has one of its own`);
 
-  await press(page, "button", "Start trial");
+  await press(page, "button", "Trial");
   await twin(page, "img", "Fluoroscopy view").waitFor({ state: "attached" });
   await told(page, /^[\d.]+ cm$/, "the wire at the entry");
   await press(page, "button", "Autopilot");
@@ -53,7 +53,7 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
   assert.match(lines[0], /time_s/);
   assert(lines.length > 100, `${lines.length} samples`);
 
-  await press(page, "button", "Close trial");
+  await press(page, "button", "Trial");
   await twin(page, "img", /shaded/i).waitFor({ state: "attached" });
   assert.deepEqual(wrong, []);
 });
@@ -61,7 +61,7 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
 test("keys drive the wire while they are held", async (t) => {
   const { page, wrong } = await openApp(t, browser);
   await settled(page);
-  await press(page, "button", "Start trial");
+  await press(page, "button", "Trial");
   const inserted = async () => {
     const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
     return text ? Number(text.split(" ")[0]) : null;

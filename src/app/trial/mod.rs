@@ -262,6 +262,9 @@ impl Trial {
 
     fn begin_again(&mut self) {
         (self.summary, self.comparison) = (None, None);
+        if let Some(frame) = &mut self.frame {
+            frame.progress = Progress::Running;
+        }
         self.runs += 1;
         self.carm.reset();
         (self.autopilot, self.is_paused) = (false, false);

@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
         name(&bar, Role::ProgressIndicator, "Comparing");
     }
     if let Some(comparison) = &trial.comparison {
-        shown(ui, comparison);
+        ui.scope(|ui| shown(ui, comparison));
     }
     ask
 }

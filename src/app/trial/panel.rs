@@ -40,7 +40,8 @@ fn open(ui: &mut Ui, trial: &mut Trial) -> Option<Ask> {
     ask = ask.or(buttons(ui, trial));
     if let (Stage::On, Some(frame)) = (trial.stage, trial.frame.clone()) {
         ui.separator();
-        readout::show(ui, trial, &frame);
+        // Rows of numbers are lower than those of controls.
+        ui.scope(|ui| readout::show(ui, trial, &frame));
     }
     ui.separator();
     ui.push_id("wire", |ui| setup::wire(ui, &mut trial.setup.wire));

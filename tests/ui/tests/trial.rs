@@ -20,8 +20,27 @@ const PHONE: [f32; 2] = [390.0, 844.0];
 
 type App = Harness<'static, LumenApp>;
 
+/// Presses a button, wherever in the panel it is.
 fn press(harness: &mut App, button: &str) {
+    harness.get_by_role_and_label(Role::Button, button).scroll_to_me();
+    harness.run_steps(12);
     harness.get_by_role_and_label(Role::Button, button).click();
+    harness.run_steps(3);
+}
+
+/// Starts a trial by the bar.
+fn start(harness: &mut App) {
+    if harness.query_by_role_and_label(Role::Button, "Menu").is_some() {
+        press(harness, "Menu");
+    }
+    press(harness, "Trial");
+}
+
+/// Opens a list.
+fn choose(harness: &mut App, list: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, list).scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_role_and_label(Role::ComboBox, list).click();
     harness.run_steps(3);
 }
 
@@ -36,7 +55,7 @@ fn tell(harness: &mut App, memory: &Rc<RefCell<Memory>>, events: impl IntoIterat
 }
 
 fn says(harness: &App, text: &str) -> bool {
-    harness.query_by_label_contains(text).is_some()
+    harness.query_all_by_label_contains(text).next().is_some()
 }
 
 /// A way through the middle of the sample.
@@ -83,7 +102,7 @@ fn id_of_start(commands: &[TrialCommand]) -> u64 {
 fn on(size: [f32; 2]) -> (App, Rc<RefCell<Memory>>) {
     let (mut harness, memory) = app(size);
     settle(&mut harness);
-    press(&mut harness, "Start trial");
+    start(&mut harness);
     let id = id_of_start(&asked(&memory));
     tell(&mut harness, &memory, [ready(id), TrialEvent::Frame(Box::new(frame()))]);
     (harness, memory)
@@ -137,7 +156,7 @@ fn keys_drive_while_they_are_held_and_nothing_does_when_all_are_let_go() {
     }
     harness.key_down_modifiers(egui::Modifiers::SHIFT, Key::W);
     harness.run_steps(3);
-    assert_eq!(asked(&memory), [drive(50.0, 0.0)], "with Shift");
+    assert_eq!(asked(&memory).first(), Some(&drive(50.0, 0.0)), "with Shift");
     harness.event(egui::Event::WindowFocused(false));
     harness.input_mut().focused = false;
     harness.run_steps(3);
@@ -219,8 +238,7 @@ fn a_hand_on_the_wire_takes_it_from_the_autopilot() {
 #[test]
 fn what_is_refused_is_said_and_what_stood_stands() {
     let (mut harness, memory) = on(DESKTOP);
-    harness.get_by_role_and_label(Role::ComboBox, "Target").click();
-    harness.run_steps(3);
+    choose(&mut harness, "Target");
     harness.get_by_label("Right renal").click();
     harness.run_steps(3);
     let commands = asked(&memory);
@@ -250,8 +268,7 @@ fn the_end_is_said() {
 #[test]
 fn another_wire_takes_effect_on_restart() {
     let (mut harness, memory) = on(DESKTOP);
-    harness.get_by_role_and_label(Role::ComboBox, "Wire").click();
-    harness.run_steps(3);
+    choose(&mut harness, "Wire");
     harness.get_by_label("0.035 in J tip").click();
     harness.run_steps(3);
     assert!(asked(&memory).is_empty() && says(&harness, "Restart to try"));
@@ -366,7 +383,7 @@ fn pictures_of_the_trial() {
                 settle(&mut harness);
             }
             memory.borrow_mut().trial_runs = true;
-            press(&mut harness, "Start trial");
+            start(&mut harness);
             harness.run_steps(5);
             press(&mut harness, "Autopilot");
             harness.run_steps(700);
@@ -382,8 +399,6 @@ fn pictures_of_the_trial() {
             harness.ctx.set_theme(egui::Theme::Light);
             harness.run_steps(3);
             save(&mut harness, &format!("trial-{name}-{sample}-compared"));
-            harness.get_by_role_and_label(Role::Button, "Tables III and IV").scroll_to_me();
-            harness.run_steps(10);
             press(&mut harness, "Tables III and IV");
             harness.run_steps(60);
             save(&mut harness, &format!("trial-{name}-{sample}-tables"));
