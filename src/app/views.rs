@@ -101,10 +101,15 @@ impl Views {
         self.frames_per_second.map_or("idle".to_owned(), |rate| format!("{rate:.0} fps"))
     }
 
+    /// Takes how fast frames come, while something moves.
+    pub(super) fn measure_rate(&mut self, ui: &Ui, moves: bool) {
+        self.frames_per_second = moves.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
+    }
+
     /// Shows both views in what is left of `ui`. Returns the piece that was clicked.
     pub fn show(&mut self, ui: &mut Ui, document: Option<&Document>, keep: Keep, is_narrow: bool) -> Option<u32> {
         let moves = ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != egui::Vec2::ZERO);
-        self.frames_per_second = moves.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
+        self.measure_rate(ui, moves);
         if let (Some(scene), Some(document)) = (&mut self.scene, document)
             && let Err(error) = scene.follow(document, self.show_deviation)
         {

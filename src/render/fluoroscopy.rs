@@ -16,7 +16,7 @@ use super::{GpuSurface, GpuWire, ViewTarget};
 /// Attenuation of the contrast in 1/mm.
 const CONTRAST: f32 = 0.06;
 /// Noise where all light comes through, as a part of it.
-const NOISE: f32 = 0.035;
+const NOISE: f32 = 0.02;
 
 /// What a machine can add up thickness in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,6 +22,8 @@ const GIVEN: f32 = 1.6;
 const WASHOUT: f32 = 1.3;
 // Grey of the brightest part, gamma-encoded.
 const BRIGHTEST: f32 = 0.80;
+// The window: how much steeper grey is than intensity.
+const WINDOW: f32 = 2.0;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
@@ -70,6 +72,6 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let road = 1.0 - exp(-0.12 * lumen);
     let from_middle = (at.xy / exposure.picture.zw - 0.5) * 2.0;
     let vignette = 1.0 - 0.10 * dot(from_middle, from_middle);
-    let grey = BRIGHTEST * pow(max(intensity, 0.0), 1.0 / 1.4) * vignette + exposure.contrast.w * road * 0.16;
+    let grey = BRIGHTEST * pow(max(intensity, 0.0), WINDOW) * vignette + exposure.contrast.w * road * 0.16;
     return vec4(vec3(clamp(grey, 0.0, 1.0)), 1.0);
 }

@@ -7,9 +7,11 @@ const EDGE: f32 = 0.78;
 // The far wall counts for less.
 const FAR: f32 = 0.55;
 // Opacity where the wire presses.
-const PRESSED: f32 = 0.85;
+const PRESSED: f32 = 0.6;
 // Distance in mm at which the headlight has half its strength.
-const REACH: f32 = 14.0;
+const REACH: f32 = 22.0;
+// And from which on nothing is lit.
+const SEEN: f32 = 130.0;
 
 struct Fragment {
     @builtin(position) clip: vec4<f32>,
@@ -37,7 +39,7 @@ fn wall(in: Fragment, paint: vec3<f32>, strength: f32) -> vec4<f32> {
     let away = 1.0 - clamp(dot(normal, towards_eye), 0.0, 1.0);
     let light = 0.55 + 0.25 * normal.y + 0.55 * max(dot(normal, KEY), 0.0);
     let t = (in.force - scene.map.x) * scene.map.y;
-    let pressed = smoothstep(0.01, 0.06, t);
+    let pressed = smoothstep(0.01, 0.10, t);
     let colour = mix(paint * light, decode(map_colour(t)) * mix(0.75, 1.0, light), pressed);
     let opacity = mix(mix(FACING, EDGE, away * away), PRESSED, pressed) * strength;
     return vec4(encode(colour), opacity);
@@ -60,6 +62,6 @@ fn fragment_inside(in: Fragment) -> @location(0) vec4<f32> {
     let normal = facing_normal(in, towards_eye);
     let reach = REACH / (REACH + distance);
     // Half of the cosine: a wet wall scatters light from below its surface.
-    let light = (0.30 + 0.70 * clamp(dot(normal, towards_eye), 0.0, 1.0)) * reach * reach * 1.9;
+    let light = (0.30 + 0.70 * clamp(dot(normal, towards_eye), 0.0, 1.0)) * reach * reach * 1.25 * (1.0 - smoothstep(0.3 * SEEN, SEEN, distance));
     return vec4(dither(encode(drawn.surface.rgb * light), in.clip.xy), 1.0);
 }

@@ -8,9 +8,9 @@ const TIP: f32 = 30.0;
 const KEY: vec3<f32> = vec3(-0.42, 0.56, 0.71);
 // Linear.
 const TIP_COLOUR: vec3<f32> = vec3(1.0, 0.72, 0.22);
-// Attenuation in 1/mm at 60 keV (NIST XCOM: steel 1.2 cm2/g, platinum 3.6 cm2/g, of which a coil fills a fifth).
+// Attenuation in 1/mm at 60 keV (NIST XCOM: steel 1.2 cm2/g, platinum 3.6 cm2/g, of which a coil fills two fifths).
 const STEEL: f32 = 0.95;
-const COIL: f32 = 1.6;
+const COIL: f32 = 3.1;
 // What the largest value of the shadow stands for; as in `fluoroscopy.wgsl`.
 const MOST_DEPTH: f32 = 4.0;
 

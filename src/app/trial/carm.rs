@@ -48,6 +48,8 @@ pub struct CArm {
     given: Option<f64>,
     /// When the last pulse was, by the same.
     last: f64,
+    /// Until when beam was counted, in simulated seconds.
+    counted: f64,
 }
 
 impl Default for CArm {
@@ -64,6 +66,7 @@ impl Default for CArm {
             pulses: 0,
             given: None,
             last: f64::NEG_INFINITY,
+            counted: 0.0,
         }
     }
 }
@@ -79,7 +82,7 @@ impl CArm {
 
     /// Begins anew: no time, no contrast, the angles stay.
     pub(super) fn reset(&mut self) {
-        (self.seconds, self.given, self.last) = (0.0, None, f64::NEG_INFINITY);
+        (self.seconds, self.given, self.last, self.counted) = (0.0, None, f64::NEG_INFINITY, 0.0);
     }
 
     /// Turns by a drag of so many degrees.
@@ -105,12 +108,15 @@ impl CArm {
         (passed < GONE).then_some(passed as f32)
     }
 
-    /// Says whether a pulse is due at `now`, and counts it and the `passed` seconds of beam.
-    pub(super) fn pulses_at(&mut self, now: f64, passed: f64) -> bool {
+    /// Says whether a pulse is due at `now` by the window's clock, and counts it; `time_s` is the simulated time, of
+    /// which the beam takes what has passed.
+    pub(super) fn pulses_at(&mut self, now: f64, time_s: f64) -> bool {
+        let passed = time_s - std::mem::replace(&mut self.counted, time_s);
         if !self.is_on {
             return false;
         }
-        self.seconds += passed;
+        // A step back gives no beam back.
+        self.seconds += passed.max(0.0);
         let is_due = now - self.last >= 0.98 / f64::from(self.rate);
         if is_due {
             self.last = now;
@@ -184,10 +190,12 @@ mod tests {
     #[test]
     fn pulses_come_at_their_rate_and_only_while_the_pedal_is_down() {
         let mut arm = CArm { rate: 7.5, ..CArm::default() };
-        let count = (0..120).filter(|i| arm.pulses_at(f64::from(*i) / 60.0, 1.0 / 60.0)).count();
+        let count = (0..120).filter(|i| arm.pulses_at(f64::from(*i) / 60.0, f64::from(*i) / 60.0)).count();
         assert!((15..=16).contains(&count), "{count} in two seconds");
-        assert!((arm.seconds - 2.0).abs() < 1e-9);
+        assert!((arm.seconds - 119.0 / 60.0).abs() < 1e-9);
         arm.is_on = false;
-        assert!(!arm.pulses_at(10.0, 1.0) && (arm.seconds - 2.0).abs() < 1e-9);
+        assert!(!arm.pulses_at(10.0, 10.0) && arm.seconds < 2.0);
+        arm.is_on = true;
+        assert!(arm.pulses_at(10.1, 9.0) && arm.seconds < 2.0, "a step back");
     }
 }

@@ -65,7 +65,7 @@ impl Drive {
     /// Shows both pads, side by side.
     pub(super) fn pads(&mut self, ui: &mut Ui) {
         let gap = ui.spacing().item_spacing.x;
-        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), PAD), Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width() - 8.0, PAD), Sense::hover());
         let (left, right) = rect.split_left_right_at_fraction(0.5);
         let left = left.with_max_x(left.right() - gap / 2.0);
         let right = right.with_min_x(right.left() + gap / 2.0);

@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
 use super::Trial;
+use super::readout::plate;
 use crate::app::overlay;
 use crate::mesh::Vec3;
 use crate::render::Camera;
@@ -28,8 +29,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
     for (i, &station) in ready.route.stations.iter().enumerate() {
         if let Some(at) = at(station.into()) {
             dot(&painter, at, accent, visuals.panel_fill);
-            let font = FontId::proportional(11.0);
-            painter.text(at + vec2(9.0, 0.0), Align2::LEFT_CENTER, i + 1, font, visuals.text_color());
+            plate(ui, at + vec2(7.0, 0.0), Align2::LEFT_CENTER, &(i + 1).to_string(), true);
         }
     }
     target(ui, &painter, rect, camera, trial);
@@ -74,8 +74,7 @@ fn target(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, trial: &Trial
     painter.add(Shape::line(circle, Stroke::new(2.5, colour)));
     if let Some(at) = project(camera, rect, end) {
         painter.circle_stroke(at, 9.0, Stroke::new(1.5, colour));
-        let font = FontId::proportional(12.0);
-        painter.text(at + vec2(14.0, 0.0), Align2::LEFT_CENTER, "Target", font, ui.visuals().text_color());
+        plate(ui, at + vec2(14.0, 0.0), Align2::LEFT_CENTER, "Target", true);
     }
 }
 

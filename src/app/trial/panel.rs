@@ -108,7 +108,7 @@ fn buttons(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
         button(ui, is_on, trial.is_paused, "Pause", "Stands still (P)", Ask::Pause);
         button(ui, is_on, trial.is_slow, "Slow motion", "A quarter of the speed (M)", Ask::Slow);
         button(ui, is_on, false, "Step back", "A second back, and stand still (Z)", Ask::StepBack);
-        button(ui, true, false, "Close trial", "Back to the surface (Esc)", Ask::Close);
+        button(ui, true, false, "Close", "Back to the surface (Esc)", Ask::Close);
     });
     ask
 }

@@ -245,7 +245,7 @@ pub(super) fn show(ui: &Ui, tables: &mut Tables) -> bool {
         .collapsible(false)
         .resizable(false)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
-        .max_width(room.width() - 32.0)
+        .default_width((room.width() - 32.0).min(1040.0))
         .show(ui.ctx(), |ui| cancelled = content(ui, tables));
     tables.is_open = is_open;
     cancelled

@@ -90,6 +90,7 @@ impl TrialView {
             (true, false) => split(others.split_top_bottom_at_fraction(0.6)),
         };
         views.take_shape(first, 1, document, keep);
+        views.measure_rate(ui, trial.is_moving());
         let picked = self.vessel(ui, first.shrink(0.5), trial, views, document, keep);
         self.fluoroscopy(ui, second.shrink(0.5), trial);
         match third {
@@ -173,9 +174,9 @@ impl TrialView {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, "Fluoroscopy view");
         steer(ui, &response, trial);
-        let (now, passed) = ui.input(|input| (input.time, f64::from(input.stable_dt)));
-        let is_moving = trial.is_moving();
-        let is_due = trial.carm.pulses_at(now, if is_moving { passed } else { 0.0 });
+        let now = ui.input(|input| input.time);
+        let time_s = trial.frame.as_ref().map_or(0.0, |frame| frame.time_s);
+        let is_due = trial.carm.pulses_at(now, time_s);
         if trial.carm.is_on && trial.carm.contrast_s(now).is_some() {
             ui.ctx().request_repaint();
         }
