@@ -65,13 +65,12 @@ fn depth(with: f32, without: f32) -> f32 {
 
 #[test]
 fn contrast_takes_away_what_beer_and_lambert_say_wherever_the_vessel_is() {
-    let two = |a: TriMesh, b: TriMesh| together(&[a, b]);
     let moved = |mut mesh: TriMesh, by: Vec3| {
         mesh.positions.iter_mut().for_each(|p| *p += by);
         mesh
     };
     let one = moved(sphere(10.0, 80), Vec3::new(0.0, 0.0, 37.0));
-    let behind = two(one.clone(), moved(sphere(6.0, 80), Vec3::new(0.0, 0.0, -90.0)));
+    let behind = together(&one, &moved(sphere(6.0, 80), Vec3::new(0.0, 0.0, -90.0)));
     let given = Exposure { contrast_s: Some(FULL_S), flow: 1.0, ..Exposure::default() };
     for format in [ThicknessFormat::Floats, ThicknessFormat::Bytes] {
         for (mesh, thickness) in [(&one, 20.0), (&behind, 32.0)] {
