@@ -102,7 +102,13 @@ impl LumenApp {
         }
         while let Some(event) = self.platform.link().poll() {
             match self.state.receive(event) {
-                Some(Effect::Opened) => self.look_next = true,
+                Some(Effect::Opened) => {
+                    self.look_next = true;
+                    // A trial is in the surface that was open.
+                    if self.trial.is_open {
+                        self.trial.act(&trial::Ask::Close, None, self.platform.trial());
+                    }
+                }
                 Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
                 None => {}
             }

@@ -1,25 +1,32 @@
 //! Engines on threads of their own.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Instant;
 
 use crate::engine::{Link, Machine};
 
+/// Passing events are dropped while so many others are not heard.
+const UNHEARD: usize = 30;
+
 /// The line to an engine on a thread of its own.
 pub(super) struct ThreadLink<M: Machine> {
     ctx: egui::Context,
     commands: Sender<M::Command>,
     events: Receiver<Result<M::Event, String>>,
+    unheard: Arc<AtomicUsize>,
     failure: Option<String>,
 }
 
 impl<M: Machine> ThreadLink<M> {
     /// Starts an engine that wakes `ctx` when it has something to say.
     pub(super) fn new(ctx: egui::Context) -> Self {
-        let (commands, events) = start::<M>(ctx.clone());
-        Self { ctx, commands, events, failure: None }
+        let unheard = Arc::default();
+        let (commands, events) = start::<M>(ctx.clone(), Arc::clone(&unheard));
+        Self { ctx, commands, events, unheard, failure: None }
     }
 }
 
@@ -32,7 +39,10 @@ impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
 
     fn poll(&mut self) -> Option<M::Event> {
         match self.events.try_recv() {
-            Ok(Ok(event)) => Some(event),
+            Ok(Ok(event)) => {
+                self.unheard.fetch_sub(1, Ordering::Relaxed);
+                Some(event)
+            }
             Ok(Err(reason)) => {
                 self.failure = Some(reason);
                 None
@@ -43,7 +53,8 @@ impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
 
     fn restart(&mut self) {
         // The old thread ends when it next looks for a command, and its events go nowhere.
-        (self.commands, self.events) = start::<M>(self.ctx.clone());
+        self.unheard = Arc::default();
+        (self.commands, self.events) = start::<M>(self.ctx.clone(), Arc::clone(&self.unheard));
         self.failure = None;
     }
 
@@ -54,11 +65,11 @@ impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
 
 type Ends<M> = (Sender<<M as Machine>::Command>, Receiver<Result<<M as Machine>::Event, String>>);
 
-fn start<M: Machine>(ctx: egui::Context) -> Ends<M> {
+fn start<M: Machine>(ctx: egui::Context, unheard: Arc<AtomicUsize>) -> Ends<M> {
     let (commands, inbox) = channel();
     let (outbox, events) = channel();
     thread::spawn(move || {
-        let run = catch_unwind(AssertUnwindSafe(|| work::<M>(&inbox, &outbox, &ctx)));
+        let run = catch_unwind(AssertUnwindSafe(|| work::<M>(&inbox, &outbox, &unheard, &ctx)));
         if let Err(panic) = run {
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let reason = text.or_else(|| panic.downcast_ref::<String>().cloned());
@@ -71,7 +82,12 @@ fn start<M: Machine>(ctx: egui::Context) -> Ends<M> {
 }
 
 /// Runs an engine until its line is cut.
-fn work<M: Machine>(inbox: &Receiver<M::Command>, outbox: &Sender<Result<M::Event, String>>, ctx: &egui::Context) {
+fn work<M: Machine>(
+    inbox: &Receiver<M::Command>,
+    outbox: &Sender<Result<M::Event, String>>,
+    unheard: &AtomicUsize,
+    ctx: &egui::Context,
+) {
     let mut machine = M::default();
     let since = Instant::now();
     let mut rest = None;
@@ -91,6 +107,10 @@ fn work<M: Machine>(inbox: &Receiver<M::Command>, outbox: &Sender<Result<M::Even
         rest = machine.advance(since.elapsed().as_secs_f64());
         let mut has_told = false;
         while let Some(event) = machine.poll() {
+            if M::is_passing(&event) && unheard.load(Ordering::Relaxed) >= UNHEARD {
+                continue;
+            }
+            unheard.fetch_add(1, Ordering::Relaxed);
             if outbox.send(Ok(event)).is_err() {
                 return;
             }

@@ -21,6 +21,12 @@ pub trait Machine: Default + 'static {
 
     /// What it has to tell.
     fn poll(&mut self) -> Option<Self::Event>;
+
+    /// Whether an event says only what the next of its kind says anew: where nobody listens, as while a window is
+    /// hidden, such events need not pile up.
+    fn is_passing(_: &Self::Event) -> bool {
+        false
+    }
 }
 
 impl Machine for Engine {
@@ -54,5 +60,9 @@ impl Machine for TrialEngine {
 
     fn poll(&mut self) -> Option<TrialEvent> {
         self.poll()
+    }
+
+    fn is_passing(event: &TrialEvent) -> bool {
+        matches!(event, TrialEvent::Frame(_))
     }
 }

@@ -43,6 +43,11 @@ enum EventHeader {
     Failed { message: String },
 }
 
+/// Whether this is the header of a frame, which the next frame makes useless.
+pub fn is_frame(header: &str) -> bool {
+    header.starts_with("{\"Frame\"")
+}
+
 /// A command as a message.
 pub fn encode_command(command: &TrialCommand) -> Encoded<'_> {
     let (header, buffers) = match command {
@@ -233,6 +238,7 @@ mod tests {
         ];
         for event in events {
             let (header, buffers) = owned(encode_event(&event));
+            assert_eq!(is_frame(&header), matches!(event, TrialEvent::Frame(_)));
             assert_eq!(decode_event(&header, &buffers).unwrap(), event);
         }
         assert!(decode_event("\"Saved\"", &vec![vec![0xFF], vec![]]).is_err(), "a log that is no text");

@@ -24,12 +24,12 @@ const told = (page, pattern, what, timeout = 60_000) =>
 test("the autopilot steers the wire to the target, and the log is saved", { timeout: 4 * LIMIT }, async (t) => {
   const { page, wrong } = await openApp(t, browser);
   await settled(page);
-  const workers = page.workers().length;
-  assert(workers >= 2, `${workers} Workers: the trial has one of its own`);
+  assert.equal(page.workers().length, 1, "no Worker before it is needed");
 
   await press(page, "button", "Trial");
   await twin(page, "img", "Fluoroscopy view").waitFor({ state: "attached" });
   await told(page, /^[\d.]+ cm$/, "the wire at the entry");
+  assert.equal(page.workers().length, 2, "the trial has a Worker of its own");
   await press(page, "button", "Autopilot");
   const end = await told(page, /^(Success|Failed)/, "the end of the trial", LIMIT);
   t.diagnostic(end);

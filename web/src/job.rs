@@ -41,6 +41,9 @@ pub(crate) trait Sent: Machine {
     /// The name of its job.
     const JOB: &str;
 
+    /// Whether a message with this header is useless once there is another such.
+    fn is_passing_header(header: &str) -> bool;
+
     /// A command as a message.
     fn encode_command(command: &Self::Command) -> Encoded<'_>;
 
@@ -55,9 +58,13 @@ pub(crate) trait Sent: Machine {
 }
 
 macro_rules! sent {
-    ($engine:ty, $job:expr, $wire:path) => {
+    ($engine:ty, $job:expr, $wire:path, $passing:expr) => {
         impl Sent for $engine {
             const JOB: &str = $job;
+
+            fn is_passing_header(header: &str) -> bool {
+                $passing(header)
+            }
 
             fn encode_command(command: &Self::Command) -> Encoded<'_> {
                 use $wire as wire;
@@ -82,8 +89,8 @@ macro_rules! sent {
     };
 }
 
-sent!(Engine, PIPELINE, wire);
-sent!(TrialEngine, TRIAL, trial_wire);
+sent!(Engine, PIPELINE, wire, |_| false);
+sent!(TrialEngine, TRIAL, trial_wire, trial_wire::is_frame);
 
 /// What the Worker holds.
 struct Worker<M> {

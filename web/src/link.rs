@@ -19,9 +19,14 @@ pub(crate) struct WorkerLink<M> {
 impl<M: Sent> WorkerLink<M> {
     /// Starts an engine; `ctx` draws again whenever it has something to say.
     pub(crate) fn new(ctx: egui::Context) -> Self {
-        let mut link = Self { line: None, ctx, failure: None, engine: PhantomData };
+        let mut link = Self::idle(ctx);
         link.restart();
         link
+    }
+
+    /// A line without an engine: the first command starts one.
+    pub(crate) fn idle(ctx: egui::Context) -> Self {
+        Self { line: None, ctx, failure: None, engine: PhantomData }
     }
 
     /// The first failure is the cause; what follows from it says less.
@@ -32,6 +37,9 @@ impl<M: Sent> WorkerLink<M> {
 
 impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
     fn send(&mut self, command: M::Command) {
+        if self.line.is_none() {
+            self.restart();
+        }
         let Some(line) = &self.line else { return };
         if let Err(error) = line.send(&M::encode_command(&command)) {
             self.fail(format!("a command could not be sent: {}", told(&error)));
@@ -55,7 +63,8 @@ impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
             Some(line) => line.restart(),
             None => {
                 let ctx = self.ctx.clone();
-                WorkerLine::start(M::JOB, move || ctx.request_repaint()).map(|line| self.line = Some(line))
+                WorkerLine::start(M::JOB, M::is_passing_header, move || ctx.request_repaint())
+                    .map(|line| self.line = Some(line))
             }
         };
         if let Err(error) = started {

@@ -23,9 +23,9 @@ pub(crate) struct Browser {
 }
 
 impl Browser {
-    /// Starts the engines; `ctx` draws again whenever there is news.
+    /// Starts the engine, that of the trial when it is needed; `ctx` draws again whenever there is news.
     pub(crate) fn new(ctx: &egui::Context) -> Self {
-        Self { link: WorkerLink::new(ctx.clone()), trial: WorkerLink::new(ctx.clone()), inbox: Rc::default() }
+        Self { link: WorkerLink::new(ctx.clone()), trial: WorkerLink::idle(ctx.clone()), inbox: Rc::default() }
     }
 
     /// Where news is put, from wherever it comes.

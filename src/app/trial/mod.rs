@@ -31,6 +31,7 @@ use crate::engine::Source;
 use crate::engine::trial::{TrialCommand, TrialComparison, TrialEvent, TrialLink, TrialReady};
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
+use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::Target;
 use crate::trial::frame::{Frame, Progress, Summary};
 use crate::trial::setup::{Entry, Input, Setup};
@@ -86,6 +87,16 @@ pub enum Stage {
     On,
 }
 
+/// The surface of a trial.
+struct Subject {
+    /// The level that the wire is in.
+    mesh: Arc<TriMesh>,
+    /// All levels.
+    levels: Arc<ProgressiveMesh>,
+    /// What they were taken from.
+    of: Revision,
+}
+
 /// A file for the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Offer {
@@ -131,11 +142,10 @@ pub struct Trial {
     drive: drive::Drive,
     /// The input that the engine has.
     driven: Input,
-    /// The surface of the trial, once it is on, and what it was taken from.
-    mesh: Option<Arc<TriMesh>>,
-    of: Revision,
-    /// What is on its way in: its number, surface and setup.
-    coming: Option<(u64, Arc<TriMesh>, Revision)>,
+    /// The surface of the trial, once it is on.
+    subject: Option<Subject>,
+    /// The number and the surface of the one that is on its way in.
+    coming: Option<(u64, Subject)>,
     /// The setup that the engine has, as the controls had it.
     sent: Option<Setup>,
     number: u64,
@@ -175,8 +185,9 @@ impl Trial {
         match ask {
             Ask::Start => self.start(document, link),
             Ask::Restart => {
-                let is_other = document.is_some_and(|document| taken_from(document) != self.of);
-                if self.has_changed() || is_other || self.stage == Stage::Off {
+                let of = self.subject.as_ref().map(|subject| subject.of);
+                let is_other = document.is_some_and(|document| Some(taken_from(document)) != of);
+                if self.has_changed() || is_other {
                     self.start(document, link);
                 } else {
                     self.begin_again();
@@ -199,7 +210,7 @@ impl Trial {
             }
             Ask::Save => link.send(TrialCommand::Save),
             Ask::Compare => {
-                if let Some((_, levels)) = document.and_then(|document| document.levels.as_ref()) {
+                if let Some(Subject { levels, .. }) = &self.subject {
                     let whole = levels.extract(&levels.level(Target::Reduction(0)).triangles);
                     self.comparing = Some(0.0);
                     link.send(TrialCommand::Compare { mesh: Arc::new(whole) });
@@ -227,7 +238,8 @@ impl Trial {
     }
 
     fn start(&mut self, document: Option<&Document>, link: &mut TrialLink) {
-        let Some((document, mesh)) = document.and_then(|d| Some((d, d.shown_mesh()?))) else {
+        let level = document.and_then(|d| Some((d, d.shown_mesh()?, d.levels.as_ref()?.1.clone())));
+        let Some((document, mesh, levels)) = level else {
             self.problem = Some("There is no surface to steer through yet.".to_owned());
             return;
         };
@@ -241,7 +253,7 @@ impl Trial {
         document.name.clone_into(&mut self.name);
         let (sample, setup) = (sample_of(document), self.setup.clone());
         self.sent = Some(setup.clone());
-        self.coming = Some((id, mesh.clone(), taken_from(document)));
+        self.coming = Some((id, Subject { mesh: mesh.clone(), levels, of: taken_from(document) }));
         self.stage = Stage::Preparing(0.0);
         self.is_open = true;
         self.driven = Input::default();
@@ -345,7 +357,7 @@ impl Trial {
                 self.coming = None;
                 self.log = None;
                 self.problem = Some(message);
-                self.stage = if self.mesh.is_some() { Stage::On } else { Stage::Off };
+                self.stage = if self.subject.is_some() { Stage::On } else { Stage::Off };
             }
             // What is left of a trial that was given up.
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
@@ -382,13 +394,18 @@ impl Trial {
         Vec::new()
     }
 
+    /// The surface that the wire is in.
+    pub(super) fn mesh(&self) -> Option<&Arc<TriMesh>> {
+        self.subject.as_ref().map(|subject| &subject.mesh)
+    }
+
     fn is_coming(&self, id: u64) -> bool {
-        self.coming.as_ref().is_some_and(|(coming, ..)| *coming == id)
+        self.coming.as_ref().is_some_and(|(coming, _)| *coming == id)
     }
 
     fn receive_ready(&mut self, ready: TrialReady, link: &mut TrialLink) {
-        if let Some((_, mesh, of)) = self.coming.take() {
-            (self.mesh, self.of) = (Some(mesh), of);
+        if let Some((_, subject)) = self.coming.take() {
+            self.subject = Some(subject);
         }
         self.begin_again();
         self.frame = None;

@@ -246,7 +246,7 @@ fn closed(mesh: &TriMesh) -> TriMesh {
 fn along(nodes: &[Vec3], way: &[[f32; 3]]) -> Vec<f32> {
     const MOST: usize = 96;
     let last = way.len().saturating_sub(1);
-    let steps = last.min(MOST).max(1);
+    let steps = last.clamp(1, MOST);
     let some: Vec<Vec3> = (0..=steps).filter_map(|i| way.get(i * last / steps)).map(|&p| p.into()).collect();
     let nearest = |p: &Vec3| {
         let away = |i: &usize| some[*i].distance_squared(*p);

@@ -260,15 +260,17 @@ fn content(ui: &mut Ui, tables: &mut Tables) -> bool {
     ui.label(RichText::new(format!("{what} The paper's figures are in brackets.")).weak());
     ScrollArea::horizontal().show(ui, |ui| {
         Grid::new("tables").num_columns(COLUMNS.len()).striped(true).spacing([14.0, 6.0]).show(ui, |ui| {
-            for (head, help) in COLUMNS {
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            for (i, (head, help)) in COLUMNS.into_iter().enumerate() {
+                aligned(ui, i, |ui| {
                     ui.label(RichText::new(head).small().strong()).on_hover_text(help);
                 });
             }
             ui.end_row();
             for row in &tables.rows {
-                for cell in row.cells(tables.sample) {
-                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(cell));
+                for (i, cell) in row.cells(tables.sample).into_iter().enumerate() {
+                    aligned(ui, i, |ui| {
+                        ui.label(cell);
+                    });
                 }
                 ui.end_row();
             }
@@ -293,6 +295,15 @@ fn content(ui: &mut Ui, tables: &mut Tables) -> bool {
         }
     });
     cancelled
+}
+
+/// To the right in its column; the last column has no right side of its own.
+fn aligned(ui: &mut Ui, column: usize, content: impl FnOnce(&mut Ui)) {
+    if column + 1 == COLUMNS.len() {
+        content(ui);
+    } else {
+        ui.with_layout(Layout::right_to_left(Align::Center), content);
+    }
 }
 
 /// The tables as text.

@@ -103,7 +103,7 @@ impl TrialView {
     /// Brings what is in memory up to the trial.
     fn follow(&mut self, trial: &Trial) {
         let Some(scene) = &mut self.scene else { return };
-        if let (Some(mesh), Some(ready)) = (&trial.mesh, &trial.ready)
+        if let (Some(mesh), Some(ready)) = (trial.mesh(), &trial.ready)
             && let Err(error) = scene.take(mesh, &ready.route)
         {
             self.failure = Some(format!("The trial cannot be drawn: {error}."));
@@ -155,7 +155,7 @@ impl TrialView {
         overlay::show(ui, rect, &writing);
         self.say(ui, rect, trial);
         let picks = trial.pick.is_some() && response.clicked();
-        picks.then(|| lumen_at(response.interact_pointer_pos()?, rect, &camera, trial.mesh.as_ref()?)).flatten()
+        picks.then(|| lumen_at(response.interact_pointer_pos()?, rect, &camera, trial.mesh()?)).flatten()
     }
 
     /// What there is to say where there is nothing to see.
@@ -180,7 +180,7 @@ impl TrialView {
         if trial.carm.is_on && trial.carm.contrast_s(now).is_some() {
             ui.ctx().request_repaint();
         }
-        let bounds = trial.mesh.as_ref().map_or(Bounds::EMPTY, |mesh| mesh.bounds());
+        let bounds = trial.mesh().map_or(Bounds::EMPTY, |mesh| mesh.bounds());
         let result = match (&mut self.scene, &trial.frame, &trial.ready) {
             (Some(scene), Some(frame), Some(ready)) => {
                 let (texture, is_other) = scene.picture(pixels(ui, rect));
