@@ -1,13 +1,13 @@
 // The guidewire: a lit tube, and what X-rays leave of it.
 
 // The least radius in pixels.
-const LEAST: f32 = 1.4;
+const LEAST: f32 = 1.6;
 // The tip: this much of the end, in mm, is a coil of platinum.
 const TIP: f32 = 30.0;
 // Towards the key light, as in `shaded.wgsl`.
 const KEY: vec3<f32> = vec3(-0.42, 0.56, 0.71);
 // Linear.
-const TIP_COLOUR: vec3<f32> = vec3(1.0, 0.72, 0.22);
+const TIP_COLOUR: vec3<f32> = vec3(1.0, 0.42, 0.04);
 // Attenuation in 1/mm at 60 keV (NIST XCOM: steel 1.2 cm2/g, platinum 3.6 cm2/g, of which a coil fills two fifths).
 const STEEL: f32 = 0.95;
 const COIL: f32 = 3.1;

@@ -146,8 +146,8 @@ fn the_wire_is_seen_through_the_vessel_and_is_never_too_thin() {
             (0..SIZE[1]).filter(differs).count() as f32
         };
         let width = (60..180).map(changed).sum::<f32>() / 120.0;
-        // 4 pixels are a mm, and the least radius is 1.4 pixels.
-        let expected = (8.0 * radius).max(2.8);
+        // 4 pixels are a mm, and the least radius is 1.6 pixels.
+        let expected = (8.0 * radius).max(3.2);
         assert!((width - expected).abs() < 1.5, "{width} pixels, not {expected}");
     }
 }

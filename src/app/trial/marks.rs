@@ -24,7 +24,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
     let at = |p: Vec3| project(camera, rect, p);
     let visuals = ui.visuals();
     let accent = visuals.hyperlink_color;
-    let way: Vec<Pos2> = ready.route.points.iter().filter_map(|&p| at(p.into())).collect();
+    let way: Vec<Pos2> = ahead(trial, &ready.route.points).iter().filter_map(|&p| at(p.into())).collect();
     painter.extend(Shape::dashed_line(&way, Stroke::new(1.0, accent.gamma_multiply(0.8)), 5.0, 5.0));
     for (i, &station) in ready.route.stations.iter().enumerate() {
         if let Some(at) = at(station.into()) {
@@ -47,6 +47,17 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
         }
         legend(&painter, rect, visuals, [("Tip, this level", here), ("Tip, unreduced", other)]);
     }
+}
+
+/// The part of the way that the tip has yet to go.
+fn ahead<'a>(trial: &Trial, way: &'a [[f32; 3]]) -> &'a [[f32; 3]] {
+    let gone = trial.frame.as_ref().map_or(0.0, |frame| frame.arc_mm as f32);
+    let mut along = 0.0;
+    let passed = way.windows(2).take_while(|pair| {
+        along += Vec3::from(pair[0]).distance(pair[1].into());
+        along <= gone
+    });
+    &way[passed.count()..]
 }
 
 fn dot(painter: &Painter, at: Pos2, colour: Color32, ground: Color32) {
