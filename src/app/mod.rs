@@ -234,6 +234,7 @@ impl LumenApp {
         if self.trial_view.tables(ui, &mut self.trial) {
             self.trial.cancel_tables(self.platform.trial());
         }
+        self.trial.next_row(self.platform.trial());
         (action, ask)
     }
 }

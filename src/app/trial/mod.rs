@@ -2,11 +2,12 @@
 //!
 //! - [`Trial`]: what the app knows of it, and how that changes by the user's hand and by what the engine says. It draws
 //!   nothing.
-//! - `panel`, `setup`, `readout`, `outcome`, `drive`: the controls and the numbers; `tables`: the paper's Tables III
-//!   and IV.
+//! - [`Ask`]: what the user asks for. `panel`, `setup`, `readout`, `outcome`, `drive`: the controls and the numbers;
+//!   `tables`: the paper's Tables III and IV.
 //! - `view`, `marks`: the three views and what is written over them; `scene`: what stands in GPU memory; `carm`,
 //!   `peaks`: the C-arm, the largest forces.
 
+mod ask;
 mod carm;
 mod drive;
 mod marks;
@@ -21,6 +22,7 @@ mod view;
 
 use std::sync::Arc;
 
+pub use self::ask::{Ask, Offer, Pick, Stage};
 pub use self::carm::CArm;
 pub(super) use self::panel::{keys, show as panel};
 pub use self::tables::Tables;
@@ -39,54 +41,6 @@ use crate::trial::setup::{Entry, Input, Setup};
 /// Simulated seconds a second in slow motion.
 const SLOW: f32 = 0.25;
 
-/// What the user asks for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Ask {
-    /// Begin: with the level that is shown.
-    Start,
-    /// Begin again; anew where the level or the setup have changed.
-    Restart,
-    /// Steer by itself, or no longer.
-    Autopilot,
-    /// Stand still, or go on.
-    Pause,
-    /// Slow motion, or no longer.
-    Slow,
-    /// A second back.
-    StepBack,
-    /// The log as files.
-    Save,
-    /// Replay what a chosen log holds.
-    OpenLog,
-    /// Compare with the surface that was not reduced.
-    Compare,
-    /// Run the paper's tables.
-    Tables,
-    /// Back to the surface.
-    Close,
-}
-
-/// What the next click on the vessel chooses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pick {
-    /// Where the wire enters.
-    Entry,
-    /// Where it should go.
-    Target,
-}
-
-/// How far a trial is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Stage {
-    /// There is none.
-    #[default]
-    Off,
-    /// The wall and the route are being found: the part that is done.
-    Preparing(f32),
-    /// The wire is in the vessel.
-    On,
-}
-
 /// The surface of a trial.
 struct Subject {
     /// The level that the wire is in.
@@ -95,15 +49,6 @@ struct Subject {
     levels: Arc<ProgressiveMesh>,
     /// What they were taken from.
     of: Revision,
-}
-
-/// A file for the user.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Offer {
-    /// Its name.
-    pub name: String,
-    /// Its bytes.
-    pub bytes: Vec<u8>,
 }
 
 /// What the app knows of the trial.
@@ -225,11 +170,10 @@ impl Trial {
             Ask::Close => self.close(link),
             Ask::OpenLog => {}
         }
-        self.next_row(link);
     }
 
-    /// Asks for the next row of the tables, if there is one.
-    fn next_row(&mut self, link: &mut TrialLink) {
+    /// Asks for the next row of the tables, if there is one and none is being run.
+    pub(super) fn next_row(&mut self, link: &mut TrialLink) {
         if let Some((mesh, sample, setup)) = self.tables.next() {
             self.number += 1;
             self.tables.started(self.number, mesh.triangles.len());
@@ -382,13 +326,11 @@ impl Trial {
             }
             TrialEvent::Measured { id, summary } => {
                 self.tables.receive(id, summary);
-                self.next_row(link);
             }
             TrialEvent::Failed { message } => {
                 self.comparing = None;
                 self.tables.fails(&message);
                 self.problem = Some(message);
-                self.next_row(link);
             }
         }
         Vec::new()

@@ -320,7 +320,34 @@ fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
     assert!(says(&harness, "yes (no)") && says(&harness, "yes (yes)"), "the paper's beside ours");
     press(&mut harness, "Cancel tables");
     harness.run_steps(3);
+    asked(&memory);
     assert!(harness.query_by_role_and_label(Role::Button, "Cancel tables").is_none() && says(&harness, "Cancelled."));
+    press(&mut harness, "Run again");
+    harness.run_steps(3);
+    assert!(matches!(&asked(&memory)[..], [TrialCommand::Measure { .. }]));
+}
+
+#[test]
+fn a_click_on_the_vessel_picks_the_middle_of_its_lumen() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Pick target");
+    let view = harness.get_by_role_and_label(Role::Image, "Trial view").rect();
+    // The trunk of the aorta is in the middle of the view.
+    for button in [true, false] {
+        harness.hover_at(view.center());
+        harness.event(egui::Event::PointerButton {
+            pos: view.center(),
+            button: egui::PointerButton::Primary,
+            pressed: button,
+            modifiers: egui::Modifiers::NONE,
+        });
+        harness.run_steps(2);
+    }
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { mesh, setup, .. }) = commands.first() else { panic!("{commands:?}") };
+    let target = lumen::mesh::Vec3::from(setup.target.expect("a target"));
+    let wall = mesh.positions.iter().map(|p| p.distance(target)).fold(f32::INFINITY, f32::min);
+    assert!(wall > 5.0 && wall < 15.0, "{wall} mm from the wall of a vessel of about 20 mm");
 }
 
 #[test]
