@@ -121,3 +121,84 @@ fn work<M: Machine>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    /// Ticks every 2 ms once it was asked to; counts what it was asked.
+    #[derive(Default)]
+    struct Clock {
+        ticks: u32,
+        is_on: bool,
+        events: Vec<Tick>,
+    }
+
+    #[derive(Debug, PartialEq)]
+    enum Tick {
+        Tick(u32),
+        Heard(&'static str),
+    }
+
+    impl Machine for Clock {
+        type Command = &'static str;
+        type Event = Tick;
+
+        fn handle(&mut self, command: &'static str) {
+            assert!(command != "panic", "as it was told");
+            self.is_on = command == "start";
+            self.events.push(Tick::Heard(command));
+        }
+
+        fn advance(&mut self, _: f64) -> Option<Duration> {
+            self.ticks += 1;
+            self.events.push(Tick::Tick(self.ticks));
+            self.is_on.then_some(Duration::from_millis(2))
+        }
+
+        fn poll(&mut self) -> Option<Tick> {
+            (!self.events.is_empty()).then(|| self.events.remove(0))
+        }
+
+        fn is_passing(event: &Tick) -> bool {
+            matches!(event, Tick::Tick(_))
+        }
+    }
+
+    fn wait<T>(mut ask: impl FnMut() -> Option<T>) -> T {
+        for _ in 0..2000 {
+            if let Some(answer) = ask() {
+                return answer;
+            }
+            thread::sleep(Duration::from_millis(2));
+        }
+        panic!("no answer");
+    }
+
+    #[test]
+    fn a_machine_that_keeps_pace_hears_commands_in_between_and_piles_nothing_up() {
+        let mut link = ThreadLink::<Clock>::new(egui::Context::default());
+        link.send("start");
+        thread::sleep(Duration::from_millis(300));
+        link.send("stop");
+        thread::sleep(Duration::from_millis(100));
+        let events: Vec<Tick> = std::iter::from_fn(|| link.poll()).collect();
+        assert!(events.len() <= UNHEARD + 2, "{} events were not heard", events.len());
+        assert_eq!(events.last(), Some(&Tick::Heard("stop")), "what is not passing comes through");
+    }
+
+    #[test]
+    fn a_machine_that_panics_is_told_of_and_another_takes_its_place() {
+        let mut link = ThreadLink::<Clock>::new(egui::Context::default());
+        link.send("panic");
+        let reason = wait(|| {
+            let _ = link.poll();
+            link.failure()
+        });
+        assert!(reason.contains("as it was told"), "{reason}");
+        link.restart();
+        link.send("again");
+        assert_eq!(wait(|| link.poll()), Tick::Heard("again"));
+    }
+}
