@@ -1,6 +1,6 @@
 //! The bars: files and help above, what is going on below.
 
-use egui::{Button, ProgressBar, RichText, Role, Ui};
+use egui::{Button, ProgressBar, Response, RichText, Role, Ui};
 
 use super::control::{grouped, name};
 use super::icon::{self, Icon};
@@ -30,6 +30,8 @@ pub enum Action {
     View(crate::render::StandardView),
     /// Show or leave the compare view.
     Compare,
+    /// Start a trial or leave it.
+    Trial,
     /// The other theme.
     Theme,
     /// Show or hide the keys.
@@ -39,7 +41,7 @@ pub enum Action {
 }
 
 /// The bar above. `is_narrow`: on a phone, where only what is needed most has a button of its own.
-pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Option<Action> {
+pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool, is_narrow: bool) -> Option<Action> {
     let mut action = None;
     let mut ask = |wanted: bool, what: Action| {
         if wanted {
@@ -71,7 +73,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool
         });
         if is_narrow {
             let menu = icon::button(ui, Icon::Menu, true, "Menu", "More");
-            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, &mut ask));
+            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, in_trial, &mut ask));
         } else {
             ui.separator();
             let can_undo = state.history.can_undo();
@@ -79,9 +81,14 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool
             let can_redo = state.history.can_redo();
             ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
-            ui.add_enabled_ui(!state.comparison.is_open(), |ui| before_button(ui, views));
-            let compare = Button::new("Compare").selected(state.comparison.is_open());
-            ask(ui.add(compare).on_hover_text("Several settings side by side (C)").clicked(), Action::Compare);
+            let in_views = !(in_trial || state.comparison.is_open());
+            ui.add_enabled_ui(in_views, |ui| before_button(ui, views));
+            ask(
+                compare(ui, state, in_trial).on_hover_text("Several settings side by side (C)").clicked(),
+                Action::Compare,
+            );
+            let help = "Steer a guidewire through the level that is shown";
+            ask(trial(ui, state, in_trial).on_hover_text(help).clicked(), Action::Trial);
             ui.menu_button("View", |ui| view_menu(ui, views, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ask(ui.button("About").clicked(), Action::About);
@@ -91,6 +98,15 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool
         }
     });
     action
+}
+
+fn compare(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
+    ui.add_enabled(!in_trial, Button::new("Compare").selected(state.comparison.is_open()))
+}
+
+fn trial(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
+    let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
+    ui.add_enabled(has_level || in_trial, Button::new("Trial").selected(in_trial))
 }
 
 /// Shows the surface as it was opened for as long as it is held.
@@ -113,11 +129,12 @@ fn view_menu(ui: &mut Ui, views: &mut Views, ask: &mut impl FnMut(bool, Action))
         .on_hover_text("Distance from the smoothed surface, in mm");
 }
 
-fn more(ui: &mut Ui, state: &State, views: &mut Views, ask: &mut impl FnMut(bool, Action)) {
+fn more(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool, ask: &mut impl FnMut(bool, Action)) {
     ask(ui.add_enabled(state.history.can_undo(), Button::new("Undo")).clicked(), Action::Undo);
     ask(ui.add_enabled(state.history.can_redo(), Button::new("Redo")).clicked(), Action::Redo);
     ui.checkbox(&mut views.before_is_on, "Show before");
-    ask(ui.add(Button::new("Compare").selected(state.comparison.is_open())).clicked(), Action::Compare);
+    ask(compare(ui, state, in_trial).clicked(), Action::Compare);
+    ask(trial(ui, state, in_trial).clicked(), Action::Trial);
     ui.menu_button("View", |ui| view_menu(ui, views, ask));
     ask(ui.button("Theme").clicked(), Action::Theme);
     ask(ui.button("Help").clicked(), Action::Help);

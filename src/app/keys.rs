@@ -9,8 +9,8 @@ use crate::render::StandardView;
 
 const VIEW_KEYS: [Key; 6] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
 
-/// What the keys ask for in this frame. While text is typed, only those with Ctrl count.
-pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action> {
+/// What the keys with Ctrl, which count while text is typed too, and F1 ask for in this frame.
+pub(super) fn with_ctrl(ui: &Ui) -> Option<Action> {
     let ctrl_shift = Modifiers::COMMAND | Modifiers::SHIFT;
     let with_ctrl = [
         (ctrl_shift, Key::Z, Action::Redo),
@@ -25,6 +25,11 @@ pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action
             return Some(action);
         }
     }
+    None
+}
+
+/// What the other keys ask for in this frame, except while text is typed.
+pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action> {
     if ui.ctx().text_edit_focused() {
         return None;
     }

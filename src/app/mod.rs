@@ -4,6 +4,7 @@
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
 //! - `panel`, `bar`, `sheets`, `keys`: the controls; `control` is a row of the panel, `icon` its icons, `theme` the look.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
+//! - [`trial`]: the guidewire trial.
 //! - `views`: the two 3-D views; `scene` what stands in GPU memory, `overlay` what is written over them.
 
 mod bar;
@@ -22,6 +23,7 @@ mod scene;
 mod sheets;
 mod state;
 mod theme;
+pub mod trial;
 mod views;
 
 use std::time::Duration;
@@ -29,7 +31,7 @@ use std::time::Duration;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
 
 pub use self::bar::Action;
-pub use self::platform::{Platform, PlatformEvent};
+pub use self::platform::{Gamepad, Platform, PlatformEvent};
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State};
 pub use self::views::Views;
@@ -47,6 +49,8 @@ pub struct LumenApp {
     state: State,
     views: Views,
     compare: compare::CompareView,
+    trial: trial::Trial,
+    trial_view: trial::TrialView,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
     /// The views find a new surface when they are next shown: their shape is known by then.
@@ -67,6 +71,8 @@ impl LumenApp {
             state,
             views: Views::new(render_state),
             compare: compare::CompareView::new(render_state),
+            trial: trial::Trial::default(),
+            trial_view: trial::TrialView::new(render_state),
             platform,
             sheet: None,
             look_next: false,
@@ -78,9 +84,17 @@ impl LumenApp {
         &self.state
     }
 
+    /// What the app knows of the trial.
+    pub fn trial(&self) -> &trial::Trial {
+        &self.trial
+    }
+
     fn listen(&mut self, ctx: &egui::Context) {
         while let Some(event) = self.platform.poll() {
             match event {
+                PlatformEvent::Chosen { name, bytes } if is_log(&name) => {
+                    self.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
+                }
                 PlatformEvent::Chosen { name, bytes } => self.state.open_file(name, bytes, self.platform.link()),
                 PlatformEvent::Saved { name } => self.state.tell(&format!("{name} was saved.")),
                 PlatformEvent::Failed { message } => self.state.warn(&message),
@@ -88,13 +102,28 @@ impl LumenApp {
         }
         while let Some(event) = self.platform.link().poll() {
             match self.state.receive(event) {
-                Some(Effect::Opened) => self.look_next = true,
+                Some(Effect::Opened) => {
+                    self.look_next = true;
+                    // A trial is in the surface that was open.
+                    if self.trial.is_open {
+                        self.trial.act(&trial::Ask::Close, None, self.platform.trial());
+                    }
+                }
                 Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
                 None => {}
             }
         }
         if let Some(reason) = self.platform.link().failure() {
             self.state.engine_failed(&reason, self.platform.link());
+        }
+        while let Some(event) = self.platform.trial().poll() {
+            for offer in self.trial.receive(event, self.platform.trial()) {
+                self.platform.offer_file(&offer.name, offer.bytes, ctx);
+            }
+        }
+        if let Some(reason) = self.platform.trial().failure() {
+            let sentence = self.trial.engine_failed(&reason, self.platform.trial());
+            self.state.warn(&sentence);
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {
@@ -115,6 +144,10 @@ impl LumenApp {
             Action::Fit => self.views.fit(state.document.as_ref(), keep),
             Action::View(view) => self.views.look_from(view, state.document.as_ref(), keep),
             Action::Compare => state.toggle_comparison(),
+            Action::Trial => {
+                let ask = if self.trial.is_open { trial::Ask::Close } else { trial::Ask::Start };
+                self.act_on_trial(&ask, ctx);
+            }
             Action::Theme => {
                 let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
                 ctx.set_theme(other);
@@ -124,12 +157,22 @@ impl LumenApp {
         }
     }
 
-    fn panels(&mut self, ui: &mut Ui) -> Option<Action> {
+    fn act_on_trial(&mut self, ask: &trial::Ask, ctx: &egui::Context) {
+        if *ask == trial::Ask::OpenLog {
+            self.platform.choose_file(ctx);
+        }
+        if *ask == trial::Ask::Start {
+            self.state.comparison.set_open(false);
+        }
+        self.trial.act(ask, self.state.document.as_ref(), self.platform.trial());
+    }
+
+    fn panels(&mut self, ui: &mut Ui) -> (Option<Action>, Option<trial::Ask>) {
         let is_narrow = ui.available_width() < NARROW;
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
         let mut action = None;
         Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
-            action = bar::top(ui, &self.state, &mut self.views, is_narrow);
+            action = bar::top(ui, &self.state, &mut self.views, self.trial.is_open, is_narrow);
         });
         Panel::bottom("status").frame(bar).exact_size(40.0).show(ui, |ui| {
             action = action.or(bar::status(ui, &mut self.state, &self.views, is_narrow));
@@ -141,16 +184,28 @@ impl LumenApp {
             Panel::left("panel").resizable(true).default_size(296.0).size_range(256.0..=440.0)
         };
         let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
+        let mut ask = None;
         panel.frame(margin).show(ui, |ui| {
+            if self.trial.is_open {
+                self.trial.pads(ui);
+            }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Room for the scroll bar beside what stands at the right.
                 ui.set_max_width(ui.available_width() - 8.0);
-                if let Some(unit) = panel::show(ui, &mut self.state, &mut self.views) {
+                if self.trial.is_open {
+                    ui.spacing_mut().item_spacing.y = 3.0;
+                    ask = trial::panel(ui, &mut self.trial, self.state.document.as_ref());
+                    return;
+                }
+                let (unit, asked) = panel::show(ui, &mut self.state, &mut self.views, &mut self.trial);
+                ask = asked;
+                if let Some(unit) = unit {
                     self.state.set_unit(unit, self.platform.link());
                 }
             });
         });
         let keep = self.state.settings.keep;
+        let mut picked = None;
         let clicked = CentralPanel::default()
             .frame(Frame::new().fill(ui.visuals().widgets.noninteractive.bg_stroke.color))
             .show(ui, |ui| {
@@ -158,6 +213,10 @@ impl LumenApp {
                 let document = document.as_ref();
                 if std::mem::take(&mut self.look_next) {
                     self.views.look_first(document, keep);
+                }
+                if self.trial.is_open {
+                    picked = self.trial_view.show(ui, &mut self.trial, &mut self.views, document, keep, is_narrow);
+                    return None;
                 }
                 if comparison.is_open() {
                     self.compare.show(ui, comparison, &mut self.views, settings, document, is_narrow);
@@ -169,8 +228,20 @@ impl LumenApp {
             let is_largest = self.state.document.as_ref().and_then(|d| d.pieces.by_size.first()) == Some(&piece);
             self.state.settings.keep = if is_largest { Keep::Largest } else { Keep::Component(piece) };
         }
-        action
+        if let (Some(at), Some(pick)) = (picked, self.trial.pick) {
+            self.trial.choose(pick, at, self.state.document.as_ref(), self.platform.trial());
+        }
+        if self.trial_view.tables(ui, &mut self.trial) {
+            self.trial.cancel_tables(self.platform.trial());
+        }
+        self.trial.next_row(self.platform.trial());
+        (action, ask)
     }
+}
+
+/// Whether a file is the log of a trial.
+fn is_log(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case("csv"))
 }
 
 fn toggled(open: Option<Sheet>, sheet: Sheet) -> Option<Sheet> {
@@ -183,17 +254,35 @@ impl eframe::App for LumenApp {
         self.listen(&ctx);
         let held = keys::before_is_held(ui) || self.views.before_is_held || self.views.before_is_on;
         self.views.show_before = held;
-        let by_key = if self.sheet.is_none() { keys::action(ui, &mut self.views, self.state.is_busy()) } else { None };
-        let by_bar = self.panels(ui);
+        let (mut by_key, mut asked) = (None, None);
+        if self.sheet.is_none() {
+            by_key = keys::with_ctrl(ui);
+            if self.trial.is_open {
+                asked = trial::keys(ui, &mut self.trial);
+            } else {
+                by_key = by_key.or_else(|| keys::action(ui, &mut self.views, self.state.is_busy()));
+            }
+        }
+        let (by_bar, by_panel) = self.panels(ui);
         if let Some(action) = by_key.or(by_bar) {
             self.act(action, &ctx);
         }
-        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet)) || self.sheet.is_some() && keys::closes_sheet(ui) {
+        if let Some(ask) = asked.or(by_panel) {
+            self.act_on_trial(&ask, &ctx);
+        }
+        let gamepad = self.platform.gamepad();
+        self.trial.follow_hand(ui, gamepad, self.platform.trial());
+        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet, self.trial.is_open))
+            || self.sheet.is_some() && keys::closes_sheet(ui)
+        {
             self.sheet = None;
         }
         let is_held = ctx.input(|input| input.pointer.any_down()) || ctx.egui_wants_keyboard_input();
         self.state.follow(is_held, self.platform.link());
-        if self.state.is_busy() {
+        if self.trial.is_open && self.trial.is_moving() {
+            ctx.request_repaint();
+        }
+        if self.state.is_busy() || self.trial.is_busy() {
             ctx.request_repaint_after(LISTEN);
         }
     }

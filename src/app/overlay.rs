@@ -14,8 +14,21 @@ pub(super) struct Writing<'a> {
     pub name: Option<&'a str>,
     /// From where the view looks.
     pub camera: &'a Camera,
-    /// The colour map in use.
-    pub map: Option<ColourMap>,
+    /// The colours in use.
+    pub legend: Option<Legend>,
+}
+
+/// What colours mean.
+#[derive(Clone, Copy)]
+pub(super) struct Legend {
+    /// The colour map; its range is in `unit`.
+    pub map: ColourMap,
+    /// What has these colours.
+    pub title: &'static str,
+    /// The unit.
+    pub unit: &'static str,
+    /// Digits after the point.
+    pub decimals: usize,
 }
 
 const MARGIN: f32 = 12.0;
@@ -37,8 +50,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         orientation(&painter, inner, writing.camera, text);
     }
     painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, small, weak);
-    if let Some(map) = writing.map {
-        legend(&painter, inner, map, text);
+    if let Some(colours) = &writing.legend {
+        legend(&painter, inner, colours, text);
     }
 }
 
@@ -121,7 +134,7 @@ fn orientation(painter: &Painter, inner: Rect, camera: &Camera, colour: Color32)
     }
 }
 
-fn legend(painter: &Painter, inner: Rect, map: ColourMap, colour: Color32) {
+fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
     const STEPS: usize = 64;
     let bar = Rect::from_min_size(pos2(inner.right() - 12.0, inner.center().y - 80.0), vec2(12.0, 160.0));
     for i in 0..STEPS {
@@ -131,13 +144,19 @@ fn legend(painter: &Painter, inner: Rect, map: ColourMap, colour: Color32) {
         let piece = Rect::from_min_size(pos2(bar.left(), top), vec2(bar.width(), bar.height() / STEPS as f32 + 0.5));
         painter.rect_filled(piece, 0.0, Color32::from_rgb(r, g, b));
     }
-    let (low, high) = map.range_mm;
+    let (low, high) = legend.map.range_mm;
     let font = FontId::proportional(12.0);
     for (y, value) in [(bar.bottom(), low), (bar.top(), high)] {
         let at = pos2(bar.left() - 6.0, y);
-        painter.text(at, Align2::RIGHT_CENTER, format!("{value:.3} mm"), font.clone(), colour);
+        painter.text(
+            at,
+            Align2::RIGHT_CENTER,
+            format!("{value:.*} {}", legend.decimals, legend.unit),
+            font.clone(),
+            colour,
+        );
     }
-    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, "Deviation", font, colour);
+    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, legend.title, font, colour);
 }
 
 #[cfg(test)]

@@ -7,28 +7,36 @@ use super::control::{Setting, grouped, name};
 use super::document::Document;
 use super::response;
 use super::state::State;
+use super::trial::{self, Ask, Trial};
 use super::views::Views;
 use crate::engine::Source;
 use crate::io::Unit;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Method, Settings, Smoothing, Target, Window, reduction_percent};
 
-/// Shows the panel; returns the unit in which the file should be read instead, if one was chosen.
-pub(super) fn show(ui: &mut Ui, state: &mut State, views: &mut Views) -> Option<Unit> {
+/// Shows the panel; returns the unit in which the file should be read instead, if one was chosen, and what is asked of
+/// the trial.
+pub(super) fn show(
+    ui: &mut Ui,
+    state: &mut State,
+    views: &mut Views,
+    trial: &mut Trial,
+) -> (Option<Unit>, Option<Ask>) {
     ui.spacing_mut().item_spacing.y = 3.0;
     // Each step with an identity of its own: what comes and goes in one must not take the focus away in another.
     let unit = ui.push_id("surface", |ui| surface(ui, state, views)).inner;
     ui.push_id("smooth", |ui| smooth(ui, &mut state.settings, measured(state.document.as_ref())));
     ui.push_id("reduce", |ui| reduce(ui, state));
+    let ask = ui.push_id("trial", |ui| trial::panel(ui, trial, state.document.as_ref())).inner;
     ui.push_id("result", |ui| result(ui, state));
-    unit
+    (unit, ask)
 }
 
 fn measured(document: Option<&Document>) -> Option<&Report> {
     Some(&document?.measured.as_ref()?.report)
 }
 
-fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
+pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
     if number > 1 {
         ui.separator();
     }

@@ -1,11 +1,21 @@
 //! What the app needs of the machine it runs on; the desktop and the browser each have one.
 
 use crate::engine::Link;
+use crate::engine::trial::TrialLink;
 
 /// A platform. Nothing here blocks: what takes time arrives through [`Platform::poll`].
 pub trait Platform {
     /// The line to the engine.
     fn link(&mut self) -> &mut dyn Link;
+
+    /// The line to the trial, which has a machine of its own so that neither stalls the other.
+    fn trial(&mut self) -> &mut TrialLink;
+
+    /// What the first gamepad that is plugged in does; `None` without one. The desktop has none: what reads them there
+    /// needs a C library (libudev), and keys and pads on the screen do the same.
+    fn gamepad(&self) -> Option<Gamepad> {
+        None
+    }
 
     /// Lets the user choose a file to open. Called while a click or key press is handled, as browsers demand.
     fn choose_file(&mut self, ctx: &egui::Context);
@@ -18,6 +28,17 @@ pub trait Platform {
 
     /// What has happened since.
     fn poll(&mut self) -> Option<PlatformEvent>;
+}
+
+/// The state of a gamepad.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gamepad {
+    /// The left stick, forwards positive, -1 to 1: feed.
+    pub feed: f32,
+    /// The right stick, to the right positive, -1 to 1: roll.
+    pub roll: f32,
+    /// Whether a shoulder button is held: faster.
+    pub fast: bool,
 }
 
 /// What a platform reports.

@@ -34,13 +34,35 @@ const KEYS: [(&str, &str); 18] = [
     ("F1", "This sheet"),
 ];
 
-/// Shows a sheet; says whether it should be closed.
-pub(super) fn show(ui: &Ui, sheet: Sheet) -> bool {
+/// What the keys do while a trial is shown.
+const TRIAL_KEYS: [(&str, &str); 17] = [
+    ("W and S, up and down", "Feed and withdraw the wire"),
+    ("A and D, left and right", "Roll it left and right"),
+    ("Shift with these", "Faster"),
+    ("Gamepad (in a browser)", "Left stick feeds, right stick rolls"),
+    ("G", "Autopilot"),
+    ("Space", "Fluoroscopy on or off"),
+    ("C", "A puff of contrast"),
+    ("1 to 4", "C-arm: AP, LAO 45, LAT, RAO 30"),
+    ("Drag in the fluoroscopy", "Turn the C-arm"),
+    ("Wheel, pinch there", "Magnify"),
+    ("R", "Restart"),
+    ("P", "Pause"),
+    ("Z", "A second back"),
+    ("M", "Slow motion"),
+    ("Esc", "Close the trial"),
+    ("Drag, wheel in the vessel's view", "Turn, zoom"),
+    ("F1", "This sheet"),
+];
+
+/// Shows a sheet; says whether it should be closed. `in_trial`: whether a trial is shown, which has keys of its own.
+pub(super) fn show(ui: &Ui, sheet: Sheet, in_trial: bool) -> bool {
     let frame = egui::Frame::popup(ui.style()).inner_margin(24.0);
     let response = Modal::new(Id::unique("sheet")).frame(frame).show(ui.ctx(), |ui| {
         ui.set_max_width(560.0_f32.min(ui.ctx().content_rect().width() - 80.0));
         match sheet {
-            Sheet::Help => help(ui),
+            Sheet::Help if in_trial => help(ui, &TRIAL_KEYS),
+            Sheet::Help => help(ui, &KEYS),
             Sheet::About => about(ui),
         }
         ui.add_space(8.0);
@@ -49,12 +71,12 @@ pub(super) fn show(ui: &Ui, sheet: Sheet) -> bool {
     response.inner || response.should_close()
 }
 
-fn help(ui: &mut Ui) {
+fn help(ui: &mut Ui, keys: &[(&str, &str)]) {
     ui.heading("Keys and gestures");
     ui.add_space(8.0);
     ui.spacing_mut().interact_size.y = 20.0;
     Grid::new("keys").num_columns(2).spacing([16.0, 6.0]).show(ui, |ui| {
-        for (key, what) in KEYS {
+        for &(key, what) in keys {
             ui.label(RichText::new(key).weak());
             ui.label(what);
             ui.end_row();

@@ -101,10 +101,15 @@ impl Views {
         self.frames_per_second.map_or("idle".to_owned(), |rate| format!("{rate:.0} fps"))
     }
 
+    /// Takes how fast frames come, while something moves.
+    pub(super) fn measure_rate(&mut self, ui: &Ui, moves: bool) {
+        self.frames_per_second = moves.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
+    }
+
     /// Shows both views in what is left of `ui`. Returns the piece that was clicked.
     pub fn show(&mut self, ui: &mut Ui, document: Option<&Document>, keep: Keep, is_narrow: bool) -> Option<u32> {
         let moves = ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != egui::Vec2::ZERO);
-        self.frames_per_second = moves.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
+        self.measure_rate(ui, moves);
         if let (Some(scene), Some(document)) = (&mut self.scene, document)
             && let Err(error) = scene.follow(document, self.show_deviation)
         {
@@ -179,7 +184,12 @@ impl Views {
                 title: if self.show_before { "As opened" } else { title.trim_end_matches(" view") },
                 name: document.map(|document| document.name.as_str()),
                 camera: &self.camera,
-                map: style.map.filter(|_| has_scalars),
+                legend: style.map.filter(|_| has_scalars).map(|map| overlay::Legend {
+                    map,
+                    title: "Deviation",
+                    unit: "mm",
+                    decimals: 3,
+                }),
             },
         );
         if let Some(pinch) = document.and_then(Document::pinch).filter(|_| !self.show_before) {
@@ -253,7 +263,7 @@ pub(super) fn first_view(size: glam::Vec3) -> StandardView {
 }
 
 /// A point of the window in normalised device coordinates of a view: -1 to 1, y up.
-fn in_view(at: Pos2, rect: Rect) -> Vec2 {
+pub(super) fn in_view(at: Pos2, rect: Rect) -> Vec2 {
     let v = (at - rect.center()) / (rect.size() / 2.0).max(vec2(1.0, 1.0));
     Vec2::new(v.x, -v.y)
 }

@@ -8,13 +8,13 @@ use rfd::FileDialog;
 
 use crate::app::PlatformEvent;
 
-/// Extensions that can be opened.
-const EXTENSIONS: [&str; 5] = ["stl", "ply", "obj", "glb", "gltf"];
+/// Extensions that can be opened: those of surfaces, and that of a trial's log.
+const EXTENSIONS: [&str; 6] = ["stl", "ply", "obj", "glb", "gltf", "csv"];
 
 /// Lets the user choose a file and reads it.
 pub(super) fn choose(events: Sender<PlatformEvent>, ctx: egui::Context) {
     thread::spawn(move || {
-        if let Some(path) = FileDialog::new().add_filter("Surfaces", &EXTENSIONS).pick_file() {
+        if let Some(path) = FileDialog::new().add_filter("Surfaces and logs", &EXTENSIONS).pick_file() {
             send(&events, &ctx, load(&path));
         }
     });

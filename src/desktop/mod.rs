@@ -1,4 +1,4 @@
-//! What the desktop gives the app: a window, file dialogs, and an engine on a thread.
+//! What the desktop gives the app: a window, file dialogs, and engines on threads.
 
 mod files;
 mod thread;
@@ -7,7 +7,8 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
 use crate::app::{LumenApp, Platform, PlatformEvent};
-use crate::engine::Link;
+use crate::engine::trial::TrialLink;
+use crate::engine::{Engine, Link, TrialEngine};
 
 /// Opens the window and stays until it is closed. `file` is opened in place of the sample, if there is one.
 ///
@@ -33,22 +34,27 @@ pub fn run(file: Option<&std::path::Path>) -> eframe::Result {
 
 /// The desktop.
 pub struct Desktop {
-    link: ThreadLink,
+    link: ThreadLink<Engine>,
+    trial: ThreadLink<TrialEngine>,
     sender: Sender<PlatformEvent>,
     events: Receiver<PlatformEvent>,
 }
 
 impl Desktop {
-    /// A desktop with an engine on a thread of its own, which wakes `ctx` when it has something to say.
+    /// A desktop with engines on threads of their own, which wake `ctx` when they have something to say.
     pub fn new(ctx: &egui::Context) -> Self {
         let (sender, events) = channel();
-        Self { link: ThreadLink::new(ctx.clone()), sender, events }
+        Self { link: ThreadLink::new(ctx.clone()), trial: ThreadLink::new(ctx.clone()), sender, events }
     }
 }
 
 impl Platform for Desktop {
     fn link(&mut self) -> &mut dyn Link {
         &mut self.link
+    }
+
+    fn trial(&mut self) -> &mut TrialLink {
+        &mut self.trial
     }
 
     fn choose_file(&mut self, ctx: &egui::Context) {

@@ -1,37 +1,48 @@
-//! An engine on a thread.
+//! Engines on threads of their own.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
+use std::time::Instant;
 
-use crate::engine::{Command, Engine, Event, Link, SLICE};
+use crate::engine::{Link, Machine};
+
+/// Passing events are dropped while so many others are not heard.
+const UNHEARD: usize = 30;
 
 /// The line to an engine on a thread of its own.
-pub(super) struct ThreadLink {
+pub(super) struct ThreadLink<M: Machine> {
     ctx: egui::Context,
-    commands: Sender<Command>,
-    events: Receiver<Result<Event, String>>,
+    commands: Sender<M::Command>,
+    events: Receiver<Result<M::Event, String>>,
+    unheard: Arc<AtomicUsize>,
     failure: Option<String>,
 }
 
-impl ThreadLink {
+impl<M: Machine> ThreadLink<M> {
     /// Starts an engine that wakes `ctx` when it has something to say.
     pub(super) fn new(ctx: egui::Context) -> Self {
-        let (commands, events) = start(ctx.clone());
-        Self { ctx, commands, events, failure: None }
+        let unheard = Arc::default();
+        let (commands, events) = start::<M>(ctx.clone(), Arc::clone(&unheard));
+        Self { ctx, commands, events, unheard, failure: None }
     }
 }
 
-impl Link for ThreadLink {
-    fn send(&mut self, command: Command) {
+impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
+    fn send(&mut self, command: M::Command) {
         if self.commands.send(command).is_err() {
             self.failure.get_or_insert_with(|| "its thread has ended".to_owned());
         }
     }
 
-    fn poll(&mut self) -> Option<Event> {
+    fn poll(&mut self) -> Option<M::Event> {
         match self.events.try_recv() {
-            Ok(Ok(event)) => Some(event),
+            Ok(Ok(event)) => {
+                self.unheard.fetch_sub(1, Ordering::Relaxed);
+                Some(event)
+            }
             Ok(Err(reason)) => {
                 self.failure = Some(reason);
                 None
@@ -42,7 +53,8 @@ impl Link for ThreadLink {
 
     fn restart(&mut self) {
         // The old thread ends when it next looks for a command, and its events go nowhere.
-        (self.commands, self.events) = start(self.ctx.clone());
+        self.unheard = Arc::default();
+        (self.commands, self.events) = start::<M>(self.ctx.clone(), Arc::clone(&self.unheard));
         self.failure = None;
     }
 
@@ -51,11 +63,13 @@ impl Link for ThreadLink {
     }
 }
 
-fn start(ctx: egui::Context) -> (Sender<Command>, Receiver<Result<Event, String>>) {
+type Ends<M> = (Sender<<M as Machine>::Command>, Receiver<Result<<M as Machine>::Event, String>>);
+
+fn start<M: Machine>(ctx: egui::Context, unheard: Arc<AtomicUsize>) -> Ends<M> {
     let (commands, inbox) = channel();
     let (outbox, events) = channel();
     thread::spawn(move || {
-        let run = catch_unwind(AssertUnwindSafe(|| work(&inbox, &outbox, &ctx)));
+        let run = catch_unwind(AssertUnwindSafe(|| work::<M>(&inbox, &outbox, &unheard, &ctx)));
         if let Err(panic) = run {
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let reason = text.or_else(|| panic.downcast_ref::<String>().cloned());
@@ -68,27 +82,123 @@ fn start(ctx: egui::Context) -> (Sender<Command>, Receiver<Result<Event, String>
 }
 
 /// Runs an engine until its line is cut.
-fn work(inbox: &Receiver<Command>, outbox: &Sender<Result<Event, String>>, ctx: &egui::Context) {
-    let mut engine = Engine::new();
-    let mut is_busy = false;
+fn work<M: Machine>(
+    inbox: &Receiver<M::Command>,
+    outbox: &Sender<Result<M::Event, String>>,
+    unheard: &AtomicUsize,
+    ctx: &egui::Context,
+) {
+    let mut machine = M::default();
+    let since = Instant::now();
+    let mut rest = None;
     loop {
-        if !is_busy {
-            let Ok(command) = inbox.recv() else { return };
-            engine.handle(command);
+        let heard = match rest {
+            None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
+            Some(rest) => inbox.recv_timeout(rest),
+        };
+        match heard {
+            Ok(command) => machine.handle(command),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return,
         }
-        loop {
-            match inbox.try_recv() {
-                Ok(command) => engine.handle(command),
-                Err(TryRecvError::Empty) => break,
-                Err(TryRecvError::Disconnected) => return,
+        while let Ok(command) = inbox.try_recv() {
+            machine.handle(command);
+        }
+        rest = machine.advance(since.elapsed().as_secs_f64());
+        let mut has_told = false;
+        while let Some(event) = machine.poll() {
+            if M::is_passing(&event) && unheard.load(Ordering::Relaxed) >= UNHEARD {
+                continue;
             }
-        }
-        is_busy = engine.advance(SLICE);
-        while let Some(event) = engine.poll() {
+            unheard.fetch_add(1, Ordering::Relaxed);
             if outbox.send(Ok(event)).is_err() {
                 return;
             }
+            has_told = true;
+        }
+        if has_told {
             ctx.request_repaint();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    /// Ticks every 2 ms once it was asked to; counts what it was asked.
+    #[derive(Default)]
+    struct Clock {
+        ticks: u32,
+        is_on: bool,
+        events: Vec<Tick>,
+    }
+
+    #[derive(Debug, PartialEq)]
+    enum Tick {
+        Tick(u32),
+        Heard(&'static str),
+    }
+
+    impl Machine for Clock {
+        type Command = &'static str;
+        type Event = Tick;
+
+        fn handle(&mut self, command: &'static str) {
+            assert!(command != "panic", "as it was told");
+            self.is_on = command == "start";
+            self.events.push(Tick::Heard(command));
+        }
+
+        fn advance(&mut self, _: f64) -> Option<Duration> {
+            self.ticks += 1;
+            self.events.push(Tick::Tick(self.ticks));
+            self.is_on.then_some(Duration::from_millis(2))
+        }
+
+        fn poll(&mut self) -> Option<Tick> {
+            (!self.events.is_empty()).then(|| self.events.remove(0))
+        }
+
+        fn is_passing(event: &Tick) -> bool {
+            matches!(event, Tick::Tick(_))
+        }
+    }
+
+    fn wait<T>(mut ask: impl FnMut() -> Option<T>) -> T {
+        for _ in 0..2000 {
+            if let Some(answer) = ask() {
+                return answer;
+            }
+            thread::sleep(Duration::from_millis(2));
+        }
+        panic!("no answer");
+    }
+
+    #[test]
+    fn a_machine_that_keeps_pace_hears_commands_in_between_and_piles_nothing_up() {
+        let mut link = ThreadLink::<Clock>::new(egui::Context::default());
+        link.send("start");
+        thread::sleep(Duration::from_millis(300));
+        link.send("stop");
+        thread::sleep(Duration::from_millis(100));
+        let events: Vec<Tick> = std::iter::from_fn(|| link.poll()).collect();
+        assert!(events.len() <= UNHEARD + 2, "{} events were not heard", events.len());
+        assert_eq!(events.last(), Some(&Tick::Heard("stop")), "what is not passing comes through");
+    }
+
+    #[test]
+    fn a_machine_that_panics_is_told_of_and_another_takes_its_place() {
+        let mut link = ThreadLink::<Clock>::new(egui::Context::default());
+        link.send("panic");
+        let reason = wait(|| {
+            let _ = link.poll();
+            link.failure()
+        });
+        assert!(reason.contains("as it was told"), "{reason}");
+        link.restart();
+        link.send("again");
+        assert_eq!(wait(|| link.poll()), Tick::Heard("again"));
     }
 }

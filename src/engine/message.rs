@@ -223,13 +223,13 @@ pub enum Event {
     },
 }
 
-/// The app's end of the line to an engine.
-pub trait Link {
+/// The app's end of the line to an engine: that of the pipeline, or with other commands and events that of the trial.
+pub trait Link<C = Command, E = Event> {
     /// Sends a command.
-    fn send(&mut self, command: Command);
+    fn send(&mut self, command: C);
 
     /// The next event that has arrived.
-    fn poll(&mut self) -> Option<Event>;
+    fn poll(&mut self) -> Option<E>;
 
     /// Gives up the engine, whatever it does, and starts another with nothing open.
     fn restart(&mut self);

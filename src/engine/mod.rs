@@ -10,10 +10,16 @@
 //! older work is dropped.
 //!
 //! Settings to compare ([`Command::Compare`]) are worked on while nothing else is to be done.
+//!
+//! The guidewire trial is an engine of its own beside it, on a line of its own: [`trial`], [`TrialEngine`],
+//! [`trial_wire`]. It keeps pace with the clock.
 
 mod compare;
+mod machine;
 mod message;
 pub mod trial;
+mod trial_engine;
+pub mod trial_wire;
 pub mod wire;
 
 use std::collections::VecDeque;
@@ -23,7 +29,9 @@ use std::time::Duration;
 use web_time::Instant;
 
 use self::compare::Comparing;
+pub use self::machine::Machine;
 pub use self::message::{Command, Compared, Event, Link, Opened, Reduced, Source, Work};
+pub use self::trial_engine::TrialEngine;
 use crate::io::{self, Imported};
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom;

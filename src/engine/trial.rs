@@ -10,6 +10,9 @@ use crate::trial::frame::{Frame, Summary};
 use crate::trial::route::{Route, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
 
+/// The app's end of the line to a trial.
+pub type TrialLink = dyn super::Link<TrialCommand, TrialEvent>;
+
 /// What the trial is asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TrialCommand {

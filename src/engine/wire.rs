@@ -31,6 +31,12 @@ pub enum WireError {
         /// Bytes of an element.
         element: usize,
     },
+    /// A buffer that should be text is not UTF-8.
+    #[error("buffer {index} of the message is no text")]
+    Text {
+        /// Which.
+        index: usize,
+    },
 }
 
 /// The buffers that came with a message.
@@ -214,20 +220,20 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<Event, WireE
     })
 }
 
-fn line(header: &impl Serialize) -> String {
+pub(super) fn line(header: &impl Serialize) -> String {
     serde_json::to_string(header).expect("headers are plain data with string keys")
 }
 
-fn mesh_buffers(mesh: &TriMesh) -> Vec<&[u8]> {
+pub(super) fn mesh_buffers(mesh: &TriMesh) -> Vec<&[u8]> {
     vec![cast_slice(&mesh.positions), cast_slice(&mesh.triangles)]
 }
 
-fn mesh(buffers: &impl Buffers) -> Result<TriMesh, WireError> {
+pub(super) fn mesh(buffers: &impl Buffers) -> Result<TriMesh, WireError> {
     Ok(TriMesh { positions: array(buffers, 0)?, triangles: array(buffers, 1)? })
 }
 
 /// Buffer `index` as an array.
-fn array<T: Pod + Zeroable>(buffers: &impl Buffers, index: usize) -> Result<Vec<T>, WireError> {
+pub(super) fn array<T: Pod + Zeroable>(buffers: &impl Buffers, index: usize) -> Result<Vec<T>, WireError> {
     let element = size_of::<T>();
     let bytes = buffers.len(index);
     match bytes {

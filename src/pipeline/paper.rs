@@ -11,6 +11,35 @@ pub const TABLE_I: [usize; 2] = [74_307, 74_307];
 /// Table II: reduction rates in percent, and the polygons left at each.
 pub const TABLE_II: [(u32, usize); 5] = [(10, 66_875), (50, 37_153), (75, 18_576), (90, 7_430), (99, 743)];
 
+/// A row of the paper's tables of its trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TrialRow {
+    /// Reduction rate in percent.
+    pub rate: u32,
+    /// Frames a second when the guidewire came into the model.
+    pub initial_fps: u32,
+    /// Their mean at five places on the way.
+    pub average_fps: u32,
+    /// Whether the wire came to the given place in the coronary arteries.
+    pub success: bool,
+}
+
+const fn row(rate: u32, initial_fps: u32, average_fps: u32, success: bool) -> TrialRow {
+    TrialRow { rate, initial_fps, average_fps, success }
+}
+
+/// Table III: the trial in the models of Table II.
+pub const TABLE_III: [TrialRow; 5] = [
+    row(10, 30, 6, false),
+    row(50, 35, 10, false),
+    row(75, 38, 15, true),
+    row(90, 41, 18, true),
+    row(99, 42, 30, true),
+];
+
+/// Table IV: the trial in aorta and coronary arteries together.
+pub const TABLE_IV: [TrialRow; 3] = [row(90, 20, 4, false), row(95, 32, 6, false), row(99, 31, 11, true)];
+
 /// Figure 6: pass band and iterations of its six panels, row by row.
 pub const FIGURE_6: [(f64, u32); 6] = [(0.1, 30), (0.1, 60), (0.1, 100), (0.01, 30), (0.01, 60), (0.01, 100)];
 

@@ -6,6 +6,8 @@
 //!   edges and normals.
 //! - A [`Renderer`] holds the pipelines, one file and one shader a kind of drawing: `backdrop`, `shaded`, `wireframe`.
 //!   [`Renderer::draw`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`].
+//! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel (`glass`, `wire`), from its tip, and as a
+//!   fluoroscope sees it (`fluoroscopy`, `thickness`). A [`GpuWire`] is written anew every frame.
 //! - [`pick`] finds the triangle under a [`Ray`] of the camera, on the CPU.
 //!
 //! It runs on WebGPU, on WebGL2 (no storage buffers, no compute, no wide lines, no polygon mode) and on Vulkan, Metal
@@ -24,6 +26,8 @@ mod camera;
 mod colour;
 mod colour_map;
 mod edges;
+mod fluoroscopy;
+mod glass;
 mod pick;
 mod picture;
 mod renderer;
@@ -32,15 +36,20 @@ mod shaded;
 mod style;
 mod surface;
 mod target;
+mod trial;
+mod wire;
 mod wireframe;
 
 pub use camera::{Camera, StandardView};
 pub use colour::{Colour, contrast};
 pub use colour_map::{ColourMap, VIRIDIS, viridis};
 pub use edges::unique_edges;
+pub use fluoroscopy::{Exposure, FluoroscopyTarget, ThicknessFormat};
 pub use pick::{Hit, Ray, pick};
 pub use picture::{Picture, PictureError};
 pub use renderer::{Drawable, Look, Renderer};
 pub use style::Style;
 pub use surface::{GpuSurface, SurfaceError};
 pub use target::ViewTarget;
+pub use trial::TrialRenderer;
+pub use wire::GpuWire;

@@ -69,7 +69,7 @@ impl Renderer {
         drawables: &[Drawable<'_>],
         style: &Style,
     ) {
-        let bindings = self.layout.bind(device, target, camera, drawables, style);
+        let bindings = self.layout.bind(device, target.size(), camera, drawables, style);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("view"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {

@@ -82,6 +82,10 @@ pub(super) struct PipelineParts<'a> {
     pub(super) depth_bias: wgpu::DepthBiasState,
     pub(super) blend: Option<wgpu::BlendState>,
     pub(super) write_mask: wgpu::ColorWrites,
+    /// The side that is left out.
+    pub(super) cull: Option<wgpu::Face>,
+    /// In place of a [`ViewTarget`]: one texture of this format, a sample a pixel, without depth.
+    pub(super) plain: Option<wgpu::TextureFormat>,
 }
 
 impl<'a> PipelineParts<'a> {
@@ -99,6 +103,8 @@ impl<'a> PipelineParts<'a> {
             depth_bias: wgpu::DepthBiasState::default(),
             blend: None,
             write_mask: wgpu::ColorWrites::ALL,
+            cull: None,
+            plain: None,
         }
     }
 }
@@ -163,21 +169,24 @@ impl SceneLayout {
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 buffers: &buffers,
             },
-            primitive: wgpu::PrimitiveState { topology: parts.topology, ..Default::default() },
-            depth_stencil: Some(wgpu::DepthStencilState {
+            primitive: wgpu::PrimitiveState { topology: parts.topology, cull_mode: parts.cull, ..Default::default() },
+            depth_stencil: parts.plain.is_none().then(|| wgpu::DepthStencilState {
                 format: ViewTarget::DEPTH_FORMAT,
                 depth_write_enabled: Some(parts.depth_write),
                 depth_compare: Some(parts.depth_compare),
                 stencil: wgpu::StencilState::default(),
                 bias: parts.depth_bias,
             }),
-            multisample: wgpu::MultisampleState { count: ViewTarget::SAMPLES, ..Default::default() },
+            multisample: wgpu::MultisampleState {
+                count: if parts.plain.is_none() { ViewTarget::SAMPLES } else { 1 },
+                ..Default::default()
+            },
             fragment: Some(wgpu::FragmentState {
                 module: parts.module,
                 entry_point: Some(parts.fragment),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &[Some(wgpu::ColorTargetState {
-                    format: ViewTarget::FORMAT,
+                    format: parts.plain.unwrap_or(ViewTarget::FORMAT),
                     blend: parts.blend,
                     write_mask: parts.write_mask,
                 })],
@@ -187,16 +196,16 @@ impl SceneLayout {
         })
     }
 
-    /// Uniforms for `drawables` in one view.
+    /// Uniforms for `drawables` in one view of `size` pixels.
     pub(super) fn bind(
         &self,
         device: &wgpu::Device,
-        target: &ViewTarget,
+        size: [u32; 2],
         camera: &Camera,
         drawables: &[Drawable<'_>],
         style: &Style,
     ) -> SceneBindings {
-        let scene = scene_uniforms(target, camera, style);
+        let scene = scene_uniforms(size, camera, style);
         let drawn_at = (size_of::<SceneUniforms>() as u64).next_multiple_of(STRIDE);
         let size = drawn_at + STRIDE * drawables.len().max(1) as u64;
         let mut bytes = vec![0_u8; size as usize];
@@ -254,8 +263,8 @@ macro_rules! scene_shader {
 }
 pub(super) use scene_shader;
 
-fn scene_uniforms(target: &ViewTarget, camera: &Camera, style: &Style) -> SceneUniforms {
-    let height = target.size()[1] as f32;
+fn scene_uniforms([width, height]: [u32; 2], camera: &Camera, style: &Style) -> SceneUniforms {
+    let (width, height) = (width as f32, height as f32);
     let map = style.map.map_or([0.0, 0.0], |map| {
         let (low, high) = map.range_mm;
         // Without a width, a step as steep as a number can be.
@@ -263,7 +272,7 @@ fn scene_uniforms(target: &ViewTarget, camera: &Camera, style: &Style) -> SceneU
     });
     SceneUniforms {
         view: camera.view(),
-        projection: camera.projection(target.aspect()),
+        projection: camera.projection(width / height),
         background_top: encoded(style.background_top),
         background_bottom: encoded(style.background_bottom),
         map,

@@ -51,3 +51,12 @@ fn dither(encoded: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
     let noise = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
     return encoded + (noise - 0.5) * 0.95 / 255.0;
 }
+
+// The colour at `t`, 0 to 1, between the two nearest of the table: as `viridis` in `colour_map.rs`.
+fn map_colour(t: f32) -> vec3<f32> {
+    let at = clamp(t, 0.0, 1.0) * 255.0;
+    let i = min(i32(at), 254);
+    let low = textureLoad(viridis, vec2(i, 0), 0).rgb;
+    let high = textureLoad(viridis, vec2(i + 1, 0), 0).rgb;
+    return mix(low, high, at - f32(i));
+}

@@ -64,15 +64,6 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     return vec4(dither(encode(colour), in.clip.xy), 1.0);
 }
 
-// The colour at `t`, 0 to 1, between the two nearest of the table: as `viridis` in `colour_map.rs`.
-fn map_colour(t: f32) -> vec3<f32> {
-    let at = clamp(t, 0.0, 1.0) * 255.0;
-    let i = min(i32(at), 254);
-    let low = textureLoad(viridis, vec2(i, 0), 0).rgb;
-    let high = textureLoad(viridis, vec2(i + 1, 0), 0).rgb;
-    return mix(low, high, at - f32(i));
-}
-
 // Under a colour map the light is nearly even and white: enough for form, too little to be read as another value.
 @fragment
 fn fragment_mapped(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {

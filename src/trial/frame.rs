@@ -1,9 +1,11 @@
 //! What a trial shows of itself, at any moment and at its end.
 
+use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
 /// A place where the wire lies against the wall.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
+#[repr(C)]
 pub struct Touch {
     /// On the wall, in mm.
     pub at: [f32; 3],

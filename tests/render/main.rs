@@ -5,6 +5,7 @@
 
 mod shapes;
 mod stage;
+mod trial;
 
 use std::collections::BTreeSet;
 use std::f32::consts::PI;

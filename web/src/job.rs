@@ -1,12 +1,15 @@
 //! The Worker's end of the line: hears commands, works on them in slices, and sends events.
 //!
 //! Between two slices the Worker goes back to the browser, so that a command is heard within a slice's time. A message
-//! to itself brings it back at once; a timer would make it wait for 4 ms each time.
+//! to itself brings it back at once; a timer would make it wait for 4 ms each time, and is for an engine that keeps
+//! pace with the clock and has time to spare.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
+use std::time::Duration;
 
-use lumen::engine::{Engine, SLICE, wire};
+use lumen::engine::wire::{Encoded, WireError};
+use lumen::engine::{Engine, Machine, TrialEngine, trial_wire, wire};
 use wasm_bindgen::prelude::*;
 use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent, MessagePort};
 
@@ -14,6 +17,8 @@ use crate::worker::{Received, pack};
 
 /// The job of the Worker that runs the pipeline.
 pub(crate) const PIPELINE: &str = "pipeline";
+/// The job of the Worker that runs the trial.
+pub(crate) const TRIAL: &str = "trial";
 
 /// Begins the Worker's job; called once by `www/worker.js`, before the first message is handed on.
 ///
@@ -25,70 +30,169 @@ pub(crate) const PIPELINE: &str = "pipeline";
 pub fn worker_main(job: &str) -> Result<(), JsValue> {
     crate::page::report_panics();
     match job {
-        PIPELINE => run_engine(),
+        PIPELINE => run::<Engine>(),
+        TRIAL => run::<TrialEngine>(),
         _ => Err(format!("there is no job named {job}").into()),
     }
 }
 
-fn run_engine() -> Result<(), JsValue> {
+/// An engine whose commands and events can be sent.
+pub(crate) trait Sent: Machine {
+    /// The name of its job.
+    const JOB: &str;
+
+    /// Whether a message with this header is useless once there is another such.
+    fn is_passing_header(header: &str) -> bool;
+
+    /// A command as a message.
+    fn encode_command(command: &Self::Command) -> Encoded<'_>;
+
+    /// The command in a message.
+    fn decode_command(message: &Received) -> Result<Self::Command, WireError>;
+
+    /// An event as a message.
+    fn encode_event(event: &Self::Event) -> Encoded<'_>;
+
+    /// The event in a message.
+    fn decode_event(message: &Received) -> Result<Self::Event, WireError>;
+}
+
+macro_rules! sent {
+    ($engine:ty, $job:expr, $wire:path, $passing:expr) => {
+        impl Sent for $engine {
+            const JOB: &str = $job;
+
+            fn is_passing_header(header: &str) -> bool {
+                $passing(header)
+            }
+
+            fn encode_command(command: &Self::Command) -> Encoded<'_> {
+                use $wire as wire;
+                wire::encode_command(command)
+            }
+
+            fn decode_command(message: &Received) -> Result<Self::Command, WireError> {
+                use $wire as wire;
+                wire::decode_command(&message.header, message)
+            }
+
+            fn encode_event(event: &Self::Event) -> Encoded<'_> {
+                use $wire as wire;
+                wire::encode_event(event)
+            }
+
+            fn decode_event(message: &Received) -> Result<Self::Event, WireError> {
+                use $wire as wire;
+                wire::decode_event(&message.header, message)
+            }
+        }
+    };
+}
+
+sent!(Engine, PIPELINE, wire, |_| false);
+sent!(TrialEngine, TRIAL, trial_wire, trial_wire::is_frame);
+
+/// What the Worker holds.
+struct Worker<M> {
+    machine: RefCell<M>,
+    scope: DedicatedWorkerGlobalScope,
+    again: Again,
+}
+
+fn run<M: Sent>() -> Result<(), JsValue> {
     let scope: DedicatedWorkerGlobalScope = js_sys::global().dyn_into().map_err(|_| "this is no Worker")?;
-    let engine = Rc::new(RefCell::new(Engine::new()));
-    let again = Again::new()?;
+    let worker = Rc::new(Worker { machine: RefCell::new(M::default()), again: Again::new(&scope)?, scope });
 
     let hear = Closure::<dyn Fn(MessageEvent) -> Result<(), JsValue>>::new({
-        let (engine, scope, again) = (Rc::clone(&engine), scope.clone(), again.clone());
+        let worker = Rc::clone(&worker);
         move |event: MessageEvent| {
             let message = Received::unpack(&event.data()).ok_or("a message that is none")?;
-            let command = wire::decode_command(&message.header, &message).map_err(|error| error.to_string())?;
-            let mut engine = engine.borrow_mut();
-            engine.handle(command);
+            let command = M::decode_command(&message).map_err(|error| error.to_string())?;
+            worker.machine.borrow_mut().handle(command);
             // The answer to a cancel does not wait for the next slice.
-            tell(&mut engine, &scope)?;
-            again.soon()
+            worker.tell()?;
+            worker.again.soon()
         }
     });
     let work = Closure::<dyn Fn() -> Result<(), JsValue>>::new({
-        let (scope, again) = (scope.clone(), again.clone());
-        move || {
-            again.waiting.set(false);
-            let mut engine = engine.borrow_mut();
-            let more = engine.advance(SLICE);
-            tell(&mut engine, &scope)?;
-            if more { again.soon() } else { Ok(()) }
-        }
+        let worker = Rc::clone(&worker);
+        move || worker.work()
     });
-    again.to.set_onmessage(Some(work.as_ref().unchecked_ref()));
-    scope.set_onmessage(Some(hear.as_ref().unchecked_ref()));
+    worker.again.begin(work.as_ref().unchecked_ref());
+    worker.scope.set_onmessage(Some(hear.as_ref().unchecked_ref()));
     // Both live as long as the Worker.
     work.forget();
     hear.forget();
     Ok(())
 }
 
-/// Sends what the engine has to say to the page.
-fn tell(engine: &mut Engine, scope: &DedicatedWorkerGlobalScope) -> Result<(), JsValue> {
-    while let Some(event) = engine.poll() {
-        let (values, transfer) = pack(&wire::encode_event(&event));
-        scope.post_message_with_transfer(&values, &transfer)?;
+impl<M: Sent> Worker<M> {
+    /// Works for a slice.
+    fn work(&self) -> Result<(), JsValue> {
+        self.again.comes();
+        let now_s = self.scope.performance().map_or(0.0, |clock| clock.now() / 1000.0);
+        let rest = self.machine.borrow_mut().advance(now_s);
+        self.tell()?;
+        match rest {
+            None => Ok(()),
+            Some(Duration::ZERO) => self.again.soon(),
+            Some(rest) => self.again.after(rest),
+        }
     }
-    Ok(())
+
+    /// Sends what the engine has to say to the page.
+    fn tell(&self) -> Result<(), JsValue> {
+        let mut machine = self.machine.borrow_mut();
+        while let Some(event) = machine.poll() {
+            let (values, transfer) = pack(&M::encode_event(&event));
+            self.scope.post_message_with_transfer(&values, &transfer)?;
+        }
+        Ok(())
+    }
 }
 
-/// A message from the Worker to itself, at most one at a time.
-#[derive(Clone)]
+/// What brings the Worker back: a message to itself or a timer, at most one of each.
 struct Again {
     from: MessagePort,
     to: MessagePort,
-    waiting: Rc<Cell<bool>>,
+    scope: DedicatedWorkerGlobalScope,
+    work: RefCell<js_sys::Function>,
+    is_sent: Cell<bool>,
+    timer: Cell<Option<i32>>,
 }
 
 impl Again {
-    fn new() -> Result<Self, JsValue> {
+    fn new(scope: &DedicatedWorkerGlobalScope) -> Result<Self, JsValue> {
         let channel = MessageChannel::new()?;
-        Ok(Self { from: channel.port1(), to: channel.port2(), waiting: Rc::default() })
+        let (from, to, scope) = (channel.port1(), channel.port2(), scope.clone());
+        Ok(Self { from, to, scope, work: RefCell::default(), is_sent: Cell::new(false), timer: Cell::new(None) })
+    }
+
+    /// Calls `work` from now on.
+    fn begin(&self, work: &js_sys::Function) {
+        self.to.set_onmessage(Some(work));
+        *self.work.borrow_mut() = work.clone();
+    }
+
+    /// The Worker is back.
+    fn comes(&self) {
+        self.is_sent.set(false);
+        if let Some(timer) = self.timer.take() {
+            self.scope.clear_timeout_with_handle(timer);
+        }
     }
 
     fn soon(&self) -> Result<(), JsValue> {
-        if self.waiting.replace(true) { Ok(()) } else { self.from.post_message(&JsValue::NULL) }
+        if self.is_sent.replace(true) { Ok(()) } else { self.from.post_message(&JsValue::NULL) }
+    }
+
+    fn after(&self, rest: Duration) -> Result<(), JsValue> {
+        let ms = rest.as_secs_f64() * 1000.0;
+        let work = self.work.borrow();
+        let timer = self.scope.set_timeout_with_callback_and_timeout_and_arguments_0(&work, ms as i32)?;
+        if let Some(older) = self.timer.replace(Some(timer)) {
+            self.scope.clear_timeout_with_handle(older);
+        }
+        Ok(())
     }
 }

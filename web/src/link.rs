@@ -1,24 +1,32 @@
-//! The app's line to the engine, which runs in a Worker.
+//! The app's lines to its engines, each of which runs in a Worker.
 
-use lumen::engine::{Command, Event, Link, wire};
+use std::marker::PhantomData;
+
+use lumen::engine::Link;
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use crate::job::PIPELINE;
+use crate::job::Sent;
 use crate::worker::{Heard, WorkerLine};
 
 /// A line to an engine of its own.
-pub(crate) struct WorkerLink {
+pub(crate) struct WorkerLink<M> {
     line: Option<WorkerLine>,
     ctx: egui::Context,
     failure: Option<String>,
+    engine: PhantomData<M>,
 }
 
-impl WorkerLink {
+impl<M: Sent> WorkerLink<M> {
     /// Starts an engine; `ctx` draws again whenever it has something to say.
     pub(crate) fn new(ctx: egui::Context) -> Self {
-        let mut link = Self { line: None, ctx, failure: None };
+        let mut link = Self::idle(ctx);
         link.restart();
         link
+    }
+
+    /// A line without an engine: the first command starts one.
+    pub(crate) fn idle(ctx: egui::Context) -> Self {
+        Self { line: None, ctx, failure: None, engine: PhantomData }
     }
 
     /// The first failure is the cause; what follows from it says less.
@@ -27,17 +35,20 @@ impl WorkerLink {
     }
 }
 
-impl Link for WorkerLink {
-    fn send(&mut self, command: Command) {
+impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
+    fn send(&mut self, command: M::Command) {
+        if self.line.is_none() {
+            self.restart();
+        }
         let Some(line) = &self.line else { return };
-        if let Err(error) = line.send(&wire::encode_command(&command)) {
+        if let Err(error) = line.send(&M::encode_command(&command)) {
             self.fail(format!("a command could not be sent: {}", told(&error)));
         }
     }
 
-    fn poll(&mut self) -> Option<Event> {
+    fn poll(&mut self) -> Option<M::Event> {
         match self.line.as_ref()?.poll()? {
-            Heard::Message(message) => match wire::decode_event(&message.header, &message) {
+            Heard::Message(message) => match M::decode_event(&message) {
                 Ok(event) => return Some(event),
                 Err(error) => self.fail(format!("an answer could not be read: {error}")),
             },
@@ -52,7 +63,8 @@ impl Link for WorkerLink {
             Some(line) => line.restart(),
             None => {
                 let ctx = self.ctx.clone();
-                WorkerLine::start(PIPELINE, move || ctx.request_repaint()).map(|line| self.line = Some(line))
+                WorkerLine::start(M::JOB, M::is_passing_header, move || ctx.request_repaint())
+                    .map(|line| self.line = Some(line))
             }
         };
         if let Err(error) = started {

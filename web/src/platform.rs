@@ -1,29 +1,31 @@
-//! What a browser gives the app: the line to an engine in a Worker, the file dialog, dropped files, downloads.
+//! What a browser gives the app: lines to engines in Workers, gamepads, the file dialog, dropped files, downloads.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use lumen::app::{Platform, PlatformEvent};
-use lumen::engine::Link;
+use lumen::app::{Gamepad, Platform, PlatformEvent};
+use lumen::engine::trial::TrialLink;
+use lumen::engine::{Engine, Link, TrialEngine};
 use wasm_bindgen_futures::spawn_local;
 
 use crate::files;
 use crate::link::WorkerLink;
 
 /// The extensions the file dialog offers.
-const ACCEPT: &str = ".stl,.ply,.obj,.glb,.gltf";
+const ACCEPT: &str = ".stl,.ply,.obj,.glb,.gltf,.csv";
 
 /// The browser as a platform.
 pub(crate) struct Browser {
-    link: WorkerLink,
+    link: WorkerLink<Engine>,
+    trial: WorkerLink<TrialEngine>,
     inbox: Rc<RefCell<VecDeque<PlatformEvent>>>,
 }
 
 impl Browser {
-    /// Starts the engine; `ctx` draws again whenever there is news.
+    /// Starts the engine, that of the trial when it is needed; `ctx` draws again whenever there is news.
     pub(crate) fn new(ctx: &egui::Context) -> Self {
-        Self { link: WorkerLink::new(ctx.clone()), inbox: Rc::default() }
+        Self { link: WorkerLink::new(ctx.clone()), trial: WorkerLink::idle(ctx.clone()), inbox: Rc::default() }
     }
 
     /// Where news is put, from wherever it comes.
@@ -46,6 +48,14 @@ fn chosen((name, bytes): files::Chosen) -> PlatformEvent {
 impl Platform for Browser {
     fn link(&mut self) -> &mut dyn Link {
         &mut self.link
+    }
+
+    fn trial(&mut self) -> &mut TrialLink {
+        &mut self.trial
+    }
+
+    fn gamepad(&self) -> Option<Gamepad> {
+        crate::gamepad::read()
     }
 
     fn choose_file(&mut self, ctx: &egui::Context) {

@@ -74,13 +74,18 @@ pub(crate) struct WorkerLine {
 }
 
 impl WorkerLine {
-    /// Starts a Worker on `job`; `wake` is called whenever [`poll`](Self::poll) has something new.
+    /// Starts a Worker on `job`; `wake` is called whenever [`poll`](Self::poll) has something new. Of messages that
+    /// are `passing`, by their headers, only the newest waits: a hidden page listens to none.
     ///
     /// # Errors
     ///
     /// What the browser answers when it makes no Worker. One that fails later is heard of through `poll`.
-    pub(crate) fn start(job: &'static str, wake: impl Fn() + 'static) -> Result<Self, JsValue> {
-        let inbox = Inbox { queue: Rc::default(), wake: Rc::new(wake) };
+    pub(crate) fn start(
+        job: &'static str,
+        passing: fn(&str) -> bool,
+        wake: impl Fn() + 'static,
+    ) -> Result<Self, JsValue> {
+        let inbox = Inbox { queue: Rc::default(), passing, wake: Rc::new(wake) };
         let (worker, listeners) = spawn(job, &inbox)?;
         Ok(Self { job, inbox, worker, _listeners: listeners })
     }
@@ -122,12 +127,20 @@ impl Drop for WorkerLine {
 #[derive(Clone)]
 struct Inbox {
     queue: Rc<RefCell<VecDeque<Heard>>>,
+    passing: fn(&str) -> bool,
     wake: Rc<dyn Fn()>,
 }
 
 impl Inbox {
     fn put(&self, heard: Heard) {
-        self.queue.borrow_mut().push_back(heard);
+        let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(&message.header));
+        {
+            let mut queue = self.queue.borrow_mut();
+            if is_passing(&heard) && queue.back().is_some_and(is_passing) {
+                queue.pop_back();
+            }
+            queue.push_back(heard);
+        }
         (self.wake)();
     }
 }

@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use egui_kittest::Harness;
 use lumen::app::{LumenApp, Platform, PlatformEvent};
-use lumen::engine::{Command, Engine, Event, Link};
+use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
+use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
 
 /// What the test sees of the platform.
 #[derive(Default)]
@@ -26,13 +27,64 @@ pub struct Memory {
     pub runs: bool,
     /// How long it works in each frame.
     pub slice: Duration,
+    /// What the trial was asked.
+    pub asked_of_trial: Vec<TrialCommand>,
+    /// What the trial tells next.
+    pub trial_events: VecDeque<TrialEvent>,
+    /// Why the trial stops at the next look, if it does.
+    pub trial_failure: Option<String>,
+    /// Lets a trial run too, by a clock that goes on by 1/60 s a frame.
+    pub trial_runs: bool,
 }
 
 /// A platform of plain memory.
 struct MemoryPlatform {
     engine: Engine,
     has_advanced: bool,
+    trial: MemoryTrial,
     memory: Rc<RefCell<Memory>>,
+}
+
+/// The line to a trial that is told what to say, or runs within the test.
+struct MemoryTrial {
+    engine: TrialEngine,
+    now_s: f64,
+    has_advanced: bool,
+    memory: Rc<RefCell<Memory>>,
+}
+
+impl Link<TrialCommand, TrialEvent> for MemoryTrial {
+    fn send(&mut self, command: TrialCommand) {
+        if self.memory.borrow().trial_runs {
+            self.engine.handle(command.clone());
+        }
+        self.memory.borrow_mut().asked_of_trial.push(command);
+    }
+
+    fn poll(&mut self) -> Option<TrialEvent> {
+        if let Some(event) = self.memory.borrow_mut().trial_events.pop_front() {
+            return Some(event);
+        }
+        if !self.memory.borrow().trial_runs {
+            return None;
+        }
+        if !self.has_advanced {
+            self.now_s += 1.0 / 60.0;
+            self.engine.advance(self.now_s, Duration::from_millis(50));
+            self.has_advanced = true;
+        }
+        let event = self.engine.poll();
+        self.has_advanced &= event.is_some();
+        event
+    }
+
+    fn restart(&mut self) {
+        self.engine = TrialEngine::new();
+    }
+
+    fn failure(&mut self) -> Option<String> {
+        self.memory.borrow_mut().trial_failure.take()
+    }
 }
 
 impl Link for MemoryPlatform {
@@ -66,6 +118,10 @@ impl Platform for MemoryPlatform {
         self
     }
 
+    fn trial(&mut self) -> &mut TrialLink {
+        &mut self.trial
+    }
+
     fn choose_file(&mut self, _: &egui::Context) {
         self.memory.borrow_mut().asked += 1;
     }
@@ -92,7 +148,8 @@ impl Platform for MemoryPlatform {
 pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let memory =
         Rc::new(RefCell::new(Memory { runs: true, slice: Duration::from_millis(50), engines: 1, ..Memory::default() }));
-    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, memory: memory.clone() };
+    let trial = MemoryTrial { engine: TrialEngine::new(), now_s: 0.0, has_advanced: false, memory: memory.clone() };
+    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, trial, memory: memory.clone() };
     let harness = Harness::builder()
         .with_size(size)
         .with_max_steps(4000)

@@ -1,0 +1,148 @@
+//! The operator's hand: keys, the pads on the screen and a gamepad, as feed and roll.
+
+use egui::{Event, Id, Key, Pos2, Rect, Sense, Stroke, TouchPhase, Ui, WidgetInfo, pos2, vec2};
+
+use crate::app::platform::Gamepad;
+use crate::trial::setup::Input;
+
+/// Feed by a key, and with Shift, in mm/s.
+const FEED: [f32; 2] = [15.0, Input::MOST_FEED];
+/// Roll by a key, and with Shift, in rad/s: half a turn a second, and two.
+const ROLL: [f32; 2] = [std::f32::consts::PI, Input::MOST_ROLL];
+/// Height of a pad, in points.
+const PAD: f32 = 56.0;
+
+/// A pad that springs back to its middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pad {
+    Feed,
+    Roll,
+}
+
+/// How far each pad is pushed, -1 to 1.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Drive {
+    feed: f32,
+    roll: f32,
+    /// Fingers on the pads: egui has one pointer, and two pads may be held at once.
+    fingers: Vec<(u64, Pad)>,
+}
+
+impl Drive {
+    /// What the hand does now. Without the window's attention it rests.
+    pub(super) fn input(&self, ui: &Ui, gamepad: Option<Gamepad>) -> Input {
+        let ctx = ui.ctx();
+        if !ctx.input(|input| input.focused) {
+            return Input::default();
+        }
+        let (mut feed, mut roll) = (0.0, 0.0);
+        if !ctx.text_edit_focused() {
+            // Arrows belong to a control that has the focus.
+            let is_free = ctx.memory(|memory| memory.focused().is_none());
+            let (ahead, aside, fast) = ctx.input(|input| {
+                let held =
+                    |letter, arrow| f32::from(u8::from(input.key_down(letter) || is_free && input.key_down(arrow)));
+                let is_command = input.modifiers.command || input.modifiers.alt;
+                let ahead = held(Key::W, Key::ArrowUp) - held(Key::S, Key::ArrowDown);
+                let aside = held(Key::D, Key::ArrowRight) - held(Key::A, Key::ArrowLeft);
+                if is_command { (0.0, 0.0, false) } else { (ahead, aside, input.modifiers.shift) }
+            });
+            feed += ahead * FEED[usize::from(fast)];
+            roll += aside * ROLL[usize::from(fast)];
+        }
+        // Slow near the middle, fast at the end.
+        let eased = |x: f32| x * x.abs();
+        feed += eased(self.feed) * Input::MOST_FEED;
+        roll += eased(self.roll) * Input::MOST_ROLL;
+        if let Some(pad) = gamepad {
+            let reach = usize::from(pad.fast);
+            feed += eased(pad.feed) * FEED[reach];
+            roll += eased(pad.roll) * ROLL[reach];
+        }
+        Input { feed, roll }.limited()
+    }
+
+    /// Shows both pads, side by side.
+    pub(super) fn pads(&mut self, ui: &mut Ui) {
+        let gap = ui.spacing().item_spacing.x;
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width() - 8.0, PAD), Sense::hover());
+        let (left, right) = rect.split_left_right_at_fraction(0.5);
+        let left = left.with_max_x(left.right() - gap / 2.0);
+        let right = right.with_min_x(right.left() + gap / 2.0);
+        self.listen(ui, &[(Pad::Feed, left), (Pad::Roll, right)]);
+        self.pad(ui, Pad::Feed, left);
+        self.pad(ui, Pad::Roll, right);
+    }
+
+    /// Follows each finger by itself.
+    fn listen(&mut self, ui: &Ui, pads: &[(Pad, Rect)]) {
+        let events = ui.input(|input| input.raw.events.clone());
+        for event in events {
+            let Event::Touch { id, phase, pos, .. } = event else { continue };
+            match phase {
+                TouchPhase::Start => {
+                    if let Some(&(pad, _)) = pads.iter().find(|(_, rect)| rect.contains(pos)) {
+                        self.fingers.push((id.0, pad));
+                    }
+                }
+                TouchPhase::Move => {}
+                TouchPhase::End | TouchPhase::Cancel => {
+                    let lifted = self.fingers.iter().position(|(finger, _)| *finger == id.0);
+                    if let Some((_, pad)) = lifted.map(|at| self.fingers.swap_remove(at)) {
+                        *self.value(pad) = 0.0;
+                    }
+                    continue;
+                }
+            }
+            let held = self.fingers.iter().find(|(finger, _)| *finger == id.0).map(|&(_, pad)| pad);
+            if let Some((pad, rect)) = pads.iter().copied().find(|(pad, _)| Some(*pad) == held) {
+                *self.value(pad) = pushed(rect, pos);
+            }
+        }
+    }
+
+    fn value(&mut self, pad: Pad) -> &mut f32 {
+        match pad {
+            Pad::Feed => &mut self.feed,
+            Pad::Roll => &mut self.roll,
+        }
+    }
+
+    fn pad(&mut self, ui: &Ui, pad: Pad, rect: Rect) {
+        let (label, ends, help) = match pad {
+            Pad::Feed => ("Feed", ["out", "in"], "Drag to the right to feed, to the left to withdraw (W, S)"),
+            Pad::Roll => ("Roll", ["left", "right"], "Drag aside to roll the wire (A, D)"),
+        };
+        let response = ui.interact(rect, Id::unique(("pad", label)), Sense::drag());
+        if !self.fingers.iter().any(|(_, held)| *held == pad) {
+            let at = response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on());
+            *self.value(pad) = at.map_or(0.0, |at| pushed(rect, at));
+        }
+        let value = *self.value(pad);
+        let response = response.on_hover_text(help);
+        response.widget_info(|| WidgetInfo::slider(true, f64::from(value), format!("{label} pad")));
+        let visuals = ui.visuals();
+        let painter = ui.painter_at(rect);
+        let stroke = Stroke::new(1.0, visuals.widgets.noninteractive.bg_stroke.color);
+        painter.rect(rect, 6.0, visuals.faint_bg_color, stroke, egui::StrokeKind::Inside);
+        let (weak, text) = (visuals.weak_text_color(), visuals.text_color());
+        let small = egui::FontId::proportional(12.0);
+        let top = rect.top() + 10.0;
+        painter.text(pos2(rect.center().x, top), egui::Align2::CENTER_CENTER, label, small.clone(), text);
+        painter.text(pos2(rect.left() + 8.0, top), egui::Align2::LEFT_CENTER, ends[0], small.clone(), weak);
+        painter.text(pos2(rect.right() - 8.0, top), egui::Align2::RIGHT_CENTER, ends[1], small, weak);
+        let (y, reach) = (rect.top() + 36.0, rect.width() / 2.0 - 22.0);
+        let rail = [pos2(rect.center().x - reach, y), pos2(rect.center().x + reach, y)];
+        painter.line_segment(rail, Stroke::new(3.0, visuals.widgets.inactive.bg_fill));
+        let knob = pos2(rect.center().x + value * reach, y);
+        painter.line_segment([pos2(rect.center().x, y), knob], Stroke::new(3.0, visuals.hyperlink_color));
+        let fill = if value == 0.0 { weak } else { visuals.hyperlink_color };
+        painter.circle_filled(knob, 11.0, fill);
+    }
+}
+
+/// How far a pad is pushed from its middle, -1 to 1.
+fn pushed(rect: Rect, at: Pos2) -> f32 {
+    let part = (at.x - rect.center().x) / (rect.width() / 2.0 - 16.0).max(1.0);
+    if part.abs() < 0.05 { 0.0 } else { part.clamp(-1.0, 1.0) }
+}

@@ -1,0 +1,105 @@
+//! What is drawn over the view of the vessel: the way and its stations, the target, where two trials differ.
+
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
+
+use super::Trial;
+use super::readout::plate;
+use crate::app::overlay;
+use crate::mesh::Vec3;
+use crate::render::Camera;
+
+/// The colours of two paths, this level's and the unreduced surface's: blue and orange (Okabe and Ito 2008).
+pub(super) fn colours(dark: bool) -> [Color32; 2] {
+    if dark {
+        [Color32::from_rgb(0x56, 0xB4, 0xE9), Color32::from_rgb(0xE6, 0x9F, 0x00)]
+    } else {
+        [Color32::from_rgb(0x00, 0x5F, 0x9E), Color32::from_rgb(0xB8, 0x4A, 0x00)]
+    }
+}
+
+/// Draws all of it over the view in `rect`.
+pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
+    let Some(ready) = &trial.ready else { return };
+    let painter = ui.painter_at(rect);
+    let at = |p: Vec3| project(camera, rect, p);
+    let visuals = ui.visuals();
+    let accent = visuals.hyperlink_color;
+    let way: Vec<Pos2> = ahead(trial, &ready.route.points).iter().filter_map(|&p| at(p.into())).collect();
+    painter.extend(Shape::dashed_line(&way, Stroke::new(1.0, accent.gamma_multiply(0.8)), 5.0, 5.0));
+    for (i, &station) in ready.route.stations.iter().enumerate() {
+        if let Some(at) = at(station.into()) {
+            dot(&painter, at, accent, visuals.panel_fill);
+            plate(ui, at + vec2(7.0, 0.0), Align2::LEFT_CENTER, &(i + 1).to_string(), true);
+        }
+    }
+    target(ui, &painter, rect, camera, trial);
+    if let Some(comparison) = &trial.comparison {
+        let [here, other] = colours(visuals.dark_mode);
+        for (path, colour) in [(&comparison.other_tip, other), (&comparison.tip, here)] {
+            let line: Vec<Pos2> = path.iter().filter_map(|&p| at(p.into())).collect();
+            painter.add(Shape::line(line, Stroke::new(2.0, colour)));
+        }
+        for &(place, force) in &comparison.force_differences {
+            overlay::ring(ui, rect, camera, place.into(), &format!("{force:+.2} N"));
+        }
+        for &place in &comparison.pinched {
+            overlay::ring(ui, rect, camera, place.into(), "Pinched");
+        }
+        legend(&painter, rect, visuals, [("Tip, this level", here), ("Tip, unreduced", other)]);
+    }
+}
+
+/// The part of the way that the tip has yet to go.
+fn ahead<'a>(trial: &Trial, way: &'a [[f32; 3]]) -> &'a [[f32; 3]] {
+    let gone = trial.frame.as_ref().map_or(0.0, |frame| frame.arc_mm as f32);
+    let mut along = 0.0;
+    let passed = way.windows(2).take_while(|pair| {
+        along += Vec3::from(pair[0]).distance(pair[1].into());
+        along <= gone
+    });
+    &way[passed.count()..]
+}
+
+fn dot(painter: &Painter, at: Pos2, colour: Color32, ground: Color32) {
+    painter.circle(at, 4.0, ground, Stroke::new(2.0, colour));
+}
+
+/// A ring as wide as the lumen, across the way at its end.
+fn target(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, trial: &Trial) {
+    const SIDES: usize = 40;
+    let Some(ready) = &trial.ready else { return };
+    let (points, radii) = (&ready.route.points, &ready.route.radii);
+    let (Some(&end), Some(&radius)) = (points.last(), radii.last()) else { return };
+    let end = Vec3::from(end);
+    let before = points.iter().rev().map(|&p| Vec3::from(p)).find(|p| p.distance(end) > 2.0).unwrap_or(end - Vec3::Z);
+    let along = (end - before).normalize_or(Vec3::Z);
+    let (u, v) = along.any_orthonormal_pair();
+    let circle: Vec<Pos2> = (0..=SIDES)
+        .filter_map(|i| {
+            let angle = std::f32::consts::TAU * i as f32 / SIDES as f32;
+            let out = u * libm::cosf(angle) + v * libm::sinf(angle);
+            project(camera, rect, end + out * radius.max(1.0) * 1.15)
+        })
+        .collect();
+    let colour = ui.visuals().hyperlink_color;
+    painter.add(Shape::line(circle, Stroke::new(2.5, colour)));
+    if let Some(at) = project(camera, rect, end) {
+        painter.circle_stroke(at, 9.0, Stroke::new(1.5, colour));
+        plate(ui, at + vec2(14.0, 0.0), Align2::LEFT_CENTER, "Target", true);
+    }
+}
+
+fn legend(painter: &Painter, rect: Rect, visuals: &egui::Visuals, entries: [(&str, Color32); 2]) {
+    for (i, (label, colour)) in entries.into_iter().enumerate() {
+        let at = rect.left_top() + vec2(12.0, 58.0 + 18.0 * i as f32);
+        painter.line_segment([at, at + vec2(20.0, 0.0)], Stroke::new(3.0, colour));
+        let font = FontId::proportional(12.0);
+        painter.text(at + vec2(26.0, 0.0), Align2::LEFT_CENTER, label, font, visuals.text_color());
+    }
+}
+
+/// Where a place is in the window.
+fn project(camera: &Camera, rect: Rect, p: Vec3) -> Option<Pos2> {
+    let at = camera.project(p, rect.width() / rect.height().max(1.0))?;
+    Some(rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0))
+}

@@ -1,0 +1,405 @@
+//! The guidewire trial in the window.
+//!
+//! - [`Trial`]: what the app knows of it, and how that changes by the user's hand and by what the engine says. It draws
+//!   nothing.
+//! - [`Ask`]: what the user asks for. `panel`, `setup`, `readout`, `outcome`, `drive`: the controls and the numbers;
+//!   `tables`: the paper's Tables III and IV.
+//! - `view`, `marks`: the three views and what is written over them; `scene`: what stands in GPU memory; `carm`,
+//!   `peaks`: the C-arm, the largest forces.
+
+mod ask;
+mod carm;
+mod drive;
+mod marks;
+mod outcome;
+mod panel;
+mod peaks;
+mod readout;
+mod scene;
+mod setup;
+mod tables;
+mod view;
+
+use std::sync::Arc;
+
+pub use self::ask::{Ask, Offer, Pick, Stage};
+pub use self::carm::CArm;
+pub(super) use self::panel::{keys, show as panel};
+pub use self::tables::Tables;
+pub(super) use self::view::TrialView;
+use super::document::{Document, Revision};
+use super::platform::Gamepad;
+use crate::engine::Source;
+use crate::engine::trial::{TrialCommand, TrialComparison, TrialEvent, TrialLink, TrialReady};
+use crate::mesh::{TriMesh, Vec3};
+use crate::phantom::Sample;
+use crate::pipeline::progressive::ProgressiveMesh;
+use crate::pipeline::settings::Target;
+use crate::trial::frame::{Frame, Progress, Summary};
+use crate::trial::setup::{Entry, Input, Setup};
+
+/// Simulated seconds a second in slow motion.
+const SLOW: f32 = 0.25;
+
+/// The surface of a trial.
+struct Subject {
+    /// The level that the wire is in.
+    mesh: Arc<TriMesh>,
+    /// All levels.
+    levels: Arc<ProgressiveMesh>,
+    /// What they were taken from.
+    of: Revision,
+}
+
+/// What the app knows of the trial.
+#[derive(Default)]
+pub struct Trial {
+    /// All that decides it, as the controls have it.
+    pub setup: Setup,
+    /// How far it is.
+    pub stage: Stage,
+    /// Whether its views are shown.
+    pub is_open: bool,
+    /// The surface, the way and the places that can be chosen.
+    pub ready: Option<TrialReady>,
+    /// The wire now.
+    pub frame: Option<Frame>,
+    /// What came of it, once it is over.
+    pub summary: Option<Summary>,
+    /// What the unreduced surface makes of it.
+    pub comparison: Option<TrialComparison>,
+    /// How far a comparison is, 0 to 1.
+    pub comparing: Option<f32>,
+    /// The paper's tables.
+    pub tables: Tables,
+    /// Whether the autopilot steers.
+    pub autopilot: bool,
+    /// Whether it stands still.
+    pub is_paused: bool,
+    /// Whether it is in slow motion.
+    pub is_slow: bool,
+    /// What the next click on the vessel chooses.
+    pub pick: Option<Pick>,
+    /// The fluoroscope.
+    pub carm: CArm,
+    /// Why the last thing asked for could not be done.
+    pub problem: Option<String>,
+    drive: drive::Drive,
+    /// The input that the engine has.
+    driven: Input,
+    /// The surface of the trial, once it is on.
+    subject: Option<Subject>,
+    /// The number and the surface of the one that is on its way in.
+    coming: Option<(u64, Subject)>,
+    /// The setup that the engine has, as the controls had it.
+    sent: Option<Setup>,
+    number: u64,
+    /// A log to be replayed once the wire is in.
+    log: Option<Arc<Vec<u8>>>,
+    /// Counts up with every trial and every beginning: forces that were felt before are forgotten.
+    runs: u64,
+    /// The name of the surface.
+    name: String,
+}
+
+impl Trial {
+    /// Whether frames come by themselves.
+    pub fn is_moving(&self) -> bool {
+        let is_over = self.frame.as_ref().is_some_and(|frame| frame.progress != Progress::Running);
+        self.stage == Stage::On && !self.is_paused && !is_over
+    }
+
+    /// Whether something is being computed for it.
+    pub fn is_busy(&self) -> bool {
+        matches!(self.stage, Stage::Preparing(_)) || self.comparing.is_some() || self.tables.is_running()
+    }
+
+    /// The setup in force, with its entry and its target.
+    pub fn setup_in_force(&self) -> Option<&Setup> {
+        self.ready.as_ref().map(|ready| &ready.setup)
+    }
+
+    /// Whether the controls say other than what the wire is in for.
+    pub fn has_changed(&self) -> bool {
+        self.sent.as_ref().is_some_and(|sent| *sent != self.setup)
+    }
+
+    /// Does what the user asks for. What needs a platform ([`Ask::OpenLog`]) is not for here.
+    pub fn act(&mut self, ask: &Ask, document: Option<&Document>, link: &mut TrialLink) {
+        self.problem = None;
+        match ask {
+            Ask::Start => self.start(document, link),
+            Ask::Restart => {
+                let of = self.subject.as_ref().map(|subject| subject.of);
+                let is_other = document.is_some_and(|document| Some(taken_from(document)) != of);
+                if self.has_changed() || is_other {
+                    self.start(document, link);
+                } else {
+                    self.begin_again();
+                    link.send(TrialCommand::Restart);
+                }
+            }
+            Ask::Autopilot => self.set_autopilot(!self.autopilot, link),
+            Ask::Pause => {
+                self.is_paused = !self.is_paused;
+                link.send(TrialCommand::Pause(self.is_paused));
+            }
+            Ask::Slow => {
+                self.is_slow = !self.is_slow;
+                link.send(TrialCommand::Pace(if self.is_slow { SLOW } else { 1.0 }));
+            }
+            Ask::StepBack => {
+                self.is_paused = true;
+                self.summary = None;
+                link.send(TrialCommand::StepBack);
+            }
+            Ask::Save => link.send(TrialCommand::Save),
+            Ask::Compare => {
+                if let Some(Subject { levels, .. }) = &self.subject {
+                    let whole = levels.extract(&levels.level(Target::Reduction(0)).triangles);
+                    self.comparing = Some(0.0);
+                    link.send(TrialCommand::Compare { mesh: Arc::new(whole) });
+                }
+            }
+            Ask::Tables => {
+                self.tables.is_open = true;
+                if let Some(document) = document.filter(|document| self.tables.can_start(document)) {
+                    self.tables.begin(document, sample_of(document), &self.setup);
+                }
+            }
+            Ask::Close => self.close(link),
+            Ask::OpenLog => {}
+        }
+    }
+
+    /// Asks for the next row of the tables, if there is one and none is being run.
+    pub(super) fn next_row(&mut self, link: &mut TrialLink) {
+        if let Some((mesh, sample, setup)) = self.tables.next() {
+            self.number += 1;
+            self.tables.started(self.number, mesh.triangles.len());
+            link.send(TrialCommand::Measure { id: self.number, mesh, sample, setup });
+        }
+    }
+
+    fn start(&mut self, document: Option<&Document>, link: &mut TrialLink) {
+        let level = document.and_then(|d| Some((d, d.shown_mesh()?, d.levels.as_ref()?.1.clone())));
+        let Some((document, mesh, levels)) = level else {
+            self.problem = Some("There is no surface to steer through yet.".to_owned());
+            return;
+        };
+        self.number += 1;
+        let (id, mesh) = (self.number, Arc::new(mesh));
+        let is_other = self.name != document.name;
+        if is_other && self.ready.is_some() {
+            // Places in one vessel are nowhere in another.
+            (self.setup.entry, self.setup.target) = (None, None);
+        }
+        document.name.clone_into(&mut self.name);
+        let (sample, setup) = (sample_of(document), self.setup.clone());
+        self.sent = Some(setup.clone());
+        self.coming = Some((id, Subject { mesh: mesh.clone(), levels, of: taken_from(document) }));
+        self.stage = Stage::Preparing(0.0);
+        self.is_open = true;
+        self.driven = Input::default();
+        link.send(TrialCommand::Start { id, mesh, sample, setup });
+    }
+
+    /// Starts with a saved log: what was done then is done again.
+    pub fn replay(&mut self, bytes: Vec<u8>, document: Option<&Document>, link: &mut TrialLink) {
+        let csv = Arc::new(bytes);
+        if self.stage == Stage::On {
+            self.begin_again();
+            link.send(TrialCommand::Replay { csv });
+        } else {
+            self.log = Some(csv);
+            self.start(document, link);
+        }
+    }
+
+    fn begin_again(&mut self) {
+        (self.summary, self.comparison) = (None, None);
+        if let Some(frame) = &mut self.frame {
+            frame.progress = Progress::Running;
+        }
+        self.runs += 1;
+        self.carm.reset();
+        (self.autopilot, self.is_paused) = (false, false);
+        self.driven = Input::default();
+    }
+
+    fn set_autopilot(&mut self, on: bool, link: &mut TrialLink) {
+        self.autopilot = on;
+        link.send(TrialCommand::Autopilot(on));
+        if on && self.is_paused {
+            self.is_paused = false;
+            link.send(TrialCommand::Pause(false));
+        }
+    }
+
+    /// Back to the surface; the trial ends.
+    fn close(&mut self, link: &mut TrialLink) {
+        link.send(TrialCommand::Stop);
+        self.forget();
+    }
+
+    fn forget(&mut self) {
+        let (setup, tables, number) = (std::mem::take(&mut self.setup), std::mem::take(&mut self.tables), self.number);
+        let (name, runs) = (std::mem::take(&mut self.name), self.runs + 1);
+        *self = Self { setup, tables, number, name, runs, ..Self::default() };
+    }
+
+    /// Sends what the hand does, where it has changed. A hand on the wire takes it from the autopilot.
+    pub fn follow_hand(&mut self, ui: &egui::Ui, gamepad: Option<Gamepad>, link: &mut TrialLink) {
+        let input = if self.stage == Stage::On { self.drive.input(ui, gamepad) } else { Input::default() };
+        if input == self.driven {
+            return;
+        }
+        if self.autopilot && input != Input::default() {
+            self.set_autopilot(false, link);
+        }
+        self.driven = input;
+        link.send(TrialCommand::Drive(input));
+    }
+
+    /// Shows the pads for a finger or the mouse.
+    pub(super) fn pads(&mut self, ui: &mut egui::Ui) {
+        self.drive.pads(ui);
+    }
+
+    /// Chooses a place: where the wire enters, or where it should go.
+    pub(super) fn choose(&mut self, pick: Pick, at: Vec3, document: Option<&Document>, link: &mut TrialLink) {
+        self.pick = None;
+        match pick {
+            Pick::Target => self.setup.target = Some(at.to_array()),
+            Pick::Entry => {
+                let direction = self.direction_at(at).to_array();
+                self.setup.entry = Some(Entry { at: at.to_array(), direction });
+            }
+        }
+        self.start(document, link);
+    }
+
+    /// Along the way where it passes; else towards the target.
+    fn direction_at(&self, at: Vec3) -> Vec3 {
+        let points = self.ready.as_ref().map_or(&[][..], |ready| &ready.route.points);
+        let away = |p: &[f32; 3]| Vec3::from(*p).distance(at);
+        let nearest = (0..points.len()).min_by(|&a, &b| away(&points[a]).total_cmp(&away(&points[b])));
+        let along = nearest.filter(|&i| away(&points[i]) < 10.0).map(|i| {
+            let (before, after) = (i.saturating_sub(2), (i + 2).min(points.len() - 1));
+            Vec3::from(points[after]) - Vec3::from(points[before])
+        });
+        let target = self.setup_in_force().and_then(|setup| setup.target);
+        along.or_else(|| Some(Vec3::from(target?) - at)).unwrap_or(Vec3::Z).normalize_or(Vec3::Z)
+    }
+
+    /// Hears what the engine has to say; files are for the user.
+    pub fn receive(&mut self, event: TrialEvent, link: &mut TrialLink) -> Vec<Offer> {
+        match event {
+            TrialEvent::Preparing { id, fraction } if self.is_coming(id) => self.stage = Stage::Preparing(fraction),
+            TrialEvent::Ready(ready) if self.is_coming(ready.id) => self.receive_ready(*ready, link),
+            TrialEvent::Refused { id, message } if self.is_coming(id) => {
+                self.coming = None;
+                self.log = None;
+                self.problem = Some(message);
+                self.stage = if self.subject.is_some() { Stage::On } else { Stage::Off };
+            }
+            // What is left of a trial that was given up.
+            TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
+            TrialEvent::Frame(frame) if self.stage == Stage::On => self.frame = Some(*frame),
+            TrialEvent::Ended(summary) if self.stage == Stage::On => self.summary = Some(*summary),
+            TrialEvent::Frame(_) | TrialEvent::Ended(_) => {}
+            TrialEvent::Saved { csv, json } => {
+                let stem = format!("{}-trial", self.name.to_lowercase().replace([' ', '.'], "-"));
+                let file = |ending: &str, text: String| Offer { name: format!("{stem}.{ending}"), bytes: text.into() };
+                return vec![file("csv", csv), file("json", json)];
+            }
+            TrialEvent::Compared(comparison) => {
+                self.comparing = None;
+                self.comparison = Some(*comparison);
+            }
+            TrialEvent::Busy { fraction } => {
+                if self.tables.is_running() {
+                    self.tables.progresses(fraction);
+                } else if self.comparing.is_some() {
+                    self.comparing = Some(fraction);
+                }
+            }
+            TrialEvent::Measured { id, summary } => {
+                self.tables.receive(id, summary);
+            }
+            TrialEvent::Failed { message } => {
+                self.comparing = None;
+                self.tables.fails(&message);
+                self.problem = Some(message);
+            }
+        }
+        Vec::new()
+    }
+
+    /// The surface that the wire is in.
+    pub(super) fn mesh(&self) -> Option<&Arc<TriMesh>> {
+        self.subject.as_ref().map(|subject| &subject.mesh)
+    }
+
+    fn is_coming(&self, id: u64) -> bool {
+        self.coming.as_ref().is_some_and(|(coming, _)| *coming == id)
+    }
+
+    fn receive_ready(&mut self, ready: TrialReady, link: &mut TrialLink) {
+        if let Some((_, subject)) = self.coming.take() {
+            self.subject = Some(subject);
+        }
+        self.begin_again();
+        self.frame = None;
+        let way: Vec<Vec3> = ready.route.points.iter().map(|&p| p.into()).collect();
+        self.carm.centre(&crate::mesh::Bounds::of(&way));
+        self.ready = Some(ready);
+        self.stage = Stage::On;
+        // The engine begins as fast as time.
+        if self.is_slow {
+            link.send(TrialCommand::Pace(SLOW));
+        }
+        if let Some(csv) = self.log.take() {
+            link.send(TrialCommand::Replay { csv });
+        }
+    }
+
+    /// Stops the tables; the engine is in the middle of one, so another takes its place.
+    pub fn cancel_tables(&mut self, link: &mut TrialLink) {
+        if self.tables.cancel() {
+            link.restart();
+            if self.stage != Stage::Off {
+                let is_open = self.is_open;
+                self.forget();
+                self.is_open = is_open;
+                self.problem = Some("The tables were stopped, and the trial with them.".to_owned());
+            }
+        }
+    }
+
+    /// Hears that the engine has stopped by itself; what is open stands.
+    pub fn engine_failed(&mut self, reason: &str, link: &mut TrialLink) -> String {
+        link.restart();
+        let is_open = self.is_open;
+        self.tables.fails("The computation stopped.");
+        self.tables.cancel();
+        self.forget();
+        self.is_open = is_open;
+        let text = format!("The trial stopped ({reason}). The surface is still open; start again.");
+        self.problem = Some(text.clone());
+        text
+    }
+}
+
+/// The sample that a document was made from.
+fn sample_of(document: &Document) -> Option<Sample> {
+    match document.source {
+        Source::Sample { sample, .. } => Some(sample),
+        Source::File { .. } => None,
+    }
+}
+
+/// What of a document its level comes from.
+fn taken_from(document: &Document) -> Revision {
+    Revision { measured: 0, opened: 0, ..document.revision }
+}

@@ -1,0 +1,60 @@
+//! What reduction does to the wire: the same input on the unreduced surface, and how the two differ.
+
+use egui::{ProgressBar, RichText, Role, Ui};
+use egui_plot::{Line, Plot, PlotPoints};
+
+use super::{Ask, Stage, Trial, marks};
+use crate::app::control::name;
+use crate::app::panel::number;
+use crate::engine::trial::TrialComparison;
+
+/// Shows the button, and what came of it.
+pub(super) fn show(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
+    let mut ask = None;
+    let has_way = trial.frame.as_ref().is_some_and(|frame| frame.step > 0);
+    let can_compare = trial.stage == Stage::On && has_way && trial.comparing.is_none();
+    ui.add_enabled_ui(can_compare, |ui| {
+        let button = ui.button("Compare with the unreduced surface");
+        if button.on_hover_text("Replays the same input on the surface before its reduction").clicked() {
+            ask = Some(Ask::Compare);
+        }
+    });
+    if let Some(fraction) = trial.comparing {
+        let bar = ui.add(ProgressBar::new(fraction).desired_height(8.0));
+        name(&bar, Role::ProgressIndicator, "Comparing");
+    }
+    if let Some(comparison) = &trial.comparison {
+        ui.scope(|ui| shown(ui, comparison));
+    }
+    ask
+}
+
+fn shown(ui: &mut Ui, comparison: &TrialComparison) {
+    ui.add(egui::Label::new(RichText::new(&comparison.verdict).strong()).wrap());
+    let diameters = format!("{:.2} mm, was {:.2} mm", comparison.smallest_after_mm, comparison.smallest_before_mm);
+    number(ui, "Smallest lumen", &diameters, "Diameter where the route is narrowest, after and before the reduction");
+    let pinched = comparison.pinched.len();
+    if pinched > 0 {
+        number(ui, "Pinched", &format!("{pinched} places"), "Ringed in the view");
+    }
+    let largest = comparison.deviation_mm.iter().copied().fold(0.0, f32::max);
+    number(ui, "Largest deviation", &format!("{largest:.2} mm"), "Between the two tips at the same time");
+    let points: PlotPoints<'_> = comparison
+        .inserted_mm
+        .iter()
+        .zip(&comparison.deviation_mm)
+        .map(|(&inserted, &deviation)| [f64::from(inserted) / 10.0, f64::from(deviation)])
+        .collect();
+    let colour = marks::colours(ui.visuals().dark_mode)[0];
+    ui.label(RichText::new("Deviation of the tip in mm over insertion in cm").small().weak());
+    let response = Plot::new("deviation")
+        .height(120.0)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .show_x(false)
+        .include_y(0.0)
+        .show(ui, |plot| plot.line(Line::new("Deviation", points).color(colour).width(1.5)));
+    name(&response.response, Role::Image, "Deviation of the tip over insertion");
+}

@@ -1,0 +1,140 @@
+//! The numbers of a trial: how far, how long, how hard.
+
+use egui::{Color32, FontId, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+use super::Trial;
+use crate::app::panel::number;
+use crate::render::{Colour, viridis};
+use crate::trial::frame::{Frame, Progress};
+
+/// The force at one place that has the last colour, in N.
+pub(super) const WALL_SCALE: f32 = 1.0;
+/// The length of the bar of the push, in N.
+const PUSH_SCALE: f32 = 2.0;
+
+/// One sentence on how the trial stands.
+pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
+    if let Some(summary) = &trial.summary {
+        let text = if summary.success {
+            format!(
+                "Success: the tip arrived after {:.1} s; largest wall force {:.2} N.",
+                summary.time_s, summary.max_wall_force_n
+            )
+        } else {
+            format!("Failed after {:.1} s: {}", summary.time_s, summary.reason)
+        };
+        return (text, summary.success);
+    }
+    let text = match frame.progress {
+        Progress::Arrived => "Success: the tip is at the target.",
+        Progress::TimedOut => "Failed: the time is over.",
+        Progress::GaveUp => "Failed: the autopilot gave up.",
+        Progress::Running if trial.is_paused => "Paused.",
+        Progress::Running if frame.is_looped => "The wire has turned back on itself: withdraw.",
+        Progress::Running if frame.is_wrong_branch => "Wrong branch: withdraw and roll.",
+        Progress::Running if frame.is_behind => "The machine is behind: the trial runs slower than time.",
+        Progress::Running if !frame.doing.is_empty() => return (format!("Autopilot: {}.", lower(&frame.doing)), true),
+        Progress::Running => "Feed and roll the wire to the target.",
+    };
+    (text.to_owned(), matches!(frame.progress, Progress::Arrived | Progress::Running))
+}
+
+fn lower(text: &str) -> String {
+    let text = text.trim_end_matches('.');
+    let mut letters = text.chars();
+    let first: String = letters.next().map(|c| c.to_lowercase().collect()).unwrap_or_default();
+    format!("{first}{}", letters.as_str())
+}
+
+/// Shows the bars and the numbers.
+pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
+    let wall = frame.max_wall_force_n as f32;
+    let Colour([r, g, b]) = viridis(wall / WALL_SCALE);
+    let help = "The largest normal force at one place of the wall; the bar ends at 1 N";
+    bar(ui, "Wall force", wall, WALL_SCALE, Color32::from_rgb(r, g, b), help);
+    let accent = ui.visuals().hyperlink_color;
+    let help = "What it takes to hold the wire at the guide: negative when it is held back. The bar ends at 2 N";
+    bar(ui, "Push force", frame.push_n as f32, PUSH_SCALE, accent, help);
+    ui.add_space(2.0);
+    number(ui, "Insertion", &format!("{:.1} cm", frame.inserted_mm / 10.0), "Length of wire outside the guide");
+    number(
+        ui,
+        "To target",
+        &format!("{:.1} mm", frame.target_mm),
+        "Distance of the tip from the target's cross-section",
+    );
+    number(ui, "Elapsed", &clock(frame.time_s), "Simulated time");
+    number(ui, "Fluoroscopy", &clock(trial.carm.seconds), "Time that the beam was on");
+    let touches = format!("{}, {:.2} N in all", frame.touches.len(), frame.wall_force_n);
+    number(ui, "Contacts", &touches, "Places where the wire lies against the wall, and the sum of their forces");
+    let tip = format!("{:.2} N", frame.tip_force_n);
+    number(ui, "Force at the tip", &tip, "On the wall within 5 mm of the tip");
+    number(ui, "Torque", &format!("{:.2} N mm", frame.torque_n_mm), "The moment about the wire's axis at the guide");
+    let branch = if frame.is_wrong_branch { "off the route" } else { "on the route" };
+    number(
+        ui,
+        "Branch",
+        &format!("{}, {branch}", frame.branch + 1),
+        "The branch of the vessel tree that the tip is in",
+    );
+    let steps = format!("{:.0} a second", frame.steps_per_second);
+    number(ui, "Steps", &steps, "What this machine can do; 500 a second keep up with time");
+}
+
+/// A bar of a fixed scale with its number; beyond the scale it is full, in the colour of errors.
+fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
+    number(ui, what, &format!("{value:.2} N"), help);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 8.0), Sense::hover());
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::Meter, true, what);
+        info.value = Some(f64::from(value));
+        info
+    });
+    response.on_hover_text(help);
+    let painter = ui.painter();
+    painter.rect_filled(rect, 3.0, ui.visuals().widgets.inactive.bg_fill);
+    let part = (value.abs() / scale).min(1.0);
+    let colour = if value.abs() > scale { ui.visuals().error_fg_color } else { colour };
+    let filled = rect.with_max_x(rect.left() + rect.width() * part);
+    painter.rect_filled(filled, 3.0, colour);
+    // Colours of low forces are dark: the end of the bar is marked.
+    let end = filled.right().max(rect.left() + 1.0);
+    painter
+        .line_segment([pos2(end, rect.top()), pos2(end, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
+}
+
+/// Minutes and seconds.
+fn clock(seconds: f64) -> String {
+    let tenths = (seconds * 10.0).round() as u64;
+    format!("{}:{:02}.{} min", tenths / 600, tenths / 10 % 60, tenths % 10)
+}
+
+/// A line in a picture's corner, over a plate so that it can be read on anything.
+pub(super) fn plate(ui: &Ui, at: egui::Pos2, align: egui::Align2, text: &str, strong: bool) {
+    let font = FontId::proportional(12.0);
+    let colour = if strong { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
+    let rect = align.anchor_size(at, galley.size() + vec2(8.0, 4.0));
+    ui.painter().rect_filled(rect, 3.0, ui.visuals().panel_fill.gamma_multiply(0.85));
+    ui.painter().galley(rect.min + vec2(4.0, 2.0), galley, colour);
+}
+
+/// A remark in small letters.
+pub(super) fn remark(ui: &mut Ui, text: &str, is_error: bool) {
+    let mut text = RichText::new(text).small();
+    if is_error {
+        text = text.color(ui.visuals().error_fg_color);
+    }
+    ui.add(egui::Label::new(text).wrap());
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn clocks_have_minutes_and_tenths() {
+        assert_eq!(
+            [0.0, 9.96, 75.04, 600.0].map(super::clock),
+            ["0:00.0 min", "0:10.0 min", "1:15.0 min", "10:00.0 min"]
+        );
+    }
+}

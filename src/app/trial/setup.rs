@@ -1,0 +1,142 @@
+//! What a trial is to be: the wire, where it enters and should go, the seed.
+
+use egui::{Button, ComboBox, DragValue, RichText, Role, Ui};
+
+use super::{Pick, Trial};
+use crate::app::control::{Setting, name};
+use crate::trial::setup::Entry;
+use crate::trial::wire::Wire;
+
+/// The wire's list and, folded up, its numbers.
+pub(super) fn wire(ui: &mut Ui, wire: &mut Wire) {
+    let before = wire.name.clone();
+    let mut chosen = before.clone();
+    row(ui, "Wire", "What the wire is made of; the numbers are in the fold below", |ui| {
+        let list = ComboBox::from_id_salt("wire").width(128.0).selected_text(words(&before));
+        let response = list.show_ui(ui, |ui| {
+            for preset in Wire::names() {
+                ui.selectable_value(&mut chosen, preset.to_owned(), words(preset));
+            }
+        });
+        name(&response.response, Role::ComboBox, "Wire");
+    });
+    if chosen != before
+        && let Some(preset) = Wire::preset(&chosen)
+    {
+        *wire = preset;
+    }
+    ui.collapsing("Tip, stiffness, friction", |ui| numbers(ui, wire));
+}
+
+/// A preset's name in words.
+fn words(preset: &str) -> String {
+    match preset {
+        "floppy" => "0.014 in floppy".to_owned(),
+        "workhorse" => "0.014 in workhorse".to_owned(),
+        "stiff" => "0.014 in stiff".to_owned(),
+        "workhorse-j" => "0.014 in J tip".to_owned(),
+        "035-j" => "0.035 in J tip".to_owned(),
+        "035-stiff-j" => "0.035 in stiff J".to_owned(),
+        other => other.to_owned(),
+    }
+}
+
+fn numbers(ui: &mut Ui, wire: &mut Wire) {
+    let default = Wire::preset(&wire.name).unwrap_or_default();
+    let setting = |name, help, unit, range, default, decimals, logarithmic| Setting {
+        name,
+        help,
+        unit,
+        range,
+        default,
+        decimals,
+        logarithmic,
+    };
+    let bend = "The angle by which the tip is bent before it is let into the vessel";
+    setting("Tip angle", bend, "°", 0.0..=200.0, default.bend_degrees, 0, false).show(ui, &mut wire.bend_degrees);
+    let length = "Length of the bent tip, from its end";
+    setting("Tip length", length, " mm", 1.0..=20.0, default.bend_mm, 1, false).show(ui, &mut wire.bend_mm);
+    wire.straight_end_mm = wire.straight_end_mm.min(wire.bend_mm);
+    let tip = "Bending stiffness EI at the tip";
+    setting("Tip stiffness", tip, " N mm²", 0.01..=20.0, default.tip_ei, 2, true).show(ui, &mut wire.tip_ei);
+    let shaft = "Bending stiffness EI of the shaft";
+    setting("Shaft stiffness", shaft, " N mm²", 1.0..=1000.0, default.shaft_ei, 0, true).show(ui, &mut wire.shaft_ei);
+    let friction =
+        "Coefficient of friction while the wire sticks to the wall; while it slides it keeps its part of this";
+    let part = default.friction[1] / default.friction[0];
+    let mut sticking = wire.friction[0];
+    if setting("Friction", friction, "", 0.0..=0.5, default.friction[0], 2, false).show(ui, &mut sticking) {
+        wire.friction = [sticking, sticking * part];
+    }
+}
+
+/// Where it enters and should go; says whether another place was chosen, which begins anew.
+pub(super) fn places(ui: &mut Ui, trial: &mut Trial) -> bool {
+    let Some(ready) = &trial.ready else { return false };
+    let mut changed = false;
+    let (mut entry, mut target) = (trial.setup.entry, trial.setup.target);
+    let chosen = entry.map_or("Proposed".to_owned(), |entry| place(entry.at));
+    row(ui, "Entry", "Where the wire comes out of its sheath or guide catheter", |ui| {
+        pick_button(ui, &mut trial.pick, Pick::Entry);
+        let list = ComboBox::from_id_salt("entry").width(112.0).selected_text(chosen);
+        let response = list.show_ui(ui, |ui| {
+            ui.selectable_value(&mut entry, None, "Proposed");
+            for (i, other) in ready.entries.iter().enumerate() {
+                let label = format!("{}: {}", i + 1, place(other.at));
+                ui.selectable_value(&mut entry, Some(*other), label);
+            }
+        });
+        name(&response.response, Role::ComboBox, "Entry");
+    });
+    let name_of = |at: [f32; 3]| ready.targets.iter().find(|(_, other)| *other == at).map(|(name, _)| name.clone());
+    let chosen = target.map_or("Proposed".to_owned(), |at| name_of(at).unwrap_or_else(|| place(at)));
+    row(ui, "Target", "Where it should go", |ui| {
+        pick_button(ui, &mut trial.pick, Pick::Target);
+        let list = ComboBox::from_id_salt("target").width(112.0).selected_text(chosen);
+        let response = list.show_ui(ui, |ui| {
+            ui.selectable_value(&mut target, None, "Proposed");
+            for (label, at) in &ready.targets {
+                ui.selectable_value(&mut target, Some(*at), label);
+            }
+        });
+        name(&response.response, Role::ComboBox, "Target");
+    });
+    changed |= entry.map(key) != trial.setup.entry.map(key) || target != trial.setup.target;
+    (trial.setup.entry, trial.setup.target) = (entry, target);
+    if let Some(pick) = trial.pick {
+        let what = if pick == Pick::Entry { "where the wire enters" } else { "where it should go" };
+        ui.add(egui::Label::new(RichText::new(format!("Click the vessel {what}.")).small()).wrap());
+    }
+    row(ui, "Seed", "Varies entry, roll and friction a little; 0 varies nothing. Takes effect on restart", |ui| {
+        let response = ui.add(DragValue::new(&mut trial.setup.seed).range(0..=9999).update_while_editing(false));
+        name(&response, Role::SpinButton, "Seed");
+    });
+    changed
+}
+
+fn key(entry: Entry) -> ([f32; 3], [f32; 3]) {
+    (entry.at, entry.direction)
+}
+
+fn place(at: [f32; 3]) -> String {
+    let [x, y, z] = at;
+    format!("({x:.0}, {y:.0}, {z:.0}) mm")
+}
+
+fn pick_button(ui: &mut Ui, picked: &mut Option<Pick>, pick: Pick) {
+    let is_on = *picked == Some(pick);
+    let what = if pick == Pick::Entry { "entry" } else { "target" };
+    let response = ui.add(Button::new("Pick").selected(is_on)).on_hover_text("Then click the vessel");
+    name(&response, Role::Button, &format!("Pick {what}"));
+    if response.clicked() {
+        *picked = (!is_on).then_some(pick);
+    }
+}
+
+/// A row: what on the left, the control on the right.
+pub(super) fn row(ui: &mut Ui, what: &str, help: &str, control: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        ui.label(what).on_hover_text(help);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), control);
+    });
+}

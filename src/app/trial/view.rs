@@ -1,0 +1,337 @@
+//! The views of a trial: the wire in the translucent vessel, the fluoroscopy, and what the tip sees.
+
+use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2};
+use glam::{Mat3, Quat};
+
+use super::readout::{WALL_SCALE, plate};
+use super::scene::TrialScene;
+use super::{Stage, Trial, marks, tables};
+use crate::app::control::name;
+use crate::app::document::Document;
+use crate::app::overlay::{self, Legend, NOT_CLINICAL};
+use crate::app::theme;
+use crate::app::views::{Views, in_view};
+use crate::mesh::{Bounds, TriMesh, Vec3};
+use crate::pipeline::settings::Keep;
+use crate::render::{Camera, ColourMap, Exposure, Ray, pick};
+use crate::trial::frame::Frame;
+
+/// How fast the blood takes contrast along, in mm/s.
+const FLOW: f32 = 150.0;
+/// How far the tip sees, in mm.
+const TIP_REACH: f32 = 80.0;
+/// The tip's field of view, in radians.
+const TIP_FIELD: f32 = 1.7;
+
+/// The colours of forces on the wall.
+const FORCES: ColourMap = ColourMap { range_mm: (0.0, WALL_SCALE) };
+
+/// The views: what of them stands in GPU memory.
+pub(in crate::app) struct TrialView {
+    device: Option<egui_wgpu::RenderState>,
+    /// Made when the views are first shown.
+    scene: Option<TrialScene>,
+    failure: Option<String>,
+    /// Whether the tip's view is shown.
+    shows_tip: bool,
+    /// The run that the forces on the wall are of.
+    run: u64,
+    /// The step that they were taken from last.
+    felt: Option<u64>,
+    /// What the last fluoroscopy was taken from.
+    held: Option<(Camera, Exposure)>,
+}
+
+impl TrialView {
+    /// Views on the window's device; without one (in some tests) they say so.
+    pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
+        let device = device.cloned();
+        Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: None, held: None }
+    }
+
+    fn prepare(&mut self) {
+        if let (None, None, Some(device)) = (&self.scene, &self.failure, &self.device) {
+            match TrialScene::new(device) {
+                Ok(scene) => self.scene = Some(scene),
+                Err(error) => self.failure = Some(format!("The trial cannot be drawn: {error}.")),
+            }
+        }
+    }
+
+    /// Shows the tables, if they are open; says whether they were cancelled.
+    pub(in crate::app) fn tables(&mut self, ui: &Ui, trial: &mut Trial) -> bool {
+        if trial.tables.is_running() || trial.tables.is_open {
+            self.prepare();
+            let (scene, style) = (&self.scene, theme::style(ui.visuals()));
+            let time = |mesh: &TriMesh| scene.as_ref()?.time_frame(mesh, &style).ok();
+            trial.tables.time(time);
+        }
+        trial.tables.is_open && tables::show(ui, &mut trial.tables)
+    }
+
+    /// Shows the views in what is left of `ui`. Returns the place that was picked.
+    pub(in crate::app) fn show(
+        &mut self,
+        ui: &mut Ui,
+        trial: &mut Trial,
+        views: &mut Views,
+        document: Option<&Document>,
+        keep: Keep,
+        is_narrow: bool,
+    ) -> Option<Vec3> {
+        self.prepare();
+        self.follow(trial);
+        let area = ui.available_rect_before_wrap();
+        let (first, others) =
+            if is_narrow { area.split_top_bottom_at_fraction(0.55) } else { area.split_left_right_at_fraction(0.58) };
+        let (second, third) = match (self.shows_tip, is_narrow) {
+            (false, _) => (others, None),
+            (true, true) => split(others.split_left_right_at_fraction(0.5)),
+            (true, false) => split(others.split_top_bottom_at_fraction(0.6)),
+        };
+        views.take_shape(first, 1, document, keep);
+        views.measure_rate(ui, trial.is_moving());
+        let picked = self.vessel(ui, first.shrink(0.5), trial, views, document, keep);
+        self.fluoroscopy(ui, second.shrink(0.5), trial);
+        match third {
+            Some(third) => self.tip(ui, third.shrink(0.5), trial),
+            None => self.tip_button(ui, second.shrink(0.5)),
+        }
+        picked
+    }
+
+    /// Brings what is in memory up to the trial.
+    fn follow(&mut self, trial: &Trial) {
+        let Some(scene) = &mut self.scene else { return };
+        if let (Some(mesh), Some(ready)) = (trial.mesh(), &trial.ready)
+            && let Err(error) = scene.take(mesh, &ready.route)
+        {
+            self.failure = Some(format!("The trial cannot be drawn: {error}."));
+        }
+        if std::mem::replace(&mut self.run, trial.runs) != trial.runs {
+            (self.felt, self.held) = (None, None);
+            if let Some(peaks) = scene.peaks() {
+                peaks.clear();
+            }
+        }
+        let Some(frame) = &trial.frame else { return };
+        if self.felt.replace(frame.step) != Some(frame.step) {
+            scene.feel(&frame.touches);
+            if let Err(error) = scene.set_wire(&frame.nodes, radius(trial)) {
+                self.failure = Some(format!("The wire cannot be drawn: {error}."));
+            }
+        }
+    }
+
+    fn vessel(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        trial: &Trial,
+        views: &mut Views,
+        document: Option<&Document>,
+        keep: Keep,
+    ) -> Option<Vec3> {
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        name(&response, Role::Image, "Trial view");
+        views.steer(ui, &response, document, keep);
+        let mut style = theme::style(ui.visuals());
+        style.map = Some(FORCES);
+        let camera = views.camera;
+        let is_on = trial.ready.is_some();
+        if let Some(scene) = self.scene.as_mut().filter(|_| is_on) {
+            let texture = scene.vessel(&camera, pixels(ui, rect), &style);
+            image(ui, rect, texture);
+        } else {
+            empty(ui, rect);
+        }
+        if is_on {
+            marks::show(ui, rect, &camera, trial);
+        }
+        let map = (rect.height() > 300.0).then_some(FORCES);
+        let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals: 1 });
+        let title = if is_on { "Wire in the vessel" } else { "Trial" };
+        let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, legend };
+        overlay::show(ui, rect, &writing);
+        self.say(ui, rect, trial);
+        let picks = trial.pick.is_some() && response.clicked();
+        picks.then(|| lumen_at(response.interact_pointer_pos()?, rect, &camera, trial.mesh()?)).flatten()
+    }
+
+    /// What there is to say where there is nothing to see.
+    fn say(&self, ui: &Ui, rect: Rect, trial: &Trial) {
+        let text = match (&self.failure, trial.stage) {
+            (Some(failure), _) => failure.clone(),
+            (None, _) if self.device.is_none() => "There is no graphics device to draw with.".to_owned(),
+            (None, Stage::Preparing(fraction)) => format!("Finding the way: {:.0} %", fraction * 100.0),
+            (None, Stage::Off) => "No trial is on.".to_owned(),
+            (None, Stage::On) => return,
+        };
+        plate(ui, rect.center(), Align2::CENTER_CENTER, &text, true);
+    }
+
+    fn fluoroscopy(&mut self, ui: &mut Ui, rect: Rect, trial: &mut Trial) {
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        name(&response, Role::Image, "Fluoroscopy view");
+        steer(ui, &response, trial);
+        let now = ui.input(|input| input.time);
+        let time_s = trial.frame.as_ref().map_or(0.0, |frame| frame.time_s);
+        let is_due = trial.carm.pulses_at(now, time_s);
+        if trial.carm.is_on && trial.carm.contrast_s(now).is_some() {
+            ui.ctx().request_repaint();
+        }
+        let bounds = trial.mesh().map_or(Bounds::EMPTY, |mesh| mesh.bounds());
+        let result = match (&mut self.scene, &trial.frame, &trial.ready) {
+            (Some(scene), Some(frame), Some(ready)) => {
+                let (texture, is_other) = scene.picture(pixels(ui, rect));
+                let exposed = if is_due || self.held.is_none() {
+                    let exposure = Exposure {
+                        pulse: trial.carm.pulses,
+                        contrast_s: trial.carm.contrast_s(now),
+                        flow: FLOW / (ready.route.length_mm as f32).max(1.0),
+                        roadmap: trial.carm.roadmap,
+                    };
+                    let camera = trial.carm.camera(bounds);
+                    self.held = Some((camera, exposure));
+                    scene.expose(&camera, Some((&frame.nodes, radius(trial))), &exposure)
+                } else if let (true, Some((camera, exposure))) = (is_other, self.held) {
+                    scene.expose(&camera, None, &exposure)
+                } else {
+                    Ok(())
+                };
+                image(ui, rect, texture);
+                exposed
+            }
+            _ => {
+                empty(ui, rect);
+                Ok(())
+            }
+        };
+        if let Err(error) = result {
+            self.failure = Some(format!("The fluoroscopy cannot be drawn: {error}."));
+        }
+        let inner = rect.shrink(8.0);
+        let arm = &trial.carm;
+        plate(ui, inner.left_top(), Align2::LEFT_TOP, "Fluoroscopy", true);
+        plate(ui, inner.left_top() + vec2(0.0, 22.0), Align2::LEFT_TOP, &arm.words(), true);
+        if rect.height() > 200.0 {
+            let state = if arm.is_on {
+                format!("{} pulses/s, {:.0} mm field", arm.rate, arm.field_mm)
+            } else {
+                "Last image hold (Space: on)".to_owned()
+            };
+            plate(ui, inner.left_top() + vec2(0.0, 44.0), Align2::LEFT_TOP, &state, false);
+            plate(ui, inner.left_bottom() - vec2(0.0, 22.0), Align2::LEFT_BOTTOM, &trial.name, false);
+            scale_bar(ui, inner, rect, arm.field_mm);
+        }
+        plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, false);
+    }
+
+    fn tip(&mut self, ui: &mut Ui, rect: Rect, trial: &Trial) {
+        let response = ui.allocate_rect(rect, Sense::hover());
+        name(&response, Role::Image, "Tip view");
+        match (&mut self.scene, &trial.frame) {
+            (Some(scene), Some(frame)) if !frame.nodes.is_empty() => {
+                let texture = scene.tip(&from_tip(frame), pixels(ui, rect), &theme::style(ui.visuals()));
+                image(ui, rect, texture);
+            }
+            _ => empty(ui, rect),
+        }
+        let inner = rect.shrink(8.0);
+        plate(ui, inner.left_top(), Align2::LEFT_TOP, "From the tip", true);
+        plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, false);
+        if rect.height() > 200.0 {
+            plate(ui, inner.left_bottom(), Align2::LEFT_BOTTOM, &trial.name, false);
+        }
+        self.tip_button(ui, rect);
+    }
+
+    /// Shows or hides the tip's view.
+    fn tip_button(&mut self, ui: &mut Ui, rect: Rect) {
+        let (label, help) = if self.shows_tip { ("Hide", "Hide the tip view") } else { ("Tip", "Show the tip view") };
+        let at = Rect::from_min_size(pos2(rect.right() - 56.0, rect.top() + 6.0), vec2(50.0, 26.0));
+        let response = ui.put(at, egui::Button::new(label)).on_hover_text(help);
+        name(&response, Role::Button, help);
+        if response.clicked() {
+            self.shows_tip = !self.shows_tip;
+        }
+    }
+}
+
+fn split((a, b): (Rect, Rect)) -> (Rect, Option<Rect>) {
+    (a, Some(b))
+}
+
+/// The wire's radius in mm.
+fn radius(trial: &Trial) -> f32 {
+    trial.setup_in_force().map_or(0.2, |setup| setup.wire.radius() as f32)
+}
+
+/// The size of a view in pixels.
+fn pixels(ui: &Ui, rect: Rect) -> [u32; 2] {
+    let size = rect.size() * ui.ctx().pixels_per_point();
+    [size.x.round().max(1.0) as u32, size.y.round().max(1.0) as u32]
+}
+
+fn image(ui: &Ui, rect: Rect, texture: egui::TextureId) {
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
+}
+
+fn empty(ui: &Ui, rect: Rect) {
+    ui.painter().rect_filled(rect, 0.0, ui.visuals().faint_bg_color);
+}
+
+/// Turns the C-arm by dragging, magnifies by the wheel.
+fn steer(ui: &Ui, response: &Response, trial: &mut Trial) {
+    const DEGREES_PER_HEIGHT: f32 = 120.0;
+    if response.dragged_by(PointerButton::Primary) {
+        let by = response.drag_delta() * (DEGREES_PER_HEIGHT / response.rect.height().max(1.0));
+        trial.carm.turn(-by.x, by.y);
+    }
+    if response.hovered() {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        trial.carm.zoom(pinch * (scroll.y / 240.0).exp());
+    }
+}
+
+/// A bar of 10, 20 or 50 mm at the isocentre.
+fn scale_bar(ui: &Ui, inner: Rect, rect: Rect, field_mm: f32) {
+    let per_mm = rect.height() / field_mm;
+    let mm = [50.0, 20.0, 10.0].into_iter().find(|mm| mm * per_mm < inner.width() / 4.0).unwrap_or(5.0);
+    let (left, y) = (inner.left() + 4.0, inner.bottom() - 6.0);
+    let colour = Color32::BLACK;
+    let right = left + mm * per_mm;
+    let stroke = egui::Stroke::new(1.5, colour);
+    ui.painter().line_segment([pos2(left, y), pos2(right, y)], stroke);
+    for x in [left, right] {
+        ui.painter().line_segment([pos2(x, y - 4.0), pos2(x, y + 4.0)], stroke);
+    }
+    plate(ui, pos2(right + 6.0, y), Align2::LEFT_CENTER, &format!("{mm:.0} mm"), true);
+}
+
+/// The camera in the tip: forwards, the side to which the tip is bent above.
+fn from_tip(frame: &Frame) -> Camera {
+    let tip = Vec3::from(frame.nodes[0]);
+    let back = -Vec3::from(frame.tip_direction).normalize_or(Vec3::Z);
+    let up = Vec3::from(frame.tip_side).reject_from_normalized(back);
+    let up = up.try_normalize().unwrap_or(back.any_orthonormal_vector());
+    const AHEAD: f32 = 5.0;
+    Camera {
+        target: tip - back * AHEAD,
+        rotation: Quat::from_mat3(&Mat3::from_cols(up.cross(back), up, back)),
+        distance: AHEAD,
+        fov_y: TIP_FIELD,
+        bounds: Bounds::of(&[tip - Vec3::splat(TIP_REACH), tip + Vec3::splat(TIP_REACH)]),
+    }
+}
+
+/// The middle of the lumen under a point of the view: between the wall that is hit first and the one behind it.
+fn lumen_at(at: egui::Pos2, rect: Rect, camera: &Camera, mesh: &TriMesh) -> Option<Vec3> {
+    let ray = camera.ray(in_view(at, rect), rect.width() / rect.height());
+    let first = pick(&ray, &mesh.positions, &mesh.triangles)?;
+    let near = ray.origin + ray.direction * first.distance;
+    let inside = Ray { origin: near + ray.direction * 0.05, ..ray };
+    let far = pick(&inside, &mesh.positions, &mesh.triangles)?;
+    Some(near + ray.direction * (far.distance / 2.0))
+}

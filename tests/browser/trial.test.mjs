@@ -1,0 +1,86 @@
+// The guidewire trial: started, steered to the target by the autopilot, saved. It runs in a Worker of its own.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { after, before, test } from "node:test";
+import { settled } from "./app.mjs";
+import { eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
+
+/** How long the autopilot may take. */
+const LIMIT = 120_000;
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+/** Waits until some text of the app is as wanted, and returns it. */
+const told = (page, pattern, what, timeout = 60_000) =>
+  eventually(
+    async () => (await texts(page)).find((text) => pattern.test(text)) ?? null,
+    (text) => text !== null,
+    { timeout, what },
+  );
+
+test("the autopilot steers the wire to the target, and the log is saved", { timeout: 4 * LIMIT }, async (t) => {
+  const { page, wrong } = await openApp(t, browser);
+  await settled(page);
+  assert.equal(page.workers().length, 1, "no Worker before it is needed");
+
+  await press(page, "button", "Trial");
+  await twin(page, "img", "Fluoroscopy view").waitFor({ state: "attached" });
+  await told(page, /^[\d.]+ cm$/, "the wire at the entry");
+  assert.equal(page.workers().length, 2, "the trial has a Worker of its own");
+  await press(page, "button", "Autopilot");
+  const end = await told(page, /^(Success|Failed)/, "the end of the trial", LIMIT);
+  t.diagnostic(end);
+  assert.match(end, /^Success: the tip arrived/);
+
+  const downloads = [];
+  page.on("download", (download) => downloads.push(download));
+  await press(page, "button", "Save log");
+  await eventually(() => downloads.length, (count) => count === 2, { what: "the log's two files" });
+  const files = {};
+  for (const download of downloads) {
+    const name = download.suggestedFilename();
+    files[name.split(".").pop()] = await readFile(await download.path(), "utf8");
+  }
+  const summary = JSON.parse(files.json);
+  assert(Number.isInteger(summary.schema) && summary.schema >= 1, `schema ${summary.schema}`);
+  assert.equal(summary.success, true);
+  assert(summary.tip_distance_mm <= 2, `${summary.tip_distance_mm} mm from the target`);
+  assert.match(summary.notice, /clinical/i);
+  const lines = files.csv.trim().split("\n").filter((line) => !line.startsWith("#"));
+  assert.match(lines[0], /time_s/);
+  assert(lines.length > 100, `${lines.length} samples`);
+
+  await press(page, "button", "Trial");
+  await twin(page, "img", /shaded/i).waitFor({ state: "attached" });
+  assert.deepEqual(wrong, []);
+});
+
+test("keys drive the wire while they are held", async (t) => {
+  const { page, wrong } = await openApp(t, browser);
+  await settled(page);
+  await press(page, "button", "Trial");
+  const inserted = async () => {
+    const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
+    return text ? Number(text.split(" ")[0]) : null;
+  };
+  const start = await eventually(inserted, (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  await page.keyboard.down("w");
+  await eventually(inserted, (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await page.keyboard.up("w");
+  let last = -1;
+  await eventually(
+    async () => {
+      const now = await inserted();
+      const rests = now === last;
+      last = now;
+      if (rests) await new Promise((later) => setTimeout(later, 500));
+      return rests && (await inserted()) === now;
+    },
+    (rests) => rests,
+    { what: "the wire at rest" },
+  );
+  assert.deepEqual(wrong, []);
+});

@@ -1,0 +1,445 @@
+//! The trial, used as a user uses it: by buttons and keys. The engine is told what to say: what it computes is tested
+//! elsewhere.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lumen::app::LumenApp;
+use lumen::engine::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
+use lumen::phantom::Sample;
+use lumen::trial::frame::{Frame, Progress, StationResult, Summary};
+use lumen::trial::setup::{Entry, Input, Setup};
+use lumen_ui_tests::{Memory, app, settle};
+
+const DESKTOP: [f32; 2] = [1280.0, 800.0];
+const PHONE: [f32; 2] = [390.0, 844.0];
+
+type App = Harness<'static, LumenApp>;
+
+/// Presses a button, wherever in the panel it is.
+fn press(harness: &mut App, button: &str) {
+    harness.get_by_role_and_label(Role::Button, button).scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_role_and_label(Role::Button, button).click();
+    harness.run_steps(3);
+}
+
+/// Starts a trial by the bar.
+fn start(harness: &mut App) {
+    if harness.query_by_role_and_label(Role::Button, "Menu").is_some() {
+        press(harness, "Menu");
+    }
+    press(harness, "Trial");
+}
+
+/// Opens a list.
+fn choose(harness: &mut App, list: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, list).scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_role_and_label(Role::ComboBox, list).click();
+    harness.run_steps(3);
+}
+
+/// What the trial was asked since it was last asked for.
+fn asked(memory: &Rc<RefCell<Memory>>) -> Vec<TrialCommand> {
+    std::mem::take(&mut memory.borrow_mut().asked_of_trial)
+}
+
+fn tell(harness: &mut App, memory: &Rc<RefCell<Memory>>, events: impl IntoIterator<Item = TrialEvent>) {
+    memory.borrow_mut().trial_events.extend(events);
+    harness.run_steps(3);
+}
+
+fn says(harness: &App, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+/// A way through the middle of the sample.
+fn ready(id: u64) -> TrialEvent {
+    let points: Vec<[f32; 3]> = (0..100).map(|i| [0.0, 0.0, i as f32]).collect();
+    let entry = Entry { at: points[0], direction: [0.0, 0.0, 1.0] };
+    let setup = Setup { entry: Some(entry), target: points.last().copied(), ..Setup::default() };
+    let route = RouteShown {
+        radii: vec![8.0; points.len()],
+        stations: vec![points[20], points[40]],
+        length_mm: 99.0,
+        points,
+        ..RouteShown::default()
+    };
+    let targets = vec![("Right renal".to_owned(), [1.0, 2.0, 3.0])];
+    TrialEvent::Ready(Box::new(TrialReady { id, setup, route, entries: vec![entry], targets, ..TrialReady::default() }))
+}
+
+fn frame() -> Frame {
+    Frame {
+        step: 500,
+        time_s: 75.0,
+        nodes: (0..30).map(|i| [0.0, 0.0, 30.0 - i as f32]).collect(),
+        forces: vec![[0.0; 3]; 30],
+        tip_direction: [0.0, 0.0, 1.0],
+        tip_side: [1.0, 0.0, 0.0],
+        inserted_mm: 123.4,
+        max_wall_force_n: 0.35,
+        push_n: -0.2,
+        target_mm: 42.0,
+        steps_per_second: 812.0,
+        ..Frame::default()
+    }
+}
+
+fn id_of_start(commands: &[TrialCommand]) -> u64 {
+    match commands.iter().rev().find(|command| matches!(command, TrialCommand::Start { .. })) {
+        Some(TrialCommand::Start { id, .. }) => *id,
+        _ => panic!("no start among {} commands", commands.len()),
+    }
+}
+
+/// The app with a trial on.
+fn on(size: [f32; 2]) -> (App, Rc<RefCell<Memory>>) {
+    let (mut harness, memory) = app(size);
+    settle(&mut harness);
+    start(&mut harness);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [ready(id), TrialEvent::Frame(Box::new(frame()))]);
+    (harness, memory)
+}
+
+#[test]
+fn the_trial_starts_with_the_level_that_is_shown_and_its_views_take_the_place_of_the_others() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    press(&mut harness, "Start trial");
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { id, mesh, sample, setup }) = commands.first() else { panic!("{commands:?}") };
+    assert!((7_429..=7_430).contains(&mesh.triangles.len()), "Table II at 90 %: {}", mesh.triangles.len());
+    assert_eq!((*sample, setup), (Some(Sample::Aorta), &Setup::default()));
+    tell(&mut harness, &memory, [TrialEvent::Preparing { id: *id, fraction: 0.4 }]);
+    assert!(says(&harness, "Finding"));
+    tell(&mut harness, &memory, [ready(*id), TrialEvent::Frame(Box::new(frame()))]);
+    for view in ["Trial view", "Fluoroscopy view", "Tip view"] {
+        assert!(harness.query_by_role_and_label(Role::Image, view).is_some(), "{view}");
+    }
+    assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_none());
+    for number in ["12.3 cm", "42.0 mm", "1:15.0 min", "0.35 N", "-0.20 N", "812 a second"] {
+        assert!(says(&harness, number), "{number}");
+    }
+    press(&mut harness, "Close");
+    assert_eq!(asked(&memory), [TrialCommand::Stop]);
+    assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
+}
+
+#[test]
+fn keys_drive_while_they_are_held_and_nothing_does_when_all_are_let_go() {
+    let (mut harness, memory) = on(DESKTOP);
+    let drive = |feed, roll| TrialCommand::Drive(Input { feed, roll });
+    let half_a_turn = std::f32::consts::PI;
+    for (key, feed, roll) in [
+        (Key::W, 15.0, 0.0),
+        (Key::S, -15.0, 0.0),
+        (Key::A, 0.0, -half_a_turn),
+        (Key::D, 0.0, half_a_turn),
+        (Key::ArrowUp, 15.0, 0.0),
+        (Key::ArrowDown, -15.0, 0.0),
+        (Key::ArrowLeft, 0.0, -half_a_turn),
+        (Key::ArrowRight, 0.0, half_a_turn),
+    ] {
+        harness.key_down(key);
+        harness.run_steps(3);
+        assert_eq!(asked(&memory), [drive(feed, roll)], "{key:?}, told once");
+        harness.key_up(key);
+        harness.run_steps(3);
+        assert_eq!(asked(&memory), [drive(0.0, 0.0)], "{key:?}");
+    }
+    harness.key_down_modifiers(egui::Modifiers::SHIFT, Key::W);
+    harness.run_steps(3);
+    assert_eq!(asked(&memory).first(), Some(&drive(50.0, 0.0)), "with Shift");
+    harness.event(egui::Event::WindowFocused(false));
+    harness.input_mut().focused = false;
+    harness.run_steps(3);
+    assert_eq!(asked(&memory), [drive(0.0, 0.0)], "without the window's attention");
+}
+
+#[test]
+fn pads_drive_by_pointer_and_by_two_fingers_at_once() {
+    let (mut harness, memory) = on(PHONE);
+    let place = |harness: &App, pad: &str| harness.get_by_role_and_label(Role::Slider, pad).rect();
+    let (feed, roll) = (place(&harness, "Feed pad"), place(&harness, "Roll pad"));
+    assert!(feed.height() >= 48.0 && feed.width() >= 120.0 && roll.width() >= 120.0, "{feed} {roll}");
+    harness.drag_at(feed.right_center() - egui::vec2(10.0, 0.0));
+    harness.run_steps(3);
+    let Some(TrialCommand::Drive(input)) = asked(&memory).pop() else { panic!("nothing was asked") };
+    assert!(input.feed > 45.0 && input.roll == 0.0, "{input:?}");
+    harness.drop_at(feed.center());
+    harness.run_steps(3);
+    assert_eq!(asked(&memory).pop(), Some(TrialCommand::Drive(Input::default())));
+    let touch = |harness: &mut App, finger: u64, phase, pos| {
+        let (device_id, id) = (egui::TouchDeviceId(1), egui::TouchId(finger));
+        harness.event(egui::Event::Touch { device_id, id, phase, pos, force: None });
+        harness.run_steps(2);
+    };
+    touch(&mut harness, 1, egui::TouchPhase::Start, feed.left_center() + egui::vec2(10.0, 0.0));
+    touch(&mut harness, 2, egui::TouchPhase::Start, roll.right_center() - egui::vec2(10.0, 0.0));
+    let Some(TrialCommand::Drive(input)) = asked(&memory).pop() else { panic!("nothing was asked") };
+    assert!(input.feed < -45.0 && input.roll > 10.0, "{input:?}");
+    touch(&mut harness, 1, egui::TouchPhase::End, feed.center());
+    touch(&mut harness, 2, egui::TouchPhase::End, roll.center());
+    assert_eq!(asked(&memory).pop(), Some(TrialCommand::Drive(Input::default())));
+}
+
+#[test]
+fn buttons_and_keys_ask_for_the_same() {
+    let (mut harness, memory) = on(DESKTOP);
+    let asks: [(&str, Key, [TrialCommand; 2]); 4] = [
+        ("Autopilot", Key::G, [TrialCommand::Autopilot(true), TrialCommand::Autopilot(false)]),
+        ("Pause", Key::P, [TrialCommand::Pause(true), TrialCommand::Pause(false)]),
+        ("Slow motion", Key::M, [TrialCommand::Pace(0.25), TrialCommand::Pace(1.0)]),
+        ("Restart", Key::R, [TrialCommand::Restart, TrialCommand::Restart]),
+    ];
+    for (button, key, [first, second]) in asks {
+        press(&mut harness, button);
+        assert_eq!(asked(&memory), [first], "{button}");
+        harness.key_press(key);
+        harness.run_steps(3);
+        assert_eq!(asked(&memory), [second], "{key:?}");
+    }
+    harness.key_press(Key::Z);
+    harness.run_steps(3);
+    assert_eq!(asked(&memory), [TrialCommand::StepBack]);
+    assert!(harness.state().trial().is_paused);
+    harness.key_press(Key::Num2);
+    harness.run_steps(3);
+    assert!(says(&harness, "LAO 45"));
+    assert_eq!(harness.state().trial().carm.lao, 45.0);
+    let pedal = harness.state().trial().carm.is_on;
+    harness.key_press(Key::Space);
+    harness.run_steps(3);
+    assert_ne!(harness.state().trial().carm.is_on, pedal);
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert_eq!(asked(&memory), [TrialCommand::Stop]);
+    assert!(!harness.state().trial().is_open);
+}
+
+#[test]
+fn a_hand_on_the_wire_takes_it_from_the_autopilot() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Autopilot");
+    asked(&memory);
+    harness.key_down(Key::W);
+    harness.run_steps(3);
+    let drive = TrialCommand::Drive(Input { feed: 15.0, roll: 0.0 });
+    assert_eq!(asked(&memory), [TrialCommand::Autopilot(false), drive]);
+}
+
+#[test]
+fn what_is_refused_is_said_and_what_stood_stands() {
+    let (mut harness, memory) = on(DESKTOP);
+    choose(&mut harness, "Target");
+    harness.get_by_label("Right renal").click();
+    harness.run_steps(3);
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { id, setup, .. }) = commands.first() else { panic!("{commands:?}") };
+    assert_eq!(setup.target, Some([1.0, 2.0, 3.0]));
+    let message = "The lumen is thinner than the wire 31 mm along the way.".to_owned();
+    tell(&mut harness, &memory, [TrialEvent::Refused { id: *id, message: message.clone() }]);
+    assert!(says(&harness, &message));
+    assert!(says(&harness, "12.3 cm"), "the trial before stands");
+}
+
+#[test]
+fn the_end_is_said() {
+    let (mut harness, memory) = on(DESKTOP);
+    let arrived = Frame { progress: Progress::Arrived, ..frame() };
+    let summary = Summary { success: true, time_s: 23.4, max_wall_force_n: 0.31, ..Summary::default() };
+    tell(&mut harness, &memory, [TrialEvent::Frame(Box::new(arrived)), TrialEvent::Ended(Box::new(summary))]);
+    assert!(says(&harness, "Success: the tip arrived after 23.4 s; largest wall force 0.31 N."));
+    press(&mut harness, "Restart");
+    assert!(!says(&harness, "Success"));
+    let reason = "the wire buckled three times.".to_owned();
+    let summary = Summary { reason, time_s: 61.0, ..Summary::default() };
+    tell(&mut harness, &memory, [TrialEvent::Ended(Box::new(summary))]);
+    assert!(says(&harness, "Failed after 61.0 s: the wire buckled three times."));
+}
+
+#[test]
+fn another_wire_takes_effect_on_restart() {
+    let (mut harness, memory) = on(DESKTOP);
+    choose(&mut harness, "Wire");
+    harness.get_by_label("0.035 in J tip").click();
+    harness.run_steps(3);
+    assert!(asked(&memory).is_empty() && says(&harness, "Restart to try"));
+    press(&mut harness, "Restart");
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { setup, .. }) = commands.first() else { panic!("{commands:?}") };
+    assert_eq!(setup.wire.name, "035-j");
+}
+
+#[test]
+fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Compare with the unreduced surface");
+    let commands = asked(&memory);
+    let Some(TrialCommand::Compare { mesh }) = commands.first() else { panic!("{commands:?}") };
+    // Table I of the paper.
+    assert_eq!(mesh.triangles.len(), 74_307);
+    let comparison = TrialComparison {
+        verdict: "At 90 % this wire arrives; its tip path differs by 0.3 mm at most.".to_owned(),
+        inserted_mm: vec![0.0, 50.0, 100.0],
+        deviation_mm: vec![0.0, 0.3, 0.1],
+        tip: vec![[0.0; 3], [0.0, 0.0, 50.0]],
+        other_tip: vec![[0.0; 3], [0.3, 0.0, 50.0]],
+        smallest_before_mm: 3.21,
+        smallest_after_mm: 3.05,
+        ..TrialComparison::default()
+    };
+    tell(&mut harness, &memory, [TrialEvent::Compared(Box::new(comparison.clone()))]);
+    assert!(says(&harness, &comparison.verdict) && says(&harness, "3.05 mm, was 3.21 mm"));
+}
+
+#[test]
+fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    press(&mut harness, "Tables III and IV");
+    let station = StationResult { simulation_ms: Some(8.0), ..StationResult::default() };
+    let summary =
+        Summary { success: true, initial_simulation_ms: 5.0, stations: vec![station; 5], ..Summary::default() };
+    // Table II of the paper.
+    for printed in [66_875, 37_153, 18_576] {
+        harness.run_steps(3);
+        let commands = asked(&memory);
+        let [TrialCommand::Measure { id, mesh, sample, .. }] = &commands[..] else { panic!("{commands:?}") };
+        assert!((printed - 2..=printed).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
+        assert_eq!(*sample, Some(Sample::Aorta));
+        tell(&mut harness, &memory, [TrialEvent::Measured { id: *id, summary: Box::new(summary.clone()) }]);
+    }
+    assert!(says(&harness, "yes (no)") && says(&harness, "yes (yes)"), "the paper's beside ours");
+    press(&mut harness, "Cancel tables");
+    harness.run_steps(3);
+    asked(&memory);
+    assert!(harness.query_by_role_and_label(Role::Button, "Cancel tables").is_none() && says(&harness, "Cancelled."));
+    press(&mut harness, "Run again");
+    harness.run_steps(3);
+    assert!(matches!(&asked(&memory)[..], [TrialCommand::Measure { .. }]));
+}
+
+#[test]
+fn a_click_on_the_vessel_picks_the_middle_of_its_lumen() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Pick target");
+    let view = harness.get_by_role_and_label(Role::Image, "Trial view").rect();
+    // The trunk of the aorta is in the middle of the view.
+    for button in [true, false] {
+        harness.hover_at(view.center());
+        harness.event(egui::Event::PointerButton {
+            pos: view.center(),
+            button: egui::PointerButton::Primary,
+            pressed: button,
+            modifiers: egui::Modifiers::NONE,
+        });
+        harness.run_steps(2);
+    }
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { mesh, setup, .. }) = commands.first() else { panic!("{commands:?}") };
+    let target = lumen::mesh::Vec3::from(setup.target.expect("a target"));
+    let wall = mesh.positions.iter().map(|p| p.distance(target)).fold(f32::INFINITY, f32::min);
+    assert!(wall > 5.0 && wall < 15.0, "{wall} mm from the wall of a vessel of about 20 mm");
+}
+
+#[test]
+fn the_log_is_saved_and_a_chosen_one_is_replayed() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Save log");
+    assert_eq!(asked(&memory), [TrialCommand::Save]);
+    let (csv, json) = ("# schema 1\n".to_owned(), "{\"schema\": 1}".to_owned());
+    tell(&mut harness, &memory, [TrialEvent::Saved { csv: csv.clone(), json: json.clone() }]);
+    let offered = memory.borrow().offered.clone();
+    assert_eq!(
+        offered.iter().map(|(name, _)| &name[..]).collect::<Vec<_>>(),
+        ["abdominal-aorta-trial.csv", "abdominal-aorta-trial.json"]
+    );
+    assert_eq!((&offered[0].1[..], &offered[1].1[..]), (csv.as_bytes(), json.as_bytes()));
+    press(&mut harness, "Open log...");
+    assert_eq!(memory.borrow().asked, 1);
+    let chosen = lumen::app::PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
+    memory.borrow_mut().events.push_back(chosen);
+    harness.run_steps(3);
+    let commands = asked(&memory);
+    let [TrialCommand::Replay { csv: bytes }] = &commands[..] else { panic!("{commands:?}") };
+    assert_eq!(&bytes[..], csv.as_bytes());
+}
+
+#[test]
+fn a_trial_that_dies_is_told_and_the_surface_stays() {
+    let (mut harness, memory) = on(DESKTOP);
+    memory.borrow_mut().trial_failure = Some("no memory left".to_owned());
+    harness.run_steps(3);
+    assert!(says(&harness, "The trial stopped (no memory left)."));
+    assert!(harness.state().state().document.as_ref().is_some_and(|document| document.shown.is_some()));
+    press(&mut harness, "Start trial");
+    id_of_start(&asked(&memory));
+}
+
+#[test]
+fn a_phone_has_all_controls_and_stacks_the_views() {
+    let (harness, _) = on(PHONE);
+    for button in ["Restart", "Autopilot", "Pause", "Slow motion", "Step back", "Close", "Fluoroscopy"] {
+        let rect = harness.get_by_role_and_label(Role::Button, button).rect();
+        assert!(rect.left() >= 0.0 && rect.right() <= PHONE[0] && rect.height() >= 26.0, "{button}: {rect}");
+    }
+    let view = |name| harness.get_by_role_and_label(Role::Image, name).rect();
+    assert!(view("Trial view").bottom() <= view("Fluoroscopy view").top());
+    assert!(harness.query_by_role_and_label(Role::ComboBox, "Wire").is_some());
+}
+
+/// Leaves pictures to look at in the target folder's `tmp`.
+#[test]
+fn pictures_of_the_trial() {
+    for (size, name) in [(DESKTOP, "desktop"), (PHONE, "phone")] {
+        for sample in if size == PHONE { &Sample::ALL[..1] } else { &Sample::ALL[..] } {
+            let sample = *sample;
+            let (mut harness, memory) = app(size);
+            settle(&mut harness);
+            if sample == Sample::Coronary {
+                press(&mut harness, "Sample");
+                harness.get_by_label_contains("oronary").click();
+                harness.run_steps(3);
+                settle(&mut harness);
+            }
+            memory.borrow_mut().trial_runs = true;
+            start(&mut harness);
+            harness.run_steps(5);
+            press(&mut harness, "Autopilot");
+            harness.run_steps(600);
+            save(&mut harness, &format!("trial-{name}-{sample}-on"));
+            harness.key_press(Key::C);
+            harness.key_press(Key::Num4);
+            harness.run_steps(8);
+            save(&mut harness, &format!("trial-{name}-{sample}-contrast"));
+            harness.get_by_role_and_label(Role::CheckBox, "Roadmap").click();
+            harness.ctx.set_theme(egui::Theme::Light);
+            harness.run_steps(60);
+            save(&mut harness, &format!("trial-{name}-{sample}-roadmap"));
+            press(&mut harness, "Compare with the unreduced surface");
+            harness.run_steps(5);
+            save(&mut harness, &format!("trial-{name}-{sample}-compared"));
+            press(&mut harness, "Tables III and IV");
+            harness.run_steps(60);
+            save(&mut harness, &format!("trial-{name}-{sample}-tables"));
+        }
+    }
+}
+
+fn save(harness: &mut App, name: &str) {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
+    let picture = harness.render().unwrap();
+    let colours: std::collections::BTreeSet<_> = picture.pixels().map(|pixel| pixel.0).collect();
+    assert!(colours.len() > 200, "{}", colours.len());
+    let mut encoder = png::Encoder::new(std::fs::File::create(path).unwrap(), picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(picture.as_raw()).unwrap();
+}
