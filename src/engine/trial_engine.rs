@@ -293,7 +293,8 @@ fn replay(shown: &mut Shown, csv: &[u8]) -> Result<(), String> {
         return Err("the log is of another surface, or of another level: open that first".to_owned());
     }
     let route = &course.route;
-    let is_same = recorded.setup.entry == shown.trial.setup().entry && recorded.setup.target == shown.trial.setup().target;
+    let is_same =
+        recorded.setup.entry == shown.trial.setup().entry && recorded.setup.target == shown.trial.setup().target;
     if !is_same {
         return Err(format!(
             "the log has another entry or target than the route of {:.0} mm that is shown: start a trial with those first",

@@ -122,7 +122,7 @@ impl Body {
             let (mut moved, mut potential) = (f64::INFINITY, None);
             for _ in 0..CORRECTIONS {
                 moved = self.correct(dt, brake, &mut potential);
-                if moved < SETTLED {
+                if moved < SETTLED || is_too_far(&self.rod) {
                     break;
                 }
             }

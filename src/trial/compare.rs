@@ -81,10 +81,12 @@ impl Difference {
         let clear = |trial: &Trial, p: DVec3| {
             trial.course().wall.index().foot(p, f64::INFINITY, u32::MAX).map_or(0.0, |foot| foot.distance)
         };
-        let widths: Vec<[f64; 2]> = route.points.iter().map(|p| [clear(reduced, p.at), clear(original, p.at)]).collect();
+        let widths: Vec<[f64; 2]> =
+            route.points.iter().map(|p| [clear(reduced, p.at), clear(original, p.at)]).collect();
         let wire = reduced.setup().wire.radius();
         let is_pinched = |width: &[f64; 2]| width[0] < PINCHED * width[1] || width[0] < wire;
-        let pinched = route.points.iter().zip(&widths).filter(|(_, width)| is_pinched(width)).map(|(p, _)| p.at).collect();
+        let pinched =
+            route.points.iter().zip(&widths).filter(|(_, width)| is_pinched(width)).map(|(p, _)| p.at).collect();
         let least = |which: usize| 2.0 * widths.iter().map(|width| width[which]).fold(f64::INFINITY, f64::min);
         let summaries = [reduced.summary(), original.summary()];
         let most = deviation.iter().map(|entry| entry[1]).fold(0.0, f64::max);
@@ -122,7 +124,11 @@ fn verdict([reduced, original]: &[Summary; 2], most: f64, [ends, ended]: [Progre
         (false, false) => {
             format!("This wire arrives on neither surface under this input; at {gone:.0} % {path}.")
         }
-        (true, false) => format!("At {gone:.0} % this wire arrives; under the same input it does not on the unreduced surface, and {path}."),
-        (false, true) => format!("At {gone:.0} % this wire does not arrive, and on the unreduced surface it does; {path}."),
+        (true, false) => format!(
+            "At {gone:.0} % this wire arrives; under the same input it does not on the unreduced surface, and {path}."
+        ),
+        (false, true) => {
+            format!("At {gone:.0} % this wire does not arrive, and on the unreduced surface it does; {path}.")
+        }
     }
 }

@@ -88,6 +88,8 @@ pub struct Rod {
     /// The twist at each node when it was last looked at: it may pass half a turn.
     twists: Vec<f64>,
     edges: Vec<Edge>,
+    /// Discrete curvatures and twist of each inner node as it is now.
+    strains: Vec<[f64; 3]>,
     gradient: Vec<f64>,
     band: Band,
     change: Vec<f64>,
@@ -96,27 +98,26 @@ pub struct Rod {
 }
 
 /// `v`, at right angles to `from`, carried to where `from` becomes `to` by the shortest turn; both of length 1.
-pub(super) fn carried(v: DVec3, from: DVec3, to: DVec3) -> DVec3 {
-    let axis = from.cross(to);
-    let cosine = from.dot(to);
-    if cosine < -0.999_999 {
-        // The turn is not defined; any will do that keeps it across.
-        return (v - to * to.dot(v)).try_normalize().unwrap_or_else(|| to.any_orthonormal_vector());
-    }
-    let turned = v * cosine + axis.cross(v) + axis * (axis.dot(v) / (1.0 + cosine));
-    // Rounding adds up over many steps.
-    (turned - to * to.dot(turned)).normalize_or(v)
+fn carried(v: DVec3, from: DVec3, to: DVec3) -> DVec3 {
+    v - (from + to) * (to.dot(v) / chi(from, to))
 }
 
-/// The angle by which `a` must turn about `axis` to become `b`, in radians.
-fn angle_about(axis: DVec3, a: DVec3, b: DVec3) -> f64 {
-    libm::atan2(axis.dot(a.cross(b)), a.dot(b))
+/// The angle of a sine and a cosine, in radians.
+fn angle(sine: f64, cosine: f64) -> f64 {
+    if cosine < 0.87 {
+        return libm::atan2(sine, cosine);
+    }
+    // Twice the arc tangent of the half angle's tangent, which is at most 0.27: the rest of the series is below 1e-10.
+    let t = sine / (1.0 + cosine);
+    let s = t * t;
+    let tail = 1.0 / 9.0 - s * (1.0 / 11.0 - s * (1.0 / 13.0 - s / 15.0));
+    2.0 * t * (1.0 - s * (1.0 / 3.0 - s * (0.2 - s * (1.0 / 7.0 - s * tail))))
 }
 
 /// `angle` plus the number of whole turns that brings it next to `near`.
 fn unwrapped(angle: f64, near: f64) -> f64 {
-    use std::f64::consts::TAU;
-    angle + TAU * ((near - angle) / TAU).round()
+    use std::f64::consts::{PI, TAU};
+    if (near - angle).abs() <= PI { angle } else { angle + TAU * ((near - angle) / TAU).round() }
 }
 
 impl Rod {
@@ -229,23 +230,32 @@ impl Rod {
             let [before, director] = self.frames[i];
             let tangent = if length > 0.0 { along / length } else { before };
             let across = carried(director, before, tangent);
-            let (sine, cosine) = libm::sincos(self.spins[i]);
-            let m1 = across * cosine + tangent.cross(across) * sine;
+            let m1 = if self.spins[i] == 0.0 {
+                across
+            } else {
+                let (sine, cosine) = libm::sincos(self.spins[i]);
+                across * cosine + tangent.cross(across) * sine
+            };
             *edge = Edge { length, tangent, m1, m2: tangent.cross(m1) };
+        }
+        self.strains.resize(self.len(), [0.0; 3]);
+        for i in 1..self.edges.len() {
+            let (a, b) = (&self.edges[i - 1], &self.edges[i]);
+            let binormal = a.tangent.cross(b.tangent) * (2.0 / chi(a.tangent, b.tangent));
+            let director = carried(a.m1, a.tangent, b.tangent);
+            let twist = unwrapped(angle(-director.dot(b.m2), director.dot(b.m1)), self.twists[i]);
+            self.strains[i] = [0.5 * binormal.dot(a.m2 + b.m2), -0.5 * binormal.dot(a.m1 + b.m1), twist];
         }
     }
 
     /// The twist at an inner node, in radians.
     pub fn twist(&self, node: usize) -> f64 {
-        let (a, b) = (&self.edges[node - 1], &self.edges[node]);
-        unwrapped(angle_about(b.tangent, carried(a.m1, a.tangent, b.tangent), b.m1), self.twists[node])
+        self.strains[node][2]
     }
 
-    /// The discrete curvature at an inner node: towards the directors, and across.
+    /// The discrete curvature at an inner node: towards the director, and across.
     pub fn curvature(&self, node: usize) -> [f64; 2] {
-        let (a, b) = (&self.edges[node - 1], &self.edges[node]);
-        let binormal = a.tangent.cross(b.tangent) * (2.0 / chi(a.tangent, b.tangent));
-        [0.5 * binormal.dot(a.m2 + b.m2), -0.5 * binormal.dot(a.m1 + b.m1)]
+        [self.strains[node][0], self.strains[node][1]]
     }
 
     /// Elastic energy in N mm.
@@ -343,14 +353,12 @@ impl Rod {
 
     fn add_bend(&mut self, i: usize) {
         let Section { cell, ei, gj, rest, .. } = self.sections[i];
-        let twist = self.twist(i);
+        let [k1, k2, twist] = self.strains[i];
         let (a, b) = (self.edges[i - 1], self.edges[i]);
         let inverse = 1.0 / chi(a.tangent, b.tangent);
         let binormal = a.tangent.cross(b.tangent) * (2.0 * inverse);
         let middle = (a.tangent + b.tangent) * inverse;
         let (m1, m2) = ((a.m1 + b.m1) * inverse, (a.m2 + b.m2) * inverse);
-        let k1 = 0.5 * binormal.dot(a.m2 + b.m2);
-        let k2 = -0.5 * binormal.dot(a.m1 + b.m1);
         let (la, lb) = (1.0 / a.length, 1.0 / b.length);
         let k1_a = (b.tangent.cross(m2) - middle * k1) * la;
         let k1_b = (-a.tangent.cross(m2) - middle * k1) * lb;
@@ -464,7 +472,8 @@ impl Rod {
             self.twists[i] = self.twist(i);
         }
         for (frame, edge) in self.frames.iter_mut().zip(&self.edges) {
-            *frame = [edge.tangent, edge.m1];
+            // Rounding adds up over many steps.
+            *frame = [edge.tangent, edge.m1.reject_from_normalized(edge.tangent).normalize_or(edge.m1)];
         }
         self.start.clone_from(&self.positions);
         self.spins.fill(0.0);
