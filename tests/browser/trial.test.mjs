@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { settled } from "./app.mjs";
-import { eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 /** How long the autopilot may take. */
 const LIMIT = 120_000;
@@ -37,6 +37,10 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
 
   const downloads = [];
   page.on("download", (download) => downloads.push(download));
+  // It is at the foot of the panel.
+  await page.mouse.move(150, 600);
+  await page.mouse.wheel(0, 3000);
+  await frames(page, 20);
   await press(page, "button", "Save log");
   await eventually(() => downloads.length, (count) => count === 2, { what: "the log's two files" });
   const files = {};
