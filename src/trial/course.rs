@@ -56,7 +56,8 @@ pub struct Course {
 }
 
 impl Course {
-    /// Finds the way, and fills in what `setup` leaves open: samples bring their own entry and target.
+    /// Finds the way, and fills in what `setup` leaves open: samples bring their own entry and target, and an entry without
+    /// a direction points along the way.
     ///
     /// # Errors
     /// When there is no way for this wire.
@@ -76,6 +77,10 @@ impl Course {
         let target = *setup.target.get_or_insert(targets.first().ok_or(TrialError::NoTarget)?.1);
         let route = tree.route(Vec3::from(entry.at), Vec3::from(target))?;
         route.clearance(setup.wire.diameter_mm)?;
+        if entry.direction == [0.0; 3] {
+            let direction = route.at(0.0).direction.as_vec3().to_array();
+            setup.entry = Some(Entry { direction, ..entry });
+        }
         let route_ms = milliseconds(start);
         let fingerprint = fingerprint(mesh);
         Ok(Self { wall, tree, route, entries, targets, wall_ms, route_ms, fingerprint })

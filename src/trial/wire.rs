@@ -41,12 +41,14 @@ impl Default for Wire {
     }
 }
 
+/// Name, diameter, EI at the tip and of the shaft, soft part and taper, bend, its angle, straight end.
+type Numbers = (&'static str, f64, [f64; 2], [f64; 2], f64, f64, f64);
+
 /// The wires that Lumen brings, each with where its numbers are from.
 ///
 /// `guidewire.md` in the notes gives the figures: a solid core's `EI = E pi d^4 / 64`; tip loads as Euler loads over
 /// 10 mm; measured moduli of 0.035 in wires (Harrison 2011, J Endovasc Ther 18:797).
-const PRESETS: [(&str, f64, [f64; 2], [f64; 2], f64, f64, f64); 6] = [
-    // name, diameter, [EI at the tip, of the shaft], [soft, taper], bend length, bend angle, straight end
+const PRESETS: [Numbers; 6] = [
     // 0.06 mm of steel at the tip; a shaft of nitinol of 0.356 mm. The tip is bent by 45 degrees 3 mm from its end, for a
     // main stem of 4 mm.
     ("floppy", 0.356, [0.05, 38.0], [30.0, 300.0], 5.0, 45.0, 3.0),

@@ -29,6 +29,7 @@ pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
         Progress::Arrived => "Success: the tip is at the target.",
         Progress::TimedOut => "Failed: the time is over.",
         Progress::GaveUp => "Failed: the autopilot gave up.",
+        Progress::Over => "The recorded input is over.",
         Progress::Running if trial.is_paused => "Paused.",
         Progress::Running if frame.is_looped => "The wire has turned back on itself: withdraw.",
         Progress::Running if frame.is_wrong_branch => "Wrong branch: withdraw and roll.",

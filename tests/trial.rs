@@ -1,0 +1,174 @@
+//! The trial on the samples: the autopilot arrives wherever the lumen is open, logs replay, differences are told.
+//!
+//! Whether a lumen is open is decided beforehand by `audit`, which shares no code with the solver.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lumen::io::import_mesh;
+use lumen::mesh::TriMesh;
+use lumen::phantom::{Sample, generate};
+use lumen::pipeline::run::Pipeline;
+use lumen::pipeline::settings::{Settings, Smoothing, Target};
+use lumen::trial::audit::Audit;
+use lumen::trial::compare::Difference;
+use lumen::trial::course::{Course, TrialError};
+use lumen::trial::frame::Progress;
+use lumen::trial::log::Log;
+use lumen::trial::setup::{Entry, Input, Setup};
+use lumen::trial::trial::Trial;
+use lumen::trial::wire::Wire;
+
+/// Levels of a sample at rates in tenths of a percent, smoothed so that thin vessels stay open.
+fn levels(sample: Sample, triangles: usize, rates: &[u32]) -> Vec<Arc<TriMesh>> {
+    let mesh = import_mesh(generate(sample, triangles).unwrap(), "sample").mesh;
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
+    let settings = Settings { smoothing, ..Settings::default() };
+    let mut pipeline = Pipeline::new(Arc::new(mesh), settings).without_measures();
+    let level = |&rate: &u32| {
+        let settings = Settings { target: Target::Reduction(rate), ..pipeline.settings().clone() };
+        pipeline.set(settings).unwrap();
+        pipeline.finish().unwrap();
+        pipeline.reduced().unwrap().mesh.clone()
+    };
+    rates.iter().map(level).collect()
+}
+
+fn setup(sample: Sample) -> Setup {
+    let name = if sample == Sample::Aorta { "035-j" } else { "workhorse" };
+    Setup { wire: Wire::preset(name).unwrap(), ..Setup::default() }
+}
+
+fn steered(course: &Arc<Course>, setup: &Setup) -> Trial {
+    let mut trial = Trial::new(course.clone(), setup.clone()).unwrap();
+    trial.set_autopilot(true);
+    trial.finish();
+    trial
+}
+
+/// Runs ten seeds at each rate where the lumen is open; names those that do not arrive.
+fn arrives(sample: Sample, triangles: usize, rates: &[u32], seeds: u64) {
+    let mut failures = Vec::new();
+    let mut open = 0;
+    for (mesh, rate) in levels(sample, triangles, rates).iter().zip(rates) {
+        let mut setup = setup(sample);
+        let course = Arc::new(Course::new(mesh, Some(sample), &mut setup).unwrap());
+        let audit = Audit::new(mesh);
+        let middle: Vec<DVec3> = course.route.points.iter().map(|point| point.at).collect();
+        if audit.is_open(&middle, setup.wire.diameter_mm).is_err() {
+            continue;
+        }
+        open += 1;
+        for seed in 0..seeds {
+            let trial = steered(&course, &Setup { seed, ..setup.clone() });
+            let summary = trial.summary();
+            if !summary.success {
+                failures.push(format!("{sample} at {} %, seed {seed}: {}", f64::from(*rate) / 10.0, summary.reason));
+            }
+            let nodes: Vec<DVec3> = trial.simulation().nodes().collect();
+            let depth = audit.penetration(&nodes, setup.wire.radius());
+            assert!(depth <= 0.05 * setup.wire.radius(), "{sample} at {rate}, seed {seed}: {depth} mm into the wall");
+            assert!(summary.max_penetration_mm <= 0.05 * setup.wire.radius(), "{summary:?}");
+        }
+    }
+    assert!(open >= 2, "{sample} is open at {open} rates only");
+    assert!(failures.is_empty(), "{} trials do not arrive:\n{}", failures.len(), failures.join("\n"));
+}
+
+#[test]
+fn the_autopilot_arrives_in_the_aorta() {
+    arrives(Sample::Aorta, 74_307, &[0, 500, 900, 950, 990], 10);
+}
+
+#[test]
+fn the_autopilot_arrives_in_the_coronary_tree() {
+    arrives(Sample::Coronary, 380_000, &[0, 900, 950, 990], 10);
+}
+
+#[test]
+fn the_same_trial_has_the_same_bits_and_its_log_replays_to_the_same_end() {
+    let mesh = &levels(Sample::Aorta, 30_000, &[900])[0];
+    let mut setup = Setup { seed: 7, ..setup(Sample::Aorta) };
+    let course = Arc::new(Course::new(mesh, Some(Sample::Aorta), &mut setup).unwrap());
+    let [first, second] = [(), ()].map(|()| steered(&course, &setup));
+    let bits = |trial: &Trial| -> Vec<u64> {
+        trial.simulation().nodes().flat_map(|p| p.to_array()).map(f64::to_bits).collect()
+    };
+    assert_eq!(bits(&first), bits(&second));
+    let csv = first.log().csv(first.summary().steps).unwrap();
+    let recorded = Log::read(csv.as_bytes()).unwrap();
+    assert_eq!(recorded.setup, setup);
+    let mut replayed = Trial::new(course.clone(), recorded.setup).unwrap();
+    replayed.replay(recorded.inputs, recorded.steps);
+    replayed.finish();
+    assert_eq!(bits(&first), bits(&replayed));
+    assert_eq!(replayed.progress(), Progress::Arrived);
+    // A trial differs from itself by nothing, and from that on another level by something.
+    let mut again = first.on(mesh).unwrap();
+    again.finish();
+    let difference = Difference::new(&first, &again);
+    assert!(difference.deviation.iter().all(|entry| entry[1] == 0.0) && difference.forces.is_empty());
+    assert!(difference.verdict.contains("arrives") && difference.verdict.contains("0.0 mm"), "{}", difference.verdict);
+    assert_eq!(difference.smallest_mm[0], difference.smallest_mm[1]);
+}
+
+#[test]
+fn a_log_that_is_none_is_refused_with_its_line() {
+    let refused = |text: &str| Log::read(text.as_bytes()).unwrap_err().to_string();
+    assert!(refused("step,time\n1,2\n").contains("no log"));
+    assert!(refused("# lumen trial log, schema 99\n").contains("99"));
+    let head = format!("# lumen trial log, schema 1\n# setup {}\n", serde_json::to_string(&Setup::default()).unwrap());
+    let columns = "step,time_s,feed_mm_s,roll_rad_s,rest\n";
+    for (lines, line) in [("0,0,x,0\n", "line 4"), ("0,0,1\n", "line 4"), ("0,0,1,0\n0,0,1,0\n", "line 5"), ("a,0,1,0\n", "line 4")] {
+        let message = refused(&format!("{head}{columns}{lines}"));
+        assert!(message.contains(line), "{message}");
+    }
+    assert!(refused(&format!("{head}1,2,3,4\n")).contains("columns"));
+}
+
+#[test]
+fn stepping_back_leads_to_where_it_was() {
+    let mesh = &levels(Sample::Aorta, 30_000, &[900])[0];
+    let mut setup = setup(Sample::Aorta);
+    let course = Arc::new(Course::new(mesh, Some(Sample::Aorta), &mut setup).unwrap());
+    let mut trial = Trial::new(course, setup).unwrap();
+    trial.drive(Input { feed: 25.0, roll: 1.0 });
+    (0..1000).for_each(|_| trial.step());
+    let there: Vec<DVec3> = trial.simulation().nodes().collect();
+    (0..400).for_each(|_| trial.step());
+    trial.step_back();
+    assert_eq!(trial.simulation().steps(), 1000);
+    assert_eq!(trial.simulation().nodes().collect::<Vec<_>>(), there);
+    for _ in 0..9 {
+        trial.step_back();
+    }
+    assert_eq!(trial.simulation().steps(), 0);
+}
+
+#[test]
+fn what_cannot_be_tried_gets_a_sentence() {
+    let mesh = &levels(Sample::Aorta, 30_000, &[900])[0];
+    let sample = Some(Sample::Aorta);
+    let refused = |change: &dyn Fn(&mut Setup)| -> TrialError {
+        let mut setup = setup(Sample::Aorta);
+        change(&mut setup);
+        let course = match Course::new(mesh, sample, &mut setup) {
+            Ok(course) => course,
+            Err(error) => return error,
+        };
+        Trial::new(Arc::new(course), setup).err().unwrap()
+    };
+    let outside = Entry { at: [500.0, 0.0, 0.0], direction: [0.0, 0.0, 1.0] };
+    assert!(refused(&|setup| setup.entry = Some(outside)).to_string().contains("outside"));
+    assert!(refused(&|setup| setup.target = Some([0.0, 900.0, 0.0])).to_string().contains("outside"));
+    assert!(refused(&|setup| setup.wire.diameter_mm = 9.9).to_string().contains("too thin"));
+    assert!(refused(&|setup| setup.wire.diameter_mm = f64::NAN).to_string().contains("diameter"));
+    assert!(refused(&|setup| setup.wire.elements_mm = [0.0, 1.0]).to_string().contains("element"));
+    let mut inside_out = (**mesh).clone();
+    inside_out.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    let mut turned = setup(Sample::Aorta);
+    let error = Course::new(&Arc::new(inside_out), sample, &mut turned).unwrap_err();
+    assert!(error.to_string().contains("inside out"), "{error}");
+    let mut empty = setup(Sample::Aorta);
+    assert!(Course::new(&Arc::new(TriMesh::default()), sample, &mut empty).is_err());
+}

@@ -1,0 +1,90 @@
+//! Random input, for 50,000 steps: no number that is none, nothing through the wall, nothing farther into it than 5 % of
+//! the wire's radius. `LUMEN_FUZZ_STEPS` asks for more (`cargo xtask fuzz-trial`: a million).
+//!
+//! Penetration is measured on capsules against triangles in f64, escape by winding numbers: by `audit`, which shares
+//! nothing with the contact solver.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lumen::io::import_mesh;
+use lumen::phantom::{Sample, generate};
+use lumen::pipeline::run::Pipeline;
+use lumen::pipeline::settings::{Settings, Smoothing, Target};
+use lumen::trial::audit::Audit;
+use lumen::trial::course::Course;
+use lumen::trial::setup::{Input, Setup};
+use lumen::trial::wire::Wire;
+
+/// Steps between two audits: nothing moves farther than 3.2 mm meanwhile.
+const AUDITED: u64 = 20;
+
+struct Chance(u64);
+
+impl Chance {
+    /// 0 to 1.
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
+    let mesh = import_mesh(generate(sample, 60_000).unwrap(), "sample").mesh;
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
+    let settings = Settings { smoothing, target: Target::Reduction(rate), ..Settings::default() };
+    let mut pipeline = Pipeline::new(Arc::new(mesh), settings).without_measures();
+    pipeline.finish().unwrap();
+    let mesh = pipeline.reduced().unwrap().mesh.clone();
+    let mut setup = Setup { wire: Wire::preset(wire).unwrap(), ..Setup::default() };
+    let course = Course::new(&mesh, Some(sample), &mut setup).unwrap();
+    let (mut simulation, _) = course.place(&setup).unwrap();
+    let audit = Audit::new(&mesh);
+    let radius = setup.wire.radius();
+    let mut chance = Chance(0x2545_f491_4f6c_dd1d ^ u64::from(rate));
+    let (mut input, mut deepest, mut longest) = (Input::default(), 0.0f64, 0.0f64);
+    for step in 0..steps {
+        if step % 50 == 0 || chance.next() < 0.01 {
+            // Mostly in, sometimes out, now and then beyond what is allowed or no number at all.
+            let feed = if chance.next() < 0.7 { 50.0 * chance.next() } else { -50.0 * chance.next() };
+            let roll = (chance.next() - 0.5) * 26.0;
+            input = Input { feed: feed as f32, roll: roll as f32 };
+            if chance.next() < 0.02 {
+                input = Input { feed: f32::NAN, roll: 1e30 };
+            }
+        }
+        simulation.step(input);
+        longest = longest.max(simulation.inserted());
+        if step % AUDITED == 0 {
+            let nodes: Vec<DVec3> = simulation.nodes().collect();
+            assert!(nodes.iter().all(|p| p.is_finite()), "{sample} at {rate}: no number at step {step}");
+            let depth = audit.penetration(&nodes, radius);
+            assert!(depth <= 0.05 * radius, "{sample} at {rate}, step {step}: {:.1} % into the wall", 100.0 * depth / radius);
+            deepest = deepest.max(depth);
+        }
+        if step % (10 * AUDITED) == 0 {
+            for p in simulation.nodes() {
+                let winding = audit.winding(p);
+                assert!(winding > 0.5, "{sample} at {rate}, step {step}: {p} is outside, winding number {winding}");
+            }
+        }
+    }
+    println!("{sample} at {rate}: {steps} steps, {:.2} % of the radius deep, {longest:.0} mm inserted", 100.0 * deepest / radius);
+    assert!(longest > 20.0, "the wire did not come in");
+}
+
+fn steps() -> u64 {
+    std::env::var("LUMEN_FUZZ_STEPS").ok().and_then(|text| text.parse().ok()).unwrap_or(50_000)
+}
+
+#[test]
+fn a_thin_wire_in_the_coronary_tree() {
+    fuzz(Sample::Coronary, "workhorse", 900, steps() / 2);
+}
+
+#[test]
+fn a_thick_wire_in_the_aorta() {
+    fuzz(Sample::Aorta, "035-j", 990, steps() / 2);
+}
