@@ -15,8 +15,8 @@ use lumen::trial::compare::Difference;
 use lumen::trial::course::{Course, TrialError};
 use lumen::trial::frame::Progress;
 use lumen::trial::log::Log;
+use lumen::trial::session::Trial;
 use lumen::trial::setup::{Entry, Input, Setup};
-use lumen::trial::trial::Trial;
 use lumen::trial::wire::Wire;
 
 /// Levels of a sample at rates in tenths of a percent, smoothed so that thin vessels stay open.
@@ -119,7 +119,9 @@ fn a_log_that_is_none_is_refused_with_its_line() {
     assert!(refused("# lumen trial log, schema 99\n").contains("99"));
     let head = format!("# lumen trial log, schema 1\n# setup {}\n", serde_json::to_string(&Setup::default()).unwrap());
     let columns = "step,time_s,feed_mm_s,roll_rad_s,rest\n";
-    for (lines, line) in [("0,0,x,0\n", "line 4"), ("0,0,1\n", "line 4"), ("0,0,1,0\n0,0,1,0\n", "line 5"), ("a,0,1,0\n", "line 4")] {
+    for (lines, line) in
+        [("0,0,x,0\n", "line 4"), ("0,0,1\n", "line 4"), ("0,0,1,0\n0,0,1,0\n", "line 5"), ("a,0,1,0\n", "line 4")]
+    {
         let message = refused(&format!("{head}{columns}{lines}"));
         assert!(message.contains(line), "{message}");
     }

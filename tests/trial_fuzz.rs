@@ -61,7 +61,11 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
             let nodes: Vec<DVec3> = simulation.nodes().collect();
             assert!(nodes.iter().all(|p| p.is_finite()), "{sample} at {rate}: no number at step {step}");
             let depth = audit.penetration(&nodes, radius);
-            assert!(depth <= 0.05 * radius, "{sample} at {rate}, step {step}: {:.1} % into the wall", 100.0 * depth / radius);
+            assert!(
+                depth <= 0.05 * radius,
+                "{sample} at {rate}, step {step}: {:.1} % into the wall",
+                100.0 * depth / radius
+            );
             deepest = deepest.max(depth);
         }
         if step % (10 * AUDITED) == 0 {
@@ -71,7 +75,10 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
             }
         }
     }
-    println!("{sample} at {rate}: {steps} steps, {:.2} % of the radius deep, {longest:.0} mm inserted", 100.0 * deepest / radius);
+    println!(
+        "{sample} at {rate}: {steps} steps, {:.2} % of the radius deep, {longest:.0} mm inserted",
+        100.0 * deepest / radius
+    );
     assert!(longest > 20.0, "the wire did not come in");
 }
 

@@ -1,15 +1,17 @@
 //! A wire that is fed into tubes.
 
-mod common;
+#[path = "common/tubes.rs"]
+mod tubes;
 
 use std::sync::Arc;
 
-use common::tubes::{curve, tube};
 use lumen::trial::body::Stepped;
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
 use lumen::trial::wire::Wire;
+
+use tubes::{curve, tube};
 
 #[test]
 fn a_wire_follows_a_bend() {
@@ -47,7 +49,7 @@ fn a_wire_follows_a_bend() {
         }
         println!(
             "{name}: {steps} steps, {:.0} per s, braked {braked}, held {held}, deepest {:.2} % of radius, most {most:.3} N, push {push:.3} N, tip {:.2}",
-            steps as f64 / start.elapsed().as_secs_f64(),
+            f64::from(steps) / start.elapsed().as_secs_f64(),
             100.0 * deepest / wire.radius(),
             simulation.tip()
         );
@@ -63,7 +65,9 @@ fn the_tip_is_bent_to_its_side_by_its_angle() {
         for _ in 0..500 {
             simulation.step(Input { feed: 30.0, roll: 0.0 });
         }
-        (0..2000).for_each(|_| drop(simulation.step(Input::default())));
+        for _ in 0..2000 {
+            simulation.step(Input::default());
+        }
         let behind = simulation.grid().partition_point(|&at| at < wire.bend_mm + 1.0);
         let (rod, tip) = (&simulation.body().rod, simulation.tip());
         let side = rod.director(behind);

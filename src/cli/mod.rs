@@ -12,6 +12,7 @@ mod sheet;
 mod source;
 mod tables;
 mod trial;
+mod trial_tables;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -51,7 +52,7 @@ pub enum Command {
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
     Phantom(phantom::Phantom),
-    /// Make Tables I and II of the paper for a surface, the paper's numbers beside them
+    /// Make Tables I and II of the paper for a surface, or III and IV, the paper's numbers beside them
     Tables(tables::Tables),
     /// Steer a guidewire through a surface by autopilot
     Trial(trial::Trial),

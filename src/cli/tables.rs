@@ -19,12 +19,16 @@ use crate::pipeline::report::Report;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::{Keep, reduction_percent};
 
-/// Makes Tables I and II of the paper.
+/// Makes Tables I and II of the paper, or III and IV.
 #[derive(Debug, Args)]
 pub struct Tables {
     /// A surface file, or sample:aorta, sample:coronary
     #[arg(default_value = "sample:aorta")]
     file: String,
+    /// Tables III and IV instead: the autopilot's trial at the paper's rates, on the aorta and on the whole tree, or on
+    /// the file
+    #[arg(long)]
+    trial: bool,
     /// How to write them; without it, what the extension of OUT says (.csv, .md), else text
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Form>,
@@ -64,6 +68,9 @@ impl Tables {
         if self.output.as_ref().is_some_and(|output| same_file(Path::new(&self.file), output)) {
             misuse(format!("{} would be overwritten: choose another output", self.file));
         }
+        if self.trial {
+            return self.write(&super::trial_tables::sheet(&self.file, self.unit)?);
+        }
         let imported = source::read(&self.file, self.unit)?;
         let degenerate = imported.report.degenerate_triangles;
         let pipeline = Pipeline::new(Arc::new(imported.mesh), paper::reduced(paper::TABLE_II[0].0, Keep::Largest));
@@ -81,6 +88,14 @@ impl Tables {
             notes: notes(&self.file, first),
             tables: vec![table_1(first, degenerate), table_2(&levels)],
         };
+        self.write(&sheet)?;
+        for shortfall in levels.iter().filter_map(|(.., report)| report.shortfall.as_ref()) {
+            eprintln!("lumen: warning: {shortfall}");
+        }
+        Ok(())
+    }
+
+    fn write(&self, sheet: &Sheet) -> Result<()> {
         let form = self.format.or_else(|| self.output.as_deref().map(Form::of)).unwrap_or(Form::Text);
         let written = match form {
             Form::Text => sheet.text(),
@@ -90,9 +105,6 @@ impl Tables {
         match &self.output {
             Some(path) => write_whole(path, written.as_bytes())?,
             None => print!("{written}"),
-        }
-        for shortfall in levels.iter().filter_map(|(.., report)| report.shortfall.as_ref()) {
-            eprintln!("lumen: warning: {shortfall}");
         }
         Ok(())
     }

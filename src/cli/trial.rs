@@ -15,8 +15,8 @@ use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::{Settings, Smoothing, Target};
 use crate::trial::course::Course;
 use crate::trial::frame::Summary;
+use crate::trial::session::Trial as Run;
 use crate::trial::setup::{Entry, Setup};
-use crate::trial::trial::Trial as Run;
 use crate::trial::wire::Wire;
 
 /// Steers a guidewire through a surface.

@@ -14,8 +14,8 @@ use crate::trial::compare::Difference;
 use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
+use crate::trial::session::Trial;
 use crate::trial::setup::Setup;
-use crate::trial::trial::Trial;
 
 /// Seconds by which the trial may be behind the clock before it slows down.
 const BEHIND: f64 = 0.05;

@@ -184,10 +184,10 @@ impl Segment {
     fn squared_distances(&self, node: &Node) -> [f32; 4] {
         let mut boxes = Vec4::ZERO;
         let (mut from, mut half) = ([Vec4::ZERO; 3], Vec4::ZERO);
-        for axis in 0..3 {
+        for (axis, from) in from.iter_mut().enumerate() {
             let gap = (node.min[axis] - self.max[axis]).max(self.min[axis] - node.max[axis]).max(Vec4::ZERO);
             boxes += gap * gap;
-            from[axis] = (node.min[axis] + node.max[axis]) * 0.5 - self.start[axis];
+            *from = (node.min[axis] + node.max[axis]) * 0.5 - self.start[axis];
             let side = (node.max[axis] - node.min[axis]) * 0.5;
             half += side * side;
         }

@@ -26,6 +26,8 @@ const ALMOST: f64 = 2e-2;
 const BRAKE: f64 = 1e-6;
 /// The brake, in N s/mm, above which what is held waits: else it would be torn away from what cannot follow.
 const PATIENCE: f64 = 1e-5;
+/// Moves of less than this in a step are stillness, in mm.
+const STILL: f64 = 0.005;
 /// By what it grows when that is too little, and falls when it was enough.
 const HARDER: f64 = 4.0;
 /// What a contact's force can rise by while the rod is braked, in N: the rest is what the brake does.
@@ -58,12 +60,21 @@ pub struct Body {
     wall: Option<Arc<Wall>>,
     /// Drag of each node beyond its own in the last step, in N s/mm.
     brake: f64,
+    /// Whether nothing moved much in the last step: then waiting has no end, and what is held goes on.
+    is_still: bool,
 }
 
 impl Body {
     /// A rod of a radius in mm in a vessel, or without one.
     pub fn new(rod: Rod, radius: f64, friction: [f64; 2], wall: Option<Arc<Wall>>) -> Self {
-        Self { rod, contacts: Contacts::new(radius, friction), depth: f64::NEG_INFINITY, wall, brake: 0.0 }
+        Self {
+            rod,
+            contacts: Contacts::new(radius, friction),
+            depth: f64::NEG_INFINITY,
+            wall,
+            brake: 0.0,
+            is_still: false,
+        }
     }
 
     /// The wall.
@@ -87,12 +98,14 @@ impl Body {
             brake = 0.0;
         }
         for _ in 0..ATTEMPTS {
-            let waits = brake > PATIENCE;
+            let waits = brake > PATIENCE && !self.is_still;
             if !waits {
                 prepare(&mut self.rod);
             }
             self.rod.refresh();
             if self.try_step(dt, count, brake) {
+                let moved = (0..self.rod.len()).map(|i| self.rod.positions[i].distance(self.rod.start(i)));
+                self.is_still = moved.fold(0.0, f64::max) < STILL;
                 self.contacts.finish(&self.rod, if brake > 0.0 { BRAKED_RISE } else { f64::INFINITY });
                 self.rod.finish(dt);
                 self.brake = brake;

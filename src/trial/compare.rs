@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::course::{Course, TrialError, milliseconds};
 use super::frame::{Progress, Summary};
 use super::log::Row;
-use super::trial::Trial;
+use super::session::Trial;
 use super::wall::Wall;
 use crate::mesh::TriMesh;
 use crate::pipeline::run::fingerprint;

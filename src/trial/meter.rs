@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::STEP;
 use super::frame::{Progress, StationResult, StepTimes, Summary};
 use super::route::Route;
+use super::session::Trial;
 use super::simulation::Simulation;
-use super::trial::Trial;
 
 /// Version of the fields of [`Summary`] and of the columns of the log.
 pub const SCHEMA: u32 = 1;

@@ -20,9 +20,9 @@ pub mod log;
 pub mod meter;
 pub mod rod;
 pub mod route;
+pub mod session;
 pub mod setup;
 pub mod simulation;
-pub mod trial;
 pub mod wall;
 pub mod wire;
 

@@ -173,8 +173,8 @@ impl Simulation {
         let (first, inserted) = (self.outside(), self.inserted);
         let (mouth, way, grid) = (self.mouth, self.way, &self.grid);
         let prepare = |rod: &mut Rod| {
-            for i in first..rod.len() {
-                rod.positions[i] = mouth + way * (inserted - grid[i]);
+            for (position, at) in rod.positions.iter_mut().zip(grid).skip(first) {
+                *position = mouth + way * (inserted - at);
             }
             // Tangents look back to the guide.
             (first..rod.len()).for_each(|i| rod.turn_to(i, if i == first { -turn } else { 0.0 }));

@@ -5,7 +5,6 @@ use std::path::Path;
 use libtest_mimic::{Arguments, Trial};
 
 mod data;
-pub mod tubes;
 
 use data::data;
 

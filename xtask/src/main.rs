@@ -1,4 +1,4 @@
-//! Developer commands: `cargo xtask serve | build | test | peers | curve`.
+//! Developer commands: `cargo xtask serve | build | test | peers | curve | fuzz-trial`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -6,6 +6,7 @@
 mod build;
 mod curve;
 mod document;
+mod fuzz;
 mod page;
 mod peers;
 mod serve;
@@ -46,6 +47,12 @@ enum Command {
     },
     /// Run Lumen beside VTK, meshoptimizer and fast-simplification and write docs/benchmarks.md.
     Peers(peers::Options),
+    /// Steer a wire by random input and look that it stays inside.
+    FuzzTrial {
+        /// Steps of 2 ms.
+        #[arg(long, default_value_t = 1_000_000)]
+        steps: u64,
+    },
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
 }
@@ -56,6 +63,7 @@ fn main() -> ExitCode {
         Command::Build => build::build().map(|_| ()),
         Command::Test { only } => test::test(&only),
         Command::Peers(options) => peers::peers(&options),
+        Command::FuzzTrial { steps } => fuzz::fuzz(steps),
         Command::Curve => curve::curve(),
     };
     if let Err(error) = done {

@@ -1,0 +1,103 @@
+//! What a step of the trial costs, against triangles and against nodes: `cargo bench --bench trial --no-default-features`.
+//!
+//! The wire is as soft as a thread, so that most of it lies against the wall. It is fed into the coronary sample,
+//! unreduced, until it has the nodes; then one scripted input moves it to and fro. Arguments are triangle counts or, with
+//! an `n` behind them, node counts: `-- 10000 1000000 300n`.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use lumen::io::import_mesh;
+use lumen::mesh::TriMesh;
+use lumen::phantom::{Sample, generate};
+use lumen::pipeline::run::Pipeline;
+use lumen::pipeline::settings::{Settings, Smoothing, Target};
+use lumen::trial::course::Course;
+use lumen::trial::session::Trial;
+use lumen::trial::setup::{Input, Setup};
+use lumen::trial::wire::Wire;
+
+/// Length of the wire outside the guide, in mm.
+const LENGTH: f64 = 100.0;
+/// Nodes where triangles vary.
+const NODES: usize = 300;
+/// Triangles where nodes vary.
+const TRIANGLES: usize = 380_000;
+/// Steps that are timed.
+const STEPS: u64 = 3000;
+
+fn main() {
+    let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    let is_nodes = |text: &&String| text.ends_with('n');
+    let number =
+        |text: &String| text.trim_end_matches('n').parse().expect("a number of triangles, or of nodes with an n");
+    let mut triangles: Vec<usize> = asked.iter().filter(|text| !is_nodes(text)).map(number).collect();
+    let mut nodes: Vec<usize> = asked.iter().filter(is_nodes).map(number).collect();
+    if asked.is_empty() {
+        triangles = vec![10_000, 100_000, 1_000_000, 4_000_000];
+        nodes = vec![50, 100, 200, 400, 800];
+    }
+    println!("| triangles | nodes | touching | mean ms | p50 | p99 | max | steps/s | boxes ms |");
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for count in triangles {
+        let mesh =
+            Arc::new(import_mesh(generate(Sample::Coronary, count.max(60_000)).expect("a sample"), "sample").mesh);
+        measure(&level(mesh, count), NODES);
+    }
+    if !nodes.is_empty() {
+        let mesh = Arc::new(import_mesh(generate(Sample::Coronary, TRIANGLES).expect("a sample"), "sample").mesh);
+        let mesh = level(mesh, TRIANGLES);
+        nodes.into_iter().for_each(|count| measure(&mesh, count));
+    }
+}
+
+fn level(mesh: Arc<TriMesh>, count: usize) -> Arc<TriMesh> {
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
+    let settings = Settings { smoothing, target: Target::Triangles(count as u32), ..Settings::default() };
+    let mut pipeline = Pipeline::new(mesh, settings).without_measures();
+    pipeline.finish().expect("settings that are allowed");
+    pipeline.reduced().expect("a level").mesh.clone()
+}
+
+fn measure(mesh: &Arc<TriMesh>, nodes: usize) {
+    let wire = Wire {
+        shaft_ei: 0.02,
+        tip_ei: 0.02,
+        elements_mm: [LENGTH / nodes as f64; 2],
+        ..Wire::preset("workhorse").expect("a preset")
+    };
+    let mut setup = Setup { wire, ..Setup::default() };
+    let course = Arc::new(Course::new(mesh, Some(Sample::Coronary), &mut setup).expect("a way"));
+    let mut trial = Trial::new(course.clone(), setup).expect("room");
+    trial.set_autopilot(true);
+    while trial.simulation().count() < nodes && trial.simulation().steps() < 20_000 {
+        trial.step();
+    }
+    let mut simulation = trial.simulation().clone();
+    let mut times = Vec::with_capacity(STEPS as usize);
+    let mut touching = 0;
+    for step in 0..STEPS {
+        let feed = if step / 250 % 2 == 0 { -10.0 } else { 10.0 };
+        let start = Instant::now();
+        simulation.step(Input { feed, roll: 2.0 });
+        times.push(start.elapsed().as_secs_f64() * 1e3);
+        let mut at: Vec<usize> = simulation.body().touches().map(|touch| touch.0).collect();
+        at.sort_unstable();
+        at.dedup();
+        touching += at.len();
+    }
+    times.sort_by(f64::total_cmp);
+    let mean = times.iter().sum::<f64>() / times.len() as f64;
+    let at = |part: f64| times[((times.len() as f64 * part) as usize).min(times.len() - 1)];
+    println!(
+        "| {} | {} | {:.0} % | {mean:.3} | {:.3} | {:.3} | {:.3} | {:.0} | {:.0} |",
+        mesh.triangles.len(),
+        simulation.count(),
+        100.0 * touching as f64 / (STEPS as usize * simulation.count()) as f64,
+        at(0.5),
+        at(0.99),
+        at(1.0),
+        1e3 / mean,
+        course.wall_ms,
+    );
+}
