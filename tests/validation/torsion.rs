@@ -87,13 +87,13 @@ fn a_twisted_ring_leaves_its_plane() {
     // What it gives by is over 1 - (angle / critical)2.
     let critical = |elements: usize| {
         let mut critical = exact;
-        for parts in [[0.7, 0.8], [0.86, 0.92]] {
+        for parts in [[0.8, 0.86], [0.92, 0.96]] {
             let [a, b] = parts.map(|part| ((part * critical).powi(2), ring(elements, part * critical)));
             critical = ((b.1 * b.0 - a.1 * a.0) / (b.1 - a.1)).sqrt();
         }
         critical
     };
-    found.compare("critical turn, rad", exact, critical(40), Part(0.01), 40);
+    found.compare("critical turn, rad", exact, critical(80), Part(0.01), 80);
     let unturned = ring(40, 0.0);
     for i in 0..=12 {
         let angle = exact * 0.08 * f64::from(i);
@@ -103,7 +103,7 @@ fn a_twisted_ring_leaves_its_plane() {
     found.finish();
 
     let mut found = Benchmark::new("michell-order");
-    let errors = [10, 20, 40].map(|elements| (elements, critical(elements) / exact - 1.0));
+    let errors = [20, 40, 80].map(|elements| (elements, critical(elements) / exact - 1.0));
     found.order(&errors, 1.8);
     found.finish();
 }
