@@ -18,8 +18,9 @@ const FALL: f64 = 1e-4;
 const CORRECTIONS: usize = 8;
 /// Times the gaps are measured in a step.
 const ROUNDS: usize = 6;
-/// A correction of less than this, in mm, is the last.
-const SETTLED: f64 = 5e-4;
+/// A correction of less than this, in mm, is the last. What is left over is a force of [`super::contact`]'s stiffness
+/// times it in each contact: it must be small against what a floppy wire presses with, or nothing slides as it should.
+const SETTLED: f64 = 1e-5;
 /// At this, in mm, a step can still be taken as done.
 const ALMOST: f64 = 2e-2;
 /// The least drag of each node when something snaps, in N s/mm.

@@ -10,20 +10,20 @@ use lumen::trial::rod::{Held, Rod, Section};
 use lumen::trial::wall::Wall;
 
 use crate::benchmark::Benchmark;
-use crate::benchmark::Tolerance::Part;
+use crate::benchmark::Tolerance::{Part, Within};
 use crate::tubes::{Place, curve, tube};
 
 /// Radius of the wire in mm.
-const RADIUS: f64 = 0.178;
+pub(crate) const RADIUS: f64 = 0.178;
 /// Radius of the tubes in mm.
-const TUBE: f64 = 1.5;
+pub(crate) const TUBE: f64 = 1.5;
 /// Distance of the tubes' rings in mm; no part of an element, so that nodes do not ride over ridges in step.
-const RINGS: f64 = 0.23;
+pub(crate) const RINGS: f64 = 0.23;
 /// Seconds.
-const STEP: f64 = 0.002;
+pub(crate) const STEP: f64 = 0.002;
 
 /// A wire through all of `path`, moved to the side by `offset`, in its tube; its last two nodes are held.
-fn threaded(path: &[Place], offset: impl Fn(usize) -> DVec3, section: Section, friction: [f64; 2], wall: TriMesh) -> Body {
+pub(crate) fn threaded(path: &[Place], offset: impl Fn(usize) -> DVec3, section: Section, friction: [f64; 2], wall: TriMesh) -> Body {
     let wall = Arc::new(Wall::new(Arc::new(wall)));
     let positions: Vec<DVec3> = path.iter().enumerate().map(|(i, place)| place.0 + offset(i)).collect();
     let count = positions.len();
@@ -60,21 +60,17 @@ fn capstan(mu: f64, step: f64) -> f64 {
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
         let pull = (count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().dot(path[count - 1].1);
-        if i % 50 == 0 {print!("{pull:.4} ");}
         if i >= 500 {
             pulls.push(pull);
         }
     }
-    println!();
     pulls.iter().sum::<f64>() / pulls.len() as f64
 }
 
 #[test]
 fn a_bend_holds_like_a_capstan() {
     let mut found = Benchmark::new("capstan");
-    let start = std::time::Instant::now();
     let free = capstan(0.0, 1.0);
-    println!("free {free} {:?}", start.elapsed());
     for mu in [0.05, 0.1, 0.2, 0.3] {
         let pull = capstan(mu, 1.0) - free + 1.0;
         found.compare(&format!("F/F₀ over 180° at μ = {mu}"), (mu * PI).exp(), pull, Part(0.02), 80);
@@ -84,6 +80,142 @@ fn a_bend_holds_like_a_capstan() {
         let mu = f64::from(i) / 100.0;
         found.curve("e^μθ", mu, (mu * PI).exp());
     }
-    println!("{:?}", start.elapsed());
+    found.finish();
+}
+
+/// A flat floor in the xz plane, below what lies on it.
+fn floor() -> TriMesh {
+    let at = |x: f32, z: f32| lumen::mesh::Vec3::new(x, 0.0, z);
+    let positions = vec![at(-50.0, -50.0), at(50.0, -50.0), at(50.0, 50.0), at(-50.0, 50.0)];
+    TriMesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]] }
+}
+
+const NODES: usize = 11;
+/// Sticking and sliding.
+const MU: [f64; 2] = [0.06, 0.04];
+/// What presses all of it on the floor, in N.
+const WEIGHT: f64 = 0.5;
+
+/// A piece of wire along x, pressed on a floor.
+fn block() -> Body {
+    let section = Section { length: 2.0, cell: 2.0, ei: 40.0, gj: 30.0, ea: 2000.0, mass: 1e-9, drag: 1e-7, rest: [0.0; 2] };
+    // The last node of a rod has no contact: here it sticks out.
+    let positions = (0..NODES + 1).map(|i| DVec3::new(2.0 * i as f64 - 10.0, RADIUS, 0.0)).collect();
+    let mut rod = Rod::new(positions, vec![section; NODES + 1], DVec3::Y);
+    rod.held[0].angle = true;
+    rod.forces.extend((0..NODES).map(|i| (i, DVec3::NEG_Y * (WEIGHT / NODES as f64))));
+    let mut body = Body::new(rod, RADIUS, MU, Some(Arc::new(Wall::new(Arc::new(floor())))));
+    body.look(NODES);
+    for _ in 0..50 {
+        assert_ne!(body.step(STEP, NODES, |_| ()), Stepped::Held);
+    }
+    body
+}
+
+/// Pushes it along x with this force for this many steps, everywhere alike, so that all of it slides at once; how far
+/// that has moved it, in mm.
+fn pushed(body: &mut Body, force: f64, steps: usize) -> f64 {
+    let before = body.rod.positions[NODES / 2].x;
+    body.rod.forces.truncate(NODES);
+    body.rod.forces.extend((0..NODES).map(|i| (i, DVec3::X * (force / NODES as f64))));
+    for _ in 0..steps {
+        assert_ne!(body.step(STEP, NODES, |_| ()), Stepped::Held);
+    }
+    body.rod.positions[NODES / 2].x - before
+}
+
+#[test]
+fn what_sticks_stays_and_what_slides_is_held_back() {
+    let mut found = Benchmark::new("stick-slip");
+    let most = MU[0] * WEIGHT;
+    // By half a per cent more at a time, which is 3e-7 mm where it sticks.
+    let mut body = block();
+    let mut part = 0.0;
+    while pushed(&mut body, part * most, 20) < 1e-5 && part < 2.0 {
+        part += 0.005;
+    }
+    found.compare("push at which it slides over μ_s N", 1.0, part, Part(0.01), NODES);
+
+    let mut body = block();
+    let _ = pushed(&mut body, 0.9 * most, 500);
+    let drift = pushed(&mut body, 0.9 * most, 30_000);
+    found.compare("drift in 60 s at 0.9 μ_s N, mm", 0.0, drift, Within(1e-6), NODES);
+
+    // To and fro by hand, half a millimetre each way.
+    let mut body = block();
+    body.rod.held[0].position = true;
+    let start = body.rod.positions[0];
+    let (mut way, mut at) = (0.002, 0.0f64);
+    let (mut there, mut back, mut loops) = (Vec::new(), Vec::new(), 0);
+    while loops < 4 {
+        at += way;
+        if at.abs() > 0.5 {
+            way = -way;
+            loops += 1;
+        }
+        assert_ne!(body.step(STEP, NODES, |rod| rod.positions[0] = start + DVec3::X * at), Stepped::Held);
+        let mut rod = body.rod.clone();
+        rod.assemble_from(0);
+        let force = rod.holding_force(0).x;
+        if loops > 1 {
+            found.point("ours", at, force * NODES as f64 / (NODES - 1) as f64 / WEIGHT);
+            if at.abs() < 0.1 {
+                if way > 0.0 { there.push(force) } else { back.push(force) }
+            }
+        }
+    }
+    let mean = |forces: &[f64]| forces.iter().sum::<f64>() / forces.len() as f64;
+    // The held node's own friction is not in what holds it.
+    let felt = WEIGHT * (NODES - 1) as f64 / NODES as f64;
+    found.compare("push while it slides over N", MU[1], mean(&there) / felt, Part(0.01), NODES);
+    found.compare("push while it slides back over N", -MU[1], mean(&back) / felt, Part(0.01), NODES);
+    for (x, y) in [(-0.5, MU[1]), (0.5, MU[1]), (0.5, -MU[1]), (-0.5, -MU[1]), (-0.5, MU[1])] {
+        found.curve("Coulomb, sliding", x, y);
+    }
+    found.finish();
+}
+
+/// A groove along x whose sides rise by 45 degrees to both hands.
+fn groove() -> TriMesh {
+    let at = |x: f32, z: f32| lumen::mesh::Vec3::new(x, z.abs(), z);
+    let side = |z: f32| [at(-20.0, 0.0), at(120.0, 0.0), at(120.0, z), at(-20.0, z)];
+    // Sides have no vertex in common, so that each has its own normal everywhere.
+    let positions = [side(-20.0), side(20.0)].concat();
+    TriMesh { positions, triangles: vec![[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7]] }
+}
+
+/// How far the tip lags behind the guide when the wire turns in a groove, in radians.
+fn lag(elements: usize, [length, load, mu, gj]: [f64; 4]) -> f64 {
+    let h = length / elements as f64;
+    let path: Vec<Place> = (0..elements + 2).map(|i| (DVec3::X * (i as f64 * h), DVec3::X)).collect();
+    let section = Section { ei: 0.1, gj, ea: 2000.0, mass: 1e-9, drag: 1e-7, ..Section::default() };
+    let mut body = threaded(&path, |_| DVec3::Y * RADIUS * 2f64.sqrt(), section, [mu, mu], groove());
+    let count = body.rod.len();
+    body.rod.forces.extend((0..elements).map(|i| (i, DVec3::NEG_Y * load * h * if i == 0 { 0.5 } else { 1.0 })));
+    for _ in 0..800 {
+        let stepped = body.step(STEP, count - 2, |rod| rod.turn_to(count - 2, 0.004));
+        assert_ne!(stepped, Stepped::Held);
+    }
+    (1..count - 1).map(|i| body.rod.twist(i)).sum()
+}
+
+#[test]
+fn a_wall_holds_the_tip_back() {
+    let mut found = Benchmark::new("wall-torque");
+    let (length, load, gj) = (60.0, 5e-3, 0.08);
+    // Balance of a wire that slides on both sides of the groove: what they press with together is this.
+    let lag_of = |mu: f64| {
+        let normal = 2f64.sqrt() * load / (1.0 + mu * mu);
+        mu * normal * RADIUS * length * length / (2.0 * gj)
+    };
+    for mu in [0.02, 0.05, 0.08] {
+        let ours = lag(120, [length, load, mu, gj]);
+        found.compare(&format!("lag of the tip at μ = {mu}, rad"), lag_of(mu), ours, Part(0.02), 120);
+        found.point("ours", mu, ours);
+    }
+    for i in 0..=20 {
+        let mu = f64::from(i) / 200.0;
+        found.curve("q L²/2GJ", mu, lag_of(mu));
+    }
     found.finish();
 }

@@ -1,4 +1,4 @@
-//! Developer commands: `cargo xtask serve | build | test | peers | curve`.
+//! Developer commands: `cargo xtask serve | build | test | peers | curve | validation`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -12,6 +12,7 @@ mod serve;
 mod step;
 mod test;
 mod tools;
+mod validation;
 
 use std::process::ExitCode;
 
@@ -48,6 +49,8 @@ enum Command {
     Peers(peers::Options),
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
+    /// Run the wire's analytic benchmarks, draw them and write docs/validation.md.
+    Validation,
 }
 
 fn main() -> ExitCode {
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
         Command::Test { only } => test::test(&only),
         Command::Peers(options) => peers::peers(&options),
         Command::Curve => curve::curve(),
+        Command::Validation => validation::validation(),
     };
     if let Err(error) = done {
         eprintln!("error: {error:#}");
