@@ -1,4 +1,4 @@
-//! Coulomb friction: the wire around a bend as a rope around a capstan, torque along a wall, and sticking.
+//! Coulomb friction: the wire around a bend as a rope around a capstan, and sticking.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -14,16 +14,22 @@ use crate::benchmark::Tolerance::{Part, Within};
 use crate::tubes::{Place, curve, tube};
 
 /// Radius of the wire in mm.
-pub(crate) const RADIUS: f64 = 0.178;
+const RADIUS: f64 = 0.178;
 /// Radius of the tubes in mm.
-pub(crate) const TUBE: f64 = 1.5;
+const TUBE: f64 = 1.5;
 /// Distance of the tubes' rings in mm; no part of an element, so that nodes do not ride over ridges in step.
-pub(crate) const RINGS: f64 = 0.23;
+const RINGS: f64 = 0.23;
 /// Seconds.
-pub(crate) const STEP: f64 = 0.002;
+const STEP: f64 = 0.002;
 
 /// A wire through all of `path`, moved to the side by `offset`, in its tube; its last two nodes are held.
-pub(crate) fn threaded(path: &[Place], offset: impl Fn(usize) -> DVec3, section: Section, friction: [f64; 2], wall: TriMesh) -> Body {
+fn threaded(
+    path: &[Place],
+    offset: impl Fn(usize) -> DVec3,
+    section: Section,
+    friction: [f64; 2],
+    wall: TriMesh,
+) -> Body {
     let wall = Arc::new(Wall::new(Arc::new(wall)));
     let positions: Vec<DVec3> = path.iter().enumerate().map(|(i, place)| place.0 + offset(i)).collect();
     let count = positions.len();
@@ -98,7 +104,8 @@ const WEIGHT: f64 = 0.5;
 
 /// A piece of wire along x, pressed on a floor.
 fn block() -> Body {
-    let section = Section { length: 2.0, cell: 2.0, ei: 40.0, gj: 30.0, ea: 2000.0, mass: 1e-9, drag: 1e-7, rest: [0.0; 2] };
+    let section =
+        Section { length: 2.0, cell: 2.0, ei: 40.0, gj: 30.0, ea: 2000.0, mass: 1e-9, drag: 1e-7, rest: [0.0; 2] };
     // The last node of a rod has no contact: here it sticks out.
     let positions = (0..NODES + 1).map(|i| DVec3::new(2.0 * i as f64 - 10.0, RADIUS, 0.0)).collect();
     let mut rod = Rod::new(positions, vec![section; NODES + 1], DVec3::Y);
@@ -171,51 +178,6 @@ fn what_sticks_stays_and_what_slides_is_held_back() {
     found.compare("push while it slides back over N", -MU[1], mean(&back) / felt, Part(0.01), NODES);
     for (x, y) in [(-0.5, MU[1]), (0.5, MU[1]), (0.5, -MU[1]), (-0.5, -MU[1]), (-0.5, MU[1])] {
         found.curve("Coulomb, sliding", x, y);
-    }
-    found.finish();
-}
-
-/// A groove along x whose sides rise by 45 degrees to both hands.
-fn groove() -> TriMesh {
-    let at = |x: f32, z: f32| lumen::mesh::Vec3::new(x, z.abs(), z);
-    let side = |z: f32| [at(-20.0, 0.0), at(120.0, 0.0), at(120.0, z), at(-20.0, z)];
-    // Sides have no vertex in common, so that each has its own normal everywhere.
-    let positions = [side(-20.0), side(20.0)].concat();
-    TriMesh { positions, triangles: vec![[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7]] }
-}
-
-/// How far the tip lags behind the guide when the wire turns in a groove, in radians.
-fn lag(elements: usize, [length, load, mu, gj]: [f64; 4]) -> f64 {
-    let h = length / elements as f64;
-    let path: Vec<Place> = (0..elements + 2).map(|i| (DVec3::X * (i as f64 * h), DVec3::X)).collect();
-    let section = Section { ei: 0.1, gj, ea: 2000.0, mass: 1e-9, drag: 1e-7, ..Section::default() };
-    let mut body = threaded(&path, |_| DVec3::Y * RADIUS * 2f64.sqrt(), section, [mu, mu], groove());
-    let count = body.rod.len();
-    body.rod.forces.extend((0..elements).map(|i| (i, DVec3::NEG_Y * load * h * if i == 0 { 0.5 } else { 1.0 })));
-    for _ in 0..800 {
-        let stepped = body.step(STEP, count - 2, |rod| rod.turn_to(count - 2, 0.004));
-        assert_ne!(stepped, Stepped::Held);
-    }
-    (1..count - 1).map(|i| body.rod.twist(i)).sum()
-}
-
-#[test]
-fn a_wall_holds_the_tip_back() {
-    let mut found = Benchmark::new("wall-torque");
-    let (length, load, gj) = (60.0, 5e-3, 0.08);
-    // Balance of a wire that slides on both sides of the groove: what they press with together is this.
-    let lag_of = |mu: f64| {
-        let normal = 2f64.sqrt() * load / (1.0 + mu * mu);
-        mu * normal * RADIUS * length * length / (2.0 * gj)
-    };
-    for mu in [0.02, 0.05, 0.08] {
-        let ours = lag(120, [length, load, mu, gj]);
-        found.compare(&format!("lag of the tip at μ = {mu}, rad"), lag_of(mu), ours, Part(0.02), 120);
-        found.point("ours", mu, ours);
-    }
-    for i in 0..=20 {
-        let mu = f64::from(i) / 200.0;
-        found.curve("q L²/2GJ", mu, lag_of(mu));
     }
     found.finish();
 }

@@ -21,7 +21,13 @@ fn a_torque_turns_by_t_l_over_gj_and_friction_by_half() {
         let torque = turns * TAU * GJ / LENGTH;
         let mut rod = cantilever(elements);
         rod.moments.push((0, torque));
-        found.compare(&format!("turn at T L/GJ = {turns} turns, rad"), torque * long / GJ, turned(&mut rod), Part(0.01), elements);
+        found.compare(
+            &format!("turn at T L/GJ = {turns} turns, rad"),
+            torque * long / GJ,
+            turned(&mut rod),
+            Part(0.01),
+            elements,
+        );
         for i in (0..elements).step_by(4) {
             found.point("end torque", (i as f64 + 0.5) * h / LENGTH, spread(&rod, i) / (turns * TAU));
         }
@@ -198,7 +204,13 @@ fn a_bent_tip_whips_in_a_bent_tube() {
     let mut found = Benchmark::new("whip");
     found.compare("number from which on it snaps", FRAC_PI_2, critical_number(80), Part(0.01), 80);
     let turns = 1.0 / reluctance(1.2, 80);
-    found.compare("turn of the tip over that of the base at 180°, number 1.2", 1.0 / 1.2f64.cos(), turns, Part(0.01), 80);
+    found.compare(
+        "turn of the tip over that of the base at 180°, number 1.2",
+        1.0 / 1.2f64.cos(),
+        turns,
+        Part(0.01),
+        80,
+    );
     for number in [1.2, 2.5] {
         let tips = turned_round(number);
         for (i, tip) in tips.iter().enumerate().step_by(6) {

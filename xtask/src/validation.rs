@@ -12,12 +12,17 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 13] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 15] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
     ("ring-order", "Ring: distance of its ends", ["elements", "distance over L"], true),
-    ("euler", "Columns: stiffness across under a load along", ["P L² / EI", "stiffness over that without a load"], false),
+    (
+        "euler",
+        "Columns: stiffness across under a load along",
+        ["P L² / EI", "stiffness over that without a load"],
+        false,
+    ),
     ("euler-order", "Clamped column: error of the critical load", ["elements", "error"], true),
     ("torsion", "Twist of a wire", ["distance from the tip over L", "turn over that of the tip"], false),
     ("michell", "A twisted ring leaves its plane", ["turn, rad", "stiffness across over that without a turn"], false),
@@ -26,15 +31,15 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 13] = [
     ("whip-order", "Whip: error of the number from which on it snaps", ["elements", "error"], true),
     ("capstan", "Pull through half a turn", ["coefficient of friction", "pull over that at the tip"], false),
     ("stick-slip", "A piece of wire pushed to and fro", ["way, mm", "push over what presses it down"], false),
+    ("return", "The tip on its way in and out", ["x, mm", "y, mm"], false),
+    ("turned", "A loaded rod that is turned", ["", ""], false),
 ];
 
 /// Runs, draws and tabulates.
 pub(crate) fn validation() -> Result<()> {
     let folder = target().join("validation");
     let mut tests = cargo();
-    tests
-        .args(["test", "--release", "--no-default-features", "--test", "validation"])
-        .env("LUMEN_VALIDATION", &folder);
+    tests.args(["test", "--release", "--no-default-features", "--test", "validation"]).env("LUMEN_VALIDATION", &folder);
     step("Run the wire's benchmarks", || run(&mut tests))?;
     let pictures = root().join("docs/images/validation");
     std::fs::create_dir_all(&pictures).with_context(|| format!("{} cannot be made", pictures.display()))?;
@@ -67,7 +72,8 @@ fn cells<const N: usize>(csv: &str) -> Result<Vec<[&str; N]>> {
 }
 
 fn table(csv: &str) -> Result<String> {
-    let mut text = "| what | analytic | ours | difference | tolerance | elements |\n|---|---|---|---|---|---|\n".to_owned();
+    let mut text =
+        "| what | analytic | ours | difference | tolerance | elements |\n|---|---|---|---|---|---|\n".to_owned();
     for [what, analytic, ours, tolerance, elements] in cells(csv)? {
         let [expected, found]: [f64; 2] = [analytic.parse()?, ours.parse()?];
         let difference = if expected == 0.0 {

@@ -371,14 +371,11 @@ impl Rod {
         };
         // By the angles: exact in the gradient, which has only what the rest shape does. In the Hessian it is the rest
         // shape that turns with the edges, so that nothing holds a straight wire from turning in a bend.
-        let turned = [[-0.5 * binormal.dot(a.m1), -0.5 * binormal.dot(b.m1)], [
-            -0.5 * binormal.dot(a.m2),
-            -0.5 * binormal.dot(b.m2),
-        ]];
-        let parts = [
-            (k1_a, k1_b, turned[0], 0.5 * rest[1], rest[0]),
-            (k2_a, k2_b, turned[1], -0.5 * rest[0], rest[1]),
+        let turned = [
+            [-0.5 * binormal.dot(a.m1), -0.5 * binormal.dot(b.m1)],
+            [-0.5 * binormal.dot(a.m2), -0.5 * binormal.dot(b.m2)],
         ];
+        let parts = [(k1_a, k1_b, turned[0], 0.5 * rest[1], rest[0]), (k2_a, k2_b, turned[1], -0.5 * rest[0], rest[1])];
         let first = (i - 1) * PER_NODE;
         let mut add = |g: &[f64; HALF + 1], force: f64| {
             for (entry, g) in self.gradient[first..].iter_mut().zip(g) {

@@ -128,10 +128,8 @@ impl Plot {
         let [along, up] = self.axes;
         let (middle, low, height) = ((left + right) / 2.0, bottom + 42.0, (top + bottom) / 2.0);
         let _ = writeln!(svg, "<text x=\"{middle}\" y=\"{low}\" text-anchor=\"middle\">{along}</text>");
-        let _ = writeln!(
-            svg,
-            "<text transform=\"translate(20 {height}) rotate(-90)\" text-anchor=\"middle\">{up}</text>"
-        );
+        let _ =
+            writeln!(svg, "<text transform=\"translate(20 {height}) rotate(-90)\" text-anchor=\"middle\">{up}</text>");
         for (i, (series, colour)) in self.series.iter().zip(COLOURS.iter().cycle()).enumerate() {
             let at = |p: &[f64; 2]| (x.at(p[0]), y.at(p[1]));
             let is_line = series.is_line && series.points.len() > 1;
@@ -145,7 +143,10 @@ impl Plot {
             } else {
                 for (x, y) in series.points.iter().map(at) {
                     let fill = if series.is_line { "none" } else { colour };
-                    let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{fill}\" stroke=\"{colour}\"/>");
+                    let _ = writeln!(
+                        svg,
+                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{fill}\" stroke=\"{colour}\"/>"
+                    );
                 }
             }
             let (from, beside) = (right + 14.0, top + 10.0 + 18.0 * i as f64);
@@ -155,13 +156,8 @@ impl Plot {
                 let fill = if series.is_line { "none" } else { colour };
                 format!("<circle cx=\"{}\" cy=\"{beside}\" r=\"3\" fill=\"{fill}\" stroke=\"{colour}\"/>", from + 8.0)
             };
-            let _ = writeln!(
-                svg,
-                "{sign}<text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
-                from + 22.0,
-                beside + 4.0,
-                series.name
-            );
+            let _ =
+                writeln!(svg, "{sign}<text x=\"{:.1}\" y=\"{:.1}\">{}</text>", from + 22.0, beside + 4.0, series.name);
         }
         svg + "</svg>\n"
     }
