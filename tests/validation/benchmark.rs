@@ -37,10 +37,11 @@ impl Benchmark {
 
     /// Compares one answer; `elements` is 0 where their number says nothing.
     pub(crate) fn compare(&mut self, what: &str, analytic: f64, ours: f64, tolerance: Tolerance, elements: usize) {
+        assert!(!what.contains(','), "{what}: a comma parts columns");
         let (is_right, told) = match tolerance {
             Part(part) => ((ours - analytic).abs() <= part * analytic.abs(), format!("{} %", 100.0 * part)),
             Within(most) => ((ours - analytic).abs() <= most, format!("{most:e}")),
-            Band(least, most) => ((least..=most).contains(&ours), format!("{least:.4} to {most:.4}")),
+            Band(least, most) => ((least..=most).contains(&ours), format!("{least} to {most}")),
         };
         let _ = writeln!(self.rows, "{what},{analytic},{ours},{told},{elements}");
         println!("{}: {what}: {ours} for {analytic} ({told}), {:+.4} %", self.name, 100.0 * (ours / analytic - 1.0));

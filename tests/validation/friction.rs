@@ -146,7 +146,7 @@ fn what_sticks_stays_and_what_slides_is_held_back() {
     let mut body = block();
     let _ = pushed(&mut body, 0.9 * most, 500);
     let drift = pushed(&mut body, 0.9 * most, 30_000);
-    found.compare("drift in 60 s at 0.9 μ_s N, mm", 0.0, drift, Within(1e-6), NODES);
+    found.compare("drift in 60 s at 0.9 μ_s N (mm)", 0.0, drift, Within(1e-6), NODES);
 
     // To and fro by hand, half a millimetre each way.
     let mut body = block();
@@ -177,7 +177,7 @@ fn what_sticks_stays_and_what_slides_is_held_back() {
     found.compare("push while it slides over N", MU[1], mean(&there) / felt, Part(0.01), NODES);
     found.compare("push while it slides back over N", -MU[1], mean(&back) / felt, Part(0.01), NODES);
     for (x, y) in [(-0.5, MU[1]), (0.5, MU[1]), (0.5, -MU[1]), (-0.5, -MU[1]), (-0.5, MU[1])] {
-        found.curve("Coulomb, sliding", x, y);
+        found.curve("Coulomb sliding", x, y);
     }
     found.finish();
 }

@@ -44,7 +44,7 @@ fn what_goes_in_comes_out_as_it_was() {
     let there = fed(&mut round, 60.0, 20.0, 0.0);
     let back = fed(&mut round, start.inserted(), -20.0, 0.0);
     let apart = round.tip().distance(start.tip());
-    found.compare("distance of the tip from where it began, mm", 0.0, apart, Within(1e-6), 0);
+    found.compare("distance of the tip from where it began (mm)", 0.0, apart, Within(1e-6), 0);
     for (name, tips) in [("in", &there), ("out", &back)] {
         for tip in tips.iter().step_by(60) {
             found.point(name, tip.x, tip.y);
@@ -84,7 +84,7 @@ fn it_does_not_matter_which_way_a_rod_lies() {
         let turn = DQuat::from_axis_angle(axis.normalize(), 1.1 + i as f64);
         let other = loaded(turn);
         let apart = plain.positions.iter().zip(&other.positions).map(|(&p, &q)| (turn * p).distance(q));
-        let what = format!("largest distance of a node about axis {}, mm", i + 1);
+        let what = format!("largest distance of a node about axis {} (mm)", i + 1);
         found.compare(&what, 0.0, apart.fold(0.0, f64::max), Within(1e-6), 40);
     }
     found.finish();

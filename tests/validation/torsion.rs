@@ -22,7 +22,7 @@ fn a_torque_turns_by_t_l_over_gj_and_friction_by_half() {
         let mut rod = cantilever(elements);
         rod.moments.push((0, torque));
         found.compare(
-            &format!("turn at T L/GJ = {turns} turns, rad"),
+            &format!("turn at T L/GJ = {turns} turns (rad)"),
             torque * long / GJ,
             turned(&mut rod),
             Part(0.01),
@@ -37,7 +37,7 @@ fn a_torque_turns_by_t_l_over_gj_and_friction_by_half() {
     let mut rod = cantilever(elements);
     rod.moments.extend((0..elements).map(|i| (i, q * h)));
     let ours = turned(&mut rod);
-    found.compare("lag at q L²/2GJ = 1, rad", 1.0, ours, Part(0.01), elements);
+    found.compare("lag at q L²/2GJ = 1 (rad)", 1.0, ours, Part(0.01), elements);
     for i in (0..elements).step_by(4) {
         found.point("friction along it", (i as f64 + 0.5) * h / LENGTH, spread(&rod, i));
     }
@@ -99,7 +99,7 @@ fn a_twisted_ring_leaves_its_plane() {
         }
         critical
     };
-    found.compare("critical turn, rad", exact, critical(80), Part(0.01), 80);
+    found.compare("critical turn (rad)", exact, critical(80), Part(0.01), 80);
     let unturned = ring(40, 0.0);
     for i in 0..=12 {
         let angle = exact * 0.08 * f64::from(i);
@@ -205,7 +205,7 @@ fn a_bent_tip_whips_in_a_bent_tube() {
     found.compare("number from which on it snaps", FRAC_PI_2, critical_number(80), Part(0.01), 80);
     let turns = 1.0 / reluctance(1.2, 80);
     found.compare(
-        "turn of the tip over that of the base at 180°, number 1.2",
+        "turn of the tip over that of the base at 180° and number 1.2",
         1.0 / 1.2f64.cos(),
         turns,
         Part(0.01),
@@ -219,7 +219,7 @@ fn a_bent_tip_whips_in_a_bent_tube() {
         for i in 0..=180 {
             let tip = TAU * f64::from(i) / 180.0;
             let base = base_angle(number, tip).to_degrees();
-            found.curve(&format!("number {number}, analytic"), base, tip.to_degrees());
+            found.curve(&format!("number {number} analytic"), base, tip.to_degrees());
         }
         let jumps = tips.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
         let (before, jump) = jumps.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
@@ -228,7 +228,7 @@ fn a_bent_tip_whips_in_a_bent_tube() {
             let tip = (0..10_000).map(|i| base_angle(number, PI * f64::from(i) / 10_000.0).to_degrees());
             // The base turns by one degree at a time: it snaps between two of them.
             let at = before as f64 + 1.5;
-            found.compare("base at the snap, degrees, number 2.5", tip.fold(0.0, f64::max), at, Part(0.01), 80);
+            found.compare("base at the snap of number 2.5 (degrees)", tip.fold(0.0, f64::max), at, Part(0.01), 80);
         } else {
             assert!(jump < 0.2, "a snap at {number}");
         }
