@@ -72,6 +72,11 @@ impl Benchmark {
         let _ = writeln!(self.points, "{series},line,{x},{y}");
     }
 
+    /// A single point of the analytic answer.
+    pub(crate) fn mark(&mut self, series: &str, x: f64, y: f64) {
+        let _ = writeln!(self.points, "{series},mark,{x},{y}");
+    }
+
     /// Writes down what was found, then fails if any of it is wrong.
     pub(crate) fn finish(self) {
         if let Some(folder) = std::env::var_os("LUMEN_VALIDATION").map(PathBuf::from) {

@@ -108,7 +108,7 @@ fn columns_buckle_at_eulers_loads() {
             let part = 0.98 * f64::from(i) / 10.0;
             found.point(name, part * exact, unloaded / column.gives(part * exact * unit, across));
         }
-        found.curve("Euler's loads", exact, 0.0);
+        found.mark("Euler's loads", exact, 0.0);
     }
     found.finish();
 

@@ -14,16 +14,16 @@ use crate::benchmark::Tolerance::{Part, Within};
 use crate::tubes::{Place, curve, tube};
 
 /// Radius of the wire in mm.
-const RADIUS: f64 = 0.178;
+pub(crate) const RADIUS: f64 = 0.178;
 /// Radius of the tubes in mm.
-const TUBE: f64 = 1.5;
+pub(crate) const TUBE: f64 = 1.5;
 /// Distance of the tubes' rings in mm; no part of an element, so that nodes do not ride over ridges in step.
 const RINGS: f64 = 0.23;
 /// Seconds.
-const STEP: f64 = 0.002;
+pub(crate) const STEP: f64 = 0.002;
 
 /// A wire through all of `path`, moved to the side by `offset`, in its tube; its last two nodes are held.
-fn threaded(
+pub(crate) fn threaded(
     path: &[Place],
     offset: impl Fn(usize) -> DVec3,
     section: Section,

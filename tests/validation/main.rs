@@ -8,6 +8,7 @@ mod friction;
 mod invariance;
 mod rods;
 mod torsion;
+mod tube_buckling;
 #[path = "../common/tubes.rs"]
 #[allow(unreachable_pub)] // Shared with tests that see it from elsewhere.
 mod tubes;

@@ -105,7 +105,7 @@ fn a_twisted_ring_leaves_its_plane() {
         let angle = exact * 0.08 * f64::from(i);
         found.point("ours", angle, unturned / ring(40, angle));
     }
-    found.curve("Michell", exact, 0.0);
+    found.mark("Michell", exact, 0.0);
     found.finish();
 
     let mut found = Benchmark::new("michell-order");

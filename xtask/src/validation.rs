@@ -5,14 +5,14 @@ mod plot;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use anyhow::{Context as _, Result, anyhow, ensure};
+use anyhow::{Context as _, Result, anyhow, bail};
 
-use self::plot::{Plot, Series};
+use self::plot::{Kind, Plot, Series};
 use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 15] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 16] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -31,6 +31,12 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 15] = [
     ("whip-order", "Whip: error of the number from which on it snaps", ["elements", "error"], true),
     ("capstan", "Pull through half a turn", ["coefficient of friction", "pull over that at the tip"], false),
     ("stick-slip", "A piece of wire pushed to and fro", ["way, mm", "push over what presses it down"], false),
+    (
+        "snaking",
+        "A wire that is pushed along the floor of a tube",
+        ["push over √(EI w/r)", "width over the clearance"],
+        false,
+    ),
     ("return", "The tip on its way in and out", ["x, mm", "y, mm"], false),
     ("turned", "A loaded rod that is turned", ["", ""], false),
 ];
@@ -95,10 +101,15 @@ fn series(csv: &str) -> Result<Vec<Series>> {
     let mut all: Vec<Series> = Vec::new();
     for [name, kind, x, y] in cells(csv)? {
         let point = [x.parse()?, y.parse()?];
-        ensure!(matches!(kind, "points" | "line"), "a series is no {kind}");
+        let kind = match kind {
+            "points" => Kind::Points,
+            "line" => Kind::Line,
+            "mark" => Kind::Mark,
+            _ => bail!("a series is no {kind}"),
+        };
         match all.iter_mut().find(|series| series.name == name) {
             Some(series) => series.points.push(point),
-            None => all.push(Series { name: name.to_owned(), is_line: kind == "line", points: vec![point] }),
+            None => all.push(Series { name: name.to_owned(), kind, points: vec![point] }),
         }
     }
     Ok(all)

@@ -11,10 +11,21 @@ pub(super) struct Plot {
     pub(super) series: Vec<Series>,
 }
 
-/// One series: points of ours, or the line of the analytic answer.
+/// How a series is drawn.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Kind {
+    /// What was found.
+    Points,
+    /// The analytic answer.
+    Line,
+    /// Single points of it.
+    Mark,
+}
+
+/// One series.
 pub(super) struct Series {
     pub(super) name: String,
-    pub(super) is_line: bool,
+    pub(super) kind: Kind,
     pub(super) points: Vec<[f64; 2]>,
 }
 
@@ -132,7 +143,7 @@ impl Plot {
             writeln!(svg, "<text transform=\"translate(20 {height}) rotate(-90)\" text-anchor=\"middle\">{up}</text>");
         for (i, (series, colour)) in self.series.iter().zip(COLOURS.iter().cycle()).enumerate() {
             let at = |p: &[f64; 2]| (x.at(p[0]), y.at(p[1]));
-            let is_line = series.is_line && series.points.len() > 1;
+            let is_line = series.kind == Kind::Line;
             if is_line {
                 let line: Vec<String> = series.points.iter().map(at).map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
                 let _ = writeln!(
@@ -142,7 +153,7 @@ impl Plot {
                 );
             } else {
                 for (x, y) in series.points.iter().map(at) {
-                    let fill = if series.is_line { "none" } else { colour };
+                    let fill = if series.kind == Kind::Mark { "none" } else { colour };
                     let _ = writeln!(
                         svg,
                         "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{fill}\" stroke=\"{colour}\"/>"
@@ -153,7 +164,7 @@ impl Plot {
             let sign = if is_line {
                 format!("<path d=\"M{from} {beside}h16\" stroke=\"{colour}\" stroke-width=\"1.5\"/>")
             } else {
-                let fill = if series.is_line { "none" } else { colour };
+                let fill = if series.kind == Kind::Mark { "none" } else { colour };
                 format!("<circle cx=\"{}\" cy=\"{beside}\" r=\"3\" fill=\"{fill}\" stroke=\"{colour}\"/>", from + 8.0)
             };
             let _ =
