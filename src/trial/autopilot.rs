@@ -3,9 +3,9 @@
 //! 1. Feed at [`FEED`], and turn the side to which the tip is bent towards where the route goes a little ahead; slower
 //!    while it looks the other way and the route turns.
 //! 2. When the tip is off the route, when it has not come on for a while, or when the wire has turned back on itself:
-//!    withdraw, past where it went wrong, each time a little farther; meanwhile turn the tip by the golden angle more
-//!    than the last time.
-//! 3. Try again; after [`ATTEMPTS`] give up.
+//!    withdraw: out of a wrong branch slowly, with the tip turned to the right one, for it to fall in there; every third
+//!    time back to the guide, and turned a little more to the one side or the other of where the route goes.
+//! 3. Try again, slowly where it went wrong; after [`ATTEMPTS`] give up.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -30,8 +30,10 @@ const STUCK: f64 = 1.2;
 const LOOPED: f64 = 0.5;
 /// Times that it tries again.
 const ATTEMPTS: u32 = 60;
-/// The angle by which the next attempt is turned, in radians.
-const GOLDEN: f64 = 2.399_963_229_728_653;
+/// The angles by which attempts are turned, one after another, in radians.
+const OFFSETS: [f64; 10] = [0.0, 0.6, -0.6, 1.2, -1.2, 1.8, -1.8, 2.4, -2.4, 3.1];
+/// Millimetres before a place where it went wrong from which on the feed is slow.
+const BEFORE: f64 = 8.0;
 /// Millimetres behind a place where it went wrong at which that is forgotten.
 const PASSED: f64 = 6.0;
 /// Seconds between two decisions: ten steps.
@@ -63,7 +65,7 @@ enum Doing {
     /// On along the route.
     Advancing,
     /// Back to an arc length of the route, or a length outside the guide.
-    Withdrawing { arc: f64, inserted: f64 },
+    Withdrawing { arc: f64, inserted: f64, speed: f64 },
 }
 
 /// The autopilot's mind.
@@ -122,7 +124,7 @@ impl Autopilot {
                     self.withdraw(seen)?;
                 }
             }
-            Doing::Withdrawing { arc, inserted } => {
+            Doing::Withdrawing { arc, inserted, .. } => {
                 let is_back = !seen.is_off && !seen.is_looped && seen.arc <= arc;
                 if (is_back && seen.inserted <= inserted) || seen.inserted <= 5.0 {
                     self.doing = Doing::Advancing;
@@ -134,11 +136,16 @@ impl Autopilot {
         let error = self.turn(route, seen);
         let roll = (4.0 * error).clamp(-ROLL, ROLL);
         let feed = match self.doing {
-            Doing::Withdrawing { .. } => -BACK,
-            Doing::Advancing if error.abs() > 1.0 => CAREFUL,
+            Doing::Withdrawing { speed, .. } => -speed,
+            Doing::Advancing if error.abs() > 1.0 || self.is_slow(seen.arc) => CAREFUL,
             Doing::Advancing => FEED,
         };
         Some(Input { feed: feed as f32, roll: roll as f32 })
+    }
+
+    /// Whether it goes slowly because it went wrong here: two times of three.
+    fn is_slow(&self, arc: f64) -> bool {
+        !self.attempts.is_multiple_of(3) && (self.failed_at - BEFORE..self.failed_at + PASSED).contains(&arc)
     }
 
     fn withdraw(&mut self, seen: &Seen) -> Option<()> {
@@ -147,11 +154,16 @@ impl Autopilot {
             return None;
         }
         self.retractions += 1;
-        self.offset += GOLDEN;
+        self.offset = OFFSETS[(self.attempts as usize / 3) % OFFSETS.len()];
         self.failed_at = self.failed_at.max(self.best);
-        // Every third time farther.
-        let by = 6.0 + 4.0 * f64::from(self.attempts % 3) + f64::from(self.attempts) / 2.0;
-        self.doing = Doing::Withdrawing { arc: self.best - by.min(15.0), inserted: (seen.inserted - by).max(5.0) };
+        self.doing = if seen.is_off && !self.attempts.is_multiple_of(3) {
+            // Slowly over the edge between the branches, for the tip to fall into the right one.
+            Doing::Withdrawing { arc: f64::INFINITY, inserted: seen.inserted, speed: CAREFUL }
+        } else {
+            // Back to the guide every third time: it comes another way then.
+            let by = if self.attempts.is_multiple_of(3) { f64::INFINITY } else { 8.0 };
+            Doing::Withdrawing { arc: self.best - by.min(8.0), inserted: (seen.inserted - by).max(5.0), speed: BACK }
+        };
         (self.astray, self.looped) = (0.0, 0.0);
         Some(())
     }

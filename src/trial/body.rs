@@ -18,8 +18,9 @@ const FALL: f64 = 1e-4;
 const CORRECTIONS: usize = 8;
 /// Times the gaps are measured in a step.
 const ROUNDS: usize = 6;
-/// A correction of less than this, in mm, is the last.
-const SETTLED: f64 = 5e-4;
+/// A correction of less than this, in mm, is the last. What is left over is a force of [`super::contact`]'s stiffness
+/// times it in each contact: it must be small against what a floppy wire presses with, or nothing slides as it should.
+const SETTLED: f64 = 1e-5;
 /// At this, in mm, a step can still be taken as done.
 const ALMOST: f64 = 2e-2;
 /// The least drag of each node when something snaps, in N s/mm.
@@ -62,6 +63,8 @@ pub struct Body {
     brake: f64,
     /// Whether nothing moved much in the last step: then waiting has no end, and what is held goes on.
     is_still: bool,
+    /// Whether there was no way in the last step.
+    is_stuck: bool,
 }
 
 impl Body {
@@ -74,6 +77,7 @@ impl Body {
             wall,
             brake: 0.0,
             is_still: false,
+            is_stuck: false,
         }
     }
 
@@ -93,12 +97,24 @@ impl Body {
     /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is held where it
     /// should be at the end of the step; while something snaps it may have to wait where it is.
     pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
+        let friction = self.contacts.friction;
+        if self.is_stuck {
+            // There was no way: what friction and forces have wound up comes loose.
+            self.contacts.friction = [0.0; 2];
+        }
+        let stepped = self.attempts(dt, count, prepare);
+        self.contacts.friction = friction;
+        self.is_stuck = stepped == Stepped::Held && !self.is_stuck;
+        stepped
+    }
+
+    fn attempts(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
         let mut brake = self.brake / HARDER;
         if brake < BRAKE {
             brake = 0.0;
         }
         for _ in 0..ATTEMPTS {
-            let waits = brake > PATIENCE && !self.is_still;
+            let waits = self.is_stuck || brake > PATIENCE && !self.is_still;
             if !waits {
                 prepare(&mut self.rod);
             }

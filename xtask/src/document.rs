@@ -1,15 +1,20 @@
-//! The parts of `docs/benchmarks.md` that commands write, between `<!-- generated: NAME -->` and `<!-- end -->`.
+//! The parts of pages under `docs/` that commands write, between `<!-- generated: NAME -->` and `<!-- end -->`.
 
 use anyhow::{Context as _, Result};
 
 use crate::step::root;
 
-/// Puts `text` into the place called `name`.
+/// Puts `text` into the place called `name` of `docs/benchmarks.md`.
 pub(crate) fn replace(name: &str, text: &str) -> Result<()> {
-    let file = root().join("docs/benchmarks.md");
-    let page = std::fs::read_to_string(&file).context("docs/benchmarks.md cannot be read")?;
-    let page = replaced(&page, name, text).with_context(|| format!("docs/benchmarks.md has no place for {name}"))?;
-    std::fs::write(&file, page).context("docs/benchmarks.md cannot be written")
+    replace_in("docs/benchmarks.md", name, text)
+}
+
+/// Puts `text` into the place called `name` of a page.
+pub(crate) fn replace_in(page: &str, name: &str, text: &str) -> Result<()> {
+    let file = root().join(page);
+    let old = std::fs::read_to_string(&file).with_context(|| format!("{page} cannot be read"))?;
+    let new = replaced(&old, name, text).with_context(|| format!("{page} has no place for {name}"))?;
+    std::fs::write(&file, new).with_context(|| format!("{page} cannot be written"))
 }
 
 fn replaced(page: &str, name: &str, text: &str) -> Option<String> {

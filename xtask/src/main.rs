@@ -1,4 +1,4 @@
-//! Developer commands: `cargo xtask serve | build | test | peers | curve | fuzz-trial`.
+//! Developer commands: `cargo xtask serve | build | test | peers | curve | fuzz-trial | validation`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -13,6 +13,7 @@ mod serve;
 mod step;
 mod test;
 mod tools;
+mod validation;
 
 use std::process::ExitCode;
 
@@ -55,6 +56,8 @@ enum Command {
     },
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
+    /// Run the wire's analytic benchmarks, draw them and write docs/validation.md.
+    Validation,
 }
 
 fn main() -> ExitCode {
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
         Command::Peers(options) => peers::peers(&options),
         Command::FuzzTrial { steps } => fuzz::fuzz(steps),
         Command::Curve => curve::curve(),
+        Command::Validation => validation::validation(),
     };
     if let Err(error) = done {
         eprintln!("error: {error:#}");

@@ -9,7 +9,7 @@
 //! bend   EI / 2c |kappa - rest|^2     twist   GJ / 2c tau^2     stretch   EA / 2 l (|e| / l - 1)^2
 //! ```
 //!
-//! with the length `c` of the node's cell, which reaches half-way to its neighbours. A time step is implicit (backward
+//! where the bend is the mean of what it is in the frames of the two edges, so that twist does not soften it, and the length `c` of the node's cell, which reaches half-way to its neighbours. A time step is implicit (backward
 //! Euler): it is found by Newton's method with the squares of first derivatives in place of the Hessian, which is
 //! always positive definite and has a half bandwidth of 10 (`band`). The gradient is exact, so what a step comes to,
 //! and what stands still, are too.
@@ -64,6 +64,18 @@ struct Edge {
     m2: DVec3,
 }
 
+/// The bend and the twist at a node as they are now.
+#[derive(Clone, Copy, Debug, Default)]
+struct Strain {
+    /// Discrete curvature towards the director, and across: means of the two edges' frames.
+    towards: f64,
+    across: f64,
+    /// Twist in radians.
+    twist: f64,
+    /// The square of the discrete curvature.
+    squared: f64,
+}
+
 /// A rod, at rest or on its way through a time step.
 #[derive(Clone, Debug, Default)]
 pub struct Rod {
@@ -88,8 +100,8 @@ pub struct Rod {
     /// The twist at each node when it was last looked at: it may pass half a turn.
     twists: Vec<f64>,
     edges: Vec<Edge>,
-    /// Discrete curvatures and twist of each inner node as it is now.
-    strains: Vec<[f64; 3]>,
+    /// Of each inner node.
+    strains: Vec<Strain>,
     gradient: Vec<f64>,
     band: Band,
     change: Vec<f64>,
@@ -238,24 +250,29 @@ impl Rod {
             };
             *edge = Edge { length, tangent, m1, m2: tangent.cross(m1) };
         }
-        self.strains.resize(self.len(), [0.0; 3]);
+        self.strains.resize(self.len(), Strain::default());
         for i in 1..self.edges.len() {
             let (a, b) = (&self.edges[i - 1], &self.edges[i]);
             let binormal = a.tangent.cross(b.tangent) * (2.0 / chi(a.tangent, b.tangent));
             let director = carried(a.m1, a.tangent, b.tangent);
             let twist = unwrapped(angle(-director.dot(b.m2), director.dot(b.m1)), self.twists[i]);
-            self.strains[i] = [0.5 * binormal.dot(a.m2 + b.m2), -0.5 * binormal.dot(a.m1 + b.m1), twist];
+            self.strains[i] = Strain {
+                towards: 0.5 * binormal.dot(a.m2 + b.m2),
+                across: -0.5 * binormal.dot(a.m1 + b.m1),
+                squared: binormal.length_squared(),
+                twist,
+            };
         }
     }
 
     /// The twist at an inner node, in radians.
     pub fn twist(&self, node: usize) -> f64 {
-        self.strains[node][2]
+        self.strains[node].twist
     }
 
     /// The discrete curvature at an inner node: towards the director, and across.
     pub fn curvature(&self, node: usize) -> [f64; 2] {
-        [self.strains[node][0], self.strains[node][1]]
+        [self.strains[node].towards, self.strains[node].across]
     }
 
     /// Elastic energy in N mm.
@@ -267,11 +284,10 @@ impl Rod {
         };
         let bend = |i: usize| {
             let section = &self.sections[i];
-            let [k1, k2] = self.curvature(i);
             let [r1, r2] = section.rest;
-            let twist = self.twist(i);
-            0.5 / section.cell
-                * (section.ei * ((k1 - r1) * (k1 - r1) + (k2 - r2) * (k2 - r2)) + section.gj * twist * twist)
+            let Strain { towards, across, twist, squared } = self.strains[i];
+            let bend = squared - 2.0 * (r1 * towards + r2 * across) + r1 * r1 + r2 * r2;
+            0.5 / section.cell * (section.ei * bend + section.gj * twist * twist)
         };
         (0..self.len() - 1).map(stretch).sum::<f64>() + (1..self.len() - 1).map(bend).sum::<f64>()
     }
@@ -353,7 +369,7 @@ impl Rod {
 
     fn add_bend(&mut self, i: usize) {
         let Section { cell, ei, gj, rest, .. } = self.sections[i];
-        let [k1, k2, twist] = self.strains[i];
+        let Strain { towards: k1, across: k2, twist, .. } = self.strains[i];
         let (a, b) = (self.edges[i - 1], self.edges[i]);
         let inverse = 1.0 / chi(a.tangent, b.tangent);
         let binormal = a.tangent.cross(b.tangent) * (2.0 * inverse);
@@ -373,18 +389,35 @@ impl Rod {
                 from_b.z,
             ]
         };
-        let parts = [
-            (spread(k1_a, -0.5 * binormal.dot(a.m1), k1_b, -0.5 * binormal.dot(b.m1)), ei / cell, k1 - rest[0]),
-            (spread(k2_a, -0.5 * binormal.dot(a.m2), k2_b, -0.5 * binormal.dot(b.m2)), ei / cell, k2 - rest[1]),
-            (spread(twist_a, -1.0, twist_b, 1.0), gj / cell, twist),
+        // By the angles: exact in the gradient, which has only what the rest shape does. In the Hessian it is the rest
+        // shape that turns with the edges, so that nothing holds a straight wire from turning in a bend.
+        let turned = [
+            [-0.5 * binormal.dot(a.m1), -0.5 * binormal.dot(b.m1)],
+            [-0.5 * binormal.dot(a.m2), -0.5 * binormal.dot(b.m2)],
         ];
+        let parts = [(k1_a, k1_b, turned[0], 0.5 * rest[1], rest[0]), (k2_a, k2_b, turned[1], -0.5 * rest[0], rest[1])];
         let first = (i - 1) * PER_NODE;
-        for (g, stiffness, strain) in parts {
-            for (entry, g) in self.gradient[first..].iter_mut().zip(&g) {
-                *entry += stiffness * strain * g;
+        let mut add = |g: &[f64; HALF + 1], force: f64| {
+            for (entry, g) in self.gradient[first..].iter_mut().zip(g) {
+                *entry += force * g;
             }
-            self.band.add_square(first, &g, stiffness);
+        };
+        let stiffness = ei / cell;
+        // Of half the square of the curvature.
+        let cosine = a.tangent.dot(b.tangent);
+        let by_cosine = -4.0 * inverse * inverse;
+        let bent_a = (b.tangent - a.tangent * cosine) * (by_cosine * la);
+        let bent_b = (a.tangent - b.tangent * cosine) * (by_cosine * lb);
+        add(&spread(bent_a, 0.0, bent_b, 0.0), stiffness);
+        for (by_a, by_b, [angle_a, angle_b], angle, rest) in parts {
+            if rest != 0.0 {
+                add(&spread(by_a, angle_a, by_b, angle_b), -stiffness * rest);
+            }
+            self.band.add_square(first, &spread(by_a, angle, by_b, angle), stiffness);
         }
+        let by_twist = spread(twist_a, -1.0, twist_b, 1.0);
+        add(&by_twist, gj / cell * twist);
+        self.band.add_square(first, &by_twist, gj / cell);
     }
 
     /// Adds a spring to the equations: `pull` is its derivative by positions and angle of node `node` and by the position

@@ -1,0 +1,14 @@
+//! The wire against what is known of rods and of wires in tubes: each benchmark beside its analytic answer, with its
+//! tolerance. `cargo xtask validation` draws them into `docs/validation.md`.
+
+mod benchmark;
+mod buckling;
+mod elastica;
+mod friction;
+mod invariance;
+mod rods;
+mod torsion;
+mod tube_buckling;
+#[path = "../common/tubes.rs"]
+#[allow(unreachable_pub)] // Shared with tests that see it from elsewhere.
+mod tubes;
