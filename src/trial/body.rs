@@ -145,7 +145,10 @@ impl Body {
         let stride = if self.wall.is_some() { STRIDE * radius } else { f64::INFINITY };
         let strides: Vec<f64> =
             (0..self.rod.len()).map(|i| stride.max(STRIDE * self.contacts.clearance(&self.rod, i))).collect();
-        let is_too_far = |rod: &Rod| (0..rod.len()).any(|i| rod.positions[i].distance(rod.start(i)) > strides[i]);
+        let is_too_far = |rod: &Rod| {
+            // What is held is inside the guide.
+            (0..rod.len()).any(|i| !rod.held[i].position && rod.positions[i].distance(rod.start(i)) > strides[i])
+        };
         for _ in 0..ROUNDS {
             self.contacts.set_grip(&self.rod);
             let (mut moved, mut potential) = (f64::INFINITY, None);

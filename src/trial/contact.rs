@@ -36,7 +36,9 @@ const SAME: f64 = 0.9994;
 /// Facets that a node can touch at once.
 const FACETS: usize = 3;
 /// Ridges that an edge can touch at once.
-const RIDGES: usize = 2;
+const RIDGES: usize = 3;
+/// Cosine of the turn below which an edge lies against the same side of a ridge.
+const ONE_SIDE: f64 = 0.95;
 /// Places of an edge that are nearer than this part of it are one.
 const APART: f64 = 0.2;
 
@@ -263,7 +265,10 @@ impl Contacts {
         }
         let found = if may_be { wall.index().segment_foot(a, b, within) } else { None };
         let Some(SegmentFoot { along, foot }) = found else { return least };
-        let is_same = |contact: &Contact| contact.is_near && (contact.along - along).abs() < APART;
+        let away = (a.lerp(b, along) - foot.point).normalize_or_zero();
+        let is_same = |contact: &Contact| {
+            contact.is_near && (contact.along - along).abs() < APART && contact.normal.dot(away) > ONE_SIDE
+        };
         let same = contacts.iter().position(is_same);
         let free = || (0..RIDGES).min_by(|&a, &b| rank(&contacts[a]).total_cmp(&rank(&contacts[b])));
         if let Some(k) = same.or_else(free) {
