@@ -4,7 +4,7 @@
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! parallel < mesh < io, phantom, pipeline, trial < engine < app < desktop, web
+//! parallel < mesh < io, phantom, pipeline < trial < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.

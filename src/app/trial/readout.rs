@@ -17,7 +17,7 @@ pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
     if let Some(summary) = &trial.summary {
         let text = if summary.success {
             format!(
-                "Success: the tip arrived after {:.1} s; largest wall force {:.2} N.",
+                "Success: the tip arrived after {:.1} s; largest wall force {:.3} N.",
                 summary.time_s, summary.max_wall_force_n
             )
         } else {
@@ -66,11 +66,11 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     );
     number(ui, "Elapsed", &clock(frame.time_s), "Simulated time");
     number(ui, "Fluoroscopy", &clock(trial.carm.seconds), "Time that the beam was on");
-    let touches = format!("{}, {:.2} N in all", frame.touches.len(), frame.wall_force_n);
+    let touches = format!("{}, {:.3} N in all", frame.touches.len(), frame.wall_force_n);
     number(ui, "Contacts", &touches, "Places where the wire lies against the wall, and the sum of their forces");
-    let tip = format!("{:.2} N", frame.tip_force_n);
+    let tip = format!("{:.3} N", frame.tip_force_n);
     number(ui, "Force at the tip", &tip, "On the wall within 5 mm of the tip");
-    number(ui, "Torque", &format!("{:.2} N mm", frame.torque_n_mm), "The moment about the wire's axis at the guide");
+    number(ui, "Torque", &format!("{:.3} N mm", frame.torque_n_mm), "The moment about the wire's axis at the guide");
     let branch = if frame.is_wrong_branch { "off the route" } else { "on the route" };
     number(
         ui,
@@ -84,7 +84,7 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
 
 /// A bar of a fixed scale with its number; beyond the scale it is full, in the colour of errors.
 fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
-    number(ui, what, &format!("{value:.2} N"), help);
+    number(ui, what, &format!("{value:.3} N"), help);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 8.0), Sense::hover());
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(Role::Meter, true, what);

@@ -210,8 +210,8 @@ impl Row {
             mean(&passed).map_or("–".to_owned(), |ms| format!("{:.1}, {ms:.1}", summary.initial_simulation_ms));
         cells[7] = format!("{:.0}", summary.steps_per_second);
         cells[8] = beside(Some(yes(summary.success)), printed.map(|p| yes(p.success)));
-        cells[9] = format!("{:.2}", summary.max_wall_force_n);
-        cells[10] = format!("{:.2}", summary.mean_wall_force_n);
+        cells[9] = format!("{:.3}", summary.max_wall_force_n);
+        cells[10] = format!("{:.3}", summary.mean_wall_force_n);
         if summary.success {
             cells[11] = format!("{:.1}", summary.time_s);
         }

@@ -90,7 +90,7 @@ pub enum RouteError {
     /// The wire does not fit.
     #[error(
         "the lumen is too thin for a wire of {wire_mm:.2} mm: it is {lumen_mm:.2} mm wide at ({:.1}, {:.1}, {:.1}), \
-         {arc_mm:.0} mm along the route",
+         {arc_mm:.0} mm along the route; less smoothing keeps thin vessels wider",
         at[0], at[1], at[2]
     )]
     TooThin {

@@ -124,7 +124,7 @@ fn the_trial_starts_with_the_level_that_is_shown_and_its_views_take_the_place_of
         assert!(harness.query_by_role_and_label(Role::Image, view).is_some(), "{view}");
     }
     assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_none());
-    for number in ["12.3 cm", "42.0 mm", "1:15.0 min", "0.35 N", "-0.20 N", "812 a second"] {
+    for number in ["12.3 cm", "42.0 mm", "1:15.0 min", "0.350 N", "-0.200 N", "812 a second"] {
         assert!(says(&harness, number), "{number}");
     }
     press(&mut harness, "Close");
