@@ -67,7 +67,7 @@ impl Course {
         let wall = Arc::new(Wall::new(mesh.clone()));
         let wall_ms = milliseconds(start);
         let start = Instant::now();
-        let tree = Tree::with_index(mesh, wall.index().clone())?;
+        let tree = if wall.is_closed() { Tree::with_index(mesh, wall.index().clone())? } else { Tree::new(mesh)? };
         let task = sample.map(phantom_task);
         let entries: Vec<Entry> = task.iter().map(|(entry, _)| *entry).chain(tree.entries()).collect();
         let own = task.iter().map(|(_, target)| ("the sample's own".to_owned(), target.to_array()));
@@ -92,6 +92,10 @@ impl Course {
     /// When it does not fit there.
     pub fn place(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
         let entry = setup.entry.ok_or(TrialError::NoEntry)?;
+        let is_inside = |entry: &Entry| self.tree.is_inside(Vec3::from(entry.at));
+        if !is_inside(&entry) {
+            return Err(PlacementError::Outside.into());
+        }
         let mut chance = Chance(setup.seed);
         let is_varied = setup.seed != 0;
         let part = |x: f64| if is_varied { x } else { 0.0 };
@@ -109,8 +113,8 @@ impl Course {
             let at = DVec3::from(entry.at.map(f64::from)) + shift;
             let varied = Entry { at: at.as_vec3().to_array(), direction: direction.as_vec3().to_array() };
             match Simulation::new(&setup.wire, friction, &varied, roll, Some(self.wall.clone())) {
-                Ok(simulation) => return Ok((simulation, friction)),
-                Err(PlacementError::Tight { .. } | PlacementError::Outside) => {
+                Ok(simulation) if is_inside(&varied) => return Ok((simulation, friction)),
+                Ok(_) | Err(PlacementError::Tight { .. } | PlacementError::Outside) => {
                     shift /= 2.0;
                     lean /= 2.0;
                 }

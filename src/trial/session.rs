@@ -349,7 +349,7 @@ impl Trial {
             time_s: simulation.steps() as f64 * STEP,
             nodes: simulation.nodes().map(plain).collect(),
             forces: body.contacts.forces(simulation.count()).into_iter().chain([DVec3::ZERO]).map(plain).collect(),
-            touches: body.touches().map(touch).collect(),
+            touches: body.touches().filter(|touch| self.course.wall.is_vessel(touch.2)).map(touch).collect(),
             tip_direction: plain(direction),
             tip_side: plain(side.reject_from(direction).normalize_or(side)),
             inserted_mm: simulation.inserted(),

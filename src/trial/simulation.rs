@@ -104,9 +104,6 @@ impl Simulation {
                 if distance_mm < radius_mm * 1.02 {
                     return Err(PlacementError::Tight { distance_mm, radius_mm });
                 }
-                if index.winding(p.as_vec3(), crate::mesh::Vec3::new(0.267, 0.535, 0.802)) <= 0 && wall.is_closed() {
-                    return Err(PlacementError::Outside);
-                }
             }
         }
         let inserted = grid[FIRST] + 0.5 * (grid[FIRST + 1] - grid[FIRST]);

@@ -30,7 +30,7 @@ pub(crate) fn threaded(
     friction: [f64; 2],
     wall: TriMesh,
 ) -> Body {
-    let wall = Arc::new(Wall::new(Arc::new(wall)));
+    let wall = Arc::new(Wall::open(Arc::new(wall)));
     let positions: Vec<DVec3> = path.iter().enumerate().map(|(i, place)| place.0 + offset(i)).collect();
     let count = positions.len();
     let lengths: Vec<f64> = positions.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
@@ -111,7 +111,7 @@ fn block() -> Body {
     let mut rod = Rod::new(positions, vec![section; NODES + 1], DVec3::Y);
     rod.held[0].angle = true;
     rod.forces.extend((0..NODES).map(|i| (i, DVec3::NEG_Y * (WEIGHT / NODES as f64))));
-    let mut body = Body::new(rod, RADIUS, MU, Some(Arc::new(Wall::new(Arc::new(floor())))));
+    let mut body = Body::new(rod, RADIUS, MU, Some(Arc::new(Wall::open(Arc::new(floor())))));
     body.look(NODES);
     for _ in 0..50 {
         assert_ne!(body.step(STEP, NODES, |_| ()), Stepped::Held);
