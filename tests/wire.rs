@@ -72,7 +72,8 @@ fn the_tip_is_bent_to_its_side_by_its_angle() {
 
 #[test]
 fn numbers_that_make_no_wire_are_named() {
-    let wires: [(&str, fn(&mut Wire)); 4] = [
+    type Change = fn(&mut Wire);
+    let wires: [(&str, Change); 4] = [
         ("diameter", |wire| wire.diameter_mm = -1.0),
         ("stiffness of the tip", |wire| wire.tip_ei = f64::NAN),
         ("kinetic friction", |wire| wire.friction[1] = f64::INFINITY),
