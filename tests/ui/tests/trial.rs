@@ -256,7 +256,7 @@ fn the_end_is_said() {
     let arrived = Frame { progress: Progress::Arrived, ..frame() };
     let summary = Summary { success: true, time_s: 23.4, max_wall_force_n: 0.31, ..Summary::default() };
     tell(&mut harness, &memory, [TrialEvent::Frame(Box::new(arrived)), TrialEvent::Ended(Box::new(summary))]);
-    assert!(says(&harness, "Success: the tip arrived after 23.4 s; largest wall force 0.31 N."));
+    assert!(says(&harness, "Success: the tip arrived after 23.4 s; largest wall force 0.310 N."));
     press(&mut harness, "Restart");
     assert!(!says(&harness, "Success"));
     let reason = "the wire buckled three times.".to_owned();
