@@ -49,6 +49,15 @@ pub enum Stepped {
     Held,
 }
 
+/// What one correction tells the next.
+#[derive(Clone, Copy, Debug, Default)]
+struct Known {
+    /// The potential, if it is known.
+    potential: Option<f64>,
+    /// Whether the last one overshot.
+    is_careful: bool,
+}
+
 /// A rod, its contacts, and the wall.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -151,9 +160,9 @@ impl Body {
         };
         for _ in 0..ROUNDS {
             self.contacts.set_grip(&self.rod);
-            let (mut moved, mut potential) = (f64::INFINITY, None);
+            let (mut moved, mut known) = (f64::INFINITY, Known::default());
             for _ in 0..CORRECTIONS {
-                moved = self.correct(dt, brake, &mut potential);
+                moved = self.correct(dt, brake, &mut known);
                 if moved < SETTLED || is_too_far(&self.rod) {
                     break;
                 }
@@ -170,13 +179,13 @@ impl Body {
         false
     }
 
-    /// One step of Newton's method, made shorter until the potential falls. `known` is the potential before, if it is
-    /// known, and then that after. Returns the largest move of a node in mm.
-    fn correct(&mut self, dt: f64, brake: f64, known: &mut Option<f64>) -> f64 {
+    /// One step of Newton's method, made shorter until the potential falls. `known` is what the one before has found.
+    /// Returns the largest move of a node in mm.
+    fn correct(&mut self, dt: f64, brake: f64, known: &mut Known) -> f64 {
         let potential = |body: &Self| body.rod.potential(dt, brake) + body.contacts.potential(&body.rod);
         self.rod.assemble(dt, brake);
-        self.contacts.apply(&mut self.rod);
-        let before = known.unwrap_or_else(|| potential(self));
+        self.contacts.apply(&mut self.rod, known.is_careful);
+        let before = known.potential.unwrap_or_else(|| potential(self));
         let (moved, slope) = self.rod.solve();
         if !moved.is_finite() {
             return moved;
@@ -187,10 +196,10 @@ impl Body {
             let after = potential(self);
             // What rounding leaves of the potential is no reason to stop.
             if moved * part < SETTLED || after <= before + FALL * part * slope + 1e-12 * before.abs() {
-                *known = Some(after);
+                *known = Known { potential: Some(after), is_careful: part < 1.0 };
                 return moved * part;
             }
-            part /= 2.0;
+            part /= 4.0;
         }
     }
 

@@ -324,8 +324,8 @@ impl Contacts {
         self.near().map(|(node, contact)| contact.potential(rod, node, self.radius)).sum()
     }
 
-    /// Adds the springs of all contacts to the rod's equations.
-    pub fn apply(&self, rod: &mut Rod) {
+    /// Adds the springs of all contacts to the rod's equations; `is_careful` with secants of sliding friction.
+    pub fn apply(&self, rod: &mut Rod, is_careful: bool) {
         for (node, contact) in self.near() {
             let (a, b) = (1.0 - contact.along, contact.along);
             let spread = |v: DVec3, angle: f64| [v.x * a, v.y * a, v.z * a, angle, v.x * b, v.y * b, v.z * b];
@@ -342,7 +342,13 @@ impl Contacts {
             let is_sliding = length * GRIP > contact.grip;
             let along = if is_sliding { stretch / length } else { normal.any_orthonormal_vector() };
             let across = normal.cross(along);
-            let [stiff_along, stiff_across] = if is_sliding { [0.0, contact.grip / length] } else { [GRIP; 2] };
+            // Sliding friction does not change along its way. Where that lets the corrections overshoot, the secant is a
+            // stiffness that never does.
+            let [stiff_along, stiff_across] = match (is_sliding, is_careful) {
+                (false, _) => [GRIP; 2],
+                (true, true) => [contact.grip / length; 2],
+                (true, false) => [0.0, contact.grip / length],
+            };
             let force = if is_sliding { contact.grip } else { GRIP * stretch.dot(along) };
             rod.add_spring(node, &spread(along, along.dot(roll)), force, stiff_along);
             rod.add_spring(node, &spread(across, across.dot(roll)), stiff_across * stretch.dot(across), stiff_across);
