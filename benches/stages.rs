@@ -11,7 +11,8 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_grou
 use lumen::mesh::TriMesh;
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::normals::{Weighting, vertex_normals};
-use lumen::pipeline::run::{Advance, Pipeline, Stage, StageTimes};
+use lumen::pipeline::results::{Stage, StageTimes};
+use lumen::pipeline::run::{Advance, Pipeline};
 use lumen::pipeline::settings::{Settings, Target};
 use lumen::pipeline::task::Budget;
 

@@ -11,7 +11,7 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
-use lumen::trial::compare::Difference;
+use lumen::trial::compare::TrialComparison;
 use lumen::trial::course::{Course, TrialError};
 use lumen::trial::frame::Progress;
 use lumen::trial::log::Log;
@@ -113,10 +113,34 @@ fn the_same_trial_has_the_same_bits_and_its_log_replays_to_the_same_end() {
     // A trial differs from itself by nothing, and from that on another level by something.
     let mut again = first.on(mesh).unwrap();
     again.finish();
-    let difference = Difference::new(&first, &again);
-    assert!(difference.deviation.iter().all(|entry| entry[1] == 0.0) && difference.forces.is_empty());
-    assert!(difference.verdict.contains("arrives") && difference.verdict.contains("0.0 mm"), "{}", difference.verdict);
-    assert_eq!(difference.smallest_mm[0], difference.smallest_mm[1]);
+    let same = TrialComparison::new(&first, &again);
+    assert!(same.deviation_mm.iter().all(|&deviation| deviation == 0.0) && same.force_differences.is_empty());
+    assert!(same.deviation_mm.len() > 100 && same.pinched.is_empty());
+    assert!(same.verdict.contains("arrives") && same.verdict.contains("0.0 mm"), "{}", same.verdict);
+    assert_eq!(same.smallest_before_mm, same.smallest_after_mm);
+}
+
+#[test]
+fn what_is_done_by_hand_at_any_step_replays_to_the_same_end() {
+    let mesh = &levels(Sample::Aorta, 30_000, &[900])[0];
+    let mut setup = setup(Sample::Aorta);
+    let course = Arc::new(Course::new(mesh, Some(Sample::Aorta), &mut setup).unwrap());
+    let mut trial = Trial::new(course.clone(), setup).unwrap();
+    // Changes of input and the end lie between rows of the log.
+    for (steps, feed, roll) in [(3, 50.0, 0.0), (404, 30.0, 5.0), (311, -20.0, -12.0), (226, 45.0, 2.0)] {
+        (0..steps).for_each(|_| trial.step());
+        trial.drive(Input { feed, roll });
+    }
+    (0..333).for_each(|_| trial.step());
+    let recorded = Log::read(trial.log().csv(trial.summary().steps).unwrap().as_bytes()).unwrap();
+    let mut replayed = Trial::new(course, recorded.setup).unwrap();
+    replayed.replay(recorded.inputs, recorded.steps);
+    replayed.finish();
+    assert_eq!(replayed.progress(), Progress::Over);
+    assert_eq!(replayed.simulation().steps(), trial.simulation().steps());
+    let [a, b] = [&trial, &replayed].map(|trial| trial.simulation().nodes().collect::<Vec<_>>());
+    assert_eq!(a, b);
+    assert!(trial.simulation().inserted() > 20.0);
 }
 
 #[test]

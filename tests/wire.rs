@@ -73,11 +73,14 @@ fn the_tip_is_bent_to_its_side_by_its_angle() {
 #[test]
 fn numbers_that_make_no_wire_are_named() {
     type Change = fn(&mut Wire);
-    let wires: [(&str, Change); 4] = [
+    let wires: [(&str, Change); 7] = [
         ("diameter", |wire| wire.diameter_mm = -1.0),
         ("stiffness of the tip", |wire| wire.tip_ei = f64::NAN),
         ("kinetic friction", |wire| wire.friction[1] = f64::INFINITY),
         ("length", |wire| wire.length_mm = 10.0),
+        ("element at the tip", |wire| wire.elements_mm[0] = 1e-6),
+        ("angle of the bend", |wire| (wire.bend_mm, wire.straight_end_mm, wire.bend_degrees) = (3.0, 3.0, 180.0)),
+        ("angle of the bend", |wire| wire.bend_degrees = 361.0),
     ];
     for (what, change) in wires {
         let mut wire = Wire::default();

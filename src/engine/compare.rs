@@ -8,7 +8,8 @@ use std::collections::VecDeque;
 use super::message::{Compared, Event, Work};
 use super::tell_progress;
 use crate::pipeline::report::Report;
-use crate::pipeline::run::{Advance, Pipeline, Stage};
+use crate::pipeline::results::Stage;
+use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Settings, SettingsError};
 use crate::pipeline::task::Budget;
 
@@ -96,7 +97,11 @@ impl Comparing {
 /// How many stages of `pipeline` stand under `settings` as well.
 fn shared(pipeline: &Pipeline, settings: &Settings) -> usize {
     let has = pipeline.settings();
-    let alike = [has.keep == settings.keep, has.smoothing == settings.smoothing, has.decimation == settings.decimation];
+    let alike = [
+        has.keep == settings.keep,
+        has.smoothing.gives_same(&settings.smoothing),
+        has.decimation.gives_same(&settings.decimation),
+    ];
     let made = [pipeline.kept().is_some(), pipeline.smoothed().is_some(), pipeline.progressive().is_some()];
     alike.into_iter().zip(made).take_while(|&(alike, made)| alike && made).count()
 }

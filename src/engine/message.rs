@@ -10,7 +10,7 @@ use crate::phantom::Sample;
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::report::Report;
-use crate::pipeline::run::Stage;
+use crate::pipeline::results::Stage;
 use crate::pipeline::settings::{Keep, Settings};
 
 /// Where a surface comes from.

@@ -37,7 +37,8 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::phantom;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::report::Report;
-use crate::pipeline::run::{Advance, Pipeline, Stage};
+use crate::pipeline::results::Stage;
+use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::Settings;
 use crate::pipeline::task::Budget;
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
+pub use crate::trial::compare::TrialComparison;
 use crate::trial::frame::{Frame, Summary};
 use crate::trial::route::{Route, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
@@ -121,31 +122,6 @@ pub struct TrialReady {
     pub wall_ms: f64,
     /// Milliseconds to find tree and route.
     pub route_ms: f64,
-}
-
-/// How one trial's wire differs from another's under the same input.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TrialComparison {
-    /// One sentence.
-    pub verdict: String,
-    /// Inserted length in mm at each sample.
-    pub inserted_mm: Vec<f32>,
-    /// Distance between the two tips, in mm.
-    pub deviation_mm: Vec<f32>,
-    /// The way of the tip on the level that is shown.
-    pub tip: Vec<[f32; 3]>,
-    /// The way of the tip on the other surface.
-    pub other_tip: Vec<[f32; 3]>,
-    /// Places where the wall's forces differ most: where, and by how much in N.
-    pub force_differences: Vec<([f32; 3], f32)>,
-    /// Places along the route where the lumen is pinched, if there are any.
-    pub pinched: Vec<[f32; 3]>,
-    /// The smallest diameter of the lumen along the route before reduction, in mm.
-    pub smallest_before_mm: f64,
-    /// And after.
-    pub smallest_after_mm: f64,
-    /// What came of the two.
-    pub summaries: [Summary; 2],
 }
 
 /// What the trial tells.

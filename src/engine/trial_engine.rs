@@ -10,7 +10,6 @@ use super::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialR
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::trial::STEP;
-use crate::trial::compare::Difference;
 use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
@@ -111,6 +110,9 @@ impl TrialEngine {
             other => match self.shown.take() {
                 None => self.fail("no trial is on"),
                 Some(mut shown) => {
+                    if matches!(other, TrialCommand::Restart | TrialCommand::StepBack | TrialCommand::Replay { .. }) {
+                        self.drop_comparisons();
+                    }
                     self.handle_shown(other, &mut shown);
                     shown.needs_frame = true;
                     self.shown = Some(shown);
@@ -151,6 +153,11 @@ impl TrialEngine {
         }
     }
 
+    /// Gives up comparing a trial that is no longer what it was.
+    fn drop_comparisons(&mut self) {
+        self.jobs.retain(|job| !matches!(job.kind, JobKind::Compare));
+    }
+
     fn fail(&mut self, message: &str) {
         self.events.push_back(TrialEvent::Failed { message: sentence(message) });
     }
@@ -161,6 +168,7 @@ impl TrialEngine {
             Ok((trial, course)) => {
                 let ready = ready(id, trial.setup(), &course);
                 self.events.push_back(TrialEvent::Ready(Box::new(ready)));
+                self.drop_comparisons();
                 self.shown = Some(Shown::new(trial));
             }
             Err(error) => self.events.push_back(TrialEvent::Refused { id, message: sentence(&error.to_string()) }),
@@ -250,7 +258,7 @@ impl TrialEngine {
         let event = match (kind, &self.shown) {
             (JobKind::Measure { id }, _) => TrialEvent::Measured { id, summary: Box::new(trial.summary()) },
             (JobKind::Compare, Some(shown)) => {
-                TrialEvent::Compared(Box::new(compared(&Difference::new(&shown.trial, &trial))))
+                TrialEvent::Compared(Box::new(TrialComparison::new(&shown.trial, &trial)))
             }
             (JobKind::Compare, None) => return,
         };
@@ -317,23 +325,6 @@ fn ready(id: u64, setup: &Setup, course: &Course) -> TrialReady {
         targets: course.targets.clone(),
         wall_ms: course.wall_ms,
         route_ms: course.route_ms,
-    }
-}
-
-fn compared(difference: &Difference) -> TrialComparison {
-    let plain = |p: &glam::DVec3| p.as_vec3().to_array();
-    let [tip, other_tip] = difference.tips.each_ref().map(|tips| tips.iter().map(plain).collect());
-    TrialComparison {
-        verdict: difference.verdict.clone(),
-        inserted_mm: difference.deviation.iter().map(|entry| entry[0] as f32).collect(),
-        deviation_mm: difference.deviation.iter().map(|entry| entry[1] as f32).collect(),
-        tip,
-        other_tip,
-        force_differences: difference.forces.iter().map(|(at, force)| (plain(at), *force as f32)).collect(),
-        pinched: difference.pinched.iter().map(plain).collect(),
-        smallest_before_mm: difference.smallest_mm[1],
-        smallest_after_mm: difference.smallest_mm[0],
-        summaries: difference.summaries.clone(),
     }
 }
 

@@ -204,12 +204,16 @@ impl SurfaceIndex {
     /// end that the ray leaves by is a miscount.
     pub(crate) fn winding(&self, p: Vec3, direction: Vec3) -> i32 {
         let (p, direction) = (p.as_dvec3(), direction.as_dvec3());
-        let mut sum = 0;
+        let mut hits = Vec::new();
         self.along(p, direction, f64::INFINITY, |leaf, _| {
-            let outward = Hit::of(p, direction, leaf.corners).map_or(0, |hit| if hit.is_outward { 1 } else { -1 });
-            sum += outward;
+            if let Some(hit) = Hit::of(p, direction, leaf.corners) {
+                hits.push((leaf.triangle, if hit.is_outward { 1 } else { -1 }));
+            }
         });
-        sum
+        // A sliver stands in several leaves.
+        hits.sort_unstable();
+        hits.dedup();
+        hits.into_iter().map(|(_, outward)| outward).sum()
     }
 
     /// How often the surface is passed outwards, less inwards, on the straight way between two points.
@@ -396,6 +400,24 @@ mod tests {
                 assert!(ball.centre.truncate().length() < slack && (ball.centre.z - p.z).abs() < 0.05, "{ball:?}");
             }
         }
+    }
+
+    #[test]
+    fn slivers_that_stand_in_several_leaves_count_once() {
+        // Six walls of two triangles each, 400 mm long and half a millimetre wide, aslant to all axes.
+        let mut mesh = tube(6, 1, 400.0, |_| 0.5);
+        let turn = glam::Quat::from_rotation_arc(Vec3::Z, Vec3::new(1.0, 1.1, 0.9).normalize());
+        mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        assert!(index.leaves.len() > 2 * mesh.triangles.len(), "the slivers are not cut");
+        let across = [0.3f32, 1.7, 4.4].map(|angle| turn * Vec3::new(angle.cos(), angle.sin(), 0.0));
+        for direction in across {
+            assert_eq!(index.winding(turn * Vec3::new(0.02, 0.01, 190.0), direction), 1);
+            assert_eq!(index.winding(turn * Vec3::new(2.0, 0.0, 190.0) - direction * 5.0, direction), 0);
+        }
+        let mut numbers: Vec<u32> = index.triangles().collect();
+        numbers.sort_unstable();
+        assert!(numbers.into_iter().eq(0..mesh.triangles.len() as u32));
     }
 
     #[test]

@@ -158,9 +158,13 @@ impl SurfaceIndex {
         self.leaves.is_empty()
     }
 
-    /// Numbers of the triangles in the order of the tree, in which neighbours are mostly neighbours in space too.
+    /// Numbers of the triangles, each once, in the order of the tree, in which neighbours are mostly neighbours in space
+    /// too.
     pub fn triangles(&self) -> impl Iterator<Item = u32> {
-        self.leaves.iter().map(|leaf| leaf.triangle)
+        let count = self.leaves.iter().map(|leaf| leaf.triangle as usize + 1).max().unwrap_or(0);
+        let mut is_new = vec![true; count];
+        let all = self.leaves.iter().map(|leaf| leaf.triangle);
+        all.filter(move |&triangle| std::mem::take(&mut is_new[triangle as usize]))
     }
 
     /// The nearest point of the surface to `p`; `None` for an empty surface or a query that is not finite.

@@ -16,6 +16,7 @@ pub mod paper;
 pub mod progressive;
 pub mod report;
 pub mod response;
+pub mod results;
 pub mod run;
 pub mod settings;
 pub mod shape;

@@ -63,6 +63,13 @@ impl Default for Smoothing {
     }
 }
 
+impl Smoothing {
+    /// Whether these make the same surface: without iterations, the rest does not matter.
+    pub fn gives_same(&self, other: &Self) -> bool {
+        self == other || (self.iterations == 0 && other.iterations == 0)
+    }
+}
+
 /// The window of the windowed-sinc filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Window {
@@ -140,6 +147,13 @@ impl Default for Decimation {
     /// 60 degrees: above the 35 to 55 degrees of a marching-cubes stair-step, which is no feature of a vessel.
     fn default() -> Self {
         Self { method: Method::default(), feature_angle: 60.0 }
+    }
+}
+
+impl Decimation {
+    /// Whether these make the same levels: [`Method::Quadric`] knows no feature edges.
+    pub fn gives_same(&self, other: &Self) -> bool {
+        self == other || (self.method == Method::Quadric && other.method == Method::Quadric)
     }
 }
 
@@ -229,6 +243,14 @@ pub enum SettingsError {
 }
 
 impl Settings {
+    /// Whether these make the same level.
+    pub fn gives_same(&self, other: &Self) -> bool {
+        self.keep == other.keep
+            && self.target == other.target
+            && self.smoothing.gives_same(&other.smoothing)
+            && self.decimation.gives_same(&other.decimation)
+    }
+
     /// Checks every range; NaN is refused.
     ///
     /// # Errors

@@ -54,3 +54,8 @@ pub trait Task {
         }
     }
 }
+
+/// Milliseconds since `start`.
+pub(crate) fn milliseconds(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}

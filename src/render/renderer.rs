@@ -70,22 +70,7 @@ impl Renderer {
         style: &Style,
     ) {
         let bindings = self.layout.bind(device, target.size(), camera, drawables, style);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("view"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &target.multisampled,
-                depth_slice: None,
-                resolve_target: Some(target.view()),
-                // The backdrop covers it all, and only the resolved texture is kept.
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Discard },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &target.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        });
+        let mut pass = target.begin(encoder);
         bindings.set(&mut pass, 0);
         self.backdrop.draw(&mut pass);
         // All that hides before all lines, so that one surface hides the lines of another.

@@ -4,8 +4,8 @@
 #[derive(Debug)]
 pub struct ViewTarget {
     size: [u32; 2],
-    pub(super) multisampled: wgpu::TextureView,
-    pub(super) depth: wgpu::TextureView,
+    multisampled: wgpu::TextureView,
+    depth: wgpu::TextureView,
     pub(super) resolved: wgpu::Texture,
     view: wgpu::TextureView,
 }
@@ -57,6 +57,25 @@ impl ViewTarget {
             *self = Self::new(device, width, height);
         }
         changes
+    }
+
+    /// Begins drawing all of it anew. Something must cover all of it, and only the resolved texture is kept.
+    pub(super) fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("view"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.multisampled,
+                depth_slice: None,
+                resolve_target: Some(&self.view),
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Discard },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        })
     }
 
     /// The texture with the finished picture, in [`Self::FORMAT`].

@@ -43,7 +43,7 @@ impl TrialRenderer {
         style: &Style,
     ) {
         let bindings = self.bind(device, target.size(), camera, vessel, style);
-        let mut pass = begin(encoder, target);
+        let mut pass = target.begin(encoder);
         bindings.set(&mut pass, 0);
         self.backdrop.draw(&mut pass);
         self.wire.draw(&mut pass, wire);
@@ -61,7 +61,7 @@ impl TrialRenderer {
         style: &Style,
     ) {
         let bindings = self.bind(device, target.size(), camera, vessel, style);
-        let mut pass = begin(encoder, target);
+        let mut pass = target.begin(encoder);
         bindings.set(&mut pass, 0);
         self.glass.draw_inside(&mut pass, vessel);
     }
@@ -103,22 +103,4 @@ impl TrialRenderer {
         let drawable = Drawable { surface, look: Look::Shaded, tint: None };
         self.layout.bind(device, size, camera, &[drawable], style)
     }
-}
-
-fn begin<'a>(encoder: &'a mut wgpu::CommandEncoder, target: &ViewTarget) -> wgpu::RenderPass<'a> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("trial"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &target.multisampled,
-            depth_slice: None,
-            resolve_target: Some(target.view()),
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Discard },
-        })],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &target.depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
-    })
 }

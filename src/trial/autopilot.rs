@@ -7,11 +7,9 @@
 //!    time back to the guide, and turned a little more to the one side or the other of where the route goes.
 //! 3. Try again, slowly where it went wrong; after [`ATTEMPTS`] give up.
 
-use glam::DVec3;
-use serde::{Deserialize, Serialize};
-
 use super::route::Route;
 use super::setup::Input;
+use glam::DVec3;
 
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;
@@ -60,7 +58,7 @@ pub struct Seen {
     pub is_hard: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Doing {
     /// On along the route.
     Advancing,

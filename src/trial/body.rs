@@ -23,18 +23,18 @@ const ROUNDS: usize = 6;
 const SETTLED: f64 = 1e-5;
 /// At this, in mm, a step can still be taken as done.
 const ALMOST: f64 = 2e-2;
-/// The least drag of each node when something snaps, in N s/mm.
+/// The brake, which is drag of each node when something snaps: the least, in N s/mm.
 const BRAKE: f64 = 1e-6;
-/// The brake, in N s/mm, above which what is held waits: else it would be torn away from what cannot follow.
+/// By what it grows when that is too little, and falls when it was enough.
+const HARDER: f64 = 4.0;
+/// Brakes that are tried in a step.
+const ATTEMPTS: usize = 9;
+/// The brake above which what is held waits: else it would be torn away from what cannot follow.
 const PATIENCE: f64 = 1e-5;
 /// Moves of less than this in a step are stillness, in mm.
 const STILL: f64 = 0.005;
-/// By what it grows when that is too little, and falls when it was enough.
-const HARDER: f64 = 4.0;
 /// What a contact's force can rise by while the rod is braked, in N: the rest is what the brake does.
 const BRAKED_RISE: f64 = 0.005;
-/// Times it may grow in a step.
-const ATTEMPTS: usize = 9;
 
 /// What came of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

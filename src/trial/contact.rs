@@ -1,9 +1,10 @@
 //! Contact of a rod with the wall, with Coulomb friction.
 //!
 //! A node touches the wall where it is nearest, and where it was nearest before as long as that is another facet at hand:
-//! in a corner it rests on both, and slides from the one to the other without a jolt. So does the inside of an edge where that comes nearer than both of its
-//! ends: at a ridge or on the inside of a bend. The gap is the distance from the flat triangles less the radius. A
-//! contact's force is found with the step itself, as an augmented Lagrangian (Hestenes 1969; Powell 1969):
+//! in a corner it rests on both, and slides from the one to the other without a jolt. So does the inside of an edge
+//! where that comes nearer than both of its ends: at a ridge or on the inside of a bend. The gap is the distance from
+//! the flat triangles less the radius, and the force acts the way the gap grows: a force along an interpolated normal
+//! would do work as the wire slides over a facet, and never settle. A contact's force is found with the step itself, as an augmented Lagrangian (Hestenes 1969; Powell 1969):
 //!
 //! ```text
 //! N = max(0, N_before - k gap)
@@ -24,7 +25,7 @@ use crate::mesh::{PointFoot, SegmentFoot};
 const STIFFNESS: f64 = 40.0;
 /// Stiffness of what sticks, in N/mm.
 const GRIP: f64 = 40.0;
-/// A gap of less than this, in mm, is looked after in the step: nothing moves farther than that in one.
+/// A gap of less than this, in mm, is looked after in the step from its beginning; others once they have closed.
 const REACH: f64 = 0.25;
 /// Below this gap in mm the inside of an edge is looked after.
 const EDGE_REACH: f64 = 0.05;
@@ -187,9 +188,11 @@ impl Contacts {
         Self { radius, friction, ..Self::default() }
     }
 
-    /// Measures the gaps of the first `count` nodes and of the edges between them. Returns how far the rod reaches into
-    /// the wall, in mm; less than 0 where it is clear of it by more.
+    /// Measures the gaps of the first `count` nodes, the last one excepted, and of the edges between them. Returns how far
+    /// the rod reaches into the wall, in mm; less than 0 where it is clear of it by more.
     pub fn look(&mut self, rod: &Rod, count: usize, wall: &Wall) -> f64 {
+        // A contact pulls at the edge behind its node, and the last has none.
+        let count = count.min(rod.len() - 1);
         self.clearances.resize(count, Clearance::UNKNOWN);
         self.nodes.resize(count, [Contact::NONE; FACETS]);
         self.edges.resize(count.saturating_sub(1), [Contact::NONE; RIDGES]);

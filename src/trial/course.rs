@@ -12,7 +12,8 @@ use super::simulation::{PlacementError, Simulation};
 use super::wall::Wall;
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
-use crate::pipeline::run::fingerprint;
+use crate::pipeline::results::fingerprint;
+use crate::pipeline::task::milliseconds;
 
 /// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
 const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
@@ -62,7 +63,7 @@ impl Course {
     /// # Errors
     /// When there is no way for this wire.
     pub fn new(mesh: &Arc<TriMesh>, sample: Option<Sample>, setup: &mut Setup) -> Result<Self, TrialError> {
-        setup.wire.check()?;
+        setup.wire.check().map_err(PlacementError::from)?;
         let start = Instant::now();
         let wall = Arc::new(Wall::new(mesh.clone()));
         let wall_ms = milliseconds(start);
@@ -123,11 +124,6 @@ impl Course {
         }
         Ok((Simulation::new(&setup.wire, friction, &entry, roll, Some(self.wall.clone()))?, friction))
     }
-}
-
-/// Milliseconds since `start`.
-pub(super) fn milliseconds(start: Instant) -> f64 {
-    start.elapsed().as_secs_f64() * 1e3
 }
 
 /// Numbers from 0 to 1 that a seed decides: `SplitMix64` (Steele, Lea and Flood 2014).

@@ -165,17 +165,14 @@ impl Log {
                 surface = hash.trim().to_owned();
             } else if line.starts_with('#') || line.trim().is_empty() {
             } else if has_columns {
-                let mut fields = line.split(',');
-                let step = fields.next().and_then(|field| field.parse().ok()).ok_or(wrong("its step is no number"))?;
-                let mut speed = |what| {
-                    let field = fields.nth(usize::from(what == "feed")).and_then(|field| field.parse::<f32>().ok());
-                    field.filter(|x| x.is_finite()).ok_or(wrong(if what == "feed" {
-                        "its feed is no number"
-                    } else {
-                        "its roll is no number"
-                    }))
+                let fields: Vec<&str> = line.split(',').collect();
+                let speed = |column: usize| {
+                    fields.get(column).and_then(|field| field.parse::<f32>().ok()).filter(|x| x.is_finite())
                 };
-                let input = Input { feed: speed("feed")?, roll: speed("roll")? };
+                let step = fields[0].parse().map_err(|_| wrong("its step is no number"))?;
+                let feed = speed(2).ok_or(wrong("its feed is no number"))?;
+                let roll = speed(3).ok_or(wrong("its roll is no number"))?;
+                let input = Input { feed, roll };
                 if inputs.last().is_some_and(|&(last, _)| last >= step) {
                     return Err(wrong("its step is not after the one before"));
                 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::STEP;
+use super::body::Stepped;
 use super::frame::{Progress, StationResult, StepTimes, Summary};
 use super::route::Route;
 use super::session::Trial;
@@ -73,8 +74,9 @@ impl Meter {
         }
     }
 
-    pub(super) fn stepped(&mut self, ms: f64, simulation: &Simulation) {
+    pub(super) fn stepped(&mut self, ms: f64, stepped: Stepped, simulation: &Simulation) {
         self.step_ms.push(ms as f32);
+        self.held += u64::from(stepped == Stepped::Held);
         let body = simulation.body();
         let (sum, most) = body.pressure();
         self.wall_force_sum += sum;

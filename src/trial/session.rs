@@ -7,7 +7,6 @@ use web_time::Instant;
 
 use super::STEP;
 use super::autopilot::{Autopilot, FEED, Seen};
-use super::body::Stepped;
 use super::course::{Course, TrialError};
 use super::frame::{Frame, Progress, Touch};
 use super::log::{Log, Row};
@@ -15,6 +14,7 @@ use super::meter::Meter;
 use super::route::Located;
 use super::setup::{Input, Setup};
 use super::simulation::Simulation;
+use crate::pipeline::task::milliseconds;
 
 /// Steps between two rows of the log, and between two decisions.
 pub const ROW_STEPS: u64 = 10;
@@ -54,6 +54,8 @@ pub struct Trial {
     marks: Vec<State>,
     log: Log,
     is_steered: bool,
+    /// What the operator does from the next row of the log on.
+    wanted: Input,
     /// Input to be replayed: from which step on, and what; and the steps of it all.
     replay: Option<(Vec<(u64, Input)>, u64)>,
     limit_s: f64,
@@ -80,8 +82,18 @@ impl Trial {
             rows: 0,
         };
         let log = Log::new(setup.clone(), course.fingerprint);
-        let mut trial =
-            Self { course, setup, friction, state, marks: Vec::new(), log, is_steered: false, replay: None, limit_s };
+        let mut trial = Self {
+            course,
+            setup,
+            friction,
+            state,
+            marks: Vec::new(),
+            log,
+            is_steered: false,
+            wanted: Input::default(),
+            replay: None,
+            limit_s,
+        };
         trial.look();
         trial.mark();
         Ok(trial)
@@ -132,49 +144,37 @@ impl Trial {
         self.state.progress
     }
 
-    /// Times the wire was withdrawn by the autopilot.
-    pub fn retractions(&self) -> u32 {
-        self.state.meter.retractions
-    }
-
     /// Simulated seconds after which it is over.
     pub fn limit_s(&self) -> f64 {
         self.limit_s
     }
 
-    /// Steers by itself from the next decision on, or no longer.
+    /// Steers by itself from the next row of the log on, or no longer.
     pub fn set_autopilot(&mut self, on: bool) {
         self.is_steered = on;
-        if !on {
-            self.state.input = Input::default();
-        }
+        self.wanted = Input::default();
     }
 
     /// What is done from the next row of the log on, by hand.
     pub fn drive(&mut self, input: Input) {
-        if !self.is_steered {
-            self.state.input = input.limited();
-        }
+        self.wanted = input.limited();
     }
 
     /// One step of [`STEP`] seconds; nothing once it is over.
     pub fn step(&mut self) {
+        let steps = self.state.simulation.steps();
+        if self.replay.as_ref().is_some_and(|&(_, all)| steps >= all) && self.state.progress == Progress::Running {
+            self.state.progress = Progress::Over;
+        }
+        if steps.is_multiple_of(ROW_STEPS) && self.state.progress == Progress::Running {
+            self.decide(steps);
+        }
         if self.state.progress != Progress::Running {
             return;
         }
-        let steps = self.state.simulation.steps();
-        if steps.is_multiple_of(ROW_STEPS) {
-            self.decide(steps);
-            if self.state.progress != Progress::Running {
-                return;
-            }
-        }
         let start = Instant::now();
         let stepped = self.state.simulation.step(self.state.input);
-        self.state.meter.stepped(start.elapsed().as_secs_f64() * 1e3, &self.state.simulation);
-        if stepped == Stepped::Held {
-            self.state.meter.held += 1;
-        }
+        self.state.meter.stepped(milliseconds(start), stepped, &self.state.simulation);
         let steps = self.state.simulation.steps();
         if steps.is_multiple_of(ROW_STEPS) {
             self.look();
@@ -202,7 +202,7 @@ impl Trial {
         }
         if let Some(mark) = self.marks.last() {
             self.state = mark.clone();
-            self.state.input = Input::default();
+            self.wanted = Input::default();
             self.log.rows.truncate(self.state.rows);
         }
     }
@@ -217,20 +217,18 @@ impl Trial {
 
     /// The input of the next row.
     fn decide(&mut self, steps: u64) {
-        if let Some((inputs, all)) = &self.replay {
-            if steps >= *all {
-                self.end(Progress::Over);
-                return;
-            }
+        if let Some((inputs, _)) = &self.replay {
             let known = inputs.partition_point(|&(from, _)| from <= steps);
             self.state.input = known.checked_sub(1).map_or(Input::default(), |i| inputs[i].1);
         } else if self.is_steered {
             let seen = self.seen();
             match self.state.autopilot.decide(&self.course.route, &seen) {
                 Some(input) => self.state.input = input.limited(),
-                None => self.end(Progress::GaveUp),
+                None => self.state.progress = Progress::GaveUp,
             }
             self.state.meter.retractions = self.state.autopilot.retractions;
+        } else {
+            self.state.input = self.wanted;
         }
         let row = self.row();
         self.log.rows.push(row);
@@ -266,7 +264,7 @@ impl Trial {
         let wire = &self.setup.wire;
         let grid = simulation.grid();
         let edge = grid.partition_point(|&at| at < wire.bend_mm).min(simulation.count());
-        [simulation.tip_frame()[0], simulation.body().rod.director(edge)]
+        [simulation.tip_direction(), simulation.body().rod.director(edge)]
     }
 
     /// Finds out where the tip is, and whether that is the end.
@@ -297,10 +295,6 @@ impl Trial {
         }
     }
 
-    fn end(&mut self, progress: Progress) {
-        self.state.progress = progress;
-    }
-
     fn row(&self) -> Row {
         let state = &self.state;
         let simulation = &state.simulation;
@@ -314,7 +308,7 @@ impl Trial {
             inserted_mm: simulation.inserted(),
             roll: simulation.roll(),
             tip: simulation.tip(),
-            tip_direction: simulation.tip_frame()[0],
+            tip_direction: simulation.tip_direction(),
             arc_mm: state.arc,
             branch: state.located.map_or(0, |located| located.branch),
             is_off: state.is_off,
@@ -333,7 +327,7 @@ impl Trial {
         }
     }
 
-    /// The wire and all that is told of it now. `pace` and what depends on the clock are filled in by the caller.
+    /// The wire and all that is told of it now; what depends on the clock is filled in by the caller.
     pub fn frame(&self) -> Frame {
         let state = &self.state;
         let simulation = &state.simulation;

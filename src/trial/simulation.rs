@@ -14,30 +14,18 @@ use super::body::{Body, Stepped};
 use super::rod::{Held, Rod, Section};
 use super::setup::{Entry, Input};
 use super::wall::Wall;
-use super::wire::Wire;
+use super::wire::{Wire, WireError};
 
 /// Length outside the guide at the start, in elements.
 const FIRST: usize = 2;
 /// The least part of an element that a cell has: what is still inside the guide hardly bends.
 const LEAST_CELL: f64 = 0.02;
-/// The stiffest that an edge is along itself, in N. Under a push of 1 N it gives by 0.05 %.
-const STIFFEST: f64 = 2000.0;
-/// Young's modulus of steel in MPa.
-const STEEL: f64 = 200_000.0;
-/// Drag of blood on a thin cylinder, N s/mm2: about `4 pi mu / ln(length / radius)` with 4 mPa s.
-const BLOOD: f64 = 3e-8;
-
 /// Why a wire cannot be put where it should be.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PlacementError {
-    /// No number, or none that makes sense.
-    #[error("the wire's {what} of {value} is not possible")]
-    Wire {
-        /// Which number.
-        what: &'static str,
-        /// It.
-        value: f64,
-    },
+    /// The wire cannot be.
+    #[error(transparent)]
+    Wire(#[from] WireError),
     /// A wall is too near.
     #[error(
         "the wire does not fit where it enters: the wall is {distance_mm:.2} mm away, the wire's radius is {radius_mm:.2} mm"
@@ -237,9 +225,9 @@ impl Simulation {
         self.body.rod.positions[0]
     }
 
-    /// Direction of the tip, and the side to which it is bent.
-    pub fn tip_frame(&self) -> [DVec3; 2] {
-        [-self.body.rod.tangent(0), self.body.rod.director(0)]
+    /// Direction of the tip.
+    pub fn tip_direction(&self) -> DVec3 {
+        -self.body.rod.tangent(0)
     }
 
     /// Length outside the guide in mm.
@@ -270,95 +258,5 @@ impl Simulation {
     /// Material places of the nodes, in mm from the tip.
     pub fn grid(&self) -> &[f64] {
         &self.grid
-    }
-}
-
-impl Wire {
-    /// Refuses numbers that make no wire.
-    ///
-    /// # Errors
-    /// Names the number.
-    pub fn check(&self) -> Result<(), PlacementError> {
-        let positive = [
-            ("diameter", self.diameter_mm, 10.0),
-            ("stiffness of the shaft", self.shaft_ei, 1e5),
-            ("stiffness of the tip", self.tip_ei, 1e5),
-            ("torsion ratio", self.torsion_ratio, 100.0),
-            ("length", self.length_mm, 10_000.0),
-            ("density", self.density, 1e-6),
-            ("element at the tip", self.elements_mm[0], 20.0),
-            ("element of the shaft", self.elements_mm[1], 20.0),
-        ];
-        let others = [
-            ("soft part", self.soft_mm, 10_000.0),
-            ("taper", self.taper_mm, 10_000.0),
-            ("bend", self.bend_mm, 100.0),
-            ("angle of the bend", self.bend_degrees, 360.0),
-            ("straight end", self.straight_end_mm, 100.0),
-            ("static friction", self.friction[0], 2.0),
-            ("kinetic friction", self.friction[1], 2.0),
-        ];
-        let wrong = |&(what, value, most): &(&'static str, f64, f64), least: f64| {
-            (!(least..=most).contains(&value)).then_some(PlacementError::Wire { what, value })
-        };
-        let found = positive.iter().find_map(|number| wrong(number, 1e-9));
-        let found = found.or_else(|| others.iter().find_map(|number| wrong(number, 0.0)));
-        let long = 20.0 * self.elements_mm[0].max(self.elements_mm[1]);
-        match found {
-            Some(error) => Err(error),
-            None if self.length_mm < long => Err(PlacementError::Wire { what: "length", value: self.length_mm }),
-            None => Ok(()),
-        }
-    }
-
-    /// Where the nodes are, in mm from the tip: fine over the first 10 mm, coarser from there on.
-    fn grid(&self) -> Vec<f64> {
-        const FINE: f64 = 10.0;
-        const GROWTH: f64 = 1.08;
-        let [fine, coarse] = self.elements_mm;
-        let mut grid = vec![0.0];
-        let (mut at, mut length) = (0.0, fine);
-        while at < self.length_mm {
-            at += length;
-            grid.push(at);
-            if at >= FINE.max(self.bend_mm + self.straight_end_mm) {
-                length = if coarse > fine { (length * GROWTH).min(coarse) } else { coarse };
-            }
-        }
-        grid
-    }
-
-    /// Bending stiffness in N mm2 at a place in mm from the tip.
-    pub fn ei(&self, at: f64) -> f64 {
-        let along = (at - self.soft_mm) / (self.taper_mm - self.soft_mm).max(1e-9);
-        let logarithm = libm::log(self.shaft_ei / self.tip_ei) * along.clamp(0.0, 1.0);
-        self.tip_ei * libm::exp(logarithm)
-    }
-
-    fn sections(&self, grid: &[f64]) -> Vec<Section> {
-        let area = std::f64::consts::PI * self.radius() * self.radius();
-        let last = grid.len() - 1;
-        let section = |i: usize| {
-            let (from, to) = (grid[i.max(1) - 1], grid[(i + 1).min(last)]);
-            let (from, to) = (f64::midpoint(from, grid[i]), f64::midpoint(grid[i], to));
-            let ei = self.ei(grid[i]);
-            // A core of steel with this EI has an EA of sqrt(4 pi E EI).
-            let ea = libm::sqrt(4.0 * std::f64::consts::PI * STEEL * ei).min(STIFFEST);
-            let bent = |at: f64| {
-                ((at - self.straight_end_mm) / (self.bend_mm - self.straight_end_mm).max(1e-6)).clamp(0.0, 1.0)
-            };
-            let turn = (bent(to) - bent(from)) * self.bend_degrees.to_radians();
-            Section {
-                length: if i < last { grid[i + 1] - grid[i] } else { grid[i] - grid[i - 1] },
-                cell: to - from,
-                ei,
-                gj: ei * self.torsion_ratio,
-                ea,
-                rest: [2.0 * libm::tan(turn / 2.0), 0.0],
-                mass: self.density * area * (to - from),
-                drag: BLOOD * (to - from),
-            }
-        };
-        (0..grid.len()).map(section).collect()
     }
 }

@@ -105,7 +105,7 @@ impl Comparison {
 
     /// Whether `settings` can be added: there is room, and they are not compared already.
     pub fn can_add(&self, settings: &Settings) -> bool {
-        self.cells.len() < MOST && self.cells.iter().all(|cell| cell.settings != *settings)
+        self.cells.len() < MOST && !self.cells.iter().any(|cell| cell.settings.gives_same(settings))
     }
 
     /// Compares `settings` too, if they can be added.

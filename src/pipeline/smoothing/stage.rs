@@ -9,7 +9,7 @@ use super::{SmoothingTask, Terms};
 use crate::mesh::{Topology, TriMesh, Vec3, measures_within};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, edge_length};
-use crate::pipeline::run::{Smoothed, Surface};
+use crate::pipeline::results::{Smoothed, Surface};
 use crate::pipeline::settings::{Boundary, Smoothing};
 use crate::pipeline::task::{Budget, Progress, Task};
 

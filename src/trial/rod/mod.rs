@@ -9,10 +9,11 @@
 //! bend   EI / 2c |kappa - rest|^2     twist   GJ / 2c tau^2     stretch   EA / 2 l (|e| / l - 1)^2
 //! ```
 //!
-//! where the bend is the mean of what it is in the frames of the two edges, so that twist does not soften it, and the length `c` of the node's cell, which reaches half-way to its neighbours. A time step is implicit (backward
-//! Euler): it is found by Newton's method with the squares of first derivatives in place of the Hessian, which is
-//! always positive definite and has a half bandwidth of 10 (`band`). The gradient is exact, so what a step comes to,
-//! and what stands still, are too.
+//! where the bend is the mean of what it is in the frames of the two edges, so that twist does not soften it, and `c` is
+//! the length of the node's cell, which reaches half-way to its neighbours. A time step is implicit (backward Euler): it
+//! is found by Newton's method with the squares of first derivatives in place of the Hessian, which is always positive
+//! definite and has a half bandwidth of 10 (`band`). The gradient is exact, so what a step comes to, and what stands
+//! still, are too.
 //!
 //! Nodes are numbered from the tip; tangents point away from it.
 
