@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::contact::Contacts;
-use super::rod::Rod;
+use super::rod::{Hessian, Rod};
 use super::wall::Wall;
 
 /// The part of the radius that the wire may reach into the wall when a step is done.
@@ -50,12 +50,14 @@ pub enum Stepped {
 }
 
 /// What one correction tells the next.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Known {
     /// The potential, if it is known.
     potential: Option<f64>,
     /// Whether the last one overshot.
     is_careful: bool,
+    /// The one that has been positive definite so far.
+    hessian: Hessian,
 }
 
 /// A rod, its contacts, and the wall.
@@ -111,6 +113,7 @@ impl Body {
             // There was no way: what friction and forces have wound up comes loose.
             self.contacts.friction = [0.0; 2];
         }
+        self.contacts.begin();
         let stepped = self.attempts(dt, count, prepare);
         self.contacts.friction = friction;
         self.is_stuck = stepped == Stepped::Held && !self.is_stuck;
@@ -142,6 +145,7 @@ impl Body {
             }
             brake = (brake * HARDER).max(BRAKE);
             self.rod.undo();
+            self.contacts.undo();
             self.look(count);
         }
         self.brake = 0.0;
@@ -158,12 +162,16 @@ impl Body {
             // What is held is inside the guide.
             (0..rod.len()).any(|i| !rod.held[i].position && rod.positions[i].distance(rod.start(i)) > strides[i])
         };
+        if brake == 0.0 {
+            self.predict(dt, count);
+        }
         for _ in 0..ROUNDS {
             self.contacts.set_grip(&self.rod);
-            let (mut moved, mut known) = (f64::INFINITY, Known::default());
+            let (mut moved, mut known) =
+                (f64::INFINITY, Known { potential: None, is_careful: false, hessian: Hessian::Pressed });
             for _ in 0..CORRECTIONS {
                 moved = self.correct(dt, brake, &mut known);
-                if moved < SETTLED || is_too_far(&self.rod) {
+                if moved < SETTLED {
                     break;
                 }
             }
@@ -175,28 +183,52 @@ impl Body {
             if moved < ALMOST && self.depth <= DEPTH * radius {
                 return true;
             }
+            if moved < ALMOST {
+                // It rests too deep: the forces that it needs are more than the corrections may find at once.
+                self.contacts.raise();
+            }
         }
         false
+    }
+
+    /// Begins where the rod would be if it went on as in the step before, if that is nearer to the step's end.
+    fn predict(&mut self, dt: f64, count: usize) {
+        let before = self.potential(dt, 0.0);
+        self.rod.predict(dt);
+        if self.potential(dt, 0.0) < before {
+            self.look(count);
+        } else {
+            self.rod.unpredict();
+        }
+    }
+
+    /// What a step makes least, in N mm.
+    fn potential(&self, dt: f64, brake: f64) -> f64 {
+        self.rod.potential(dt, brake) + self.contacts.potential(&self.rod)
     }
 
     /// One step of Newton's method, made shorter until the potential falls. `known` is what the one before has found.
     /// Returns the largest move of a node in mm.
     fn correct(&mut self, dt: f64, brake: f64, known: &mut Known) -> f64 {
-        let potential = |body: &Self| body.rod.potential(dt, brake) + body.contacts.potential(&body.rod);
-        self.rod.assemble(dt, brake);
-        self.contacts.apply(&mut self.rod, known.is_careful);
-        let before = known.potential.unwrap_or_else(|| potential(self));
-        let (moved, slope) = self.rod.solve();
+        let before = known.potential.unwrap_or_else(|| self.potential(dt, brake));
+        let (moved, slope) = loop {
+            self.rod.assemble(dt, brake, known.hessian);
+            self.contacts.apply(&mut self.rod, known.is_careful);
+            match self.rod.solve(known.hessian) {
+                Some(solved) => break solved,
+                None => known.hessian = Hessian::Safe,
+            }
+        };
         if !moved.is_finite() {
             return moved;
         }
         let mut part = 1.0;
         loop {
             self.rod.advance(part);
-            let after = potential(self);
+            let after = self.potential(dt, brake);
             // What rounding leaves of the potential is no reason to stop.
             if moved * part < SETTLED || after <= before + FALL * part * slope + 1e-12 * before.abs() {
-                *known = Known { potential: Some(after), is_careful: part < 1.0 };
+                (known.potential, known.is_careful) = (Some(after), part < 1.0);
                 return moved * part;
             }
             part /= 4.0;

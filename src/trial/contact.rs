@@ -39,7 +39,7 @@ const FACETS: usize = 3;
 /// Ridges that an edge can touch at once.
 const RIDGES: usize = 3;
 /// Cosine of the turn below which an edge lies against the same side of a ridge.
-const ONE_SIDE: f64 = 0.95;
+const ONE_SIDE: f64 = 0.9994;
 /// Places of an edge that are nearer than this part of it are one.
 const APART: f64 = 0.2;
 
@@ -82,8 +82,10 @@ pub struct Contact {
     gap: f64,
     /// Where the rod was when the gap was measured.
     at: DVec3,
-    /// Normal force in N at the end of the last step.
+    /// Normal force in N at the end of the last step, or what [`Contacts::raise`] has made of it in this one.
     pub force: f64,
+    /// The same, at the beginning of the step.
+    first: f64,
     /// The one that the corrections have come to, from the gap as it was measured before them.
     balanced: f64,
     /// How far what sticks is stretched, in mm.
@@ -108,6 +110,7 @@ impl Contact {
         gap: 0.0,
         at: DVec3::ZERO,
         force: 0.0,
+        first: 0.0,
         balanced: 0.0,
         stretch: DVec3::ZERO,
         friction: DVec3::ZERO,
@@ -168,6 +171,13 @@ impl Contact {
     }
 }
 
+/// Of which node or edge a contact is, and which of its contacts.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    Node(usize, usize),
+    Edge(usize, usize),
+}
+
 /// The contacts of a rod.
 #[derive(Clone, Debug, Default)]
 pub struct Contacts {
@@ -176,6 +186,8 @@ pub struct Contacts {
     nodes: Vec<[Contact; FACETS]>,
     /// Of the inside of each edge.
     edges: Vec<[Contact; RIDGES]>,
+    /// Those of them that take part in the step.
+    places: Vec<Place>,
     /// Radius of the rod in mm.
     pub radius: f64,
     /// Coefficients of friction, sticking and sliding.
@@ -203,6 +215,7 @@ impl Contacts {
         for i in 1..count {
             deepest = deepest.max(self.radius - self.look_at_edge(rod, i - 1, wall));
         }
+        self.list();
         deepest
     }
 
@@ -294,32 +307,65 @@ impl Contacts {
 
     /// Every contact that takes part in the step, with the node at which its edge begins.
     fn near(&self) -> impl Iterator<Item = (usize, &Contact)> {
-        let nodes = self.nodes.iter().enumerate().flat_map(|(i, all)| all.iter().map(move |contact| (i, contact)));
-        let edges = self.edges.iter().enumerate().flat_map(|(i, all)| all.iter().map(move |contact| (i, contact)));
-        nodes.chain(edges).filter(|(_, contact)| contact.is_near)
+        let contact = |place: &Place| match *place {
+            Place::Node(i, k) => (i, &self.nodes[i][k]),
+            Place::Edge(i, k) => (i, &self.edges[i][k]),
+        };
+        self.places.iter().map(contact).filter(|(_, contact)| contact.is_near)
     }
 
-    fn near_mut(&mut self) -> impl Iterator<Item = (usize, &mut Contact)> {
-        let nodes = self.nodes.iter_mut().enumerate();
-        let nodes = nodes.flat_map(|(i, all)| all.iter_mut().map(move |contact| (i, contact)));
-        let edges = self.edges.iter_mut().enumerate();
-        let edges = edges.flat_map(|(i, all)| all.iter_mut().map(move |contact| (i, contact)));
-        nodes.chain(edges).filter(|(_, contact)| contact.is_near)
+    /// Does something to each of those.
+    fn each(&mut self, mut visit: impl FnMut(usize, &mut Contact)) {
+        for place in &self.places {
+            let (node, contact) = match *place {
+                Place::Node(i, k) => (i, &mut self.nodes[i][k]),
+                Place::Edge(i, k) => (i, &mut self.edges[i][k]),
+            };
+            if contact.is_near {
+                visit(node, contact);
+            }
+        }
+    }
+
+    /// Lists where contacts are.
+    fn list(&mut self) {
+        self.places.clear();
+        for (i, contacts) in self.nodes.iter().enumerate() {
+            let near = (0..FACETS).filter(|&k| contacts[k].is_near);
+            self.places.extend(near.map(|k| Place::Node(i, k)));
+        }
+        for (i, contacts) in self.edges.iter().enumerate() {
+            let near = (0..RIDGES).filter(|&k| contacts[k].is_near);
+            self.places.extend(near.map(|k| Place::Edge(i, k)));
+        }
     }
 
     /// Sets what friction can give by the forces as they are now, for the corrections that follow.
     pub fn set_grip(&mut self, rod: &Rod) {
         let friction = self.friction;
-        for (node, contact) in self.near_mut() {
+        self.each(|node, contact| {
             contact.grip = friction[usize::from(contact.is_sliding)] * contact.pressure(rod, node);
-        }
+        });
     }
 
     /// Notes the forces that the corrections have come to.
     pub fn balance(&mut self, rod: &Rod) {
-        for (node, contact) in self.near_mut() {
-            contact.balanced = contact.pressure(rod, node);
-        }
+        self.each(|node, contact| contact.balanced = contact.pressure(rod, node));
+    }
+
+    /// Begins a step.
+    pub fn begin(&mut self) {
+        self.each(|_, contact| contact.first = contact.force);
+    }
+
+    /// Lets the corrections that follow begin with the forces that those before have come to.
+    pub fn raise(&mut self) {
+        self.each(|_, contact| contact.force = contact.balanced);
+    }
+
+    /// Goes back to the forces at the beginning of the step.
+    pub fn undo(&mut self) {
+        self.each(|_, contact| contact.force = contact.first);
     }
 
     /// The energy of all contacts, in N mm.
@@ -360,24 +406,22 @@ impl Contacts {
 
     /// Lets go of all forces: the next step finds them anew.
     pub fn forget(&mut self) {
-        for (_, contact) in self.near_mut() {
-            (contact.force, contact.stretch, contact.friction) = (0.0, DVec3::ZERO, DVec3::ZERO);
-        }
+        self.each(|_, contact| (contact.force, contact.stretch, contact.friction) = (0.0, DVec3::ZERO, DVec3::ZERO));
     }
 
     /// Ends a step: the forces are now those of the next step's start, none by more than `rise` N above what it was.
     pub fn finish(&mut self, rod: &Rod, rise: f64) {
         let (radius, friction) = (self.radius, self.friction);
-        for (node, contact) in self.near_mut() {
-            let force = contact.balanced.min(contact.force + rise);
+        self.each(|node, contact| {
+            let force = contact.balanced.min(contact.first + rise);
             if force <= 0.0 {
                 contact.force = 0.0;
                 contact.stretch = DVec3::ZERO;
                 contact.friction = DVec3::ZERO;
                 contact.is_sliding = false;
                 // The inside of an edge is found again when it is nearer than the ends.
-                contact.is_near = contact.along <= 0.0;
-                continue;
+                contact.is_near = true;
+                return;
             }
             let (stretch, _) = contact.trial(rod, node, radius);
             let most = friction[usize::from(contact.is_sliding)] * force / GRIP;
@@ -386,7 +430,7 @@ impl Contacts {
             contact.stretch = if length > most { stretch * (most / length) } else { stretch };
             contact.friction = contact.stretch * -GRIP;
             contact.force = force;
-        }
+        });
     }
 
     /// What the wall does to each of the first `count` nodes, in N.

@@ -1,7 +1,7 @@
 //! Rods to be tried, and how they come to rest.
 
 use glam::DVec3;
-use lumen::trial::rod::{Held, Rod, Section};
+use lumen::trial::rod::{Held, Hessian, Rod, Section};
 
 /// N mm2; about a solid nickel-titanium core of 0.36 mm.
 pub(crate) const EI: f64 = 40.0;
@@ -49,10 +49,10 @@ pub(crate) fn settle_by(part: f64, rod: &mut Rod, load: impl Fn(&mut Rod), suppo
         load(rod);
         // What is held may have been put elsewhere.
         rod.refresh();
-        rod.assemble(f64::INFINITY, 0.0);
+        rod.assemble(f64::INFINITY, 0.0, Hessian::Safe);
         support(rod);
         let before: Vec<f64> = (0..rod.len() - 1).map(|edge| rod.spin(edge)).collect();
-        let (moved, _) = rod.solve();
+        let (moved, _) = rod.solve(Hessian::Safe).expect("a safe Hessian");
         rod.advance(part);
         let spun = before.iter().enumerate().map(|(edge, before)| (rod.spin(edge) - before).abs()).fold(0.0, f64::max);
         let change = moved.max(spun);

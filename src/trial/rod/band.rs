@@ -51,12 +51,14 @@ impl Band {
     }
 
     /// Factors the matrix in place. A pivot that is not positive, which only rounding can make, is replaced by a tiny
-    /// one of its row.
-    pub(super) fn factor(&mut self) {
+    /// one of its row. Returns whether there was none.
+    pub(super) fn factor(&mut self) -> bool {
+        let mut is_definite = true;
         for i in 0..self.rows.len() {
             let (done, rest) = self.rows.split_at_mut(i + 1);
             let pivot_row = &mut done[i];
             if pivot_row[0] <= f64::MIN_POSITIVE {
+                is_definite = false;
                 pivot_row[0] = pivot_row.iter().fold(1e-12, |most, entry| f64::max(most, entry.abs()));
             }
             let inverse = 1.0 / pivot_row[0];
@@ -75,6 +77,7 @@ impl Band {
                 *entry *= inverse;
             }
         }
+        is_definite
     }
 
     /// Solves for a right-hand side, in place; after [`Self::factor`].
@@ -121,7 +124,7 @@ mod tests {
         };
         let expected: Vec<f64> = (0..n).map(|i| if i == 5 { 0.0 } else { random() }).collect();
         let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| full(&band, i, j) * expected[j]).sum()).collect();
-        band.factor();
+        assert!(band.factor());
         band.solve(&mut x);
         for (i, (x, expected)) in x.iter().zip(&expected).enumerate() {
             assert!((x - expected).abs() < 1e-9, "{i}: {x} for {expected}");

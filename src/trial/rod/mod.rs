@@ -77,6 +77,16 @@ struct Strain {
     squared: f64,
 }
 
+/// What stands for the second derivatives of the energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hessian {
+    /// Squares of first derivatives, and what tension adds: always positive definite.
+    Safe,
+    /// The same, and what pressure takes away: nearer to the truth, and not positive definite beyond the load at which
+    /// the rod buckles.
+    Pressed,
+}
+
 /// A rod, at rest or on its way through a time step.
 #[derive(Clone, Debug, Default)]
 pub struct Rod {
@@ -98,6 +108,8 @@ pub struct Rod {
     frames: Vec<[DVec3; 2]>,
     /// How far each edge has turned about its tangent in the step, in radians.
     spins: Vec<f64>,
+    /// How fast each edge turned in the step before, in rad/s.
+    turns: Vec<f64>,
     /// The twist at each node when it was last looked at: it may pass half a turn.
     twists: Vec<f64>,
     edges: Vec<Edge>,
@@ -147,6 +159,7 @@ impl Rod {
             held: vec![Held::default(); count],
             start: positions.clone(),
             spins: vec![0.0; count],
+            turns: vec![0.0; count],
             twists: vec![0.0; count],
             positions,
             sections,
@@ -188,6 +201,7 @@ impl Rod {
         self.held.push(Held::default());
         self.start.push(position);
         self.spins.push(0.0);
+        self.turns.push(0.0);
         self.twists.push(0.0);
         let across = director.reject_from_normalized(tangent).try_normalize();
         self.frames.push([tangent, across.unwrap_or_else(|| tangent.any_orthonormal_vector())]);
@@ -204,6 +218,7 @@ impl Rod {
         self.held.truncate(count);
         self.start.truncate(count);
         self.spins.truncate(count);
+        self.turns.truncate(count);
         self.twists.truncate(count);
         self.frames.truncate(count - 1);
         self.refresh();
@@ -295,7 +310,7 @@ impl Rod {
 
     /// Sets up the equations of a step of `dt` seconds at the present positions; an infinite `dt` asks for rest.
     /// `brake` is drag beyond that of the nodes, in N s/mm each.
-    pub fn assemble(&mut self, dt: f64, brake: f64) {
+    pub fn assemble(&mut self, dt: f64, brake: f64, hessian: Hessian) {
         let rows = self.len() * PER_NODE;
         self.band.reset(rows);
         self.gradient.clear();
@@ -309,7 +324,7 @@ impl Rod {
         for &(edge, moment) in &self.moments {
             self.gradient[edge * PER_NODE + 3] -= moment;
         }
-        (0..self.edges.len()).for_each(|i| self.add_stretch(i));
+        (0..self.edges.len()).for_each(|i| self.add_stretch(i, hessian));
         (1..self.edges.len()).for_each(|i| self.add_bend(i));
     }
 
@@ -320,7 +335,7 @@ impl Rod {
         self.band.reset(rows);
         self.gradient.clear();
         self.gradient.resize(rows, 0.0);
-        (first..self.edges.len()).for_each(|i| self.add_stretch(i));
+        (first..self.edges.len()).for_each(|i| self.add_stretch(i, Hessian::Safe));
         (first.max(1)..self.edges.len()).for_each(|i| self.add_bend(i));
     }
 
@@ -341,7 +356,7 @@ impl Rod {
         self.band.add(self.len() * PER_NODE - 1, self.len() * PER_NODE - 1, 1.0);
     }
 
-    fn add_stretch(&mut self, i: usize) {
+    fn add_stretch(&mut self, i: usize, hessian: Hessian) {
         let Section { length, ea, .. } = self.sections[i];
         let edge = self.edges[i];
         let tension = ea * (edge.length / length - 1.0);
@@ -352,8 +367,8 @@ impl Rod {
             *entry += tension * g;
         }
         self.band.add_square(first, &g, ea / length);
-        // Under tension it is stiff across, too; what pressure takes away would not be positive definite.
-        if tension > 0.0 {
+        // Under tension it is stiff across, too, and under pressure it gives way.
+        if tension > 0.0 || hessian == Hessian::Pressed {
             let across = tension / edge.length;
             for (axis, along) in t.to_array().into_iter().enumerate() {
                 for (other, also) in t.to_array().into_iter().enumerate() {
@@ -457,8 +472,9 @@ impl Rod {
     }
 
     /// Solves the equations for a change of positions and angles, for [`Self::advance`]. Returns the largest move of a node
-    /// in mm and the slope of the potential along the change; an infinite move when there is no answer.
-    pub fn solve(&mut self) -> (f64, f64) {
+    /// in mm and the slope of the potential along the change; an infinite move when there is no answer. `None` when the
+    /// matrix is not positive definite, as that of [`Hessian::Pressed`] may be.
+    pub fn solve(&mut self, hessian: Hessian) -> Option<(f64, f64)> {
         self.change.clear();
         self.change.extend(self.gradient.iter().map(|g| -g));
         for (i, held) in self.held.iter().enumerate() {
@@ -468,14 +484,16 @@ impl Rod {
                 self.change[i * PER_NODE + row] = 0.0;
             }
         }
-        self.band.factor();
+        if !self.band.factor() && hessian == Hessian::Pressed {
+            return None;
+        }
         self.band.solve(&mut self.change);
         let mut largest = 0.0f64;
         let mut scale = 1.0f64;
         for change in self.change.chunks_exact(PER_NODE) {
             let (way, spin) = (DVec3::from_slice(change).length(), change[3].abs());
             if !(way.is_finite() && spin.is_finite()) {
-                return (f64::INFINITY, 0.0);
+                return Some((f64::INFINITY, 0.0));
             }
             largest = largest.max(way);
             scale = scale.min(MOST_WAY / way.max(MOST_WAY)).min(MOST_SPIN / spin.max(MOST_SPIN));
@@ -484,7 +502,7 @@ impl Rod {
         self.base.0.clone_from(&self.positions);
         self.base.1.clone_from(&self.spins);
         let slope = self.change.iter().zip(&self.gradient).map(|(change, gradient)| change * gradient).sum();
-        (largest, slope)
+        Some((largest, slope))
     }
 
     /// Goes this part of the change that was found last.
@@ -492,6 +510,28 @@ impl Rod {
         for (i, change) in self.change.chunks_exact(PER_NODE).enumerate() {
             self.positions[i] = self.base.0[i] + DVec3::from_slice(change) * part;
             self.spins[i] = self.base.1[i] + change[3] * part;
+        }
+        self.refresh();
+    }
+
+    /// Goes on for `dt` seconds as in the step before; what is held stays.
+    pub fn predict(&mut self, dt: f64) {
+        for i in (0..self.len()).filter(|&i| !self.held[i].position) {
+            self.positions[i] = self.start[i] + self.velocities[i] * dt;
+        }
+        for i in (0..self.len()).filter(|&i| !self.held[i].angle) {
+            self.spins[i] = self.turns[i] * dt;
+        }
+        self.refresh();
+    }
+
+    /// Takes a prediction back.
+    pub fn unpredict(&mut self) {
+        for i in (0..self.len()).filter(|&i| !self.held[i].position) {
+            self.positions[i] = self.start[i];
+        }
+        for i in (0..self.len()).filter(|&i| !self.held[i].angle) {
+            self.spins[i] = 0.0;
         }
         self.refresh();
     }
@@ -510,6 +550,9 @@ impl Rod {
             *frame = [edge.tangent, edge.m1.reject_from_normalized(edge.tangent).normalize_or(edge.m1)];
         }
         self.start.clone_from(&self.positions);
+        for (turn, spin) in self.turns.iter_mut().zip(&self.spins) {
+            *turn = if dt.is_finite() { spin / dt } else { 0.0 };
+        }
         self.spins.fill(0.0);
         self.refresh();
     }
@@ -518,6 +561,7 @@ impl Rod {
     pub fn undo(&mut self) {
         self.positions.clone_from(&self.start);
         self.velocities.fill(DVec3::ZERO);
+        self.turns.fill(0.0);
         self.spins.fill(0.0);
         self.refresh();
     }
