@@ -5,6 +5,7 @@ mod benchmark;
 mod buckling;
 mod elastica;
 mod friction;
+mod helix;
 mod invariance;
 mod rods;
 mod torsion;
