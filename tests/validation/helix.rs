@@ -25,6 +25,8 @@ use crate::tubes::{Place, curve, tube};
 const CLEARANCE: f64 = TUBE - RADIUS;
 /// N mm2.
 const EI: f64 = 1.0;
+/// How long a helix is given to come to rest, in steps.
+const STEPS: usize = 500;
 
 /// The angle of the helix under this load in N.
 fn helix_angle(load: f64) -> f64 {
@@ -53,32 +55,51 @@ fn helix(load: f64) -> [f64; 2] {
         .collect();
     let long = 240.0 * h * angle.cos();
     // A straight tube needs no rings.
-    let wall = tube(&curve(&[(long + 20.0, f64::INFINITY)], long + 20.0), |_| TUBE, 192);
-    let section = Section { ei: EI, gj: EI / 1.3, ea: 2000.0, mass: 1e-9, drag: 1e-6, ..Section::default() };
+    let wall = tube(&curve(&[(long + 20.0, f64::INFINITY)], long + 20.0), |_| TUBE, 384);
+    let section = Section { ei: EI, gj: EI / 1.3, ea: 2000.0, mass: 1e-9, drag: 1e-4, ..Section::default() };
     let mut body = threaded(&places, |_| DVec3::X * 5.0, section, [0.0; 2], wall);
     let count = body.rod.len();
     body.rod.forces.push((0, DVec3::X * load));
-    for i in 0..3000 {
-        let stepped = body.step(STEP, count - 2, |_| ());
-        assert_ne!(stepped, Stepped::Held);
-        if i % 200 == 0 {
-            let middle = 80..160;
-            let along = body.rod.positions[159].x - body.rod.positions[80].x;
-            let long: f64 = middle.clone().map(|i| body.rod.sections[i].length).sum::<f64>() - body.rod.sections[159].length;
-            let force: f64 = body.touches().filter(|t| middle.contains(&t.0)).map(|t| t.3).sum();
-            println!("{i} {stepped:?} {} {} {}", (along / long).acos() / angle, force / long / (EI / CLEARANCE.powi(3) * angle.sin().powi(4)), body.rod.positions[0]);
+    let (mut angle, mut force, mut times) = (0.0, 0.0, 0.0);
+    for i in 0..STEPS {
+        assert_ne!(body.step(STEP, count - 2, |_| ()), Stepped::Held);
+        // The ends bend away from the helix, by less and less over half a turn.
+        if i >= STEPS / 2 {
+            let [from, to] = [80, 160];
+            let way: f64 = body.rod.sections[from..to].iter().map(|section| section.length).sum();
+            angle += ((body.rod.positions[to].x - body.rod.positions[from].x) / way).acos();
+            let pressing = body.touches().filter(|touch| (from..to).contains(&touch.0));
+            force += pressing.map(|touch| touch.3).sum::<f64>() / way;
+            times += 1.0;
         }
     }
-    [0.0; 2]
+    [angle / times, force / times]
 }
 
 #[test]
 fn a_pushed_wire_winds_itself_into_lubinskis_helix() {
     let mut found = Benchmark::new("helix");
-    for load in [0.02, 0.1, 0.2] {
-        println!("{load}: angle {}", helix_angle(load));
-        let t = std::time::Instant::now();
-        helix(load);
-        println!("{:?}", t.elapsed());
+    let mut pressed = Benchmark::new("helix-wall");
+    let units = [CLEARANCE.powi(2) / EI, CLEARANCE.powi(3) / EI];
+    let pitch = |angle: f64| TAU / angle.tan();
+    for load in [0.02, 0.05, 0.1, 0.2] {
+        let exact = helix_angle(load);
+        let [angle, force] = helix(load);
+        let number = load * units[0];
+        found.compare(&format!("pitch over r at F r²/EI = {number:.3}"), pitch(exact), pitch(angle), Part(0.01), 240);
+        found.point("ours", number, pitch(angle));
+        let (exact, ours) = (exact.sin().powi(4), force * units[1]);
+        pressed.compare(&format!("n r³/EI at F r²/EI = {number:.3}"), exact, ours, Part(0.02), 240);
+        pressed.point("ours", number, ours);
     }
+    for i in 1..=40 {
+        let load = 0.005 * f64::from(i) + 0.01;
+        let (number, angle) = (load * units[0], helix_angle(load));
+        found.curve("helix", number, pitch(angle));
+        found.curve("Lubinski's", number, TAU * (2.0 / number).sqrt());
+        pressed.curve("helix", number, angle.sin().powi(4));
+        pressed.curve("Lubinski's", number, number * number / 4.0);
+    }
+    found.finish();
+    pressed.finish();
 }
