@@ -2,6 +2,7 @@
 //! tolerance. `cargo xtask validation` draws them into `docs/validation.md`.
 
 mod benchmark;
+mod bend;
 mod buckling;
 mod elastica;
 mod friction;
