@@ -8,6 +8,7 @@ mod elastica;
 mod friction;
 mod helix;
 mod invariance;
+mod refinement;
 mod rods;
 mod torsion;
 mod tube_buckling;
