@@ -107,7 +107,7 @@ impl Column {
                     &mut rod,
                     |rod| {
                         if self.other == Pinned {
-                            couples(rod, part * moment)
+                            couples(rod, part * moment);
                         }
                     },
                     guide,

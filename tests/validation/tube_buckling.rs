@@ -117,10 +117,11 @@ fn a_snake_goes_over_into_a_helix() {
         }
     }
     assert!(round(&body) > PI, "no helix");
+    // From here on a helix is the lighter, and above twice of it a snake cannot be (Wicks, Wardle and Pafitis 2008).
     let least = 8f64.sqrt();
-    found.compare("load at which it winds over √(EI w/r)", 1.3 * least, onset, Band(2.83, 5.65), 192);
-    found.mark("a helix can be", least, 1.0);
-    found.mark("it is, tried", 1.3 * least, 1.0);
-    found.mark("a snake cannot be", 2.0 * least, 1.0);
+    found.compare("load at which it winds over √(EI w/r)", 1.3 * least, onset, Band(2.83, 5.66), 192);
+    found.mark("helix is the lighter", least, 1.0);
+    found.mark("Wu and Juvkam-Wold", 1.3 * least, 1.0);
+    found.mark("no snake can be", 2.0 * least, 1.0);
     found.finish();
 }
