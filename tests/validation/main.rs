@@ -2,10 +2,13 @@
 //! tolerance. `cargo xtask validation` draws them into `docs/validation.md`.
 
 mod benchmark;
+mod bend;
 mod buckling;
 mod elastica;
 mod friction;
+mod helix;
 mod invariance;
+mod refinement;
 mod rods;
 mod torsion;
 mod tube_buckling;

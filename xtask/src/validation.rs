@@ -12,7 +12,7 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 16] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 24] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -24,12 +24,16 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 16] = [
         false,
     ),
     ("euler-order", "Clamped column: error of the critical load", ["elements", "error"], true),
+    ("greenhill", "Columns: moment at which they buckle", ["P L² / EI", "M L / EI"], false),
+    ("greenhill-order", "Clamped twisted column: error of the critical moment", ["elements", "error"], true),
     ("torsion", "Twist of a wire", ["distance from the tip over L", "turn over that of the tip"], false),
     ("michell", "A twisted ring leaves its plane", ["turn, rad", "stiffness across over that without a turn"], false),
     ("michell-order", "Twisted ring: error of the critical turn", ["elements", "error"], true),
     ("whip", "A bent tip in a bent tube", ["turn of the base, degrees", "turn of the tip, degrees"], false),
     ("whip-order", "Whip: error of the number from which on it snaps", ["elements", "error"], true),
     ("capstan", "Pull through half a turn", ["coefficient of friction", "pull over that at the tip"], false),
+    ("push", "Push through half a turn", ["coefficient of friction", "push over that at the tip"], false),
+    ("roll", "Torque that rolls a wire in a bend", ["sides of the tube", "torque, N mm"], false),
     ("stick-slip", "A piece of wire pushed to and fro", ["way, mm", "push over what presses it down"], false),
     (
         "snaking",
@@ -37,7 +41,11 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 16] = [
         ["push over √(EI w/r)", "width over the clearance"],
         false,
     ),
+    ("helix-onset", "A snake goes over into a helix", ["push over √(EI w/r)", "turns about the axis"], false),
+    ("helix", "Pitch of a pushed wire", ["F r² / EI", "pitch over the clearance"], false),
+    ("helix-wall", "What a pushed wire presses on the wall with", ["F r² / EI", "n r³ / EI"], false),
     ("return", "The tip on its way in and out", ["x, mm", "y, mm"], false),
+    ("refinement", "Wall force on the way into a bend", ["length fed in, mm", "sum over the wall, mN"], false),
     ("turned", "A loaded rod that is turned", ["", ""], false),
 ];
 
