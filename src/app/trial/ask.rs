@@ -21,6 +21,8 @@ pub enum Ask {
     OpenLog,
     /// Compare with the surface that was not reduced.
     Compare,
+    /// Compare no more.
+    CancelComparison,
     /// Run the paper's tables.
     Tables,
     /// Back to the surface.

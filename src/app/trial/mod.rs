@@ -93,7 +93,10 @@ pub struct Trial {
     coming: Option<(u64, Subject)>,
     /// The setup that the engine has, as the controls had it.
     sent: Option<Setup>,
+    /// The number of the newest trial, measurement or comparison.
     number: u64,
+    /// That of the newest comparison.
+    compared: u64,
     /// A log to be replayed once the wire is in.
     log: Option<Arc<Vec<u8>>>,
     /// Counts up with every trial and every beginning: forces that were felt before are forgotten.
@@ -151,14 +154,21 @@ impl Trial {
             Ask::StepBack => {
                 self.is_paused = true;
                 self.summary = None;
+                self.comparing = None;
                 link.send(TrialCommand::StepBack);
             }
             Ask::Save => link.send(TrialCommand::Save),
             Ask::Compare => {
                 if let Some(Subject { levels, .. }) = &self.subject {
                     let whole = levels.extract(&levels.level(Target::Reduction(0)).triangles);
-                    self.comparing = Some(0.0);
-                    link.send(TrialCommand::Compare { mesh: Arc::new(whole) });
+                    self.number += 1;
+                    (self.compared, self.comparing) = (self.number, Some(0.0));
+                    link.send(TrialCommand::Compare { id: self.number, mesh: Arc::new(whole) });
+                }
+            }
+            Ask::CancelComparison => {
+                if self.comparing.take().is_some() {
+                    link.send(TrialCommand::Cancel { id: self.compared });
                 }
             }
             Ask::Tables => {
@@ -217,7 +227,7 @@ impl Trial {
     }
 
     fn begin_again(&mut self) {
-        (self.summary, self.comparison) = (None, None);
+        (self.summary, self.comparison, self.comparing) = (None, None, None);
         if let Some(frame) = &mut self.frame {
             frame.progress = Progress::Running;
         }
@@ -303,6 +313,11 @@ impl Trial {
                 self.problem = Some(message);
                 self.stage = if self.subject.is_some() { Stage::On } else { Stage::Off };
             }
+            TrialEvent::Refused { id, message } if self.is_compared(id) => {
+                self.comparing = None;
+                self.problem = Some(message);
+            }
+            TrialEvent::Refused { id, message } if self.tables.is_measuring(id) => self.tables.fails(&message),
             // What is left of a trial that was given up.
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
             TrialEvent::Frame(frame) if self.stage == Stage::On => self.frame = Some(*frame),
@@ -313,23 +328,18 @@ impl Trial {
                 let file = |ending: &str, text: String| Offer { name: format!("{stem}.{ending}"), bytes: text.into() };
                 return vec![file("csv", csv), file("json", json)];
             }
-            TrialEvent::Compared(comparison) => {
+            TrialEvent::Compared { id, comparison } if self.is_compared(id) => {
                 self.comparing = None;
                 self.comparison = Some(*comparison);
             }
-            TrialEvent::Busy { fraction } => {
-                if self.tables.is_running() {
-                    self.tables.progresses(fraction);
-                } else if self.comparing.is_some() {
-                    self.comparing = Some(fraction);
-                }
-            }
+            TrialEvent::Busy { id, fraction } if self.is_compared(id) => self.comparing = Some(fraction),
+            TrialEvent::Busy { id, fraction } if self.tables.is_measuring(id) => self.tables.progresses(fraction),
+            // Of one that was cancelled.
+            TrialEvent::Compared { .. } | TrialEvent::Busy { .. } => {}
             TrialEvent::Measured { id, summary } => {
                 self.tables.receive(id, summary);
             }
             TrialEvent::Failed { message } => {
-                self.comparing = None;
-                self.tables.fails(&message);
                 self.problem = Some(message);
             }
         }
@@ -343,6 +353,11 @@ impl Trial {
 
     fn is_coming(&self, id: u64) -> bool {
         self.coming.as_ref().is_some_and(|(coming, _)| *coming == id)
+    }
+
+    /// Whether this is the number of the comparison that is awaited.
+    fn is_compared(&self, id: u64) -> bool {
+        self.comparing.is_some() && self.compared == id
     }
 
     fn receive_ready(&mut self, ready: TrialReady, link: &mut TrialLink) {
@@ -364,16 +379,10 @@ impl Trial {
         }
     }
 
-    /// Stops the tables; the engine is in the middle of one, so another takes its place.
+    /// Stops the tables; the trial stands.
     pub fn cancel_tables(&mut self, link: &mut TrialLink) {
-        if self.tables.cancel() {
-            link.restart();
-            if self.stage != Stage::Off {
-                let is_open = self.is_open;
-                self.forget();
-                self.is_open = is_open;
-                self.problem = Some("The tables were stopped, and the trial with them.".to_owned());
-            }
+        if let Some(id) = self.tables.cancel() {
+            link.send(TrialCommand::Cancel { id });
         }
     }
 

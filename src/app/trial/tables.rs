@@ -102,6 +102,11 @@ impl Tables {
         }
     }
 
+    /// Whether the measurement of this number is going on.
+    pub(super) fn is_measuring(&self, id: u64) -> bool {
+        self.running == Some(id)
+    }
+
     fn current(&mut self) -> Option<&mut Row> {
         self.rows.iter_mut().find(|row| matches!(row.outcome, Outcome::Running(_)))
     }
@@ -115,7 +120,7 @@ impl Tables {
 
     /// Hears what came of it.
     pub(super) fn receive(&mut self, id: u64, summary: Box<Summary>) {
-        if self.running == Some(id) {
+        if self.is_measuring(id) {
             self.running = None;
             if let Some(row) = self.current() {
                 row.outcome = Outcome::Done(summary);
@@ -132,14 +137,14 @@ impl Tables {
         }
     }
 
-    /// Gives up what is not done; says whether a measurement was going on.
-    pub(super) fn cancel(&mut self) -> bool {
+    /// Gives up what is not done; gives the number of the measurement that was going on.
+    pub(super) fn cancel(&mut self) -> Option<u64> {
         for row in &mut self.rows {
             if matches!(row.outcome, Outcome::Waiting | Outcome::Running(_)) {
                 row.outcome = Outcome::Failed("Cancelled.".to_owned());
             }
         }
-        self.running.take().is_some()
+        self.running.take()
     }
 
     /// Runs all rows again.

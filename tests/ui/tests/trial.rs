@@ -283,7 +283,7 @@ fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() 
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Compare with the unreduced surface");
     let commands = asked(&memory);
-    let Some(TrialCommand::Compare { mesh }) = commands.first() else { panic!("{commands:?}") };
+    let Some(TrialCommand::Compare { id, mesh }) = commands.first() else { panic!("{commands:?}") };
     // Table I of the paper.
     assert_eq!(mesh.triangles.len(), 74_307);
     let comparison = TrialComparison {
@@ -296,8 +296,47 @@ fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() 
         smallest_after_mm: 3.05,
         ..TrialComparison::default()
     };
-    tell(&mut harness, &memory, [TrialEvent::Compared(Box::new(comparison.clone()))]);
+    let compared = TrialEvent::Compared { id: *id, comparison: Box::new(comparison.clone()) };
+    tell(&mut harness, &memory, [compared]);
     assert!(says(&harness, &comparison.verdict) && says(&harness, "3.05 mm, was 3.21 mm"));
+}
+
+#[test]
+fn a_comparison_can_be_cancelled_alone_and_ends_with_its_trial() {
+    let (mut harness, memory) = on(DESKTOP);
+    let compare = "Compare with the unreduced surface";
+    press(&mut harness, compare);
+    let Some(TrialCommand::Compare { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    tell(&mut harness, &memory, [TrialEvent::Busy { id, fraction: 0.4 }]);
+    assert!(says(&harness, "Comparing: 40 %"));
+    press(&mut harness, "Cancel comparison");
+    assert_eq!(asked(&memory), [TrialCommand::Cancel { id }]);
+    assert!(says(&harness, "12.3 cm"), "the trial stands");
+    // What the engine had told before it heard of that.
+    let late = TrialComparison { verdict: "Too late.".to_owned(), ..TrialComparison::default() };
+    tell(&mut harness, &memory, [TrialEvent::Compared { id, comparison: Box::new(late) }]);
+    assert!(!says(&harness, "Too late."));
+    press(&mut harness, compare);
+    press(&mut harness, "Restart");
+    assert!(!harness.state().trial().is_busy(), "the engine gives up comparing what is no more");
+    press(&mut harness, compare);
+    let Some(TrialCommand::Compare { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    tell(&mut harness, &memory, [TrialEvent::Refused { id, message: "The wire does not fit.".to_owned() }]);
+    assert!(says(&harness, "The wire does not fit.") && !harness.state().trial().is_busy());
+}
+
+#[test]
+fn a_row_that_is_refused_says_why_and_the_tables_are_cancelled_without_the_trial() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Tables III and IV");
+    harness.run_steps(3);
+    let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    tell(&mut harness, &memory, [TrialEvent::Refused { id, message: "The lumen is too thin.".to_owned() }]);
+    assert!(says(&harness, "10 %: The lumen is too thin."));
+    let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    press(&mut harness, "Cancel tables");
+    assert_eq!(asked(&memory), [TrialCommand::Cancel { id }]);
+    assert!(says(&harness, "12.3 cm"), "the trial stands");
 }
 
 #[test]
