@@ -161,6 +161,11 @@ impl LumenApp {
         if *ask == trial::Ask::OpenLog {
             self.platform.choose_file(ctx);
         }
+        if *ask == trial::Ask::SmoothLess {
+            // One step to undo, whatever was changed before it.
+            self.state.history.record(&self.state.settings);
+            self.trial.smooth_less(&mut self.state.settings.smoothing);
+        }
         if *ask == trial::Ask::Start {
             self.state.comparison.set_open(false);
         }
@@ -194,7 +199,8 @@ impl LumenApp {
                 ui.set_max_width(ui.available_width() - 8.0);
                 if self.trial.is_open {
                     ui.spacing_mut().item_spacing.y = 3.0;
-                    ask = trial::panel(ui, &mut self.trial, self.state.document.as_ref());
+                    let (smoothing, document) = (&self.state.settings.smoothing, self.state.document.as_ref());
+                    ask = trial::panel(ui, &mut self.trial, smoothing, document);
                     return;
                 }
                 let (unit, asked) = panel::show(ui, &mut self.state, &mut self.views, &mut self.trial);
@@ -279,6 +285,9 @@ impl eframe::App for LumenApp {
         }
         let is_held = ctx.input(|input| input.pointer.any_down()) || ctx.egui_wants_keyboard_input();
         self.state.follow(is_held, self.platform.link());
+        let State { document, settings, .. } = &self.state;
+        let has_level = self.state.has_level();
+        self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
         if self.trial.is_open && self.trial.is_moving() {
             ctx.request_repaint();
         }

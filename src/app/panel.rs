@@ -27,7 +27,8 @@ pub(super) fn show(
     let unit = ui.push_id("surface", |ui| surface(ui, state, views)).inner;
     ui.push_id("smooth", |ui| smooth(ui, &mut state.settings, measured(state.document.as_ref())));
     ui.push_id("reduce", |ui| reduce(ui, state));
-    let ask = ui.push_id("trial", |ui| trial::panel(ui, trial, state.document.as_ref())).inner;
+    let ask =
+        ui.push_id("trial", |ui| trial::panel(ui, trial, &state.settings.smoothing, state.document.as_ref())).inner;
     ui.push_id("result", |ui| result(ui, state));
     (unit, ask)
 }

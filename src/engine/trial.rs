@@ -149,6 +149,8 @@ pub enum TrialEvent {
         id: u64,
         /// One sentence.
         message: String,
+        /// Whether the reason is a lumen thinner than the wire.
+        is_too_thin: bool,
     },
     /// The wire now.
     Frame(Box<Frame>),

@@ -13,6 +13,7 @@ use crate::trial::STEP;
 use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
+use crate::trial::route::RouteError;
 use crate::trial::session::Trial;
 use crate::trial::setup::Setup;
 
@@ -115,7 +116,7 @@ impl TrialEngine {
             }
             other => match self.shown.take() {
                 None => match other {
-                    TrialCommand::Compare { id, .. } => self.refuse(id, NO_TRIAL),
+                    TrialCommand::Compare { id, .. } => self.refuse(id, NO_TRIAL, false),
                     _ => self.fail(NO_TRIAL),
                 },
                 Some(mut shown) => {
@@ -183,7 +184,7 @@ impl TrialEngine {
                 self.drop_comparisons();
                 self.shown = Some(Shown::new(trial));
             }
-            Err(error) => self.refuse(id, &error.to_string()),
+            Err(error) => self.refuse_for(id, &error),
         }
     }
 
@@ -203,12 +204,17 @@ impl TrialEngine {
                 }
                 self.jobs.push_back(Job { id, trial: Box::new(trial), kind, told: Instant::now() });
             }
-            Err(error) => self.refuse(id, &error.to_string()),
+            Err(error) => self.refuse_for(id, &error),
         }
     }
 
-    fn refuse(&mut self, id: u64, message: &str) {
-        self.events.push_back(TrialEvent::Refused { id, message: sentence(message) });
+    fn refuse_for(&mut self, id: u64, error: &TrialError) {
+        let is_too_thin = matches!(error, TrialError::Route(RouteError::TooThin { .. }));
+        self.refuse(id, &error.to_string(), is_too_thin);
+    }
+
+    fn refuse(&mut self, id: u64, message: &str, is_too_thin: bool) {
+        self.events.push_back(TrialEvent::Refused { id, message: sentence(message), is_too_thin });
     }
 
     /// Works for a slice at `now_s` seconds by any clock; says after what time it wants to go on, `None` for not before the

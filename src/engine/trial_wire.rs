@@ -34,7 +34,7 @@ enum CommandHeader {
 enum EventHeader {
     Preparing { id: u64, fraction: f32 },
     Ready(Box<TrialReady>),
-    Refused { id: u64, message: String },
+    Refused { id: u64, message: String, is_too_thin: bool },
     Frame(Box<Frame>),
     Ended(Box<Summary>),
     Saved,
@@ -104,7 +104,9 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
     let (header, buffers) = match event {
         TrialEvent::Preparing { id, fraction } => (EventHeader::Preparing { id: *id, fraction: *fraction }, vec![]),
         TrialEvent::Ready(ready) => (EventHeader::Ready(ready.clone()), vec![]),
-        TrialEvent::Refused { id, message } => (EventHeader::Refused { id: *id, message: message.clone() }, vec![]),
+        TrialEvent::Refused { id, message, is_too_thin } => {
+            (EventHeader::Refused { id: *id, message: message.clone(), is_too_thin: *is_too_thin }, vec![])
+        }
         TrialEvent::Frame(frame) => {
             let mut rest = frame.clone();
             (rest.nodes, rest.forces, rest.touches) = Default::default();
@@ -139,7 +141,7 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<TrialEvent, 
     Ok(match serde_json::from_str(header)? {
         EventHeader::Preparing { id, fraction } => TrialEvent::Preparing { id, fraction },
         EventHeader::Ready(ready) => TrialEvent::Ready(ready),
-        EventHeader::Refused { id, message } => TrialEvent::Refused { id, message },
+        EventHeader::Refused { id, message, is_too_thin } => TrialEvent::Refused { id, message, is_too_thin },
         EventHeader::Frame(mut frame) => {
             frame.nodes = array(buffers, 0)?;
             frame.forces = array(buffers, 1)?;
@@ -231,7 +233,7 @@ mod tests {
         let events = [
             TrialEvent::Preparing { id: 1, fraction: 0.5 },
             TrialEvent::Ready(Box::new(ready)),
-            TrialEvent::Refused { id: 1, message: message.clone() },
+            TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true },
             TrialEvent::Frame(Box::new(frame)),
             TrialEvent::Ended(summary.clone()),
             TrialEvent::Saved { csv: "a,b\n1,2\n".to_owned(), json: "{}".to_owned() },

@@ -34,12 +34,18 @@ use crate::engine::trial::{TrialCommand, TrialComparison, TrialEvent, TrialLink,
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
-use crate::pipeline::settings::Target;
+use crate::pipeline::settings::{Smoothing, Target};
 use crate::trial::frame::{Frame, Progress, Summary};
 use crate::trial::setup::{Entry, Input, Setup};
 
 /// Simulated seconds a second in slow motion.
 const SLOW: f32 = 0.25;
+
+/// The pass band and the iterations that are offered where smoothing leaves no room for the wire.
+const GENTLE: (f64, u32) = (0.1, 30);
+
+/// What is said until that level is there.
+const AWAITS: &str = "Smoothing less: the trial starts when the new level is there.";
 
 /// The surface of a trial.
 struct Subject {
@@ -84,6 +90,10 @@ pub struct Trial {
     pub carm: CArm,
     /// Why the last thing asked for could not be done.
     pub problem: Option<String>,
+    /// Whether that is a lumen thinner than the wire.
+    is_too_thin: bool,
+    /// The smoothing whose level is awaited: it begins with that.
+    awaits: Option<Smoothing>,
     drive: drive::Drive,
     /// The input that the engine has.
     driven: Input,
@@ -122,14 +132,45 @@ impl Trial {
         self.ready.as_ref().map(|ready| &ready.setup)
     }
 
+    /// The smoothing that is offered in place of `smoothing`, where the lumen is too thin for the wire.
+    fn gentler(&self, smoothing: &Smoothing) -> Option<Smoothing> {
+        let (pass_band, iterations) = GENTLE;
+        let is_stronger = smoothing.iterations > 0 && smoothing.pass_band < pass_band;
+        (self.is_too_thin && is_stronger).then_some(Smoothing { pass_band, iterations, ..*smoothing })
+    }
+
+    /// Sets the gentler smoothing; the trial begins once its level is there.
+    pub(super) fn smooth_less(&mut self, smoothing: &mut Smoothing) {
+        if let Some(gentler) = self.gentler(smoothing) {
+            *smoothing = gentler;
+            (self.problem, self.is_too_thin, self.awaits) = (None, false, Some(gentler));
+        }
+    }
+
+    /// Begins with the level that was awaited, if it is there: `has_level` says whether the level that is shown is that
+    /// of the settings. Where smoothing was set to something else meanwhile, nothing is awaited any more.
+    pub(super) fn follow_level(
+        &mut self,
+        smoothing: &Smoothing,
+        has_level: bool,
+        document: Option<&Document>,
+        link: &mut TrialLink,
+    ) {
+        self.awaits.take_if(|awaited| awaited != smoothing);
+        if self.awaits.is_some() && has_level {
+            self.start(document, link);
+        }
+    }
+
     /// Whether the controls say other than what the wire is in for.
     pub fn has_changed(&self) -> bool {
         self.sent.as_ref().is_some_and(|sent| *sent != self.setup)
     }
 
-    /// Does what the user asks for. What needs a platform ([`Ask::OpenLog`]) is not for here.
+    /// Does what the user asks for. What needs a platform or the settings ([`Ask::OpenLog`],
+    /// [`Ask::SmoothLess`]) is not for here.
     pub fn act(&mut self, ask: &Ask, document: Option<&Document>, link: &mut TrialLink) {
-        self.problem = None;
+        (self.problem, self.is_too_thin) = (None, false);
         match ask {
             Ask::Start => self.start(document, link),
             Ask::Restart => {
@@ -178,7 +219,8 @@ impl Trial {
                 }
             }
             Ask::Close => self.close(link),
-            Ask::OpenLog => {}
+            // Smoothing is the app's.
+            Ask::OpenLog | Ask::SmoothLess => {}
         }
     }
 
@@ -197,6 +239,7 @@ impl Trial {
             self.problem = Some("There is no surface to steer through yet.".to_owned());
             return;
         };
+        self.awaits = None;
         self.number += 1;
         let (id, mesh) = (self.number, Arc::new(mesh));
         let is_other = self.name != document.name;
@@ -307,17 +350,17 @@ impl Trial {
         match event {
             TrialEvent::Preparing { id, fraction } if self.is_coming(id) => self.stage = Stage::Preparing(fraction),
             TrialEvent::Ready(ready) if self.is_coming(ready.id) => self.receive_ready(*ready, link),
-            TrialEvent::Refused { id, message } if self.is_coming(id) => {
+            TrialEvent::Refused { id, message, is_too_thin } if self.is_coming(id) => {
                 self.coming = None;
                 self.log = None;
-                self.problem = Some(message);
+                (self.problem, self.is_too_thin) = (Some(message), is_too_thin);
                 self.stage = if self.subject.is_some() { Stage::On } else { Stage::Off };
             }
-            TrialEvent::Refused { id, message } if self.is_compared(id) => {
+            TrialEvent::Refused { id, message, .. } if self.is_compared(id) => {
                 self.comparing = None;
                 self.problem = Some(message);
             }
-            TrialEvent::Refused { id, message } if self.tables.is_measuring(id) => self.tables.fails(&message),
+            TrialEvent::Refused { id, message, .. } if self.tables.is_measuring(id) => self.tables.fails(&message),
             // What is left of a trial that was given up.
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
             TrialEvent::Frame(frame) if self.stage == Stage::On => self.frame = Some(*frame),

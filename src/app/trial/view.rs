@@ -5,7 +5,7 @@ use glam::{Mat3, Quat};
 
 use super::readout::{WALL_SCALE, plate};
 use super::scene::TrialScene;
-use super::{Stage, Trial, marks, tables};
+use super::{AWAITS, Stage, Trial, marks, tables};
 use crate::app::control::name;
 use crate::app::document::Document;
 use crate::app::overlay::{self, Legend, NOT_CLINICAL};
@@ -163,6 +163,7 @@ impl TrialView {
         let text = match (&self.failure, trial.stage) {
             (Some(failure), _) => failure.clone(),
             (None, _) if self.device.is_none() => "There is no graphics device to draw with.".to_owned(),
+            (None, _) if trial.awaits.is_some() => AWAITS.to_owned(),
             (None, Stage::Preparing(fraction)) => format!("Finding the way: {:.0} %", fraction * 100.0),
             (None, Stage::Off) => "No trial is on.".to_owned(),
             (None, Stage::On) => return,

@@ -11,6 +11,7 @@ use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::engine::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
 use lumen::phantom::Sample;
+use lumen::pipeline::settings::{Settings, Smoothing};
 use lumen::trial::frame::{Frame, Progress, StationResult, Summary};
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen_ui_tests::{Memory, app, settle};
@@ -54,6 +55,17 @@ fn tell(harness: &mut App, memory: &Rc<RefCell<Memory>>, events: impl IntoIterat
     harness.run_steps(3);
 }
 
+/// Steps until it is so.
+fn wait(harness: &mut App, is_so: impl Fn(&App) -> bool) {
+    for _ in 0..4000 {
+        if is_so(harness) {
+            return;
+        }
+        harness.step();
+    }
+    panic!("it does not come to be");
+}
+
 fn says(harness: &App, text: &str) -> bool {
     harness.query_all_by_label_contains(text).next().is_some()
 }
@@ -89,6 +101,10 @@ fn frame() -> Frame {
         steps_per_second: 812.0,
         ..Frame::default()
     }
+}
+
+fn refused(id: u64, message: &str, is_too_thin: bool) -> TrialEvent {
+    TrialEvent::Refused { id, message: message.to_owned(), is_too_thin }
 }
 
 fn id_of_start(commands: &[TrialCommand]) -> u64 {
@@ -245,9 +261,55 @@ fn what_is_refused_is_said_and_what_stood_stands() {
     let Some(TrialCommand::Start { id, setup, .. }) = commands.first() else { panic!("{commands:?}") };
     assert_eq!(setup.target, Some([1.0, 2.0, 3.0]));
     let message = "The lumen is thinner than the wire 31 mm along the way.".to_owned();
-    tell(&mut harness, &memory, [TrialEvent::Refused { id: *id, message: message.clone() }]);
+    tell(&mut harness, &memory, [refused(*id, &message, false)]);
     assert!(says(&harness, &message));
+    assert!(harness.query_by_label_contains("Smooth less").is_none(), "smoothing is not the reason");
     assert!(says(&harness, "12.3 cm"), "the trial before stands");
+}
+
+#[test]
+fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_trial_starts_with_that() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    press(&mut harness, "Sample");
+    harness.get_by_label_contains("oronary").click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    memory.borrow_mut().trial_runs = true;
+    start(&mut harness);
+    let is_refused = |harness: &App| says(harness, "The lumen is too thin for a wire of");
+    wait(&mut harness, is_refused);
+    asked(&memory);
+    let before = harness.state().state().settings.clone();
+    press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..before.smoothing };
+    assert_eq!(harness.state().state().settings, Settings { smoothing, ..before.clone() });
+    assert!(!is_refused(&harness) && says(&harness, "Smoothing less: the trial starts when the new level is there."));
+    assert!(asked(&memory).is_empty(), "not with the level before");
+    wait(&mut harness, |harness| harness.state().trial().ready.is_some());
+    let commands = asked(&memory);
+    let starts = commands.iter().filter(|command| matches!(command, TrialCommand::Start { .. }));
+    assert_eq!(starts.count(), 1);
+    assert!(harness.query_by_label_contains("Smooth less").is_none());
+    press(&mut harness, "Undo");
+    assert_eq!(harness.state().state().settings, before, "one step");
+}
+
+#[test]
+fn a_level_that_is_no_longer_wanted_is_not_awaited() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Restart");
+    choose(&mut harness, "Target");
+    harness.get_by_label("Right renal").click();
+    harness.run_steps(3);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [refused(id, "The lumen is too thin.", true)]);
+    memory.borrow_mut().runs = false;
+    press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+    press(&mut harness, "Undo");
+    memory.borrow_mut().runs = true;
+    settle(&mut harness);
+    assert!(asked(&memory).is_empty() && says(&harness, "12.3 cm"), "the trial before stands");
 }
 
 #[test]
@@ -321,7 +383,7 @@ fn a_comparison_can_be_cancelled_alone_and_ends_with_its_trial() {
     assert!(!harness.state().trial().is_busy(), "the engine gives up comparing what is no more");
     press(&mut harness, compare);
     let Some(TrialCommand::Compare { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
-    tell(&mut harness, &memory, [TrialEvent::Refused { id, message: "The wire does not fit.".to_owned() }]);
+    tell(&mut harness, &memory, [refused(id, "The wire does not fit.", false)]);
     assert!(says(&harness, "The wire does not fit.") && !harness.state().trial().is_busy());
 }
 
@@ -331,7 +393,7 @@ fn a_row_that_is_refused_says_why_and_the_tables_are_cancelled_without_the_trial
     press(&mut harness, "Tables III and IV");
     harness.run_steps(3);
     let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
-    tell(&mut harness, &memory, [TrialEvent::Refused { id, message: "The lumen is too thin.".to_owned() }]);
+    tell(&mut harness, &memory, [refused(id, "The lumen is too thin.", true)]);
     assert!(says(&harness, "10 %: The lumen is too thin."));
     let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
     press(&mut harness, "Cancel tables");
