@@ -89,6 +89,11 @@ impl LumenApp {
         &self.trial
     }
 
+    /// How many pictures of the trial were drawn.
+    pub fn trial_draws(&self) -> u64 {
+        self.trial_view.draws()
+    }
+
     fn listen(&mut self, ctx: &egui::Context) {
         while let Some(event) = self.platform.poll() {
             match event {
@@ -288,10 +293,8 @@ impl eframe::App for LumenApp {
         let State { document, settings, .. } = &self.state;
         let has_level = self.state.has_level();
         self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
-        if self.trial.is_open && self.trial.is_moving() {
-            ctx.request_repaint();
-        }
-        if self.state.is_busy() || self.trial.is_busy() {
+        let is_moving = self.trial.is_open && self.trial.is_moving();
+        if is_moving || self.state.is_busy() || self.trial.is_busy() {
             ctx.request_repaint_after(LISTEN);
         }
     }

@@ -124,7 +124,7 @@ impl Trial {
 
     /// Whether something is being computed for it.
     pub fn is_busy(&self) -> bool {
-        matches!(self.stage, Stage::Preparing(_)) || self.comparing.is_some() || self.tables.is_running()
+        matches!(self.stage, Stage::Preparing(_)) || self.comparing.is_some() || self.tables.is_busy()
     }
 
     /// The setup in force, with its entry and its target.
@@ -273,6 +273,8 @@ impl Trial {
         (self.summary, self.comparison, self.comparing) = (None, None, None);
         if let Some(frame) = &mut self.frame {
             frame.progress = Progress::Running;
+            // What the wall felt then it is not to feel anew.
+            frame.touches.clear();
         }
         self.runs += 1;
         self.carm.reset();

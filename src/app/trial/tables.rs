@@ -64,6 +64,11 @@ impl Tables {
         self.running.is_some() || self.rows.iter().any(|row| matches!(row.outcome, Outcome::Waiting))
     }
 
+    /// Whether there is more to come: rows, or the time to draw a surface.
+    pub(super) fn is_busy(&self) -> bool {
+        self.is_running() || self.rows.iter().any(|row| row.timing.is_some())
+    }
+
     /// Whether there is something to run, and nothing of it known.
     pub(super) fn can_start(&self, document: &Document) -> bool {
         document.levels.is_some() && !self.is_running() && (self.rows.is_empty() || self.name != document.name)

@@ -241,6 +241,40 @@ fn buttons_and_keys_ask_for_the_same() {
 }
 
 #[test]
+fn views_are_drawn_only_where_they_change_and_a_trial_that_stands_asks_for_no_frames() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Pause");
+    // Off the button, whose hint comes up by itself.
+    harness.hover_at(egui::pos2(640.0, 20.0));
+    harness.run_steps(20);
+    let draws = |harness: &mut App, steps| {
+        let before = harness.state().trial_draws();
+        harness.run_steps(steps);
+        harness.state().trial_draws() - before
+    };
+    assert_eq!(draws(&mut harness, 20), 0);
+    let delay = |harness: &App| harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+    assert_eq!(delay(&harness), std::time::Duration::MAX, "no frame is asked for");
+    let next = |step| TrialEvent::Frame(Box::new(Frame { step, tip_direction: [0.0, 1.0, 0.0], ..frame() }));
+    memory.borrow_mut().trial_events.push_back(next(501));
+    assert_eq!(draws(&mut harness, 20), 3, "each view once");
+    harness.key_press(Key::Num2);
+    assert_eq!(draws(&mut harness, 20), 1, "the C-arm turns");
+    harness.key_press(Key::Space);
+    memory.borrow_mut().trial_events.push_back(next(502));
+    assert_eq!(draws(&mut harness, 20), 2, "the last image stays");
+    harness.ctx.set_theme(egui::Theme::Light);
+    assert_eq!(draws(&mut harness, 20), 2, "X-rays have no theme");
+    assert_eq!(delay(&harness), std::time::Duration::MAX);
+    harness.key_press(Key::C);
+    harness.run_steps(1);
+    assert!(delay(&harness) < std::time::Duration::from_millis(100), "contrast flows");
+    assert!(draws(&mut harness, 80) > 10);
+    assert_eq!(draws(&mut harness, 20), 0, "nothing is left of it");
+    assert_eq!(delay(&harness), std::time::Duration::MAX);
+}
+
+#[test]
 fn a_hand_on_the_wire_takes_it_from_the_autopilot() {
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Autopilot");
