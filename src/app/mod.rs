@@ -101,7 +101,7 @@ impl LumenApp {
                     self.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
                 }
                 PlatformEvent::Chosen { name, bytes } => self.state.open_file(name, bytes, self.platform.link()),
-                PlatformEvent::Saved { name } => self.state.tell(&format!("{name} was saved.")),
+                PlatformEvent::Saved { message } => self.state.tell(&message),
                 PlatformEvent::Failed { message } => self.state.warn(&message),
             }
         }
@@ -122,8 +122,8 @@ impl LumenApp {
             self.state.engine_failed(&reason, self.platform.link());
         }
         while let Some(event) = self.platform.trial().poll() {
-            for offer in self.trial.receive(event, self.platform.trial()) {
-                self.platform.offer_file(&offer.name, offer.bytes, ctx);
+            if let Some(log) = self.trial.receive(event, self.platform.trial()) {
+                self.platform.offer_pair(log, ctx);
             }
         }
         if let Some(reason) = self.platform.trial().failure() {

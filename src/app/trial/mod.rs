@@ -347,8 +347,8 @@ impl Trial {
         along.or_else(|| Some(Vec3::from(target?) - at)).unwrap_or(Vec3::Z).normalize_or(Vec3::Z)
     }
 
-    /// Hears what the engine has to say; files are for the user.
-    pub fn receive(&mut self, event: TrialEvent, link: &mut TrialLink) -> Vec<Offer> {
+    /// Hears what the engine has to say; a saved log and its summary are for the user.
+    pub fn receive(&mut self, event: TrialEvent, link: &mut TrialLink) -> Option<[Offer; 2]> {
         match event {
             TrialEvent::Preparing { id, fraction } if self.is_coming(id) => self.stage = Stage::Preparing(fraction),
             TrialEvent::Ready(ready) if self.is_coming(ready.id) => self.receive_ready(*ready, link),
@@ -371,7 +371,7 @@ impl Trial {
             TrialEvent::Saved { csv, json } => {
                 let stem = format!("{}-trial", self.name.to_lowercase().replace([' ', '.'], "-"));
                 let file = |ending: &str, text: String| Offer { name: format!("{stem}.{ending}"), bytes: text.into() };
-                return vec![file("csv", csv), file("json", json)];
+                return Some([file("csv", csv), file("json", json)]);
             }
             TrialEvent::Compared { id, comparison } if self.is_compared(id) => {
                 self.comparing = None;
@@ -388,7 +388,7 @@ impl Trial {
                 self.problem = Some(message);
             }
         }
-        Vec::new()
+        None
     }
 
     /// The surface that the wire is in.

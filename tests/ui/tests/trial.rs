@@ -492,12 +492,17 @@ fn the_log_is_saved_and_a_chosen_one_is_replayed() {
     assert_eq!(asked(&memory), [TrialCommand::Save]);
     let (csv, json) = ("# schema 1\n".to_owned(), "{\"schema\": 1}".to_owned());
     tell(&mut harness, &memory, [TrialEvent::Saved { csv: csv.clone(), json: json.clone() }]);
+    assert_eq!(memory.borrow().pairs, 1, "the user is asked once");
     let offered = memory.borrow().offered.clone();
     assert_eq!(
         offered.iter().map(|(name, _)| &name[..]).collect::<Vec<_>>(),
         ["abdominal-aorta-trial.csv", "abdominal-aorta-trial.json"]
     );
     assert_eq!((&offered[0].1[..], &offered[1].1[..]), (csv.as_bytes(), json.as_bytes()));
+    let message = "run.csv and run.json were saved in logs.".to_owned();
+    memory.borrow_mut().events.push_back(lumen::app::PlatformEvent::Saved { message: message.clone() });
+    harness.run_steps(3);
+    assert!(says(&harness, &message));
     press(&mut harness, "Open log...");
     assert_eq!(memory.borrow().asked, 1);
     let chosen = lumen::app::PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
