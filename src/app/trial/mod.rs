@@ -94,6 +94,8 @@ pub struct Trial {
     is_too_thin: bool,
     /// The smoothing whose level is awaited: it begins with that.
     awaits: Option<Smoothing>,
+    /// The largest forces since the wire was at the entry.
+    peaks: readout::Largest,
     drive: drive::Drive,
     /// The input that the engine has.
     driven: Input,
@@ -277,6 +279,7 @@ impl Trial {
             frame.touches.clear();
         }
         self.runs += 1;
+        self.peaks = readout::Largest::default();
         self.carm.reset();
         (self.autopilot, self.is_paused) = (false, false);
         self.driven = Input::default();
@@ -365,7 +368,10 @@ impl Trial {
             TrialEvent::Refused { id, message, .. } if self.tables.is_measuring(id) => self.tables.fails(&message),
             // What is left of a trial that was given up.
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
-            TrialEvent::Frame(frame) if self.stage == Stage::On => self.frame = Some(*frame),
+            TrialEvent::Frame(frame) if self.stage == Stage::On => {
+                self.peaks.take(&frame);
+                self.frame = Some(*frame);
+            }
             TrialEvent::Ended(summary) if self.stage == Stage::On => self.summary = Some(*summary),
             TrialEvent::Frame(_) | TrialEvent::Ended(_) => {}
             TrialEvent::Saved { csv, json } => {

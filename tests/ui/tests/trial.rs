@@ -362,6 +362,17 @@ fn the_end_is_said() {
 }
 
 #[test]
+fn the_bars_of_forces_grow_with_the_largest_so_far() {
+    let (mut harness, memory) = on(DESKTOP);
+    assert!(says(&harness, "Wall force, up to 0.5 N") && says(&harness, "Push force, up to 0.2 N"));
+    let held_back = Frame { step: 501, max_wall_force_n: 0.1, push_n: -1.3, ..frame() };
+    tell(&mut harness, &memory, [TrialEvent::Frame(Box::new(held_back))]);
+    assert!(says(&harness, "Wall force, up to 0.5 N") && says(&harness, "Push force, up to 2 N"));
+    press(&mut harness, "Restart");
+    assert!(says(&harness, "Wall force, up to 0.1 N") && says(&harness, "Push force, up to 0.1 N"));
+}
+
+#[test]
 fn another_wire_takes_effect_on_restart() {
     let (mut harness, memory) = on(DESKTOP);
     choose(&mut harness, "Wire");
