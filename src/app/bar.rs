@@ -2,10 +2,11 @@
 
 use egui::{Button, ProgressBar, Response, RichText, Role, Ui};
 
-use super::control::{grouped, name};
+use super::control::name;
 use super::icon::{self, Icon};
 use super::state::State;
 use super::views::Views;
+use crate::digits::grouped;
 use crate::io::Format;
 use crate::phantom::Sample;
 

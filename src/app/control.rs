@@ -101,27 +101,3 @@ fn describe(response: &Response, kind: Role, label: &str, value: f64) {
 pub(super) fn name(response: &Response, kind: Role, label: &str) {
     response.widget_info(|| WidgetInfo::labeled(kind, response.enabled(), label));
 }
-
-/// A whole number in groups of three: 74,307.
-pub(super) fn grouped(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn numbers_are_grouped_in_threes() {
-        assert_eq!(
-            [0, 12, 743, 7_430, 74_307, 1_000_000].map(super::grouped),
-            ["0", "12", "743", "7,430", "74,307", "1,000,000"]
-        );
-    }
-}

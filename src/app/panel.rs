@@ -3,12 +3,13 @@
 
 use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
 
-use super::control::{Setting, grouped, name};
+use super::control::{Setting, name};
 use super::document::Document;
 use super::response;
 use super::state::State;
 use super::trial::{self, Ask, Trial};
 use super::views::Views;
+use crate::digits::grouped;
 use crate::engine::Source;
 use crate::io::Unit;
 use crate::pipeline::report::Report;

@@ -9,8 +9,9 @@ use std::sync::mpsc::Receiver;
 
 use egui::{Align, Grid, Layout, ProgressBar, RichText, Role, ScrollArea, Ui};
 
-use crate::app::control::{grouped, name};
+use crate::app::control::name;
 use crate::app::document::Document;
+use crate::digits::grouped;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
