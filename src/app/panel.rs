@@ -310,9 +310,8 @@ fn largest_deviation(ui: &mut Ui, state: &mut State) {
     if setting.show(ui, &mut bound) {
         state.settings.target = Target::Deviation((bound * 1000.0).round() as u32);
     }
-    let found = measured(state.document.as_ref())
-        .filter(|report| report.settings.target == state.settings.target)
-        .and_then(|report| report.bound);
+    // Of these settings and no others: another smoothing has other levels.
+    let found = measured(state.document.as_ref()).filter(|_| state.has_level()).and_then(|report| report.bound);
     let next = found.map(|found| found.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.3} mm")));
     let help = "A deviation that was found in the level with one step more";
     number(ui, "Next coarser level", next.as_deref().unwrap_or("–"), help);
