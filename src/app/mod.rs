@@ -225,6 +225,9 @@ impl LumenApp {
                 if std::mem::take(&mut self.look_next) {
                     self.views.look_first(document, keep);
                 }
+                if !comparison.is_open() {
+                    self.compare.let_go();
+                }
                 if self.trial.is_open {
                     picked = self.trial_view.show(ui, &mut self.trial, &mut self.views, document, keep, is_narrow);
                     return None;

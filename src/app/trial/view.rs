@@ -152,7 +152,7 @@ impl TrialView {
     ) -> Option<Vec3> {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, "Trial view");
-        views.steer(ui, &response, document, keep);
+        views.steer(ui, &response, 1, document, keep);
         let mut style = theme::style(ui.visuals());
         style.map = Some(FORCES);
         let camera = views.camera;
