@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, Response, Role, Slider, Ui, WidgetInfo};
+use egui::{DragValue, ProgressBar, Response, Role, Slider, Ui, WidgetInfo};
 
 use super::icon::{self, Icon};
 
@@ -95,6 +95,15 @@ fn describe(response: &Response, kind: Role, label: &str, value: f64) {
         info.value = Some(value);
         info
     });
+}
+
+/// How far work is: a bar of this width, on a rail that is seen on a panel.
+pub(super) fn progress(ui: &mut Ui, fraction: f32, width: f32, what: &str) {
+    let bar = ui.scope(|ui| {
+        ui.visuals_mut().extreme_bg_color = ui.visuals().widgets.inactive.bg_fill;
+        ui.add(ProgressBar::new(fraction).desired_width(width).desired_height(8.0))
+    });
+    name(&bar.inner, Role::ProgressIndicator, what);
 }
 
 /// Tells assistive tools what a control is called.

@@ -1,10 +1,10 @@
 //! What reduction does to the wire: the same input on the unreduced surface, and how the two differ.
 
-use egui::{Align, Layout, ProgressBar, RichText, Role, Ui};
+use egui::{Align, Layout, RichText, Role, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 
 use super::{Ask, Stage, Trial, marks};
-use crate::app::control::name;
+use crate::app::control::{name, progress};
 use crate::app::panel::number;
 use crate::engine::trial::TrialComparison;
 
@@ -28,8 +28,7 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
                 if cancel.clicked() {
                     ask = Some(Ask::CancelComparison);
                 }
-                let bar = ui.add(ProgressBar::new(fraction).desired_height(8.0));
-                name(&bar, Role::ProgressIndicator, "Comparing");
+                progress(ui, fraction, ui.available_width(), "Comparing");
             });
         });
     }

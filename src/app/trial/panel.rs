@@ -1,11 +1,11 @@
 //! The trial's part of the panel, and its keys.
 
-use egui::{Button, Key, Modifiers, ProgressBar, RichText, Role, Ui};
+use egui::{Button, Key, Modifiers, RichText, Ui};
 
 use super::readout::{self, remark};
 use super::setup::row;
 use super::{AWAITS, Ask, Stage, Trial, carm, outcome, setup};
-use crate::app::control::name;
+use crate::app::control::progress;
 use crate::app::document::Document;
 use crate::app::panel::step;
 use crate::pipeline::settings::Smoothing;
@@ -74,14 +74,14 @@ fn open(ui: &mut Ui, trial: &mut Trial) -> Option<Ask> {
 }
 
 fn state(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
+    ui.add_space(4.0);
     if trial.awaits.is_some() {
         ui.add(egui::Label::new(AWAITS).wrap());
         return None;
     }
     match (trial.stage, &trial.frame) {
         (Stage::Preparing(fraction), _) => {
-            let bar = ui.add(ProgressBar::new(fraction).desired_height(8.0));
-            name(&bar, Role::ProgressIndicator, "Preparing the trial");
+            progress(ui, fraction, ui.available_width(), "Preparing the trial");
             ui.label("Finding the lumen and the way...");
         }
         (Stage::On, Some(frame)) => {

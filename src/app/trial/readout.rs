@@ -37,7 +37,7 @@ pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
         Progress::Running if frame.is_wrong_branch => "Wrong branch: withdraw and roll.",
         Progress::Running if frame.is_behind => "The machine is behind: the trial runs slower than time.",
         Progress::Running if !frame.doing.is_empty() => return (format!("Autopilot: {}.", lower(&frame.doing)), true),
-        Progress::Running => "Feed and roll the wire to the target.",
+        Progress::Running => "Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer.",
     };
     (text.to_owned(), matches!(frame.progress, Progress::Arrived | Progress::Running))
 }
@@ -68,11 +68,16 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     );
     number(ui, "Elapsed", &clock(frame.time_s), "Simulated time");
     number(ui, "Fluoroscopy", &clock(trial.carm.seconds), "Time that the beam was on");
-    let touches = format!("{}, {:.3} N in all", frame.touches.len(), frame.wall_force_n);
+    let touches = format!("{}, {} N in all", frame.touches.len(), thousandths(frame.wall_force_n));
     number(ui, "Contacts", &touches, "Places where the wire lies against the wall, and the sum of their forces");
-    let tip = format!("{:.3} N", frame.tip_force_n);
+    let tip = format!("{} N", thousandths(frame.tip_force_n));
     number(ui, "Force at the tip", &tip, "On the wall within 5 mm of the tip");
-    number(ui, "Torque", &format!("{:.3} N mm", frame.torque_n_mm), "The moment about the wire's axis at the guide");
+    number(
+        ui,
+        "Torque",
+        &format!("{} N mm", thousandths(frame.torque_n_mm)),
+        "The moment about the wire's axis at the guide",
+    );
     let branch = if frame.is_wrong_branch { "off the route" } else { "on the route" };
     number(
         ui,
@@ -112,7 +117,7 @@ fn scale(peak: f32) -> f32 {
 
 /// A bar with its number, and beside it the force at its end.
 fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
-    number(ui, what, &format!("{value:.3} N"), help);
+    number(ui, what, &format!("{} N", thousandths(f64::from(value))), help);
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
     let rect = whole.shrink2(vec2(0.0, 2.0)).with_max_x(whole.right() - END);
     response.widget_info(|| {
@@ -132,6 +137,11 @@ fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &
     let end = filled.right().max(rect.left() + 1.0);
     painter
         .line_segment([pos2(end, rect.top()), pos2(end, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
+}
+
+/// With three decimals, and never a negative nought.
+fn thousandths(value: f64) -> String {
+    format!("{:.3}", (value * 1000.0).round() / 1000.0 + 0.0)
 }
 
 /// Minutes and seconds.
@@ -166,6 +176,11 @@ mod tests {
         let peaks = [0.0, 0.1, 0.101, 0.35, 0.6, 1.0, 1.1, 4.9, 11.0];
         assert_eq!(peaks.map(super::scale), [0.1, 0.1, 0.2, 0.5, 1.0, 1.0, 2.0, 5.0, 20.0]);
         assert!(super::scale(f32::INFINITY).is_finite());
+    }
+
+    #[test]
+    fn a_nought_has_no_sign() {
+        assert_eq!([-0.0004, 0.0, -0.2, 1.2348].map(super::thousandths), ["0.000", "0.000", "-0.200", "1.235"]);
     }
 
     #[test]

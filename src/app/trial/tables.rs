@@ -7,9 +7,9 @@
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
-use egui::{Align, Grid, Layout, ProgressBar, RichText, Role, ScrollArea, Ui};
+use egui::{Align, Grid, Layout, RichText, ScrollArea, Ui};
 
-use crate::app::control::name;
+use crate::app::control::progress;
 use crate::app::document::Document;
 use crate::digits::grouped;
 use crate::mesh::TriMesh;
@@ -246,6 +246,9 @@ const COLUMNS: [(&str, &str); 12] = [
     ("Time, s", "Simulated time to the target"),
 ];
 
+/// What the columns take, in points; where there is less room they scroll.
+const WIDTH: f32 = 880.0;
+
 /// Shows the tables; says whether they were cancelled.
 pub(super) fn show(ui: &Ui, tables: &mut Tables) -> bool {
     let mut cancelled = false;
@@ -256,7 +259,7 @@ pub(super) fn show(ui: &Ui, tables: &mut Tables) -> bool {
         .collapsible(false)
         .resizable(false)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
-        .default_width((room.width() - 32.0).min(1040.0))
+        .default_width((room.width() - 32.0).min(WIDTH))
         .show(ui.ctx(), |ui| cancelled = content(ui, tables));
     tables.is_open = is_open;
     cancelled
@@ -295,8 +298,7 @@ fn content(ui: &mut Ui, tables: &mut Tables) -> bool {
     let mut cancelled = false;
     ui.horizontal(|ui| {
         if tables.is_running() {
-            let bar = ui.add(ProgressBar::new(tables.part()).desired_width(160.0).desired_height(8.0));
-            name(&bar, Role::ProgressIndicator, "Tables");
+            progress(ui, tables.part(), 160.0, "Tables");
             cancelled = ui.button("Cancel tables").clicked();
         } else if ui.button("Run again").clicked() {
             tables.again();

@@ -166,7 +166,7 @@ impl TrialView {
         if is_on {
             marks::show(ui, rect, &camera, trial);
         }
-        let map = (rect.height() > 300.0).then_some(FORCES);
+        let map = (is_on && rect.height() > 300.0).then_some(FORCES);
         let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals: 1 });
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
         let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, legend };
@@ -183,6 +183,7 @@ impl TrialView {
             (None, _) if self.device.is_none() => "There is no graphics device to draw with.".to_owned(),
             (None, _) if trial.awaits.is_some() => AWAITS.to_owned(),
             (None, Stage::Preparing(fraction)) => format!("Finding the way: {:.0} %", fraction * 100.0),
+            (None, Stage::Off) if trial.problem.is_some() => "No trial is on: the panel says why.".to_owned(),
             (None, Stage::Off) => "No trial is on.".to_owned(),
             (None, Stage::On) => return,
         };
@@ -209,7 +210,9 @@ impl TrialView {
             };
             plate(ui, inner.left_top() + vec2(0.0, 44.0), Align2::LEFT_TOP, &state, false);
             plate(ui, inner.left_bottom() - vec2(0.0, 22.0), Align2::LEFT_BOTTOM, &trial.name, false);
-            scale_bar(ui, inner, rect, arm.field_mm);
+            if trial.ready.is_some() {
+                scale_bar(ui, inner, rect, arm.field_mm);
+            }
         }
         plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, false);
     }

@@ -564,6 +564,11 @@ fn pictures_of_the_trial() {
             memory.borrow_mut().trial_runs = true;
             start(&mut harness);
             harness.run_steps(5);
+            if sample == Sample::Coronary {
+                save(&mut harness, &format!("trial-{name}-{sample}-refused"));
+                press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+                wait(&mut harness, |harness| harness.state().trial().ready.is_some());
+            }
             press(&mut harness, "Autopilot");
             harness.run_steps(600);
             save(&mut harness, &format!("trial-{name}-{sample}-on"));
@@ -571,11 +576,16 @@ fn pictures_of_the_trial() {
             harness.key_press(Key::Num4);
             harness.run_steps(8);
             save(&mut harness, &format!("trial-{name}-{sample}-contrast"));
+            harness.get_by_role_and_label(Role::CheckBox, "Roadmap").scroll_to_me();
+            harness.run_steps(12);
             harness.get_by_role_and_label(Role::CheckBox, "Roadmap").click();
             harness.ctx.set_theme(egui::Theme::Light);
             harness.run_steps(60);
             save(&mut harness, &format!("trial-{name}-{sample}-roadmap"));
             press(&mut harness, "Compare with the unreduced surface");
+            harness.run_steps(5);
+            save(&mut harness, &format!("trial-{name}-{sample}-comparing"));
+            wait(&mut harness, |harness| !harness.state().trial().is_busy());
             harness.run_steps(5);
             save(&mut harness, &format!("trial-{name}-{sample}-compared"));
             press(&mut harness, "Tables III and IV");
