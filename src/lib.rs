@@ -17,6 +17,7 @@
 //! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
 //! - `app`: the window's content, the same on the desktop and in the browser (feature `gui`).
 //! - `desktop`: what the desktop gives the app: files and threads (feature `gui`).
+//! - `digits`: numbers as they are read.
 //! - `cli`: the subcommands; the figures among them are `app`'s compare view, drawn off screen.
 
 #[cfg(feature = "gui")]
@@ -25,6 +26,7 @@ pub mod app;
 pub mod cli;
 #[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
 pub mod desktop;
+mod digits;
 pub mod engine;
 pub mod io;
 pub mod mesh;

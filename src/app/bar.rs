@@ -1,11 +1,12 @@
 //! The bars: files and help above, what is going on below.
 
-use egui::{Button, ProgressBar, Response, RichText, Role, Ui};
+use egui::{Button, Response, RichText, Role, Ui};
 
-use super::control::{grouped, name};
+use super::control::{name, progress};
 use super::icon::{self, Icon};
 use super::state::State;
 use super::views::Views;
+use crate::digits::grouped;
 use crate::io::Format;
 use crate::phantom::Sample;
 
@@ -147,9 +148,7 @@ pub(super) fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: b
     ui.horizontal_centered(|ui| {
         if let Some((work, fraction)) = state.work {
             let width = if is_narrow { 96.0 } else { 160.0 };
-            let bar = ProgressBar::new(fraction).desired_width(width).desired_height(8.0);
-            let response = ui.add(bar);
-            name(&response, Role::ProgressIndicator, "Progress");
+            progress(ui, fraction, width, "Progress");
             ui.label(format!("{} {:.0} %", work.label(), fraction * 100.0));
             if let Some(name) = state.opening().filter(|_| !is_narrow) {
                 ui.add(egui::Label::new(RichText::new(name).weak()).truncate());

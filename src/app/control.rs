@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, Response, Role, Slider, Ui, WidgetInfo};
+use egui::{DragValue, ProgressBar, Response, Role, Slider, Ui, WidgetInfo};
 
 use super::icon::{self, Icon};
 
@@ -97,31 +97,16 @@ fn describe(response: &Response, kind: Role, label: &str, value: f64) {
     });
 }
 
+/// How far work is: a bar of this width, on a rail that is seen on a panel.
+pub(super) fn progress(ui: &mut Ui, fraction: f32, width: f32, what: &str) {
+    let bar = ui.scope(|ui| {
+        ui.visuals_mut().extreme_bg_color = ui.visuals().widgets.inactive.bg_fill;
+        ui.add(ProgressBar::new(fraction).desired_width(width).desired_height(8.0))
+    });
+    name(&bar.inner, Role::ProgressIndicator, what);
+}
+
 /// Tells assistive tools what a control is called.
 pub(super) fn name(response: &Response, kind: Role, label: &str) {
     response.widget_info(|| WidgetInfo::labeled(kind, response.enabled(), label));
-}
-
-/// A whole number in groups of three: 74,307.
-pub(super) fn grouped(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn numbers_are_grouped_in_threes() {
-        assert_eq!(
-            [0, 12, 743, 7_430, 74_307, 1_000_000].map(super::grouped),
-            ["0", "12", "743", "7,430", "74,307", "1,000,000"]
-        );
-    }
 }

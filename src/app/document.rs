@@ -123,12 +123,18 @@ impl Document {
         self.revision.opened += 1;
     }
 
-    /// Takes new levels and shows the one that `target` asks for.
+    /// Takes new levels and shows the one that `target` asks for. What the numbers say of places on older levels is
+    /// forgotten; the rest of them stands until there are new ones.
     pub fn set_levels(&mut self, reduced: Reduced, target: Target) {
         self.entering_vertices = nodes_in_use(&reduced.mesh.triangles, reduced.mesh.positions.len());
         self.levels = Some((reduced.keep, reduced.mesh));
         self.revision.levels += 1;
         self.found = None;
+        if let Some(measured) = &mut self.measured {
+            measured.deviation.clear();
+            measured.report.pinch = None;
+            self.revision.measured += 1;
+        }
         self.shown = None;
         self.show(target);
     }

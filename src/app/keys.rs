@@ -68,7 +68,7 @@ pub(super) fn closes_sheet(ui: &Ui) -> bool {
     ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1))
 }
 
-/// Whether the key that shows the surface as it was opened is held.
+/// Whether the key that shows the surface as it was opened is held, except while text is typed.
 pub(super) fn before_is_held(ui: &Ui) -> bool {
-    !ui.ctx().egui_wants_keyboard_input() && ui.input(|input| input.key_down(Key::B))
+    !ui.ctx().text_edit_focused() && ui.input(|input| input.key_down(Key::B))
 }

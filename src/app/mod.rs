@@ -89,6 +89,11 @@ impl LumenApp {
         &self.trial
     }
 
+    /// How many pictures of the trial were drawn.
+    pub fn trial_draws(&self) -> u64 {
+        self.trial_view.draws()
+    }
+
     fn listen(&mut self, ctx: &egui::Context) {
         while let Some(event) = self.platform.poll() {
             match event {
@@ -96,7 +101,7 @@ impl LumenApp {
                     self.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
                 }
                 PlatformEvent::Chosen { name, bytes } => self.state.open_file(name, bytes, self.platform.link()),
-                PlatformEvent::Saved { name } => self.state.tell(&format!("{name} was saved.")),
+                PlatformEvent::Saved { message } => self.state.tell(&message),
                 PlatformEvent::Failed { message } => self.state.warn(&message),
             }
         }
@@ -117,8 +122,8 @@ impl LumenApp {
             self.state.engine_failed(&reason, self.platform.link());
         }
         while let Some(event) = self.platform.trial().poll() {
-            for offer in self.trial.receive(event, self.platform.trial()) {
-                self.platform.offer_file(&offer.name, offer.bytes, ctx);
+            if let Some(log) = self.trial.receive(event, self.platform.trial()) {
+                self.platform.offer_pair(log, ctx);
             }
         }
         if let Some(reason) = self.platform.trial().failure() {
@@ -161,6 +166,11 @@ impl LumenApp {
         if *ask == trial::Ask::OpenLog {
             self.platform.choose_file(ctx);
         }
+        if *ask == trial::Ask::SmoothLess {
+            // One step to undo, whatever was changed before it.
+            self.state.history.record(&self.state.settings);
+            self.trial.smooth_less(&mut self.state.settings.smoothing);
+        }
         if *ask == trial::Ask::Start {
             self.state.comparison.set_open(false);
         }
@@ -194,7 +204,8 @@ impl LumenApp {
                 ui.set_max_width(ui.available_width() - 8.0);
                 if self.trial.is_open {
                     ui.spacing_mut().item_spacing.y = 3.0;
-                    ask = trial::panel(ui, &mut self.trial, self.state.document.as_ref());
+                    let (smoothing, document) = (&self.state.settings.smoothing, self.state.document.as_ref());
+                    ask = trial::panel(ui, &mut self.trial, smoothing, document);
                     return;
                 }
                 let (unit, asked) = panel::show(ui, &mut self.state, &mut self.views, &mut self.trial);
@@ -213,6 +224,9 @@ impl LumenApp {
                 let document = document.as_ref();
                 if std::mem::take(&mut self.look_next) {
                     self.views.look_first(document, keep);
+                }
+                if !comparison.is_open() {
+                    self.compare.let_go();
                 }
                 if self.trial.is_open {
                     picked = self.trial_view.show(ui, &mut self.trial, &mut self.views, document, keep, is_narrow);
@@ -279,10 +293,11 @@ impl eframe::App for LumenApp {
         }
         let is_held = ctx.input(|input| input.pointer.any_down()) || ctx.egui_wants_keyboard_input();
         self.state.follow(is_held, self.platform.link());
-        if self.trial.is_open && self.trial.is_moving() {
-            ctx.request_repaint();
-        }
-        if self.state.is_busy() || self.trial.is_busy() {
+        let State { document, settings, .. } = &self.state;
+        let has_level = self.state.has_level();
+        self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
+        let is_moving = self.trial.is_open && self.trial.is_moving();
+        if is_moving || self.state.is_busy() || self.trial.is_busy() {
             ctx.request_repaint_after(LISTEN);
         }
     }

@@ -3,12 +3,13 @@
 
 use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
 
-use super::control::{Setting, grouped, name};
+use super::control::{Setting, name};
 use super::document::Document;
 use super::response;
 use super::state::State;
 use super::trial::{self, Ask, Trial};
 use super::views::Views;
+use crate::digits::grouped;
 use crate::engine::Source;
 use crate::io::Unit;
 use crate::pipeline::report::Report;
@@ -27,7 +28,8 @@ pub(super) fn show(
     let unit = ui.push_id("surface", |ui| surface(ui, state, views)).inner;
     ui.push_id("smooth", |ui| smooth(ui, &mut state.settings, measured(state.document.as_ref())));
     ui.push_id("reduce", |ui| reduce(ui, state));
-    let ask = ui.push_id("trial", |ui| trial::panel(ui, trial, state.document.as_ref())).inner;
+    let ask =
+        ui.push_id("trial", |ui| trial::panel(ui, trial, &state.settings.smoothing, state.document.as_ref())).inner;
     ui.push_id("result", |ui| result(ui, state));
     (unit, ask)
 }
@@ -308,9 +310,8 @@ fn largest_deviation(ui: &mut Ui, state: &mut State) {
     if setting.show(ui, &mut bound) {
         state.settings.target = Target::Deviation((bound * 1000.0).round() as u32);
     }
-    let found = measured(state.document.as_ref())
-        .filter(|report| report.settings.target == state.settings.target)
-        .and_then(|report| report.bound);
+    // Of these settings and no others: another smoothing has other levels.
+    let found = measured(state.document.as_ref()).filter(|_| state.has_level()).and_then(|report| report.bound);
     let next = found.map(|found| found.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.3} mm")));
     let help = "A deviation that was found in the level with one step more";
     number(ui, "Next coarser level", next.as_deref().unwrap_or("–"), help);

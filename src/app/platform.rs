@@ -1,5 +1,6 @@
 //! What the app needs of the machine it runs on; the desktop and the browser each have one.
 
+use super::trial::Offer;
 use crate::engine::Link;
 use crate::engine::trial::TrialLink;
 
@@ -26,6 +27,10 @@ pub trait Platform {
     /// Gives the user a file: a save dialog or a download.
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, ctx: &egui::Context);
 
+    /// Gives the user a file and one that belongs to it: a save dialog for the first, beside which the second goes under
+    /// the same stem, or two downloads.
+    fn offer_pair(&mut self, pair: [Offer; 2], ctx: &egui::Context);
+
     /// What has happened since.
     fn poll(&mut self) -> Option<PlatformEvent>;
 }
@@ -51,10 +56,10 @@ pub enum PlatformEvent {
         /// Its bytes.
         bytes: Vec<u8>,
     },
-    /// A file was saved under this name.
+    /// A file was saved, or two.
     Saved {
-        /// Its name.
-        name: String,
+        /// One sentence: under which name, and where.
+        message: String,
     },
     /// Something could not be done: one plain sentence.
     Failed {

@@ -131,6 +131,12 @@ impl State {
         self.work.is_some()
     }
 
+    /// Whether the level that is shown is that of the settings.
+    pub fn has_level(&self) -> bool {
+        let measured = self.document.as_ref().and_then(|document| document.measured.as_ref());
+        self.settings == self.sent && measured.is_some_and(|measured| measured.generation == self.generation)
+    }
+
     /// The number of the settings that the engine has.
     pub fn generation(&self) -> u64 {
         self.generation

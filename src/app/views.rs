@@ -110,6 +110,10 @@ impl Views {
     pub fn show(&mut self, ui: &mut Ui, document: Option<&Document>, keep: Keep, is_narrow: bool) -> Option<u32> {
         let moves = ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != egui::Vec2::ZERO);
         self.measure_rate(ui, moves);
+        if self.scene.is_some() {
+            // What fails is tried again.
+            self.failure = None;
+        }
         if let (Some(scene), Some(document)) = (&mut self.scene, document)
             && let Err(error) = scene.follow(document, self.show_deviation)
         {
@@ -143,7 +147,7 @@ impl Views {
     ) -> Option<u32> {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, title);
-        self.steer(ui, &response, document, keep);
+        self.steer(ui, &response, 1, document, keep);
         let pixels = rect.size() * ui.ctx().pixels_per_point();
         let mut style = theme::style(ui.visuals());
         if self.show_deviation && index == 0 && !self.show_before {
@@ -208,14 +212,22 @@ impl Views {
         document.pieces.labels.get(hit.triangle).copied()
     }
 
-    pub(super) fn steer(&mut self, ui: &Ui, response: &egui::Response, document: Option<&Document>, keep: Keep) {
+    /// Moves the camera by what the hand does to the pictures in `response`, `rows` of which stand one above the other.
+    pub(super) fn steer(
+        &mut self,
+        ui: &Ui,
+        response: &egui::Response,
+        rows: usize,
+        document: Option<&Document>,
+        keep: Keep,
+    ) {
         let rect = response.rect;
-        let height = rect.height().max(1.0);
+        let height = (rect.height() / rows as f32).max(1.0);
         let fraction = |v: egui::Vec2| Vec2::new(v.x / height, v.y / height);
         let aspect = rect.width() / height;
         if let Some(touch) = ui.input(egui::InputState::multi_touch).filter(|touch| rect.contains(touch.center_pos)) {
             self.camera.pan(fraction(touch.translation_delta));
-            self.camera.zoom(touch.zoom_delta, in_view(touch.center_pos, rect), aspect);
+            self.camera.zoom(touch.zoom_delta, in_row(touch.center_pos, rect, rows), aspect);
             return;
         }
         let shift = ui.input(|input| input.modifiers.shift);
@@ -231,7 +243,7 @@ impl Views {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
         let factor = pinch * (scroll.y / 240.0).exp();
         if (factor - 1.0).abs() > 1e-4 {
-            self.camera.zoom(factor, in_view(pointer, rect), aspect);
+            self.camera.zoom(factor, in_row(pointer, rect, rows), aspect);
         }
     }
 
@@ -266,4 +278,27 @@ pub(super) fn first_view(size: glam::Vec3) -> StandardView {
 pub(super) fn in_view(at: Pos2, rect: Rect) -> Vec2 {
     let v = (at - rect.center()) / (rect.size() / 2.0).max(vec2(1.0, 1.0));
     Vec2::new(v.x, -v.y)
+}
+
+/// The same in that of `rows` pictures, one above the other in `rect`, in which the point is.
+fn in_row(at: Pos2, rect: Rect, rows: usize) -> Vec2 {
+    let height = rect.height() / rows as f32;
+    let row = ((at.y - rect.top()) / height).floor().clamp(0.0, rows as f32 - 1.0);
+    in_view(at, Rect::from_min_size(pos2(rect.left(), rect.top() + row * height), vec2(rect.width(), height)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middle_of_each_picture_is_its_middle() {
+        let rect = Rect::from_min_size(pos2(100.0, 50.0), vec2(200.0, 400.0));
+        assert_eq!(in_row(rect.center(), rect, 1), Vec2::ZERO);
+        for middle in [pos2(200.0, 150.0), pos2(200.0, 350.0)] {
+            assert_eq!(in_row(middle, rect, 2), Vec2::ZERO);
+        }
+        assert_eq!(in_row(rect.min, rect, 2), Vec2::new(-1.0, 1.0));
+        assert_eq!(in_row(rect.max, rect, 2), Vec2::new(1.0, -1.0));
+    }
 }

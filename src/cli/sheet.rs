@@ -1,5 +1,6 @@
 //! Tables of numbers beside the paper's, as aligned text, as CSV and as Markdown.
 
+use crate::digits::grouped;
 use crate::pipeline::report::DISCLAIMER;
 
 /// All tables of one surface.
@@ -72,7 +73,7 @@ impl Entry {
 
     /// For people: thousands in groups.
     fn shown(&self, value: Option<f64>) -> String {
-        value.map_or("-".to_owned(), |value| grouped(&self.plain(value)))
+        value.map_or("-".to_owned(), |value| grouped(self.plain(value)))
     }
 
     fn shown_difference(&self) -> String {
@@ -84,7 +85,7 @@ impl Entry {
             } else {
                 "+"
             };
-            format!("{sign}{}", grouped(&self.plain(value.abs())))
+            format!("{sign}{}", grouped(self.plain(value.abs())))
         })
     }
 
@@ -92,20 +93,6 @@ impl Entry {
     fn plain(&self, value: f64) -> String {
         format!("{:.*}", self.decimals, self.rounded(value) + 0.0)
     }
-}
-
-/// The digits before the point in groups of three.
-fn grouped(number: &str) -> String {
-    let (sign, rest) = number.strip_prefix('-').map_or(("", number), |rest| ("-", rest));
-    let whole = rest.split('.').next().unwrap_or(rest);
-    let mut text = sign.to_owned();
-    for (i, digit) in whole.chars().enumerate() {
-        if i > 0 && (whole.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text + &rest[whole.len()..]
 }
 
 impl Table {
@@ -307,6 +294,5 @@ mod tests {
     #[test]
     fn fields_with_commas_and_quotes_are_quoted() {
         assert_eq!(["a b", "a,b", "5\" tube"].map(quoted), ["a b", "\"a,b\"", "\"5\"\" tube\""]);
-        assert_eq!(["743", "-66875", "1234567.50"].map(grouped), ["743", "-66,875", "1,234,567.50"]);
     }
 }

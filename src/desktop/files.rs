@@ -1,12 +1,16 @@
 //! File dialogs and files, each on a thread of its own so that no frame waits for a disk.
 
-use std::path::PathBuf;
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::Sender;
 use std::thread;
 
 use rfd::FileDialog;
 
 use crate::app::PlatformEvent;
+use crate::app::trial::Offer;
 
 /// Extensions that can be opened: those of surfaces, and that of a trial's log.
 const EXTENSIONS: [&str; 6] = ["stl", "ply", "obj", "glb", "gltf", "csv"];
@@ -25,9 +29,9 @@ pub(super) fn read(path: PathBuf, events: Sender<PlatformEvent>, ctx: egui::Cont
     thread::spawn(move || send(&events, &ctx, load(&path)));
 }
 
-fn load(path: &std::path::Path) -> PlatformEvent {
+fn load(path: &Path) -> PlatformEvent {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    match std::fs::read(path) {
+    match fs::read(path) {
         Ok(bytes) => PlatformEvent::Chosen { name, bytes },
         Err(error) => PlatformEvent::Failed { message: format!("{name} could not be read: {error}.") },
     }
@@ -40,8 +44,8 @@ pub(super) fn save(name: String, bytes: Vec<u8>, events: Sender<PlatformEvent>, 
         send(
             &events,
             &ctx,
-            match std::fs::write(&path, bytes) {
-                Ok(()) => PlatformEvent::Saved { name: path.display().to_string() },
+            match fs::write(&path, bytes) {
+                Ok(()) => PlatformEvent::Saved { message: format!("{} was saved.", path.display()) },
                 Err(error) => {
                     PlatformEvent::Failed { message: format!("{} could not be written: {error}.", path.display()) }
                 }
@@ -50,9 +54,108 @@ pub(super) fn save(name: String, bytes: Vec<u8>, events: Sender<PlatformEvent>, 
     });
 }
 
+/// Lets the user choose where the first file goes, and writes both there.
+pub(super) fn save_pair(pair: [Offer; 2], events: Sender<PlatformEvent>, ctx: egui::Context) {
+    thread::spawn(move || {
+        if let Some(path) = FileDialog::new().set_file_name(&pair[0].name).save_file() {
+            send(&events, &ctx, write_pair(path, &pair));
+        }
+    });
+}
+
+/// Writes the first file to `path`, with its own ending where that has another, and the second beside it under the same
+/// stem. Over what is there already goes only what the user has named.
+fn write_pair(path: PathBuf, [first, second]: &[Offer; 2]) -> PlatformEvent {
+    let ending = |offer: &Offer| Path::new(&offer.name).extension().unwrap_or_default().to_owned();
+    let is_named = path.extension().is_some_and(|given| given.eq_ignore_ascii_case(ending(first)));
+    let chosen = if is_named { path } else { PathBuf::from(joined(path.as_os_str(), &ending(first))) };
+    let beside = chosen.with_extension(ending(second));
+    let failed = |path: &Path, error: &io::Error| {
+        let message = if error.kind() == io::ErrorKind::AlreadyExists {
+            format!("Nothing was saved: {} is there already. Choose another name.", path.display())
+        } else {
+            format!("Nothing was saved: {} could not be written: {error}.", path.display())
+        };
+        PlatformEvent::Failed { message }
+    };
+    if let Err(error) = write_new(&beside, &second.bytes) {
+        return failed(&beside, &error);
+    }
+    let written = if is_named { fs::write(&chosen, &first.bytes) } else { write_new(&chosen, &first.bytes) };
+    if let Err(error) = written {
+        // It was made a moment ago; what it belongs to is not there.
+        let _ = fs::remove_file(&beside);
+        return failed(&chosen, &error);
+    }
+    let name = |path: &Path| path.file_name().unwrap_or_default().display().to_string();
+    let folder = chosen.parent().unwrap_or(Path::new("")).display();
+    PlatformEvent::Saved { message: format!("{} and {} were saved in {folder}.", name(&chosen), name(&beside)) }
+}
+
+fn joined(name: &OsStr, ending: &OsStr) -> OsString {
+    let mut joined = name.to_owned();
+    joined.push(".");
+    joined.push(ending);
+    joined
+}
+
+/// Writes a file that is not there yet; one that does not come to its end is taken away again.
+fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let written = File::create_new(path)?.write_all(bytes);
+    if written.is_err() {
+        let _ = fs::remove_file(path);
+    }
+    written
+}
+
 fn send(events: &Sender<PlatformEvent>, ctx: &egui::Context, event: PlatformEvent) {
     // The window may have been closed meanwhile; then nobody needs to know.
     if events.send(event).is_ok() {
         ctx.request_repaint();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pair() -> [Offer; 2] {
+        let offer = |name: &str, text: &str| Offer { name: name.to_owned(), bytes: text.into() };
+        [offer("aorta-trial.csv", "a,b"), offer("aorta-trial.json", "{}")]
+    }
+
+    fn message(event: PlatformEvent) -> String {
+        match event {
+            PlatformEvent::Saved { message } | PlatformEvent::Failed { message } => message,
+            PlatformEvent::Chosen { name, .. } => name,
+        }
+    }
+
+    #[test]
+    fn the_second_file_goes_beside_the_first_and_over_nothing_that_was_not_named() {
+        let folder = std::env::temp_dir().join(format!("lumen-files-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let at = |name: &str| folder.join(name);
+        let read = |name: &str| fs::read_to_string(at(name)).unwrap_or_default();
+        let save = |name: &str| message(write_pair(at(name), &pair()));
+        assert_eq!(save("run.2.csv"), format!("run.2.csv and run.2.json were saved in {}.", folder.display()));
+        assert_eq!((read("run.2.csv").as_str(), read("run.2.json").as_str()), ("a,b", "{}"));
+
+        fs::write(at("other.json"), "mine").unwrap();
+        let refused =
+            |name: &str| format!("Nothing was saved: {} is there already. Choose another name.", at(name).display());
+        assert_eq!(save("other.csv"), refused("other.json"));
+        assert_eq!((read("other.json").as_str(), at("other.csv").exists()), ("mine", false));
+
+        fs::write(at("named.CSV"), "older").unwrap();
+        save("named.CSV");
+        assert_eq!(read("named.CSV"), "a,b", "the dialog has asked");
+
+        assert!(save("bare").starts_with("bare.csv and bare.json were saved"));
+        fs::remove_file(at("bare.json")).unwrap();
+        assert_eq!(save("bare"), refused("bare.csv"));
+        assert!(!at("bare.json").exists(), "neither is left alone");
+        assert!(save("log.json").starts_with("log.json.csv and log.json.json were saved"));
+        fs::remove_dir_all(&folder).unwrap();
     }
 }

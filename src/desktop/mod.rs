@@ -6,6 +6,7 @@ mod thread;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
+use crate::app::trial::Offer;
 use crate::app::{LumenApp, Platform, PlatformEvent};
 use crate::engine::trial::TrialLink;
 use crate::engine::{Engine, Link, TrialEngine};
@@ -67,6 +68,10 @@ impl Platform for Desktop {
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, ctx: &egui::Context) {
         files::save(name.to_owned(), bytes, self.sender.clone(), ctx.clone());
+    }
+
+    fn offer_pair(&mut self, pair: [Offer; 2], ctx: &egui::Context) {
+        files::save_pair(pair, self.sender.clone(), ctx.clone());
     }
 
     fn poll(&mut self) -> Option<PlatformEvent> {

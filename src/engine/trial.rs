@@ -49,6 +49,8 @@ pub enum TrialCommand {
     },
     /// Replays the present trial's input on another surface, to the end, and compares the two.
     Compare {
+        /// Comes back with what is told of it.
+        id: u64,
         /// That surface: the one that was not reduced.
         mesh: Arc<TriMesh>,
     },
@@ -64,7 +66,12 @@ pub enum TrialCommand {
         /// All else.
         setup: Setup,
     },
-    /// Ends the trial and lets go of its surface.
+    /// Gives up the comparison or measurement of this number; the trial stands.
+    Cancel {
+        /// That of its command.
+        id: u64,
+    },
+    /// Ends the trial and lets go of its surface; measurements go on.
     Stop,
 }
 
@@ -136,12 +143,14 @@ pub enum TrialEvent {
     },
     /// The wire stands at the entry.
     Ready(Box<TrialReady>),
-    /// It cannot be tried, and why; the trial before stands.
+    /// It cannot be tried, measured or compared, and why; the trial before stands.
     Refused {
         /// That of the command.
         id: u64,
         /// One sentence.
         message: String,
+        /// Whether the reason is a lumen thinner than the wire.
+        is_too_thin: bool,
     },
     /// The wire now.
     Frame(Box<Frame>),
@@ -155,9 +164,16 @@ pub enum TrialEvent {
         json: String,
     },
     /// What `Compare` was asked for.
-    Compared(Box<TrialComparison>),
+    Compared {
+        /// That of the command.
+        id: u64,
+        /// What came of it.
+        comparison: Box<TrialComparison>,
+    },
     /// How far a comparison or a measurement is.
     Busy {
+        /// That of the command.
+        id: u64,
         /// 0 to 1.
         fraction: f32,
     },

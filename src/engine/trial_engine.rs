@@ -13,6 +13,7 @@ use crate::trial::STEP;
 use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
+use crate::trial::route::RouteError;
 use crate::trial::session::Trial;
 use crate::trial::setup::Setup;
 
@@ -23,15 +24,20 @@ const FRAME: f64 = 1.0 / 60.0;
 /// Seconds over which the speed is told, and between two words on how far long work is.
 const TELL: f64 = 0.5;
 
+/// Why what acts on the trial that is shown cannot be done.
+const NO_TRIAL: &str = "no trial is on";
+
 /// What runs to its end as fast as it goes, while the trial that is shown waits.
 struct Job {
+    id: u64,
     trial: Box<Trial>,
     kind: JobKind,
     told: Instant,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum JobKind {
-    Measure { id: u64 },
+    Measure,
     Compare,
 }
 
@@ -101,14 +107,18 @@ impl TrialEngine {
             TrialCommand::Start { id, mesh, sample, setup } => self.start(id, &mesh, sample, setup),
             TrialCommand::Measure { id, mesh, sample, setup } => {
                 let job = begin(&mesh, sample, setup).map(|(trial, _)| trial);
-                self.add_job(job, JobKind::Measure { id });
+                self.add_job(id, job, JobKind::Measure);
             }
+            TrialCommand::Cancel { id } => self.jobs.retain(|job| job.id != id),
             TrialCommand::Stop => {
                 self.shown = None;
-                self.jobs.clear();
+                self.drop_comparisons();
             }
             other => match self.shown.take() {
-                None => self.fail("no trial is on"),
+                None => match other {
+                    TrialCommand::Compare { id, .. } => self.refuse(id, NO_TRIAL, false),
+                    _ => self.fail(NO_TRIAL),
+                },
                 Some(mut shown) => {
                     if matches!(other, TrialCommand::Restart | TrialCommand::StepBack | TrialCommand::Replay { .. }) {
                         self.drop_comparisons();
@@ -148,14 +158,17 @@ impl TrialEngine {
                     self.fail(&message);
                 }
             }
-            TrialCommand::Compare { mesh } => self.add_job(trial.on(&mesh), JobKind::Compare),
-            TrialCommand::Start { .. } | TrialCommand::Measure { .. } | TrialCommand::Stop => {}
+            TrialCommand::Compare { id, mesh } => self.add_job(id, trial.on(&mesh), JobKind::Compare),
+            TrialCommand::Start { .. }
+            | TrialCommand::Measure { .. }
+            | TrialCommand::Cancel { .. }
+            | TrialCommand::Stop => {}
         }
     }
 
     /// Gives up comparing a trial that is no longer what it was.
     fn drop_comparisons(&mut self) {
-        self.jobs.retain(|job| !matches!(job.kind, JobKind::Compare));
+        self.jobs.retain(|job| job.kind != JobKind::Compare);
     }
 
     fn fail(&mut self, message: &str) {
@@ -171,7 +184,7 @@ impl TrialEngine {
                 self.drop_comparisons();
                 self.shown = Some(Shown::new(trial));
             }
-            Err(error) => self.events.push_back(TrialEvent::Refused { id, message: sentence(&error.to_string()) }),
+            Err(error) => self.refuse_for(id, &error),
         }
     }
 
@@ -183,19 +196,25 @@ impl TrialEngine {
         }
     }
 
-    fn add_job(&mut self, trial: Result<Trial, TrialError>, kind: JobKind) {
-        match (trial, kind) {
-            (Ok(mut trial), kind) => {
-                if matches!(kind, JobKind::Measure { .. }) {
+    fn add_job(&mut self, id: u64, trial: Result<Trial, TrialError>, kind: JobKind) {
+        match trial {
+            Ok(mut trial) => {
+                if kind == JobKind::Measure {
                     trial.set_autopilot(true);
                 }
-                self.jobs.push_back(Job { trial: Box::new(trial), kind, told: Instant::now() });
+                self.jobs.push_back(Job { id, trial: Box::new(trial), kind, told: Instant::now() });
             }
-            (Err(error), JobKind::Measure { id }) => {
-                self.events.push_back(TrialEvent::Refused { id, message: sentence(&error.to_string()) });
-            }
-            (Err(error), JobKind::Compare) => self.fail(&error.to_string()),
+            Err(error) => self.refuse_for(id, &error),
         }
+    }
+
+    fn refuse_for(&mut self, id: u64, error: &TrialError) {
+        let is_too_thin = matches!(error, TrialError::Route(RouteError::TooThin { .. }));
+        self.refuse(id, &error.to_string(), is_too_thin);
+    }
+
+    fn refuse(&mut self, id: u64, message: &str, is_too_thin: bool) {
+        self.events.push_back(TrialEvent::Refused { id, message: sentence(message), is_too_thin });
     }
 
     /// Works for a slice at `now_s` seconds by any clock; says after what time it wants to go on, `None` for not before the
@@ -250,15 +269,16 @@ impl TrialEngine {
                 job.told = Instant::now();
                 let steps = job.trial.simulation().steps() as f64;
                 let all = job.trial.replayed_steps().map_or(job.trial.limit_s() / STEP, |all| all as f64);
-                self.events.push_back(TrialEvent::Busy { fraction: (steps / all.max(1.0)) as f32 });
+                self.events.push_back(TrialEvent::Busy { id: job.id, fraction: (steps / all.max(1.0)) as f32 });
             }
             return;
         }
-        let Some(Job { trial, kind, .. }) = self.jobs.pop_front() else { return };
+        let Some(Job { id, trial, kind, .. }) = self.jobs.pop_front() else { return };
         let event = match (kind, &self.shown) {
-            (JobKind::Measure { id }, _) => TrialEvent::Measured { id, summary: Box::new(trial.summary()) },
+            (JobKind::Measure, _) => TrialEvent::Measured { id, summary: Box::new(trial.summary()) },
             (JobKind::Compare, Some(shown)) => {
-                TrialEvent::Compared(Box::new(TrialComparison::new(&shown.trial, &trial)))
+                let comparison = Box::new(TrialComparison::new(&shown.trial, &trial));
+                TrialEvent::Compared { id, comparison }
             }
             (JobKind::Compare, None) => return,
         };
@@ -334,4 +354,72 @@ fn sentence(text: &str) -> String {
     let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
     let stop = if text.ends_with('.') { "" } else { "." };
     format!("{first}{}{stop}", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trial::frame::Frame;
+    use crate::trial::setup::Input;
+
+    const SLICE: Duration = Duration::from_millis(1);
+
+    fn aorta() -> Arc<TriMesh> {
+        Arc::new(crate::io::import_mesh(crate::phantom::generate(Sample::Aorta, 20_000).unwrap(), "sample").mesh)
+    }
+
+    fn events(engine: &mut TrialEngine) -> Vec<TrialEvent> {
+        std::iter::from_fn(|| engine.poll()).collect()
+    }
+
+    /// The newest frame, asked for by standing still.
+    fn frame(engine: &mut TrialEngine, now_s: f64) -> Frame {
+        engine.handle(TrialCommand::Pause(true));
+        while engine.advance(now_s, SLICE).is_some() {}
+        let mut frames = events(engine).into_iter().rev().filter_map(|event| match event {
+            TrialEvent::Frame(frame) => Some(*frame),
+            _ => None,
+        });
+        frames.next().unwrap()
+    }
+
+    #[test]
+    fn a_comparison_that_is_cancelled_leaves_the_trial_as_it_stands() {
+        let mesh = aorta();
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Start { id: 1, mesh: mesh.clone(), sample, setup: setup.clone() });
+        assert!(matches!(events(&mut engine)[..], [TrialEvent::Preparing { id: 1, .. }, TrialEvent::Ready(_)]));
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        for i in 0..200 {
+            engine.advance(f64::from(i) * 0.02, Duration::from_millis(50));
+        }
+        let before = frame(&mut engine, 5.0);
+        assert!(before.step > 200, "{}", before.step);
+        engine.handle(TrialCommand::Compare { id: 2, mesh: mesh.clone() });
+        engine.handle(TrialCommand::Measure { id: 3, mesh, sample, setup });
+        assert_eq!(engine.advance(6.0, SLICE), Some(Duration::ZERO), "a job goes on");
+        engine.handle(TrialCommand::Cancel { id: 2 });
+        assert_eq!(engine.jobs.len(), 1, "the measurement is another's");
+        engine.handle(TrialCommand::Cancel { id: 3 });
+        let after = frame(&mut engine, 7.0);
+        assert_eq!((after.step, &after.nodes), (before.step, &before.nodes));
+        engine.handle(TrialCommand::Pause(false));
+        for i in 0..10 {
+            engine.advance(7.0 + f64::from(i) * 0.02, Duration::from_millis(50));
+        }
+        assert!(frame(&mut engine, 8.0).step > before.step);
+        assert!(!events(&mut engine).iter().any(|event| matches!(event, TrialEvent::Compared { .. })));
+    }
+
+    #[test]
+    fn closing_the_trial_lets_measurements_go_on() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Measure { id: 7, mesh: aorta(), sample, setup });
+        engine.handle(TrialCommand::Stop);
+        assert_eq!(engine.advance(0.0, SLICE), Some(Duration::ZERO));
+        engine.handle(TrialCommand::Compare { id: 8, mesh: Arc::default() });
+        assert!(matches!(events(&mut engine)[..], [TrialEvent::Refused { id: 8, .. }]), "without a trial");
+    }
 }

@@ -24,8 +24,9 @@ enum CommandHeader {
     StepBack,
     Save,
     Replay,
-    Compare,
+    Compare { id: u64 },
     Measure { id: u64, sample: Option<Sample>, setup: Setup },
+    Cancel { id: u64 },
     Stop,
 }
 
@@ -33,12 +34,12 @@ enum CommandHeader {
 enum EventHeader {
     Preparing { id: u64, fraction: f32 },
     Ready(Box<TrialReady>),
-    Refused { id: u64, message: String },
+    Refused { id: u64, message: String, is_too_thin: bool },
     Frame(Box<Frame>),
     Ended(Box<Summary>),
     Saved,
-    Compared(Box<TrialComparison>),
-    Busy { fraction: f32 },
+    Compared { id: u64, comparison: Box<TrialComparison> },
+    Busy { id: u64, fraction: f32 },
     Measured { id: u64, summary: Box<Summary> },
     Failed { message: String },
 }
@@ -62,10 +63,11 @@ pub fn encode_command(command: &TrialCommand) -> Encoded<'_> {
         TrialCommand::StepBack => (CommandHeader::StepBack, vec![]),
         TrialCommand::Save => (CommandHeader::Save, vec![]),
         TrialCommand::Replay { csv } => (CommandHeader::Replay, vec![&csv[..]]),
-        TrialCommand::Compare { mesh } => (CommandHeader::Compare, mesh_buffers(mesh)),
+        TrialCommand::Compare { id, mesh } => (CommandHeader::Compare { id: *id }, mesh_buffers(mesh)),
         TrialCommand::Measure { id, mesh, sample, setup } => {
             (CommandHeader::Measure { id: *id, sample: *sample, setup: setup.clone() }, mesh_buffers(mesh))
         }
+        TrialCommand::Cancel { id } => (CommandHeader::Cancel { id: *id }, vec![]),
         TrialCommand::Stop => (CommandHeader::Stop, vec![]),
     };
     (line(&header), buffers)
@@ -88,10 +90,11 @@ pub fn decode_command(header: &str, buffers: &impl Buffers) -> Result<TrialComma
         CommandHeader::StepBack => TrialCommand::StepBack,
         CommandHeader::Save => TrialCommand::Save,
         CommandHeader::Replay => TrialCommand::Replay { csv: Arc::new(array(buffers, 0)?) },
-        CommandHeader::Compare => TrialCommand::Compare { mesh: Arc::new(mesh(buffers)?) },
+        CommandHeader::Compare { id } => TrialCommand::Compare { id, mesh: Arc::new(mesh(buffers)?) },
         CommandHeader::Measure { id, sample, setup } => {
             TrialCommand::Measure { id, mesh: Arc::new(mesh(buffers)?), sample, setup }
         }
+        CommandHeader::Cancel { id } => TrialCommand::Cancel { id },
         CommandHeader::Stop => TrialCommand::Stop,
     })
 }
@@ -101,7 +104,9 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
     let (header, buffers) = match event {
         TrialEvent::Preparing { id, fraction } => (EventHeader::Preparing { id: *id, fraction: *fraction }, vec![]),
         TrialEvent::Ready(ready) => (EventHeader::Ready(ready.clone()), vec![]),
-        TrialEvent::Refused { id, message } => (EventHeader::Refused { id: *id, message: message.clone() }, vec![]),
+        TrialEvent::Refused { id, message, is_too_thin } => {
+            (EventHeader::Refused { id: *id, message: message.clone(), is_too_thin: *is_too_thin }, vec![])
+        }
         TrialEvent::Frame(frame) => {
             let mut rest = frame.clone();
             (rest.nodes, rest.forces, rest.touches) = Default::default();
@@ -110,7 +115,7 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
         }
         TrialEvent::Ended(summary) => (EventHeader::Ended(summary.clone()), vec![]),
         TrialEvent::Saved { csv, json } => (EventHeader::Saved, vec![csv.as_bytes(), json.as_bytes()]),
-        TrialEvent::Compared(compared) => {
+        TrialEvent::Compared { id, comparison: compared } => {
             let mut rest = compared.clone();
             (rest.inserted_mm, rest.deviation_mm, rest.tip, rest.other_tip) = Default::default();
             let buffers = vec![
@@ -119,9 +124,9 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
                 cast_slice(&compared.tip),
                 cast_slice(&compared.other_tip),
             ];
-            (EventHeader::Compared(rest), buffers)
+            (EventHeader::Compared { id: *id, comparison: rest }, buffers)
         }
-        TrialEvent::Busy { fraction } => (EventHeader::Busy { fraction: *fraction }, vec![]),
+        TrialEvent::Busy { id, fraction } => (EventHeader::Busy { id: *id, fraction: *fraction }, vec![]),
         TrialEvent::Measured { id, summary } => (EventHeader::Measured { id: *id, summary: summary.clone() }, vec![]),
         TrialEvent::Failed { message } => (EventHeader::Failed { message: message.clone() }, vec![]),
     };
@@ -136,7 +141,7 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<TrialEvent, 
     Ok(match serde_json::from_str(header)? {
         EventHeader::Preparing { id, fraction } => TrialEvent::Preparing { id, fraction },
         EventHeader::Ready(ready) => TrialEvent::Ready(ready),
-        EventHeader::Refused { id, message } => TrialEvent::Refused { id, message },
+        EventHeader::Refused { id, message, is_too_thin } => TrialEvent::Refused { id, message, is_too_thin },
         EventHeader::Frame(mut frame) => {
             frame.nodes = array(buffers, 0)?;
             frame.forces = array(buffers, 1)?;
@@ -145,14 +150,14 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<TrialEvent, 
         }
         EventHeader::Ended(summary) => TrialEvent::Ended(summary),
         EventHeader::Saved => TrialEvent::Saved { csv: text(buffers, 0)?, json: text(buffers, 1)? },
-        EventHeader::Compared(mut compared) => {
-            compared.inserted_mm = array(buffers, 0)?;
-            compared.deviation_mm = array(buffers, 1)?;
-            compared.tip = array(buffers, 2)?;
-            compared.other_tip = array(buffers, 3)?;
-            TrialEvent::Compared(compared)
+        EventHeader::Compared { id, mut comparison } => {
+            comparison.inserted_mm = array(buffers, 0)?;
+            comparison.deviation_mm = array(buffers, 1)?;
+            comparison.tip = array(buffers, 2)?;
+            comparison.other_tip = array(buffers, 3)?;
+            TrialEvent::Compared { id, comparison }
         }
-        EventHeader::Busy { fraction } => TrialEvent::Busy { fraction },
+        EventHeader::Busy { id, fraction } => TrialEvent::Busy { id, fraction },
         EventHeader::Measured { id, summary } => TrialEvent::Measured { id, summary },
         EventHeader::Failed { message } => TrialEvent::Failed { message },
     })
@@ -189,8 +194,9 @@ mod tests {
             TrialCommand::StepBack,
             TrialCommand::Save,
             TrialCommand::Replay { csv: Arc::new(b"time_s\n0\n".to_vec()) },
-            TrialCommand::Compare { mesh: mesh.clone() },
+            TrialCommand::Compare { id, mesh: mesh.clone() },
             TrialCommand::Measure { id, mesh, sample: None, setup },
+            TrialCommand::Cancel { id },
             TrialCommand::Stop,
         ];
         for command in commands {
@@ -213,7 +219,7 @@ mod tests {
         };
         let route = RouteShown { points: vec![[1.0; 3]; 2], radii: vec![2.0; 2], ..RouteShown::default() };
         let ready = TrialReady { id: 1, route, targets: vec![("left".to_owned(), [0.0; 3])], ..TrialReady::default() };
-        let compared = TrialComparison {
+        let comparison = TrialComparison {
             verdict: "it arrives".to_owned(),
             inserted_mm: vec![1.0, 2.0],
             deviation_mm: vec![0.0, 0.5],
@@ -227,12 +233,12 @@ mod tests {
         let events = [
             TrialEvent::Preparing { id: 1, fraction: 0.5 },
             TrialEvent::Ready(Box::new(ready)),
-            TrialEvent::Refused { id: 1, message: message.clone() },
+            TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true },
             TrialEvent::Frame(Box::new(frame)),
             TrialEvent::Ended(summary.clone()),
             TrialEvent::Saved { csv: "a,b\n1,2\n".to_owned(), json: "{}".to_owned() },
-            TrialEvent::Compared(Box::new(compared)),
-            TrialEvent::Busy { fraction: 0.25 },
+            TrialEvent::Compared { id: 2, comparison: Box::new(comparison) },
+            TrialEvent::Busy { id: 2, fraction: 0.25 },
             TrialEvent::Measured { id: 3, summary },
             TrialEvent::Failed { message },
         ];

@@ -31,8 +31,8 @@ pub const PINCHED: f32 = 0.5;
 const MOST: usize = 20_000;
 /// A ball's radius must agree with the median around it to this factor, to be a sample.
 const AGREE: f32 = 1.4;
-/// The least diameter of a vessel that can be lost, in mean edges: smoothing may have drawn thinner ones shut before.
-const OPEN: f64 = 0.25;
+/// A vessel of less than so many mean edges in diameter counts as drawn shut by smoothing: reduction cannot lose it.
+pub(super) const SHUT: f64 = 0.25;
 /// Samples that are measured in one piece.
 const PIECE: usize = 64;
 /// Triangles that are indexed between two looks at the clock.
@@ -90,7 +90,7 @@ pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &
     let mut ring = Vec::new();
     let mut taken = HashSet::new();
     let mut chosen = Vec::new();
-    let least = (edge_length(mesh) * OPEN / 2.0) as f32;
+    let least = (edge_length(mesh) * SHUT / 2.0) as f32;
     for &v in &balls.own {
         let radius = balls.radii[v as usize];
         let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > least) else { continue };

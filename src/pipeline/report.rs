@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
-use super::lumen::{Narrowing, Pinch};
+use super::lumen::{Narrowing, Pinch, SHUT};
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
 use super::results::StageTimes;
@@ -156,9 +156,6 @@ impl Report {
         })
     }
 }
-
-/// A smoothed vessel of less than so many mean edges in diameter counts as drawn shut.
-const SHUT: f64 = 0.25;
 
 impl Report {
     /// A sentence where smoothing has drawn a vessel shut.

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
+use lumen::app::trial::Offer;
 use lumen::app::{Gamepad, Platform, PlatformEvent};
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
@@ -45,6 +46,12 @@ fn chosen((name, bytes): files::Chosen) -> PlatformEvent {
     }
 }
 
+/// Makes a download, or says why not.
+fn save(name: &str, bytes: &[u8]) -> Result<(), String> {
+    files::save(name, bytes)
+        .map_err(|_| format!("The browser has no memory left for the {:.0} MB of {name}.", bytes.len() as f64 / 1e6))
+}
+
 impl Platform for Browser {
     fn link(&mut self) -> &mut dyn Link {
         &mut self.link
@@ -78,15 +85,20 @@ impl Platform for Browser {
     }
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, ctx: &egui::Context) {
-        let news = self.news(ctx);
-        match files::save(name, &bytes) {
-            Ok(()) => news(PlatformEvent::Saved { name: name.to_owned() }),
-            Err(_) => {
-                let message =
-                    format!("The browser has no memory left for the {:.0} MB of {name}.", bytes.len() as f64 / 1e6);
-                news(PlatformEvent::Failed { message });
-            }
-        }
+        let event = match save(name, &bytes) {
+            Ok(()) => PlatformEvent::Saved { message: format!("{name} was saved.") },
+            Err(message) => PlatformEvent::Failed { message },
+        };
+        self.news(ctx)(event);
+    }
+
+    fn offer_pair(&mut self, [first, second]: [Offer; 2], ctx: &egui::Context) {
+        let saved = save(&first.name, &first.bytes).and_then(|()| save(&second.name, &second.bytes));
+        let event = match saved {
+            Ok(()) => PlatformEvent::Saved { message: format!("{} and {} were saved.", first.name, second.name) },
+            Err(message) => PlatformEvent::Failed { message },
+        };
+        self.news(ctx)(event);
     }
 
     fn poll(&mut self) -> Option<PlatformEvent> {

@@ -96,3 +96,13 @@ impl CompareScene {
         Ok(self.surfaces.len() - 1)
     }
 }
+
+impl Drop for CompareScene {
+    /// The window has pictures of its own for these.
+    fn drop(&mut self) {
+        let mut window = self.window.write();
+        for slot in &self.pictures {
+            window.free_texture(&slot.texture);
+        }
+    }
+}

@@ -25,7 +25,6 @@ pub(in crate::app) struct CompareView {
     device: Option<egui_wgpu::RenderState>,
     /// Made when the view is first shown.
     scene: Option<CompareScene>,
-    failure: Option<String>,
     /// Whether the pointer was over a picture, where the wheel zooms; elsewhere it scrolls.
     over_picture: bool,
 }
@@ -40,7 +39,12 @@ enum Deed {
 impl CompareView {
     /// A view on the window's device; without one (in some tests) it says so.
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
-        Self { device: device.cloned(), scene: None, failure: None, over_picture: false }
+        Self { device: device.cloned(), scene: None, over_picture: false }
+    }
+
+    /// Lets go of GPU memory, for while the view is not shown.
+    pub(in crate::app) fn let_go(&mut self) {
+        self.scene = None;
     }
 
     /// Shows the comparison in what is left of `ui`; a cell that is clicked becomes `settings`.
@@ -135,8 +139,9 @@ impl CompareView {
                     style: theme::style(ui.visuals()),
                 };
                 let shown = ui.push_id(cell.id, |ui| self.cell(ui, i, rect, cell, title, &manner, is_current)).inner;
-                views.steer(ui, &shown.picture, document, settings.keep);
-                views.take_shape(shown.picture.rect, comparison.arrangement.rows(), document, settings.keep);
+                let rows = comparison.arrangement.rows();
+                views.steer(ui, &shown.picture, rows, document, settings.keep);
+                views.take_shape(shown.picture.rect, rows, document, settings.keep);
                 over_picture |= shown.picture.contains_pointer();
                 deed = deed.take().or(shown.deed);
             }
@@ -161,14 +166,14 @@ impl CompareView {
         let picture = ui.interact(above, ui.scope_id().with("picture"), Sense::click_and_drag());
         picture.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_current, title));
         let words = ui.interact(below, ui.scope_id().with("words"), Sense::CLICK);
-        let mut deed = None;
+        let (mut deed, mut failure) = (None, None);
         match (&cell.outcome, &mut self.scene) {
             (Outcome::Done(made), Some(scene)) => {
                 if let Err(error) = cell::pictures(ui, scene, index, above, made, manner) {
-                    self.failure = Some(format!("The surface cannot be drawn: {error}."));
+                    failure = Some(format!("The surface cannot be drawn: {error}."));
                 }
             }
-            (Outcome::Done(_), None) => self.failure = Some("There is no graphics device to draw with.".to_owned()),
+            (Outcome::Done(_), None) => failure = Some("There is no graphics device to draw with.".to_owned()),
             (Outcome::Waiting | Outcome::Failed(_), _) => {
                 ui.painter().rect_filled(above, 0.0, ui.visuals().faint_bg_color);
             }
@@ -182,7 +187,7 @@ impl CompareView {
                 deed = Some(Deed::Retry(cell.id));
             }
         }
-        if let Some(failure) = &self.failure {
+        if let Some(failure) = failure {
             let font = egui::TextStyle::Small.resolve(ui.style());
             let colour = ui.visuals().text_color();
             ui.painter_at(above).text(above.center(), egui::Align2::CENTER_CENTER, failure, font, colour);

@@ -1,6 +1,6 @@
 //! A setting in words and a result in numbers, for people.
 
-use crate::app::control::grouped;
+use crate::digits::grouped;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Method, Settings, Target};
 

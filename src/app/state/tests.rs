@@ -7,6 +7,7 @@ use super::State;
 use crate::engine::{Command, Engine, Event, Link};
 use crate::io::Format;
 use crate::phantom::{self, Sample};
+use crate::pipeline::lumen::Pinch;
 use crate::pipeline::settings::{Keep, Target};
 
 /// A line on which commands lie until the next slice.
@@ -320,4 +321,41 @@ fn a_cancelled_bound_leaves_the_level_that_was_shown() {
         settle(&mut state, &mut line);
         assert_eq!((state.settings.target, shown(&state)), (target, before));
     }
+}
+
+#[test]
+fn new_levels_have_no_colours_and_no_pinched_vessel_of_older_ones() {
+    let (mut state, mut line) = start();
+    let document = state.document.as_mut().unwrap();
+    assert!(document.deviation_by_node().is_some());
+    let finest = document.levels.as_ref().unwrap().1.triangles.len();
+    let measured = document.measured.as_mut().unwrap();
+    let pinch = Pinch {
+        from_percent: 0.0,
+        triangles: finest,
+        at_mm: [0.0; 3],
+        diameter_before_mm: 2.0,
+        diameter_after_mm: 0.0,
+    };
+    measured.report.pinch = Some(pinch);
+    assert!(document.pinch().is_some());
+    let levels = document.revision.levels;
+    // As many triangles, and other places.
+    state.settings.smoothing.pass_band = 0.1;
+    state.follow(false, &mut line);
+    assert!(!state.has_level());
+    line.deliver();
+    while state.document.as_ref().unwrap().revision.levels == levels {
+        line.engine.advance(Duration::from_millis(8));
+        while let Some(event) = line.poll() {
+            let is_new = matches!(event, Event::Reduced(_));
+            state.receive(event);
+            if is_new {
+                let document = state.document.as_ref().unwrap();
+                assert!(document.deviation_by_node().is_none() && document.pinch().is_none());
+            }
+        }
+    }
+    settle(&mut state, &mut line);
+    assert!(state.has_level() && state.document.as_ref().unwrap().deviation_by_node().is_some());
 }

@@ -5,6 +5,8 @@
 pub enum Ask {
     /// Begin: with the level that is shown.
     Start,
+    /// Smooth less, so that thin vessels stay open, and begin with the level that this makes.
+    SmoothLess,
     /// Begin again; anew where the level or the setup have changed.
     Restart,
     /// Steer by itself, or no longer.
@@ -21,6 +23,8 @@ pub enum Ask {
     OpenLog,
     /// Compare with the surface that was not reduced.
     Compare,
+    /// Compare no more.
+    CancelComparison,
     /// Run the paper's tables.
     Tables,
     /// Back to the surface.

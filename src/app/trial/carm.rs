@@ -108,21 +108,28 @@ impl CArm {
         (passed < GONE).then_some(passed as f32)
     }
 
-    /// Says whether a pulse is due at `now` by the window's clock, and counts it; `time_s` is the simulated time, of
-    /// which the beam takes what has passed.
-    pub(super) fn pulses_at(&mut self, now: f64, time_s: f64) -> bool {
+    /// Counts what has passed of the simulated time as beam, while the pedal is down.
+    pub(super) fn count(&mut self, time_s: f64) {
         let passed = time_s - std::mem::replace(&mut self.counted, time_s);
-        if !self.is_on {
-            return false;
+        if self.is_on {
+            // A step back gives no beam back.
+            self.seconds += passed.max(0.0);
         }
-        // A step back gives no beam back.
-        self.seconds += passed.max(0.0);
-        let is_due = now - self.last >= 0.98 / f64::from(self.rate);
+    }
+
+    /// Says whether a pulse is due at `now` by the window's clock, and counts it.
+    pub(super) fn pulses_at(&mut self, now: f64) -> bool {
+        let is_due = self.is_on && self.until_pulse(now) <= 0.02 / f64::from(self.rate);
         if is_due {
             self.last = now;
             self.pulses = self.pulses.wrapping_add(1);
         }
         is_due
+    }
+
+    /// Seconds until the next pulse.
+    pub(super) fn until_pulse(&self, now: f64) -> f64 {
+        (self.last + 1.0 / f64::from(self.rate) - now).max(0.0)
     }
 
     /// Where the detector is, from the isocentre.
@@ -190,12 +197,24 @@ mod tests {
     #[test]
     fn pulses_come_at_their_rate_and_only_while_the_pedal_is_down() {
         let mut arm = CArm { rate: 7.5, ..CArm::default() };
-        let count = (0..120).filter(|i| arm.pulses_at(f64::from(*i) / 60.0, f64::from(*i) / 60.0)).count();
+        let count = (0..120).filter(|i| arm.pulses_at(f64::from(*i) / 60.0)).count();
         assert!((15..=16).contains(&count), "{count} in two seconds");
-        assert!((arm.seconds - 119.0 / 60.0).abs() < 1e-9);
+        let wait = arm.until_pulse(1.95);
+        assert!(wait > 0.0 && !arm.pulses_at(1.95) && arm.pulses_at(1.95 + wait));
         arm.is_on = false;
-        assert!(!arm.pulses_at(10.0, 10.0) && arm.seconds < 2.0);
+        assert!(!arm.pulses_at(10.0));
+    }
+
+    #[test]
+    fn beam_is_simulated_time_with_the_pedal_down() {
+        let mut arm = CArm::default();
+        arm.count(2.0);
+        arm.is_on = false;
+        arm.count(10.0);
         arm.is_on = true;
-        assert!(arm.pulses_at(10.1, 9.0) && arm.seconds < 2.0, "a step back");
+        arm.count(9.0);
+        assert_eq!(arm.seconds, 2.0, "a step back");
+        arm.count(10.0);
+        assert_eq!(arm.seconds, 3.0);
     }
 }

@@ -1,12 +1,15 @@
 //! What is drawn over the view of the vessel: the way and its stations, the target, where two trials differ.
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 
 use super::Trial;
 use super::readout::plate;
 use crate::app::overlay;
 use crate::mesh::Vec3;
 use crate::render::Camera;
+
+/// Rings with numbers stand so far apart, in points.
+const APART: f32 = 30.0;
 
 /// The colours of two paths, this level's and the unreduced surface's: blue and orange (Okabe and Ito 2008).
 pub(super) fn colours(dark: bool) -> [Color32; 2] {
@@ -26,6 +29,13 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
     let accent = visuals.hyperlink_color;
     let way: Vec<Pos2> = ahead(trial, &ready.route.points).iter().filter_map(|&p| at(p.into())).collect();
     painter.extend(Shape::dashed_line(&way, Stroke::new(1.0, accent.gamma_multiply(0.8)), 5.0, 5.0));
+    let [here, other] = colours(visuals.dark_mode);
+    if let Some(comparison) = &trial.comparison {
+        for (path, colour) in [(&comparison.other_tip, other), (&comparison.tip, here)] {
+            let line: Vec<Pos2> = path.iter().filter_map(|&p| at(p.into())).collect();
+            painter.add(Shape::line(line, Stroke::new(2.0, colour)));
+        }
+    }
     for (i, &station) in ready.route.stations.iter().enumerate() {
         if let Some(at) = at(station.into()) {
             dot(&painter, at, accent, visuals.panel_fill);
@@ -34,13 +44,15 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
     }
     target(ui, &painter, rect, camera, trial);
     if let Some(comparison) = &trial.comparison {
-        let [here, other] = colours(visuals.dark_mode);
-        for (path, colour) in [(&comparison.other_tip, other), (&comparison.tip, here)] {
-            let line: Vec<Pos2> = path.iter().filter_map(|&p| at(p.into())).collect();
-            painter.add(Shape::line(line, Stroke::new(2.0, colour)));
-        }
+        // The largest come first; one beside another would hide its number.
+        let mut ringed: Vec<Pos2> = Vec::new();
         for &(place, force) in &comparison.force_differences {
-            overlay::ring(ui, rect, camera, place.into(), &format!("{force:+.2} N"));
+            let Some(middle) = at(place.into()).filter(|at| ringed.iter().all(|ring| ring.distance(*at) > APART))
+            else {
+                continue;
+            };
+            ringed.push(middle);
+            overlay::ring(ui, rect, camera, place.into(), &format!("{force:+.3} N"));
         }
         for &place in &comparison.pinched {
             overlay::ring(ui, rect, camera, place.into(), "Pinched");
@@ -82,10 +94,12 @@ fn target(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, trial: &Trial
         })
         .collect();
     let colour = ui.visuals().hyperlink_color;
+    let right = circle.iter().map(|at| at.x).fold(f32::NEG_INFINITY, f32::max);
     painter.add(Shape::line(circle, Stroke::new(2.5, colour)));
     if let Some(at) = project(camera, rect, end) {
         painter.circle_stroke(at, 9.0, Stroke::new(1.5, colour));
-        plate(ui, at + vec2(14.0, 0.0), Align2::LEFT_CENTER, "Target", true);
+        // Beside the ring, where it hides neither the ring nor the wire.
+        plate(ui, pos2(right.max(at.x + 9.0) + 6.0, at.y), Align2::LEFT_CENTER, "Target", true);
     }
 }
 

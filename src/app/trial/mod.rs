@@ -34,12 +34,18 @@ use crate::engine::trial::{TrialCommand, TrialComparison, TrialEvent, TrialLink,
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
-use crate::pipeline::settings::Target;
+use crate::pipeline::settings::{Smoothing, Target};
 use crate::trial::frame::{Frame, Progress, Summary};
 use crate::trial::setup::{Entry, Input, Setup};
 
 /// Simulated seconds a second in slow motion.
 const SLOW: f32 = 0.25;
+
+/// The pass band and the iterations that are offered where smoothing leaves no room for the wire.
+const GENTLE: (f64, u32) = (0.1, 30);
+
+/// What is said until that level is there.
+const AWAITS: &str = "Smoothing less: the trial starts when the new level is there.";
 
 /// The surface of a trial.
 struct Subject {
@@ -84,6 +90,12 @@ pub struct Trial {
     pub carm: CArm,
     /// Why the last thing asked for could not be done.
     pub problem: Option<String>,
+    /// Whether that is a lumen thinner than the wire.
+    is_too_thin: bool,
+    /// The smoothing whose level is awaited: it begins with that.
+    awaits: Option<Smoothing>,
+    /// The largest forces since the wire was at the entry.
+    peaks: readout::Largest,
     drive: drive::Drive,
     /// The input that the engine has.
     driven: Input,
@@ -93,7 +105,10 @@ pub struct Trial {
     coming: Option<(u64, Subject)>,
     /// The setup that the engine has, as the controls had it.
     sent: Option<Setup>,
+    /// The number of the newest trial, measurement or comparison.
     number: u64,
+    /// That of the newest comparison.
+    compared: u64,
     /// A log to be replayed once the wire is in.
     log: Option<Arc<Vec<u8>>>,
     /// Counts up with every trial and every beginning: forces that were felt before are forgotten.
@@ -111,7 +126,7 @@ impl Trial {
 
     /// Whether something is being computed for it.
     pub fn is_busy(&self) -> bool {
-        matches!(self.stage, Stage::Preparing(_)) || self.comparing.is_some() || self.tables.is_running()
+        matches!(self.stage, Stage::Preparing(_)) || self.comparing.is_some() || self.tables.is_busy()
     }
 
     /// The setup in force, with its entry and its target.
@@ -119,14 +134,45 @@ impl Trial {
         self.ready.as_ref().map(|ready| &ready.setup)
     }
 
+    /// The smoothing that is offered in place of `smoothing`, where the lumen is too thin for the wire.
+    fn gentler(&self, smoothing: &Smoothing) -> Option<Smoothing> {
+        let (pass_band, iterations) = GENTLE;
+        let is_stronger = smoothing.iterations > 0 && smoothing.pass_band < pass_band;
+        (self.is_too_thin && is_stronger).then_some(Smoothing { pass_band, iterations, ..*smoothing })
+    }
+
+    /// Sets the gentler smoothing; the trial begins once its level is there.
+    pub(super) fn smooth_less(&mut self, smoothing: &mut Smoothing) {
+        if let Some(gentler) = self.gentler(smoothing) {
+            *smoothing = gentler;
+            (self.problem, self.is_too_thin, self.awaits) = (None, false, Some(gentler));
+        }
+    }
+
+    /// Begins with the level that was awaited, if it is there: `has_level` says whether the level that is shown is that
+    /// of the settings. Where smoothing was set to something else meanwhile, nothing is awaited any more.
+    pub(super) fn follow_level(
+        &mut self,
+        smoothing: &Smoothing,
+        has_level: bool,
+        document: Option<&Document>,
+        link: &mut TrialLink,
+    ) {
+        self.awaits.take_if(|awaited| awaited != smoothing);
+        if self.awaits.is_some() && has_level {
+            self.start(document, link);
+        }
+    }
+
     /// Whether the controls say other than what the wire is in for.
     pub fn has_changed(&self) -> bool {
         self.sent.as_ref().is_some_and(|sent| *sent != self.setup)
     }
 
-    /// Does what the user asks for. What needs a platform ([`Ask::OpenLog`]) is not for here.
+    /// Does what the user asks for. What needs a platform or the settings ([`Ask::OpenLog`],
+    /// [`Ask::SmoothLess`]) is not for here.
     pub fn act(&mut self, ask: &Ask, document: Option<&Document>, link: &mut TrialLink) {
-        self.problem = None;
+        (self.problem, self.is_too_thin) = (None, false);
         match ask {
             Ask::Start => self.start(document, link),
             Ask::Restart => {
@@ -151,14 +197,21 @@ impl Trial {
             Ask::StepBack => {
                 self.is_paused = true;
                 self.summary = None;
+                self.comparing = None;
                 link.send(TrialCommand::StepBack);
             }
             Ask::Save => link.send(TrialCommand::Save),
             Ask::Compare => {
                 if let Some(Subject { levels, .. }) = &self.subject {
                     let whole = levels.extract(&levels.level(Target::Reduction(0)).triangles);
-                    self.comparing = Some(0.0);
-                    link.send(TrialCommand::Compare { mesh: Arc::new(whole) });
+                    self.number += 1;
+                    (self.compared, self.comparing) = (self.number, Some(0.0));
+                    link.send(TrialCommand::Compare { id: self.number, mesh: Arc::new(whole) });
+                }
+            }
+            Ask::CancelComparison => {
+                if self.comparing.take().is_some() {
+                    link.send(TrialCommand::Cancel { id: self.compared });
                 }
             }
             Ask::Tables => {
@@ -168,7 +221,8 @@ impl Trial {
                 }
             }
             Ask::Close => self.close(link),
-            Ask::OpenLog => {}
+            // Smoothing is the app's.
+            Ask::OpenLog | Ask::SmoothLess => {}
         }
     }
 
@@ -187,6 +241,7 @@ impl Trial {
             self.problem = Some("There is no surface to steer through yet.".to_owned());
             return;
         };
+        self.awaits = None;
         self.number += 1;
         let (id, mesh) = (self.number, Arc::new(mesh));
         let is_other = self.name != document.name;
@@ -217,11 +272,14 @@ impl Trial {
     }
 
     fn begin_again(&mut self) {
-        (self.summary, self.comparison) = (None, None);
+        (self.summary, self.comparison, self.comparing) = (None, None, None);
         if let Some(frame) = &mut self.frame {
             frame.progress = Progress::Running;
+            // What the wall felt then it is not to feel anew.
+            frame.touches.clear();
         }
         self.runs += 1;
+        self.peaks = readout::Largest::default();
         self.carm.reset();
         (self.autopilot, self.is_paused) = (false, false);
         self.driven = Input::default();
@@ -292,48 +350,51 @@ impl Trial {
         along.or_else(|| Some(Vec3::from(target?) - at)).unwrap_or(Vec3::Z).normalize_or(Vec3::Z)
     }
 
-    /// Hears what the engine has to say; files are for the user.
-    pub fn receive(&mut self, event: TrialEvent, link: &mut TrialLink) -> Vec<Offer> {
+    /// Hears what the engine has to say; a saved log and its summary are for the user.
+    pub fn receive(&mut self, event: TrialEvent, link: &mut TrialLink) -> Option<[Offer; 2]> {
         match event {
             TrialEvent::Preparing { id, fraction } if self.is_coming(id) => self.stage = Stage::Preparing(fraction),
             TrialEvent::Ready(ready) if self.is_coming(ready.id) => self.receive_ready(*ready, link),
-            TrialEvent::Refused { id, message } if self.is_coming(id) => {
+            TrialEvent::Refused { id, message, is_too_thin } if self.is_coming(id) => {
                 self.coming = None;
                 self.log = None;
-                self.problem = Some(message);
+                (self.problem, self.is_too_thin) = (Some(message), is_too_thin);
                 self.stage = if self.subject.is_some() { Stage::On } else { Stage::Off };
             }
+            TrialEvent::Refused { id, message, .. } if self.is_compared(id) => {
+                self.comparing = None;
+                self.problem = Some(message);
+            }
+            TrialEvent::Refused { id, message, .. } if self.tables.is_measuring(id) => self.tables.fails(&message),
             // What is left of a trial that was given up.
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
-            TrialEvent::Frame(frame) if self.stage == Stage::On => self.frame = Some(*frame),
+            TrialEvent::Frame(frame) if self.stage == Stage::On => {
+                self.peaks.take(&frame);
+                self.frame = Some(*frame);
+            }
             TrialEvent::Ended(summary) if self.stage == Stage::On => self.summary = Some(*summary),
             TrialEvent::Frame(_) | TrialEvent::Ended(_) => {}
             TrialEvent::Saved { csv, json } => {
                 let stem = format!("{}-trial", self.name.to_lowercase().replace([' ', '.'], "-"));
                 let file = |ending: &str, text: String| Offer { name: format!("{stem}.{ending}"), bytes: text.into() };
-                return vec![file("csv", csv), file("json", json)];
+                return Some([file("csv", csv), file("json", json)]);
             }
-            TrialEvent::Compared(comparison) => {
+            TrialEvent::Compared { id, comparison } if self.is_compared(id) => {
                 self.comparing = None;
                 self.comparison = Some(*comparison);
             }
-            TrialEvent::Busy { fraction } => {
-                if self.tables.is_running() {
-                    self.tables.progresses(fraction);
-                } else if self.comparing.is_some() {
-                    self.comparing = Some(fraction);
-                }
-            }
+            TrialEvent::Busy { id, fraction } if self.is_compared(id) => self.comparing = Some(fraction),
+            TrialEvent::Busy { id, fraction } if self.tables.is_measuring(id) => self.tables.progresses(fraction),
+            // Of one that was cancelled.
+            TrialEvent::Compared { .. } | TrialEvent::Busy { .. } => {}
             TrialEvent::Measured { id, summary } => {
                 self.tables.receive(id, summary);
             }
             TrialEvent::Failed { message } => {
-                self.comparing = None;
-                self.tables.fails(&message);
                 self.problem = Some(message);
             }
         }
-        Vec::new()
+        None
     }
 
     /// The surface that the wire is in.
@@ -343,6 +404,11 @@ impl Trial {
 
     fn is_coming(&self, id: u64) -> bool {
         self.coming.as_ref().is_some_and(|(coming, _)| *coming == id)
+    }
+
+    /// Whether this is the number of the comparison that is awaited.
+    fn is_compared(&self, id: u64) -> bool {
+        self.comparing.is_some() && self.compared == id
     }
 
     fn receive_ready(&mut self, ready: TrialReady, link: &mut TrialLink) {
@@ -364,16 +430,10 @@ impl Trial {
         }
     }
 
-    /// Stops the tables; the engine is in the middle of one, so another takes its place.
+    /// Stops the tables; the trial stands.
     pub fn cancel_tables(&mut self, link: &mut TrialLink) {
-        if self.tables.cancel() {
-            link.restart();
-            if self.stage != Stage::Off {
-                let is_open = self.is_open;
-                self.forget();
-                self.is_open = is_open;
-                self.problem = Some("The tables were stopped, and the trial with them.".to_owned());
-            }
+        if let Some(id) = self.tables.cancel() {
+            link.send(TrialCommand::Cancel { id });
         }
     }
 

@@ -1,10 +1,10 @@
 //! What reduction does to the wire: the same input on the unreduced surface, and how the two differ.
 
-use egui::{ProgressBar, RichText, Role, Ui};
+use egui::{Align, Layout, RichText, Role, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 
 use super::{Ask, Stage, Trial, marks};
-use crate::app::control::name;
+use crate::app::control::{name, progress};
 use crate::app::panel::number;
 use crate::engine::trial::TrialComparison;
 
@@ -20,8 +20,17 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
         }
     });
     if let Some(fraction) = trial.comparing {
-        let bar = ui.add(ProgressBar::new(fraction).desired_height(8.0));
-        name(&bar, Role::ProgressIndicator, "Comparing");
+        ui.horizontal(|ui| {
+            ui.label(format!("Comparing: {:.0} %", fraction * 100.0));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let cancel = ui.button("Cancel").on_hover_text("Compare no more; the trial goes on");
+                name(&cancel, Role::Button, "Cancel comparison");
+                if cancel.clicked() {
+                    ask = Some(Ask::CancelComparison);
+                }
+                progress(ui, fraction, ui.available_width(), "Comparing");
+            });
+        });
     }
     if let Some(comparison) = &trial.comparison {
         ui.scope(|ui| shown(ui, comparison));

@@ -1,21 +1,35 @@
 //! The trial's part of the panel, and its keys.
 
-use egui::{Button, Key, Modifiers, ProgressBar, RichText, Role, Ui};
+use egui::{Button, Key, Modifiers, RichText, Ui};
 
 use super::readout::{self, remark};
 use super::setup::row;
-use super::{Ask, Stage, Trial, carm, outcome, setup};
-use crate::app::control::name;
+use super::{AWAITS, Ask, Stage, Trial, carm, outcome, setup};
+use crate::app::control::progress;
 use crate::app::document::Document;
 use crate::app::panel::step;
+use crate::pipeline::settings::Smoothing;
 
 /// Shows the step; while the trial's views are shown it has the panel to itself.
-pub(in crate::app) fn show(ui: &mut Ui, trial: &mut Trial, document: Option<&Document>) -> Option<Ask> {
+pub(in crate::app) fn show(
+    ui: &mut Ui,
+    trial: &mut Trial,
+    smoothing: &Smoothing,
+    document: Option<&Document>,
+) -> Option<Ask> {
     step(ui, 4, "Trial", "Steers a guidewire through the level that is shown.");
     if let Some(problem) = &trial.problem {
         remark(ui, problem, true);
     }
-    if trial.is_open { open(ui, trial) } else { closed(ui, document) }
+    let gentler = trial.gentler(smoothing).and_then(|gentler| smooth_less(ui, &gentler));
+    gentler.or(if trial.is_open { open(ui, trial) } else { closed(ui, document) })
+}
+
+/// Offers a smoothing that leaves thin vessels wider.
+fn smooth_less(ui: &mut Ui, gentler: &Smoothing) -> Option<Ask> {
+    let label = format!("Smooth less (pass band {}, {} iterations) and start", gentler.pass_band, gentler.iterations);
+    let button = ui.add(Button::new(label).wrap());
+    button.on_hover_text("Keeps thin vessels wider; Undo takes it back").clicked().then_some(Ask::SmoothLess)
 }
 
 fn closed(ui: &mut Ui, document: Option<&Document>) -> Option<Ask> {
@@ -60,10 +74,14 @@ fn open(ui: &mut Ui, trial: &mut Trial) -> Option<Ask> {
 }
 
 fn state(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
+    ui.add_space(4.0);
+    if trial.awaits.is_some() {
+        ui.add(egui::Label::new(AWAITS).wrap());
+        return None;
+    }
     match (trial.stage, &trial.frame) {
         (Stage::Preparing(fraction), _) => {
-            let bar = ui.add(ProgressBar::new(fraction).desired_height(8.0));
-            name(&bar, Role::ProgressIndicator, "Preparing the trial");
+            progress(ui, fraction, ui.available_width(), "Preparing the trial");
             ui.label("Finding the lumen and the way...");
         }
         (Stage::On, Some(frame)) => {

@@ -1,6 +1,6 @@
 //! The numbers of a trial: how far, how long, how hard.
 
-use egui::{Color32, FontId, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::Trial;
 use crate::app::panel::number;
@@ -9,8 +9,10 @@ use crate::trial::frame::{Frame, Progress};
 
 /// The force at one place that has the last colour, in N.
 pub(super) const WALL_SCALE: f32 = 1.0;
-/// The length of the bar of the push, in N.
-const PUSH_SCALE: f32 = 2.0;
+/// The end of a bar while forces are small, in N.
+const LEAST_SCALE: f64 = 0.1;
+/// The room beside a bar for where it ends, in points.
+const END: f32 = 40.0;
 
 /// One sentence on how the trial stands.
 pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
@@ -35,7 +37,7 @@ pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
         Progress::Running if frame.is_wrong_branch => "Wrong branch: withdraw and roll.",
         Progress::Running if frame.is_behind => "The machine is behind: the trial runs slower than time.",
         Progress::Running if !frame.doing.is_empty() => return (format!("Autopilot: {}.", lower(&frame.doing)), true),
-        Progress::Running => "Feed and roll the wire to the target.",
+        Progress::Running => "Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer.",
     };
     (text.to_owned(), matches!(frame.progress, Progress::Arrived | Progress::Running))
 }
@@ -51,11 +53,11 @@ fn lower(text: &str) -> String {
 pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let wall = frame.max_wall_force_n as f32;
     let Colour([r, g, b]) = viridis(wall / WALL_SCALE);
-    let help = "The largest normal force at one place of the wall; the bar ends at 1 N";
-    bar(ui, "Wall force", wall, WALL_SCALE, Color32::from_rgb(r, g, b), help);
+    let help = "The largest normal force at one place of the wall; the bar grows with the largest so far";
+    bar(ui, "Wall force", wall, scale(trial.peaks.wall), Color32::from_rgb(r, g, b), help);
     let accent = ui.visuals().hyperlink_color;
-    let help = "What it takes to hold the wire at the guide: negative when it is held back. The bar ends at 2 N";
-    bar(ui, "Push force", frame.push_n as f32, PUSH_SCALE, accent, help);
+    let help = "What it takes to hold the wire at the guide: negative when it is held back. The bar shows how much";
+    bar(ui, "Push force", frame.push_n as f32, scale(trial.peaks.push), accent, help);
     ui.add_space(2.0);
     number(ui, "Insertion", &format!("{:.1} cm", frame.inserted_mm / 10.0), "Length of wire outside the guide");
     number(
@@ -66,11 +68,16 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     );
     number(ui, "Elapsed", &clock(frame.time_s), "Simulated time");
     number(ui, "Fluoroscopy", &clock(trial.carm.seconds), "Time that the beam was on");
-    let touches = format!("{}, {:.3} N in all", frame.touches.len(), frame.wall_force_n);
+    let touches = format!("{}, {} N in all", frame.touches.len(), thousandths(frame.wall_force_n));
     number(ui, "Contacts", &touches, "Places where the wire lies against the wall, and the sum of their forces");
-    let tip = format!("{:.3} N", frame.tip_force_n);
+    let tip = format!("{} N", thousandths(frame.tip_force_n));
     number(ui, "Force at the tip", &tip, "On the wall within 5 mm of the tip");
-    number(ui, "Torque", &format!("{:.3} N mm", frame.torque_n_mm), "The moment about the wire's axis at the guide");
+    number(
+        ui,
+        "Torque",
+        &format!("{} N mm", thousandths(frame.torque_n_mm)),
+        "The moment about the wire's axis at the guide",
+    );
     let branch = if frame.is_wrong_branch { "off the route" } else { "on the route" };
     number(
         ui,
@@ -82,26 +89,59 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     number(ui, "Steps", &steps, "What this machine can do; 500 a second keep up with time");
 }
 
-/// A bar of a fixed scale with its number; beyond the scale it is full, in the colour of errors.
+/// The largest forces so far, in N.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Largest {
+    wall: f32,
+    push: f32,
+}
+
+impl Largest {
+    pub(super) fn take(&mut self, frame: &Frame) {
+        self.wall = self.wall.max(frame.max_wall_force_n as f32);
+        self.push = self.push.max(frame.push_n.abs() as f32);
+    }
+}
+
+/// Where a bar ends for forces of up to `peak`: the next of 0.1, 0.2, 0.5, 1, 2, 5, ... N.
+fn scale(peak: f32) -> f32 {
+    let mut scale = LEAST_SCALE;
+    for growth in [2.0, 2.5, 2.0].into_iter().cycle().take(24) {
+        if scale as f32 >= peak {
+            break;
+        }
+        scale *= growth;
+    }
+    scale as f32
+}
+
+/// A bar with its number, and beside it the force at its end.
 fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
-    number(ui, what, &format!("{value:.3} N"), help);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 8.0), Sense::hover());
+    number(ui, what, &format!("{} N", thousandths(f64::from(value))), help);
+    let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
+    let rect = whole.shrink2(vec2(0.0, 2.0)).with_max_x(whole.right() - END);
     response.widget_info(|| {
-        let mut info = WidgetInfo::labeled(Role::Meter, true, what);
+        let mut info = WidgetInfo::labeled(Role::Meter, true, format!("{what}, up to {scale} N"));
         info.value = Some(f64::from(value));
         info
     });
     response.on_hover_text(help);
     let painter = ui.painter();
+    let (end, font) = (whole.right_center(), FontId::proportional(12.0));
+    painter.text(end, Align2::RIGHT_CENTER, format!("{scale} N"), font, ui.visuals().weak_text_color());
     painter.rect_filled(rect, 3.0, ui.visuals().widgets.inactive.bg_fill);
     let part = (value.abs() / scale).min(1.0);
-    let colour = if value.abs() > scale { ui.visuals().error_fg_color } else { colour };
     let filled = rect.with_max_x(rect.left() + rect.width() * part);
     painter.rect_filled(filled, 3.0, colour);
     // Colours of low forces are dark: the end of the bar is marked.
     let end = filled.right().max(rect.left() + 1.0);
     painter
         .line_segment([pos2(end, rect.top()), pos2(end, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
+}
+
+/// With three decimals, and never a negative nought.
+fn thousandths(value: f64) -> String {
+    format!("{:.3}", (value * 1000.0).round() / 1000.0 + 0.0)
 }
 
 /// Minutes and seconds.
@@ -131,6 +171,18 @@ pub(super) fn remark(ui: &mut Ui, text: &str, is_error: bool) {
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn bars_grow_by_round_steps() {
+        let peaks = [0.0, 0.1, 0.101, 0.35, 0.6, 1.0, 1.1, 4.9, 11.0];
+        assert_eq!(peaks.map(super::scale), [0.1, 0.1, 0.2, 0.5, 1.0, 1.0, 2.0, 5.0, 20.0]);
+        assert!(super::scale(f32::INFINITY).is_finite());
+    }
+
+    #[test]
+    fn a_nought_has_no_sign() {
+        assert_eq!([-0.0004, 0.0, -0.2, 1.2348].map(super::thousandths), ["0.000", "0.000", "-0.200", "1.235"]);
+    }
+
     #[test]
     fn clocks_have_minutes_and_tenths() {
         assert_eq!(

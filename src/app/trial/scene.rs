@@ -36,10 +36,29 @@ pub(super) struct TrialScene {
     /// What the vessel was made from, and the forces on it.
     of: Option<(Arc<TriMesh>, Peaks)>,
     uploaded: u64,
-    views: [(ViewTarget, TextureId); 2],
+    views: [View; 2],
     picture: (FluoroscopyTarget, TextureId),
     /// The camera that the thickness is of.
     measured: Option<Camera>,
+    /// Counts up whenever vessel, forces or wire change.
+    changes: u64,
+    /// Pictures that were drawn.
+    draws: u64,
+}
+
+struct View {
+    target: ViewTarget,
+    texture: TextureId,
+    drawn: Option<Drawn>,
+}
+
+/// What a view was drawn from.
+#[derive(Clone, Copy, PartialEq)]
+struct Drawn {
+    camera: Camera,
+    size: [u32; 2],
+    style: Style,
+    changes: u64,
 }
 
 impl TrialScene {
@@ -56,7 +75,7 @@ impl TrialScene {
         let view = || {
             let target = ViewTarget::new(&device, 1, 1);
             let texture = register(target.view());
-            (target, texture)
+            View { target, texture, drawn: None }
         };
         let views = [view(), view()];
         let target = renderer.fluoroscopy_target(&device, [1, 1]);
@@ -73,9 +92,16 @@ impl TrialScene {
             views,
             picture: (target, texture),
             measured: None,
+            changes: 0,
+            draws: 0,
             device,
             queue,
         })
+    }
+
+    /// How many pictures were drawn.
+    pub(super) fn draws(&self) -> u64 {
+        self.draws
     }
 
     /// The forces on the vessel.
@@ -101,6 +127,7 @@ impl TrialScene {
         self.of = Some((mesh.clone(), Peaks::new(mesh)));
         self.uploaded = 0;
         self.measured = None;
+        self.changes += 1;
         Ok(())
     }
 
@@ -116,6 +143,7 @@ impl TrialScene {
     /// # Errors
     /// When it does not fit into the memory that the device allows.
     pub(super) fn set_wire(&mut self, nodes: &[[f32; 3]], radius: f32) -> Result<(), SurfaceError> {
+        self.changes += 1;
         self.wire.set(&self.device, &self.queue, nodes, radius)?;
         if let Some((_, peaks)) = &self.of
             && self.uploaded != peaks.changes
@@ -126,32 +154,45 @@ impl TrialScene {
         Ok(())
     }
 
-    /// Draws the wire in the vessel, and gives the texture that it is in.
+    /// Draws the wire in the vessel, if it would look other than it does, and gives the texture that it is in.
     pub(super) fn vessel(&mut self, camera: &Camera, size: [u32; 2], style: &Style) -> TextureId {
-        self.resize(0, size);
-        let (target, texture) = &self.views[0];
+        let is_other = self.is_other(0, camera, size, style);
+        let View { target, texture, .. } = &self.views[0];
+        if !is_other {
+            return *texture;
+        }
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("trial") });
         self.renderer.draw(&self.device, &mut encoder, target, camera, (&self.vessel, &self.wire), style);
         self.queue.submit([encoder.finish()]);
         *texture
     }
 
-    /// Draws what the tip sees.
+    /// Draws what the tip sees, if that is other than it was, and gives the texture that it is in.
     pub(super) fn tip(&mut self, camera: &Camera, size: [u32; 2], style: &Style) -> TextureId {
-        self.resize(1, size);
-        let (target, texture) = &self.views[1];
+        let is_other = self.is_other(1, camera, size, style);
+        let View { target, texture, .. } = &self.views[1];
+        if !is_other {
+            return *texture;
+        }
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("tip") });
         self.renderer.draw_inside(&self.device, &mut encoder, target, camera, &self.vessel, style);
         self.queue.submit([encoder.finish()]);
         *texture
     }
 
-    fn resize(&mut self, index: usize, [width, height]: [u32; 2]) {
-        let (target, texture) = &mut self.views[index];
-        if target.resize(&self.device, width, height) {
+    /// Whether view `index` has to be drawn; it has the size for it then.
+    fn is_other(&mut self, index: usize, camera: &Camera, size: [u32; 2], style: &Style) -> bool {
+        let View { target, texture, drawn } = &mut self.views[index];
+        let new = Drawn { camera: *camera, size, style: *style, changes: self.changes };
+        if drawn.replace(new) == Some(new) {
+            return false;
+        }
+        if target.resize(&self.device, size[0], size[1]) {
             let (filter, view) = (wgpu::FilterMode::Linear, target.view());
             self.window.write().update_egui_texture_from_wgpu_texture(&self.device, view, filter, *texture);
         }
+        self.draws += 1;
+        true
     }
 
     /// The texture that the fluoroscopy is in, and whether it has to be exposed anew for this size.
@@ -181,6 +222,7 @@ impl TrialScene {
         if let Some((nodes, radius)) = wire {
             self.seen.set(&self.device, &self.queue, nodes, radius)?;
         }
+        self.draws += 1;
         let is_other = self.measured.replace(*camera) != Some(*camera);
         let mut encoder =
             self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fluoroscopy") });

@@ -7,10 +7,11 @@
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
-use egui::{Align, Grid, Layout, ProgressBar, RichText, Role, ScrollArea, Ui};
+use egui::{Align, Grid, Layout, RichText, ScrollArea, Ui};
 
-use crate::app::control::{grouped, name};
+use crate::app::control::progress;
 use crate::app::document::Document;
+use crate::digits::grouped;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
@@ -64,6 +65,11 @@ impl Tables {
         self.running.is_some() || self.rows.iter().any(|row| matches!(row.outcome, Outcome::Waiting))
     }
 
+    /// Whether there is more to come: rows, or the time to draw a surface.
+    pub(super) fn is_busy(&self) -> bool {
+        self.is_running() || self.rows.iter().any(|row| row.timing.is_some())
+    }
+
     /// Whether there is something to run, and nothing of it known.
     pub(super) fn can_start(&self, document: &Document) -> bool {
         document.levels.is_some() && !self.is_running() && (self.rows.is_empty() || self.name != document.name)
@@ -102,6 +108,11 @@ impl Tables {
         }
     }
 
+    /// Whether the measurement of this number is going on.
+    pub(super) fn is_measuring(&self, id: u64) -> bool {
+        self.running == Some(id)
+    }
+
     fn current(&mut self) -> Option<&mut Row> {
         self.rows.iter_mut().find(|row| matches!(row.outcome, Outcome::Running(_)))
     }
@@ -115,7 +126,7 @@ impl Tables {
 
     /// Hears what came of it.
     pub(super) fn receive(&mut self, id: u64, summary: Box<Summary>) {
-        if self.running == Some(id) {
+        if self.is_measuring(id) {
             self.running = None;
             if let Some(row) = self.current() {
                 row.outcome = Outcome::Done(summary);
@@ -132,14 +143,14 @@ impl Tables {
         }
     }
 
-    /// Gives up what is not done; says whether a measurement was going on.
-    pub(super) fn cancel(&mut self) -> bool {
+    /// Gives up what is not done; gives the number of the measurement that was going on.
+    pub(super) fn cancel(&mut self) -> Option<u64> {
         for row in &mut self.rows {
             if matches!(row.outcome, Outcome::Waiting | Outcome::Running(_)) {
                 row.outcome = Outcome::Failed("Cancelled.".to_owned());
             }
         }
-        self.running.take().is_some()
+        self.running.take()
     }
 
     /// Runs all rows again.
@@ -235,6 +246,9 @@ const COLUMNS: [(&str, &str); 12] = [
     ("Time, s", "Simulated time to the target"),
 ];
 
+/// What the columns take, in points; where there is less room they scroll.
+const WIDTH: f32 = 880.0;
+
 /// Shows the tables; says whether they were cancelled.
 pub(super) fn show(ui: &Ui, tables: &mut Tables) -> bool {
     let mut cancelled = false;
@@ -245,7 +259,7 @@ pub(super) fn show(ui: &Ui, tables: &mut Tables) -> bool {
         .collapsible(false)
         .resizable(false)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
-        .default_width((room.width() - 32.0).min(1040.0))
+        .default_width((room.width() - 32.0).min(WIDTH))
         .show(ui.ctx(), |ui| cancelled = content(ui, tables));
     tables.is_open = is_open;
     cancelled
@@ -284,8 +298,7 @@ fn content(ui: &mut Ui, tables: &mut Tables) -> bool {
     let mut cancelled = false;
     ui.horizontal(|ui| {
         if tables.is_running() {
-            let bar = ui.add(ProgressBar::new(tables.part()).desired_width(160.0).desired_height(8.0));
-            name(&bar, Role::ProgressIndicator, "Tables");
+            progress(ui, tables.part(), 160.0, "Tables");
             cancelled = ui.button("Cancel tables").clicked();
         } else if ui.button("Run again").clicked() {
             tables.again();

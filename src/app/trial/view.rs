@@ -1,11 +1,13 @@
 //! The views of a trial: the wire in the translucent vessel, the fluoroscopy, and what the tip sees.
 
-use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, Ui, pos2, vec2};
+use std::time::Duration;
+
+use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
 use glam::{Mat3, Quat};
 
 use super::readout::{WALL_SCALE, plate};
 use super::scene::TrialScene;
-use super::{Stage, Trial, marks, tables};
+use super::{AWAITS, Stage, Trial, marks, tables};
 use crate::app::control::name;
 use crate::app::document::Document;
 use crate::app::overlay::{self, Legend, NOT_CLINICAL};
@@ -39,7 +41,15 @@ pub(in crate::app) struct TrialView {
     /// The step that they were taken from last.
     felt: Option<u64>,
     /// What the last fluoroscopy was taken from.
-    held: Option<(Camera, Exposure)>,
+    held: Option<Held>,
+}
+
+/// A fluoroscopy: from where, how, and at which step of the trial.
+#[derive(Clone, Copy, PartialEq)]
+struct Held {
+    camera: Camera,
+    exposure: Exposure,
+    step: u64,
 }
 
 impl TrialView {
@@ -47,6 +57,11 @@ impl TrialView {
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
         let device = device.cloned();
         Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: None, held: None }
+    }
+
+    /// How many pictures were drawn.
+    pub(in crate::app) fn draws(&self) -> u64 {
+        self.scene.as_ref().map_or(0, TrialScene::draws)
     }
 
     fn prepare(&mut self) {
@@ -103,6 +118,8 @@ impl TrialView {
     /// Brings what is in memory up to the trial.
     fn follow(&mut self, trial: &Trial) {
         let Some(scene) = &mut self.scene else { return };
+        // What fails is tried again.
+        self.failure = None;
         if let (Some(mesh), Some(ready)) = (trial.mesh(), &trial.ready)
             && let Err(error) = scene.take(mesh, &ready.route)
         {
@@ -115,10 +132,11 @@ impl TrialView {
             }
         }
         let Some(frame) = &trial.frame else { return };
-        if self.felt.replace(frame.step) != Some(frame.step) {
+        if self.felt != Some(frame.step) {
             scene.feel(&frame.touches);
-            if let Err(error) = scene.set_wire(&frame.nodes, radius(trial)) {
-                self.failure = Some(format!("The wire cannot be drawn: {error}."));
+            match scene.set_wire(&frame.nodes, radius(trial)) {
+                Ok(()) => self.felt = Some(frame.step),
+                Err(error) => self.failure = Some(format!("The wire cannot be drawn: {error}.")),
             }
         }
     }
@@ -134,7 +152,7 @@ impl TrialView {
     ) -> Option<Vec3> {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, "Trial view");
-        views.steer(ui, &response, document, keep);
+        views.steer(ui, &response, 1, document, keep);
         let mut style = theme::style(ui.visuals());
         style.map = Some(FORCES);
         let camera = views.camera;
@@ -148,7 +166,7 @@ impl TrialView {
         if is_on {
             marks::show(ui, rect, &camera, trial);
         }
-        let map = (rect.height() > 300.0).then_some(FORCES);
+        let map = (is_on && rect.height() > 300.0).then_some(FORCES);
         let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals: 1 });
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
         let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, legend };
@@ -163,7 +181,9 @@ impl TrialView {
         let text = match (&self.failure, trial.stage) {
             (Some(failure), _) => failure.clone(),
             (None, _) if self.device.is_none() => "There is no graphics device to draw with.".to_owned(),
+            (None, _) if trial.awaits.is_some() => AWAITS.to_owned(),
             (None, Stage::Preparing(fraction)) => format!("Finding the way: {:.0} %", fraction * 100.0),
+            (None, Stage::Off) if trial.problem.is_some() => "No trial is on: the panel says why.".to_owned(),
             (None, Stage::Off) => "No trial is on.".to_owned(),
             (None, Stage::On) => return,
         };
@@ -174,41 +194,9 @@ impl TrialView {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, "Fluoroscopy view");
         steer(ui, &response, trial);
-        let now = ui.input(|input| input.time);
-        let time_s = trial.frame.as_ref().map_or(0.0, |frame| frame.time_s);
-        let is_due = trial.carm.pulses_at(now, time_s);
-        if trial.carm.is_on && trial.carm.contrast_s(now).is_some() {
-            ui.ctx().request_repaint();
-        }
-        let bounds = trial.mesh().map_or(Bounds::EMPTY, |mesh| mesh.bounds());
-        let result = match (&mut self.scene, &trial.frame, &trial.ready) {
-            (Some(scene), Some(frame), Some(ready)) => {
-                let (texture, is_other) = scene.picture(pixels(ui, rect));
-                let exposed = if is_due || self.held.is_none() {
-                    let exposure = Exposure {
-                        pulse: trial.carm.pulses,
-                        contrast_s: trial.carm.contrast_s(now),
-                        flow: FLOW / (ready.route.length_mm as f32).max(1.0),
-                        roadmap: trial.carm.roadmap,
-                    };
-                    let camera = trial.carm.camera(bounds);
-                    self.held = Some((camera, exposure));
-                    scene.expose(&camera, Some((&frame.nodes, radius(trial))), &exposure)
-                } else if let (true, Some((camera, exposure))) = (is_other, self.held) {
-                    scene.expose(&camera, None, &exposure)
-                } else {
-                    Ok(())
-                };
-                image(ui, rect, texture);
-                exposed
-            }
-            _ => {
-                empty(ui, rect);
-                Ok(())
-            }
-        };
-        if let Err(error) = result {
-            self.failure = Some(format!("The fluoroscopy cannot be drawn: {error}."));
+        match self.expose(ui, rect, trial) {
+            Some(texture) => image(ui, rect, texture),
+            None => empty(ui, rect),
         }
         let inner = rect.shrink(8.0);
         let arm = &trial.carm;
@@ -222,9 +210,49 @@ impl TrialView {
             };
             plate(ui, inner.left_top() + vec2(0.0, 44.0), Align2::LEFT_TOP, &state, false);
             plate(ui, inner.left_bottom() - vec2(0.0, 22.0), Align2::LEFT_BOTTOM, &trial.name, false);
-            scale_bar(ui, inner, rect, arm.field_mm);
+            if trial.ready.is_some() {
+                scale_bar(ui, inner, rect, arm.field_mm);
+            }
         }
         plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, false);
+    }
+
+    /// Takes a fluoroscopy where a pulse is due and would show something else, and gives the texture that the last one
+    /// is in.
+    fn expose(&mut self, ui: &Ui, rect: Rect, trial: &mut Trial) -> Option<TextureId> {
+        let now = ui.input(|input| input.time);
+        let radius = radius(trial);
+        let bounds = trial.mesh().map_or(Bounds::EMPTY, |mesh| mesh.bounds());
+        let Trial { carm, frame, ready, .. } = trial;
+        let (scene, frame, ready) = (self.scene.as_mut()?, frame.as_ref()?, ready.as_ref()?);
+        carm.count(frame.time_s);
+        let exposure = Exposure {
+            pulse: carm.pulses,
+            contrast_s: carm.contrast_s(now),
+            flow: FLOW / (ready.route.length_mm as f32).max(1.0),
+            roadmap: carm.roadmap,
+        };
+        let mut new = Held { camera: carm.camera(bounds), exposure, step: frame.step };
+        let is_news = self.held != Some(new);
+        let is_due = is_news && carm.pulses_at(now);
+        let (texture, is_other_size) = scene.picture(pixels(ui, rect));
+        let exposed = match self.held {
+            Some(held) if !is_due && is_other_size => scene.expose(&held.camera, None, &held.exposure),
+            Some(_) if !is_due => Ok(()),
+            _ => {
+                new.exposure.pulse = carm.pulses;
+                let exposed = scene.expose(&new.camera, Some((&frame.nodes, radius)), &new.exposure);
+                self.held = Some(new).filter(|_| exposed.is_ok());
+                exposed
+            }
+        };
+        if let Err(error) = exposed {
+            self.failure = Some(format!("The fluoroscopy cannot be drawn: {error}."));
+        }
+        if carm.is_on && (exposure.contrast_s.is_some() || is_news && !is_due) {
+            ui.ctx().request_repaint_after(Duration::from_secs_f64(carm.until_pulse(now)));
+        }
+        Some(texture)
     }
 
     fn tip(&mut self, ui: &mut Ui, rect: Rect, trial: &Trial) {
@@ -273,7 +301,7 @@ fn pixels(ui: &Ui, rect: Rect) -> [u32; 2] {
     [size.x.round().max(1.0) as u32, size.y.round().max(1.0) as u32]
 }
 
-fn image(ui: &Ui, rect: Rect, texture: egui::TextureId) {
+fn image(ui: &Ui, rect: Rect, texture: TextureId) {
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
 }

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use egui_kittest::Harness;
+use lumen::app::trial::Offer;
 use lumen::app::{LumenApp, Platform, PlatformEvent};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
@@ -15,6 +16,8 @@ use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
 pub struct Memory {
     /// Files that the app offered.
     pub offered: Vec<(String, Vec<u8>)>,
+    /// How many of them were offered two at a time.
+    pub pairs: usize,
     /// How often the app asked for a file.
     pub asked: usize,
     /// What the platform will report next.
@@ -137,6 +140,12 @@ impl Platform for MemoryPlatform {
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {
         self.memory.borrow_mut().offered.push((name.to_owned(), bytes));
+    }
+
+    fn offer_pair(&mut self, pair: [Offer; 2], _: &egui::Context) {
+        let mut memory = self.memory.borrow_mut();
+        memory.pairs += 1;
+        memory.offered.extend(pair.map(|offer| (offer.name, offer.bytes)));
     }
 
     fn poll(&mut self) -> Option<PlatformEvent> {

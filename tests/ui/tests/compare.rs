@@ -127,6 +127,22 @@ fn keys_open_choose_and_close() {
 }
 
 #[test]
+fn a_view_that_is_left_and_opened_again_shows_the_same() {
+    let mut harness = open();
+    let picture = |harness: &mut Harness<'_, LumenApp>| {
+        harness.hover_at(egui::pos2(640.0, 20.0));
+        harness.run_steps(12);
+        harness.render().unwrap()
+    };
+    let before = picture(&mut harness);
+    press(&mut harness, "Compare");
+    let left = picture(&mut harness);
+    press(&mut harness, "Compare");
+    assert_eq!(picture(&mut harness).as_raw(), before.as_raw());
+    assert_ne!(left.as_raw(), before.as_raw());
+}
+
+#[test]
 fn the_tab_key_reaches_every_cell() {
     let mut harness = open();
     let mut reached = std::collections::BTreeSet::new();

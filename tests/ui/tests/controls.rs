@@ -114,6 +114,20 @@ fn a_deviation_to_stop_at_is_chosen_set_and_left_again() {
 }
 
 #[test]
+fn the_next_coarser_level_is_that_of_the_settings() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    choose(&mut harness, "Stop at", "Deviation");
+    settle(&mut harness);
+    let measured = harness.state().state().document.as_ref().unwrap().measured.as_ref().unwrap();
+    let next = format!("{:.3} mm", measured.report.bound.unwrap().next_coarser_mm.unwrap());
+    assert!(harness.query_all_by_label(&next).next().is_some(), "{next}");
+    memory.borrow_mut().runs = false;
+    type_into(&mut harness, "Pass band value", "0.1");
+    assert!(harness.query_all_by_label(&next).next().is_none(), "another smoothing has other levels");
+}
+
+#[test]
 fn the_other_method_leaves_less_deviation() {
     let mut harness = open();
     let mean = |harness: &Harness<'_, LumenApp>| {
@@ -379,6 +393,13 @@ fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() 
     harness.key_up(Key::B);
     harness.run_steps(2);
     assert_eq!(harness.render().unwrap().as_raw(), turned.as_raw());
+    // A slider that was moved keeps the focus.
+    harness.get_by_role_and_label(Role::Slider, "Pass band").focus();
+    harness.run_steps(2);
+    let focused = harness.render().unwrap();
+    harness.key_down(Key::B);
+    harness.run_steps(2);
+    assert_ne!(harness.render().unwrap().as_raw(), focused.as_raw());
 }
 
 #[test]

@@ -11,6 +11,7 @@ use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::engine::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
 use lumen::phantom::Sample;
+use lumen::pipeline::settings::{Settings, Smoothing};
 use lumen::trial::frame::{Frame, Progress, StationResult, Summary};
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen_ui_tests::{Memory, app, settle};
@@ -54,6 +55,17 @@ fn tell(harness: &mut App, memory: &Rc<RefCell<Memory>>, events: impl IntoIterat
     harness.run_steps(3);
 }
 
+/// Steps until it is so.
+fn wait(harness: &mut App, is_so: impl Fn(&App) -> bool) {
+    for _ in 0..4000 {
+        if is_so(harness) {
+            return;
+        }
+        harness.step();
+    }
+    panic!("it does not come to be");
+}
+
 fn says(harness: &App, text: &str) -> bool {
     harness.query_all_by_label_contains(text).next().is_some()
 }
@@ -89,6 +101,10 @@ fn frame() -> Frame {
         steps_per_second: 812.0,
         ..Frame::default()
     }
+}
+
+fn refused(id: u64, message: &str, is_too_thin: bool) -> TrialEvent {
+    TrialEvent::Refused { id, message: message.to_owned(), is_too_thin }
 }
 
 fn id_of_start(commands: &[TrialCommand]) -> u64 {
@@ -225,6 +241,40 @@ fn buttons_and_keys_ask_for_the_same() {
 }
 
 #[test]
+fn views_are_drawn_only_where_they_change_and_a_trial_that_stands_asks_for_no_frames() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Pause");
+    // Off the button, whose hint comes up by itself.
+    harness.hover_at(egui::pos2(640.0, 20.0));
+    harness.run_steps(20);
+    let draws = |harness: &mut App, steps| {
+        let before = harness.state().trial_draws();
+        harness.run_steps(steps);
+        harness.state().trial_draws() - before
+    };
+    assert_eq!(draws(&mut harness, 20), 0);
+    let delay = |harness: &App| harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+    assert_eq!(delay(&harness), std::time::Duration::MAX, "no frame is asked for");
+    let next = |step| TrialEvent::Frame(Box::new(Frame { step, tip_direction: [0.0, 1.0, 0.0], ..frame() }));
+    memory.borrow_mut().trial_events.push_back(next(501));
+    assert_eq!(draws(&mut harness, 20), 3, "each view once");
+    harness.key_press(Key::Num2);
+    assert_eq!(draws(&mut harness, 20), 1, "the C-arm turns");
+    harness.key_press(Key::Space);
+    memory.borrow_mut().trial_events.push_back(next(502));
+    assert_eq!(draws(&mut harness, 20), 2, "the last image stays");
+    harness.ctx.set_theme(egui::Theme::Light);
+    assert_eq!(draws(&mut harness, 20), 2, "X-rays have no theme");
+    assert_eq!(delay(&harness), std::time::Duration::MAX);
+    harness.key_press(Key::C);
+    harness.run_steps(1);
+    assert!(delay(&harness) < std::time::Duration::from_millis(100), "contrast flows");
+    assert!(draws(&mut harness, 80) > 10);
+    assert_eq!(draws(&mut harness, 20), 0, "nothing is left of it");
+    assert_eq!(delay(&harness), std::time::Duration::MAX);
+}
+
+#[test]
 fn a_hand_on_the_wire_takes_it_from_the_autopilot() {
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Autopilot");
@@ -245,9 +295,55 @@ fn what_is_refused_is_said_and_what_stood_stands() {
     let Some(TrialCommand::Start { id, setup, .. }) = commands.first() else { panic!("{commands:?}") };
     assert_eq!(setup.target, Some([1.0, 2.0, 3.0]));
     let message = "The lumen is thinner than the wire 31 mm along the way.".to_owned();
-    tell(&mut harness, &memory, [TrialEvent::Refused { id: *id, message: message.clone() }]);
+    tell(&mut harness, &memory, [refused(*id, &message, false)]);
     assert!(says(&harness, &message));
+    assert!(harness.query_by_label_contains("Smooth less").is_none(), "smoothing is not the reason");
     assert!(says(&harness, "12.3 cm"), "the trial before stands");
+}
+
+#[test]
+fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_trial_starts_with_that() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    press(&mut harness, "Sample");
+    harness.get_by_label_contains("oronary").click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    memory.borrow_mut().trial_runs = true;
+    start(&mut harness);
+    let is_refused = |harness: &App| says(harness, "The lumen is too thin for a wire of");
+    wait(&mut harness, is_refused);
+    asked(&memory);
+    let before = harness.state().state().settings.clone();
+    press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..before.smoothing };
+    assert_eq!(harness.state().state().settings, Settings { smoothing, ..before.clone() });
+    assert!(!is_refused(&harness) && says(&harness, "Smoothing less: the trial starts when the new level is there."));
+    assert!(asked(&memory).is_empty(), "not with the level before");
+    wait(&mut harness, |harness| harness.state().trial().ready.is_some());
+    let commands = asked(&memory);
+    let starts = commands.iter().filter(|command| matches!(command, TrialCommand::Start { .. }));
+    assert_eq!(starts.count(), 1);
+    assert!(harness.query_by_label_contains("Smooth less").is_none());
+    press(&mut harness, "Undo");
+    assert_eq!(harness.state().state().settings, before, "one step");
+}
+
+#[test]
+fn a_level_that_is_no_longer_wanted_is_not_awaited() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Restart");
+    choose(&mut harness, "Target");
+    harness.get_by_label("Right renal").click();
+    harness.run_steps(3);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [refused(id, "The lumen is too thin.", true)]);
+    memory.borrow_mut().runs = false;
+    press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+    press(&mut harness, "Undo");
+    memory.borrow_mut().runs = true;
+    settle(&mut harness);
+    assert!(asked(&memory).is_empty() && says(&harness, "12.3 cm"), "the trial before stands");
 }
 
 #[test]
@@ -263,6 +359,17 @@ fn the_end_is_said() {
     let summary = Summary { reason, time_s: 61.0, ..Summary::default() };
     tell(&mut harness, &memory, [TrialEvent::Ended(Box::new(summary))]);
     assert!(says(&harness, "Failed after 61.0 s: the wire buckled three times."));
+}
+
+#[test]
+fn the_bars_of_forces_grow_with_the_largest_so_far() {
+    let (mut harness, memory) = on(DESKTOP);
+    assert!(says(&harness, "Wall force, up to 0.5 N") && says(&harness, "Push force, up to 0.2 N"));
+    let held_back = Frame { step: 501, max_wall_force_n: 0.1, push_n: -1.3, ..frame() };
+    tell(&mut harness, &memory, [TrialEvent::Frame(Box::new(held_back))]);
+    assert!(says(&harness, "Wall force, up to 0.5 N") && says(&harness, "Push force, up to 2 N"));
+    press(&mut harness, "Restart");
+    assert!(says(&harness, "Wall force, up to 0.1 N") && says(&harness, "Push force, up to 0.1 N"));
 }
 
 #[test]
@@ -283,7 +390,7 @@ fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() 
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Compare with the unreduced surface");
     let commands = asked(&memory);
-    let Some(TrialCommand::Compare { mesh }) = commands.first() else { panic!("{commands:?}") };
+    let Some(TrialCommand::Compare { id, mesh }) = commands.first() else { panic!("{commands:?}") };
     // Table I of the paper.
     assert_eq!(mesh.triangles.len(), 74_307);
     let comparison = TrialComparison {
@@ -296,8 +403,47 @@ fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() 
         smallest_after_mm: 3.05,
         ..TrialComparison::default()
     };
-    tell(&mut harness, &memory, [TrialEvent::Compared(Box::new(comparison.clone()))]);
+    let compared = TrialEvent::Compared { id: *id, comparison: Box::new(comparison.clone()) };
+    tell(&mut harness, &memory, [compared]);
     assert!(says(&harness, &comparison.verdict) && says(&harness, "3.05 mm, was 3.21 mm"));
+}
+
+#[test]
+fn a_comparison_can_be_cancelled_alone_and_ends_with_its_trial() {
+    let (mut harness, memory) = on(DESKTOP);
+    let compare = "Compare with the unreduced surface";
+    press(&mut harness, compare);
+    let Some(TrialCommand::Compare { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    tell(&mut harness, &memory, [TrialEvent::Busy { id, fraction: 0.4 }]);
+    assert!(says(&harness, "Comparing: 40 %"));
+    press(&mut harness, "Cancel comparison");
+    assert_eq!(asked(&memory), [TrialCommand::Cancel { id }]);
+    assert!(says(&harness, "12.3 cm"), "the trial stands");
+    // What the engine had told before it heard of that.
+    let late = TrialComparison { verdict: "Too late.".to_owned(), ..TrialComparison::default() };
+    tell(&mut harness, &memory, [TrialEvent::Compared { id, comparison: Box::new(late) }]);
+    assert!(!says(&harness, "Too late."));
+    press(&mut harness, compare);
+    press(&mut harness, "Restart");
+    assert!(!harness.state().trial().is_busy(), "the engine gives up comparing what is no more");
+    press(&mut harness, compare);
+    let Some(TrialCommand::Compare { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    tell(&mut harness, &memory, [refused(id, "The wire does not fit.", false)]);
+    assert!(says(&harness, "The wire does not fit.") && !harness.state().trial().is_busy());
+}
+
+#[test]
+fn a_row_that_is_refused_says_why_and_the_tables_are_cancelled_without_the_trial() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Tables III and IV");
+    harness.run_steps(3);
+    let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    tell(&mut harness, &memory, [refused(id, "The lumen is too thin.", true)]);
+    assert!(says(&harness, "10 %: The lumen is too thin."));
+    let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    press(&mut harness, "Cancel tables");
+    assert_eq!(asked(&memory), [TrialCommand::Cancel { id }]);
+    assert!(says(&harness, "12.3 cm"), "the trial stands");
 }
 
 #[test]
@@ -357,12 +503,17 @@ fn the_log_is_saved_and_a_chosen_one_is_replayed() {
     assert_eq!(asked(&memory), [TrialCommand::Save]);
     let (csv, json) = ("# schema 1\n".to_owned(), "{\"schema\": 1}".to_owned());
     tell(&mut harness, &memory, [TrialEvent::Saved { csv: csv.clone(), json: json.clone() }]);
+    assert_eq!(memory.borrow().pairs, 1, "the user is asked once");
     let offered = memory.borrow().offered.clone();
     assert_eq!(
         offered.iter().map(|(name, _)| &name[..]).collect::<Vec<_>>(),
         ["abdominal-aorta-trial.csv", "abdominal-aorta-trial.json"]
     );
     assert_eq!((&offered[0].1[..], &offered[1].1[..]), (csv.as_bytes(), json.as_bytes()));
+    let message = "run.csv and run.json were saved in logs.".to_owned();
+    memory.borrow_mut().events.push_back(lumen::app::PlatformEvent::Saved { message: message.clone() });
+    harness.run_steps(3);
+    assert!(says(&harness, &message));
     press(&mut harness, "Open log...");
     assert_eq!(memory.borrow().asked, 1);
     let chosen = lumen::app::PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
@@ -413,6 +564,11 @@ fn pictures_of_the_trial() {
             memory.borrow_mut().trial_runs = true;
             start(&mut harness);
             harness.run_steps(5);
+            if sample == Sample::Coronary {
+                save(&mut harness, &format!("trial-{name}-{sample}-refused"));
+                press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+                wait(&mut harness, |harness| harness.state().trial().ready.is_some());
+            }
             press(&mut harness, "Autopilot");
             harness.run_steps(600);
             save(&mut harness, &format!("trial-{name}-{sample}-on"));
@@ -420,11 +576,16 @@ fn pictures_of_the_trial() {
             harness.key_press(Key::Num4);
             harness.run_steps(8);
             save(&mut harness, &format!("trial-{name}-{sample}-contrast"));
+            harness.get_by_role_and_label(Role::CheckBox, "Roadmap").scroll_to_me();
+            harness.run_steps(12);
             harness.get_by_role_and_label(Role::CheckBox, "Roadmap").click();
             harness.ctx.set_theme(egui::Theme::Light);
             harness.run_steps(60);
             save(&mut harness, &format!("trial-{name}-{sample}-roadmap"));
             press(&mut harness, "Compare with the unreduced surface");
+            harness.run_steps(5);
+            save(&mut harness, &format!("trial-{name}-{sample}-comparing"));
+            wait(&mut harness, |harness| !harness.state().trial().is_busy());
             harness.run_steps(5);
             save(&mut harness, &format!("trial-{name}-{sample}-compared"));
             press(&mut harness, "Tables III and IV");
