@@ -419,8 +419,6 @@ impl Contacts {
                 contact.stretch = DVec3::ZERO;
                 contact.friction = DVec3::ZERO;
                 contact.is_sliding = false;
-                // The inside of an edge is found again when it is nearer than the ends.
-                contact.is_near = true;
                 return;
             }
             let (stretch, _) = contact.trial(rod, node, radius);

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use lumen::trial::body::Stepped;
-use lumen::trial::rod::Section;
+use lumen::trial::rod::{Hessian, Section};
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Part;
@@ -48,7 +48,7 @@ fn push(mu: f64, ei: f64) -> f64 {
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
         assert_ne!(stepped, Stepped::Held);
         let mut rod = body.rod.clone();
-        rod.assemble(f64::INFINITY, 0.0);
+        rod.assemble(f64::INFINITY, 0.0, Hessian::Safe);
         gives = -(rod.holding_force(0) + rod.holding_force(1)).dot(out);
         if i >= 500 {
             given += gives;
