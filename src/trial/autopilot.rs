@@ -1,11 +1,15 @@
 //! Steers the wire along the route, by a stated policy without chance:
 //!
-//! 1. Feed at [`FEED`], and turn the side to which the tip is bent towards where the route goes a little ahead; slower
-//!    while it looks the other way and the route turns.
+//! 1. Feed at [`FEED`]. Where the route turns, turn the side to which the tip is bent towards where the route goes a
+//!    little ahead, and feed slowly while it looks another way. Where the route goes straight on, leave the tip as it is:
+//!    a bent tip lies on one side of the lumen, and would turn for ever to look at the middle.
 //! 2. When the tip is off the route, when it has not come on for a while, or when the wire has turned back on itself:
-//!    withdraw: out of a wrong branch slowly, with the tip turned to the right one, for it to fall in there; every third
-//!    time back to the guide, and turned a little more to the one side or the other of where the route goes.
-//! 3. Try again, slowly where it went wrong; after [`ATTEMPTS`] give up.
+//!    withdraw along the route by one of [`BY`], and a little more while the tip does not look where it should.
+//! 3. Try again. The first time at a place, come to it with the tip turned from the wrong branch towards the right one;
+//!    then as in 1, turned more and more to the one side or the other by [`OFFSETS`]. After [`ATTEMPTS`] give up.
+//!
+//! The tip reaches no farther to the side than its bend is long. A branch on the far side of a wide lumen, from where the
+//! shaft lies, is missed however often it is tried: that takes a wire with a longer bend.
 
 use super::route::Route;
 use super::setup::Input;
@@ -15,12 +19,19 @@ use glam::DVec3;
 pub const FEED: f64 = 20.0;
 /// Speed of withdrawal in mm/s.
 const BACK: f64 = 30.0;
-/// Feed while the tip looks the wrong way, in mm/s.
+/// Feed and withdrawal while the tip looks the wrong way, in mm/s.
 const CAREFUL: f64 = 6.0;
-/// The fastest roll in rad/s.
-const ROLL: f64 = 6.0;
+/// The fastest roll in rad/s, and the roll for each radian that the tip should turn, in rad/s.
+const ROLL: (f64, f64) = (6.0, 4.0);
 /// How far ahead the route is looked at, in mm, and in radii of the lumen.
 const AHEAD: (f64, f64) = (4.0, 1.5);
+/// Cosine between the route's way here and ahead above which it goes straight on: ten degrees.
+const STRAIGHT: f64 = 0.985;
+/// The sine of less than four degrees is no side.
+const LEAST_SIDE: f64 = 0.07;
+/// The tip looks the wrong way beyond this, in radians, and the right way again within this.
+const WRONG: f64 = 1.0;
+const RIGHT: f64 = 0.5;
 /// Seconds off the route before the wire is withdrawn.
 const ASTRAY: f64 = 0.15;
 /// Seconds without progress along the route, and turned back on itself, likewise.
@@ -28,12 +39,17 @@ const STUCK: f64 = 1.2;
 const LOOPED: f64 = 0.5;
 /// Times that it tries again.
 const ATTEMPTS: u32 = 60;
-/// The angles by which attempts are turned, one after another, in radians.
-const OFFSETS: [f64; 10] = [0.0, 0.6, -0.6, 1.2, -1.2, 1.8, -1.8, 2.4, -2.4, 3.1];
-/// Millimetres before a place where it went wrong from which on the feed is slow.
-const BEFORE: f64 = 8.0;
-/// Millimetres behind a place where it went wrong at which that is forgotten.
+/// Millimetres by which it is withdrawn, one attempt at a place after another.
+const BY: [f64; 3] = [6.0, 10.0, 16.0];
+/// Millimetres more at most for the tip to turn.
+const TURNING: f64 = 8.0;
+/// The angles by which attempts at a place are turned, from the second on, in radians.
+const OFFSETS: [f64; 7] = [0.0, -0.6, 0.6, -1.2, 1.2, -1.8, 1.8];
+/// Millimetres before a place where it went wrong from which on that counts, and behind it until it is forgotten.
+const BEFORE: f64 = 16.0;
 const PASSED: f64 = 6.0;
+/// Radii of the lumen behind a place where it went wrong at which the right branch is.
+const INTO: f64 = 2.0;
 /// Seconds between two decisions: ten steps.
 pub const DECISION: f64 = 0.02;
 
@@ -62,24 +78,31 @@ pub struct Seen {
 enum Doing {
     /// On along the route.
     Advancing,
-    /// Back to an arc length of the route, or a length outside the guide.
-    Withdrawing { arc: f64, inserted: f64, speed: f64 },
+    /// Back to an arc length of the route and a length outside the guide.
+    Withdrawing { arc: f64, inserted: f64 },
+}
+
+/// Where it went wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Trouble {
+    /// Arc length along the route, in mm.
+    arc: f64,
+    /// From the wrong branch to the right one, if it was in a wrong one.
+    away: Option<DVec3>,
+    /// Times that it went wrong there.
+    times: usize,
 }
 
 /// The autopilot's mind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Autopilot {
     doing: Doing,
-    /// Angle by which the tip is turned away from where the route goes.
-    offset: f64,
+    trouble: Option<Trouble>,
     /// The largest arc since the last attempt began, and the seconds since.
     best: f64,
     since_best: f64,
     astray: f64,
     looped: f64,
-    attempts: u32,
-    /// The largest arc at which it went wrong.
-    failed_at: f64,
     /// Times the wire was withdrawn.
     pub retractions: u32,
 }
@@ -88,13 +111,11 @@ impl Default for Autopilot {
     fn default() -> Self {
         Self {
             doing: Doing::Advancing,
-            offset: 0.0,
+            trouble: None,
             best: f64::NEG_INFINITY,
             since_best: 0.0,
             astray: 0.0,
             looped: 0.0,
-            attempts: 0,
-            failed_at: f64::NEG_INFINITY,
             retractions: 0,
         }
     }
@@ -106,11 +127,10 @@ impl Autopilot {
         let timed = |time: &mut f64, is: bool| *time = if is { *time + DECISION } else { 0.0 };
         timed(&mut self.astray, seen.is_off);
         timed(&mut self.looped, seen.is_looped);
+        let error = self.turn(route, seen);
         match self.doing {
             Doing::Advancing => {
-                if seen.arc > self.failed_at + PASSED {
-                    self.offset = 0.0;
-                }
+                self.trouble = self.trouble.filter(|trouble| seen.is_off || seen.arc <= trouble.arc + PASSED);
                 if seen.arc > self.best + 0.2 && !seen.is_off {
                     self.best = seen.arc;
                     self.since_best = 0.0;
@@ -119,49 +139,43 @@ impl Autopilot {
                 }
                 let is_stuck = self.since_best > STUCK || seen.is_hard;
                 if self.astray > ASTRAY || is_stuck || self.looped > LOOPED {
-                    self.withdraw(seen)?;
+                    self.withdraw(route, seen)?;
                 }
             }
-            Doing::Withdrawing { arc, inserted, .. } => {
-                let is_back = !seen.is_off && !seen.is_looped && seen.arc <= arc;
-                if (is_back && seen.inserted <= inserted) || seen.inserted <= 5.0 {
+            Doing::Withdrawing { arc, inserted } => {
+                let is_back = !seen.is_off && !seen.is_looped && seen.arc <= arc && seen.inserted <= inserted;
+                let is_turned = error.abs() < RIGHT || seen.arc <= arc - TURNING;
+                if (is_back && is_turned) || seen.inserted <= 5.0 {
                     self.doing = Doing::Advancing;
                     self.best = seen.arc;
                     self.since_best = 0.0;
                 }
             }
         }
-        let error = self.turn(route, seen);
-        let roll = (4.0 * error).clamp(-ROLL, ROLL);
         let feed = match self.doing {
-            Doing::Withdrawing { speed, .. } => -speed,
-            Doing::Advancing if error.abs() > 1.0 || self.is_slow(seen.arc) => CAREFUL,
+            Doing::Withdrawing { arc, .. } if seen.is_off || seen.arc > arc => -BACK,
+            Doing::Withdrawing { .. } => -CAREFUL,
+            Doing::Advancing if error.abs() > WRONG => CAREFUL,
             Doing::Advancing => FEED,
         };
+        let roll = (ROLL.1 * error).clamp(-ROLL.0, ROLL.0);
         Some(Input { feed: feed as f32, roll: roll as f32 })
     }
 
-    /// Whether it goes slowly because it went wrong here: two times of three.
-    fn is_slow(&self, arc: f64) -> bool {
-        !self.attempts.is_multiple_of(3) && (self.failed_at - BEFORE..self.failed_at + PASSED).contains(&arc)
-    }
-
-    fn withdraw(&mut self, seen: &Seen) -> Option<()> {
-        self.attempts += 1;
-        if self.attempts > ATTEMPTS {
+    fn withdraw(&mut self, route: &Route, seen: &Seen) -> Option<()> {
+        if self.retractions == ATTEMPTS {
             return None;
         }
         self.retractions += 1;
-        self.offset = OFFSETS[(self.attempts as usize / 3) % OFFSETS.len()];
-        self.failed_at = self.failed_at.max(self.best);
-        self.doing = if seen.is_off && !self.attempts.is_multiple_of(3) {
-            // Slowly over the edge between the branches, for the tip to fall into the right one.
-            Doing::Withdrawing { arc: f64::INFINITY, inserted: seen.inserted, speed: CAREFUL }
-        } else {
-            // Back to the guide every third time: it comes another way then.
-            let by = if self.attempts.is_multiple_of(3) { f64::INFINITY } else { 8.0 };
-            Doing::Withdrawing { arc: self.best - by.min(8.0), inserted: (seen.inserted - by).max(5.0), speed: BACK }
-        };
+        // The same place again, or another.
+        let known = self.trouble.filter(|trouble| self.best > trouble.arc - BEFORE);
+        let times = known.map_or(0, |trouble| trouble.times);
+        let arc = known.map_or(self.best, |trouble| trouble.arc.max(self.best));
+        let right = route.at(arc + INTO * route.at(arc).radius).at;
+        let away = if seen.is_off { Some(right - seen.tip) } else { known.and_then(|trouble| trouble.away) };
+        self.trouble = Some(Trouble { arc, away, times: times + 1 });
+        let by = BY[times % BY.len()];
+        self.doing = Doing::Withdrawing { arc: self.best - by, inserted: (seen.inserted - by).max(5.0) };
         (self.astray, self.looped) = (0.0, 0.0);
         Some(())
     }
@@ -170,14 +184,21 @@ impl Autopilot {
     fn turn(&self, route: &Route, seen: &Seen) -> f64 {
         let here = route.at(seen.arc);
         let ahead = route.at(seen.arc + AHEAD.0 + AHEAD.1 * here.radius);
-        let to = (ahead.at - seen.tip).normalize_or(here.direction);
-        let wanted = to.reject_from(seen.shaft);
+        let on = ahead.at - seen.tip;
+        let trouble = self.trouble.filter(|trouble| seen.arc > trouble.arc - BEFORE);
+        let (to, offset) = match trouble {
+            None if here.direction.dot(ahead.direction) > STRAIGHT => return 0.0,
+            None => (on, 0.0),
+            Some(Trouble { away: Some(away), times: 1, .. }) => (away, 0.0),
+            Some(Trouble { times, .. }) => (on, OFFSETS[times.saturating_sub(2) % OFFSETS.len()]),
+        };
+        let wanted = to.normalize_or(here.direction).reject_from(seen.shaft);
         let side = seen.side.reject_from(seen.shaft);
-        // Less than four degrees are no turn, but an offset means to try another way.
-        if wanted.length() < 0.07 && self.offset == 0.0 || side.length() < 1e-3 {
+        // An offset means to try another way.
+        if wanted.length() < LEAST_SIDE && offset == 0.0 || side.length() < 1e-3 {
             return 0.0;
         }
-        let angle = libm::atan2(seen.shaft.dot(side.cross(wanted)), side.dot(wanted)) + self.offset;
+        let angle = libm::atan2(seen.shaft.dot(side.cross(wanted)), side.dot(wanted)) + offset;
         let turns = std::f64::consts::TAU;
         angle - turns * (angle / turns).round()
     }
@@ -185,7 +206,7 @@ impl Autopilot {
     /// What it is doing, in words.
     pub fn words(&self) -> &'static str {
         match self.doing {
-            Doing::Advancing if self.offset == 0.0 => "Following the route",
+            Doing::Advancing if self.trouble.is_none() => "Following the route",
             Doing::Advancing => "Trying again, turned",
             Doing::Withdrawing { .. } => "Withdrawing",
         }

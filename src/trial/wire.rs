@@ -53,7 +53,7 @@ type Numbers = (&'static str, f64, [f64; 2], [f64; 2], f64, f64, f64);
 ///
 /// `guidewire.md` in the notes gives the figures: a solid core's `EI = E pi d^4 / 64`; tip loads as Euler loads over
 /// 10 mm; measured moduli of 0.035 in wires (Harrison 2011, J Endovasc Ther 18:797).
-const PRESETS: [Numbers; 6] = [
+const PRESETS: [Numbers; 7] = [
     // 0.06 mm of steel at the tip; a shaft of nitinol of 0.356 mm. The tip is bent by 45 degrees 3 mm from its end, for a
     // main stem of 4 mm.
     ("floppy", 0.356, [0.05, 38.0], [30.0, 300.0], 5.0, 45.0, 3.0),
@@ -63,7 +63,9 @@ const PRESETS: [Numbers; 6] = [
     ("stiff", 0.356, [1.5, 150.0], [20.0, 200.0], 5.0, 45.0, 3.0),
     // The workhorse with its end rolled to a J of 2 mm radius.
     ("workhorse-j", 0.356, [0.1, 40.0], [30.0, 300.0], 6.3, 180.0, 0.0),
-    // A plain 0.035 in wire, 9.5 GPa: 291; a J of 3 mm radius.
+    // A plain 0.035 in wire, 9.5 GPa: 291; bent by 45 degrees 6 mm from its end, for a lumen of 10 mm.
+    ("035-angled", 0.889, [1.0, 291.0], [30.0, 150.0], 10.0, 45.0, 6.0),
+    // The same with a J of 3 mm radius.
     ("035-j", 0.889, [1.0, 291.0], [30.0, 150.0], 9.4, 180.0, 0.0),
     // Amplatz stiff, 17 GPa: 521.
     ("035-stiff-j", 0.889, [2.0, 521.0], [30.0, 150.0], 9.4, 180.0, 0.0),

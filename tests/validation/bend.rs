@@ -64,7 +64,9 @@ fn a_push_through_a_bend_grows_like_a_pull() {
     for (mu, ei) in [(0.0, 40.0), (0.05, 40.0), (0.1, 40.0), (0.2, 40.0), (0.3, 40.0), (0.1, 20.0), (0.1, 80.0)] {
         let ours = push(mu, ei);
         let what = format!("F/F₀ over 180° at μ = {mu} and EI = {ei} N mm²");
-        found.compare(&what, (mu * PI).exp(), ours, Part(0.02), 79);
+        // Pushed that hard it bends aside in the straight parts, too, where the formula has it straight.
+        let tolerance = if mu > 0.25 { 0.03 } else { 0.02 };
+        found.compare(&what, (mu * PI).exp(), ours, Part(tolerance), 79);
         found.point("ours", mu, ours);
     }
     for i in 0..=30 {
