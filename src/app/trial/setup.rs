@@ -37,6 +37,7 @@ fn words(preset: &str) -> String {
         "workhorse-j" => "0.014 in J tip".to_owned(),
         "035-j" => "0.035 in J tip".to_owned(),
         "035-stiff-j" => "0.035 in stiff J".to_owned(),
+        "035-angled" => "0.035 in angled, long bend".to_owned(),
         other => other.to_owned(),
     }
 }
