@@ -1,9 +1,11 @@
 //! What a step of the trial costs, against triangles and against nodes: `cargo bench --bench trial --no-default-features`.
 //!
-//! The wire is as soft as a thread, so that most of it lies against the wall. It is fed into the coronary sample,
-//! unreduced, until it has the nodes; then one scripted input moves it to and fro. Arguments are triangle counts or, with
-//! an `n` behind them, node counts: `-- 10000 1000000 300n`.
+//! The workhorse wire, cut into equal elements, is fed into the coronary sample, unreduced, until it has the nodes; then
+//! one scripted input moves and rolls it to and fro. Arguments are triangle counts or, with an `n` behind them, node
+//! counts: `-- 10000 1000000 300n`. With `LUMEN_TRIAL_LOG` surface, setup and log of the last are left in that folder, for
+//! `benches/trial.mjs` to replay in the browser's Worker.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -13,6 +15,7 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::course::Course;
+use lumen::trial::frame::Progress;
 use lumen::trial::session::Trial;
 use lumen::trial::setup::{Input, Setup};
 use lumen::trial::wire::Wire;
@@ -24,7 +27,7 @@ const NODES: usize = 300;
 /// Triangles where nodes vary.
 const TRIANGLES: usize = 380_000;
 /// Steps that are timed.
-const STEPS: u64 = 3000;
+const STEPS: usize = 3000;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
@@ -60,44 +63,54 @@ fn level(mesh: Arc<TriMesh>, count: usize) -> Arc<TriMesh> {
 }
 
 fn measure(mesh: &Arc<TriMesh>, nodes: usize) {
-    let wire = Wire {
-        shaft_ei: 0.02,
-        tip_ei: 0.02,
-        elements_mm: [LENGTH / nodes as f64; 2],
-        ..Wire::preset("workhorse").expect("a preset")
-    };
+    let wire = Wire { elements_mm: [LENGTH / nodes as f64; 2], ..Wire::preset("workhorse").expect("a preset") };
     let mut setup = Setup { wire, ..Setup::default() };
     let course = Arc::new(Course::new(mesh, Some(Sample::Coronary), &mut setup).expect("a way"));
     let mut trial = Trial::new(course.clone(), setup).expect("room");
-    trial.set_autopilot(true);
-    while trial.simulation().count() < nodes && trial.simulation().steps() < 20_000 {
+    trial.drive(Input { feed: 20.0, roll: 0.0 });
+    while trial.simulation().count() < nodes {
         trial.step();
+        assert_eq!(trial.progress(), Progress::Running, "with {} nodes", trial.simulation().count());
     }
-    let mut simulation = trial.simulation().clone();
-    let mut times = Vec::with_capacity(STEPS as usize);
+    let mut times = Vec::with_capacity(STEPS);
     let mut touching = 0;
     for step in 0..STEPS {
-        let feed = if step / 250 % 2 == 0 { -10.0 } else { 10.0 };
+        trial.drive(Input { feed: if step / 250 % 2 == 0 { -10.0 } else { 10.0 }, roll: 2.0 });
         let start = Instant::now();
-        simulation.step(Input { feed, roll: 2.0 });
+        trial.step();
         times.push(start.elapsed().as_secs_f64() * 1e3);
-        let mut at: Vec<usize> = simulation.body().touches().map(|touch| touch.0).collect();
+        let mut at: Vec<usize> = trial.simulation().body().touches().map(|touch| touch.0).collect();
         at.sort_unstable();
         at.dedup();
         touching += at.len();
     }
+    assert_eq!(trial.progress(), Progress::Running);
     times.sort_by(f64::total_cmp);
-    let mean = times.iter().sum::<f64>() / times.len() as f64;
-    let at = |part: f64| times[((times.len() as f64 * part) as usize).min(times.len() - 1)];
+    let mean = times.iter().sum::<f64>() / STEPS as f64;
+    let at = |part: f64| times[((STEPS as f64 * part) as usize).min(STEPS - 1)];
     println!(
         "| {} | {} | {:.0} % | {mean:.3} | {:.3} | {:.3} | {:.3} | {:.0} | {:.0} |",
         mesh.triangles.len(),
-        simulation.count(),
-        100.0 * touching as f64 / (STEPS as usize * simulation.count()) as f64,
+        trial.simulation().count(),
+        100.0 * touching as f64 / (STEPS * trial.simulation().count()) as f64,
         at(0.5),
         at(0.99),
         at(1.0),
         1e3 / mean,
         course.wall_ms,
     );
+    if let Some(folder) = std::env::var_os("LUMEN_TRIAL_LOG") {
+        leave(Path::new(&folder), mesh, &trial).expect("a folder that can be written");
+    }
+}
+
+/// Writes what the same trial needs elsewhere.
+fn leave(folder: &Path, mesh: &TriMesh, trial: &Trial) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    let steps = trial.simulation().steps();
+    let facts = serde_json::json!({ "setup": trial.setup(), "steps": steps, "scripted": STEPS });
+    std::fs::write(folder.join("trial.json"), facts.to_string())?;
+    std::fs::write(folder.join("positions"), bytemuck::cast_slice(&mesh.positions))?;
+    std::fs::write(folder.join("triangles"), bytemuck::cast_slice(&mesh.triangles))?;
+    std::fs::write(folder.join("log.csv"), trial.log().csv(steps).map_err(std::io::Error::other)?)
 }

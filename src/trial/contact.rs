@@ -26,7 +26,7 @@ const STIFFNESS: f64 = 40.0;
 /// Stiffness of what sticks, in N/mm.
 const GRIP: f64 = 40.0;
 /// A gap of less than this, in mm, is looked after in the step from its beginning; others once they have closed.
-const REACH: f64 = 0.25;
+const REACH: f64 = 0.1;
 /// Below this gap in mm the inside of an edge is looked after.
 const EDGE_REACH: f64 = 0.05;
 /// The part of the radius by which the inside of an edge must be nearer than its ends to be a contact of its own.
@@ -267,7 +267,7 @@ impl Contacts {
         let (a, b) = (rod.positions[i], rod.positions[i + 1]);
         let (near_a, near_b) = (self.clearances[i].at_least(a), self.clearances[i + 1].at_least(b));
         let within = (near_a.min(near_b) - DEEPER * self.radius).min(self.radius + EDGE_REACH);
-        let may_be = (near_a + near_b - a.distance(b)) / 2.0 < within;
+        let may_be = between(near_a, near_b, a.distance(b)) < within;
         let (radius, contacts) = (self.radius, &mut self.edges[i]);
         let mut least = f64::INFINITY;
         for contact in contacts.iter_mut().filter(|contact| contact.is_near) {
@@ -450,6 +450,14 @@ impl Contacts {
     pub fn pressing(&self) -> impl Iterator<Item = (usize, &Contact)> {
         self.near().filter(|(_, contact)| contact.force > 0.0)
     }
+}
+
+/// How near to a segment of this length something can be that is at least `a` from its one end and `b` from the other.
+fn between(a: f64, b: f64, length: f64) -> f64 {
+    let (a, b) = (a.max(0.0), b.max(0.0));
+    // Where both distances are what they are at least, along the segment.
+    let along = (a * a - b * b + length * length) / (2.0 * length);
+    if along <= 0.0 || along >= length { a.min(b) } else { (a * a - along * along).max(0.0).sqrt() }
 }
 
 /// How much a contact matters: none at all, one that does not press, one that does.
