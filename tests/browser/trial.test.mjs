@@ -53,6 +53,8 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
   assert.equal(summary.success, true);
   assert(summary.tip_distance_mm <= 2, `${summary.tip_distance_mm} mm from the target`);
   assert.match(summary.notice, /clinical/i);
+  t.diagnostic(`${Math.round(summary.steps_per_second)} steps a second in the Worker`);
+  assert(summary.steps_per_second >= 500, `${summary.steps_per_second} steps a second do not keep up with the clock`);
   const lines = files.csv.trim().split("\n").filter((line) => !line.startsWith("#"));
   assert.match(lines[0], /time_s/);
   assert(lines.length > 100, `${lines.length} samples`);

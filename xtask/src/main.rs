@@ -1,8 +1,10 @@
-//! Developer commands: `cargo xtask serve | build | test | peers | curve | fuzz-trial | validation`.
+//! Developer commands: `cargo xtask serve | build | test | peers | curve | bench-trial | fuzz-trial |
+//! validation`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
 
+mod bench_trial;
 mod build;
 mod curve;
 mod document;
@@ -48,6 +50,8 @@ enum Command {
     },
     /// Run Lumen beside VTK, meshoptimizer and fast-simplification and write docs/benchmarks.md.
     Peers(peers::Options),
+    /// Measure a step of the trial natively and in the browser's Worker, by the same input.
+    BenchTrial,
     /// Steer a wire by random input and look that it stays inside.
     FuzzTrial {
         /// Steps of 2 ms.
@@ -66,6 +70,7 @@ fn main() -> ExitCode {
         Command::Build => build::build().map(|_| ()),
         Command::Test { only } => test::test(&only),
         Command::Peers(options) => peers::peers(&options),
+        Command::BenchTrial => bench_trial::bench_trial(),
         Command::FuzzTrial { steps } => fuzz::fuzz(steps),
         Command::Curve => curve::curve(),
         Command::Validation => validation::validation(),
