@@ -11,9 +11,10 @@
 //! The tip reaches no farther to the side than its bend is long. A branch on the far side of a wide lumen, from where the
 //! shaft lies, is missed however often it is tried: that takes a wire with a longer bend.
 
+use glam::DVec3;
+
 use super::route::Route;
 use super::setup::Input;
-use glam::DVec3;
 
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;

@@ -198,7 +198,7 @@ impl Body {
         if self.potential(dt, 0.0) < before {
             self.look(count);
         } else {
-            self.rod.unpredict();
+            self.rod.predict(0.0);
         }
     }
 

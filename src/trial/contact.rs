@@ -4,7 +4,8 @@
 //! in a corner it rests on both, and slides from the one to the other without a jolt. So does the inside of an edge
 //! where that comes nearer than both of its ends: at a ridge or on the inside of a bend. The gap is the distance from
 //! the flat triangles less the radius, and the force acts the way the gap grows: a force along an interpolated normal
-//! would do work as the wire slides over a facet, and never settle. A contact's force is found with the step itself, as an augmented Lagrangian (Hestenes 1969; Powell 1969):
+//! would do work as the wire slides over a facet, and never settle. A contact's force is found with the step itself, as
+//! an augmented Lagrangian (Hestenes 1969; Powell 1969):
 //!
 //! ```text
 //! N = max(0, N_before - k gap)

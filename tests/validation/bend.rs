@@ -2,8 +2,8 @@
 //!
 //! Pushed, it lies on the outside of the bend, where the wall's forces turn the push, so that it grows as a pull along
 //! the inside does: `F / F0 = e^(mu angle)`. Where the bend begins and ends the wire lifts off over about
-//! `2 sqrt(EI / F)`, and lands with single forces that come to what the wall between them would have given: bending adds
-//! nothing, as long as the inside is not reached and `F` is less than the `4 EI / r R` from which on it buckles.
+//! `2 sqrt(EI / F)`, and lands with single forces that come nearly to what the wall between them would have given: bending
+//! adds little, as long as the inside is not reached and `F` is less than the `4 EI / r R` from which on it buckles.
 //!
 //! Rolled, all of it slides across itself, and climbs until its friction carries it: the wall's force is at `atan mu` to
 //! the bend's plane, and the torque at the guide is `r_w mu / sqrt(1 + mu^2)` for each N of `F angle`.
@@ -22,17 +22,20 @@ use crate::tubes::{Place, curve, tube};
 /// Radius of the bend in mm.
 const BEND: f64 = 20.0;
 
-/// Half a turn between two straight parts.
-fn half_turn(step: f64) -> Vec<Place> {
-    curve(&[(8.0, f64::INFINITY), (PI * BEND, BEND), (8.0, f64::INFINITY)], step)
+/// Half a turn between two straight parts of a length in mm.
+fn half_turn(straight: f64, step: f64) -> Vec<Place> {
+    curve(&[(straight, f64::INFINITY), (PI * BEND, BEND), (straight, f64::INFINITY)], step)
 }
 
 /// What it takes at the one end to push a wire of this friction and stiffness through half a turn, over what it gives at
 /// the other. Both ends are guided; the tip goes the faster the more it gives above 1 N.
 fn push(mu: f64, ei: f64) -> f64 {
-    let path = half_turn(1.0);
+    // Longer than the wire lifts off over: shorter ones take some of its forces from the wall. Longer ones change nothing
+    // up to a friction of 0.2; beyond, what they are pushed with bends them aside.
+    let straight = 12.0;
+    let path = half_turn(straight, 1.0);
     // No part of an element, so that nodes do not ride over ridges in step.
-    let wall = tube(&half_turn(0.23), |_| TUBE, 48);
+    let wall = tube(&half_turn(straight, 0.23), |_| TUBE, 48);
     // Along the outside of the bend.
     let offset = |i: usize| path[i].1.cross(DVec3::Z) * (TUBE - RADIUS) * 0.99;
     let section = Section { ei, gj: ei / 1.3, ea: 2000.0, mass: 1e-9, drag: 1e-6, ..Section::default() };
@@ -61,15 +64,13 @@ fn push(mu: f64, ei: f64) -> f64 {
 #[test]
 fn a_push_through_a_bend_grows_like_a_pull() {
     let mut found = Benchmark::new("push");
-    for (mu, ei) in [(0.0, 40.0), (0.05, 40.0), (0.1, 40.0), (0.2, 40.0), (0.3, 40.0), (0.1, 20.0), (0.1, 80.0)] {
+    for (mu, ei) in [(0.0, 20.0), (0.05, 20.0), (0.1, 20.0), (0.15, 20.0), (0.2, 20.0), (0.1, 15.0), (0.1, 30.0)] {
         let ours = push(mu, ei);
         let what = format!("F/F₀ over 180° at μ = {mu} and EI = {ei} N mm²");
-        // Pushed that hard it bends aside in the straight parts, too, where the formula has it straight.
-        let tolerance = if mu > 0.25 { 0.03 } else { 0.02 };
-        found.compare(&what, (mu * PI).exp(), ours, Part(tolerance), 79);
+        found.compare(&what, (mu * PI).exp(), ours, Part(0.02), 87);
         found.point("ours", mu, ours);
     }
-    for i in 0..=30 {
+    for i in 0..=20 {
         let mu = f64::from(i) / 100.0;
         found.curve("e^μθ", mu, (mu * PI).exp());
     }
@@ -79,9 +80,10 @@ fn a_push_through_a_bend_grows_like_a_pull() {
 /// The torque at the held end that rolls a wire which is pulled around half a turn with 1 N, in N mm; the tube is cut
 /// into so many sides.
 fn roll(mu: f64, sides: usize) -> f64 {
-    let path = half_turn(0.5);
+    let straight = 8.0;
+    let path = half_turn(straight, 0.5);
     // Triangles about as long as they are wide.
-    let wall = tube(&half_turn(11.0 / sides as f64), |_| TUBE, sides);
+    let wall = tube(&half_turn(straight, 11.0 / sides as f64), |_| TUBE, sides);
     let offset = |i: usize| DVec3::Z.cross(path[i].1) * (TUBE - RADIUS) * 0.98;
     // It winds up by a fifth of a turn before its tip turns.
     let section = Section { ei: 5.0, gj: 10.0, ea: 2000.0, mass: 1e-9, drag: 1e-6, ..Section::default() };

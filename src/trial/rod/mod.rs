@@ -11,9 +11,9 @@
 //!
 //! where the bend is the mean of what it is in the frames of the two edges, so that twist does not soften it, and `c` is
 //! the length of the node's cell, which reaches half-way to its neighbours. A time step is implicit (backward Euler): it
-//! is found by Newton's method with the squares of first derivatives in place of the Hessian, which is always positive
-//! definite and has a half bandwidth of 10 (`band`). The gradient is exact, so what a step comes to, and what stands
-//! still, are too.
+//! is found by Newton's method with the squares of first derivatives and what tension and pressure do across an edge in
+//! place of the Hessian, without pressure where that is not positive definite ([`Hessian`]); it has a half bandwidth of
+//! 10 (`band`). The gradient is exact, so what a step comes to, and what stands still, are too.
 //!
 //! Nodes are numbered from the tip; tangents point away from it.
 
@@ -514,24 +514,13 @@ impl Rod {
         self.refresh();
     }
 
-    /// Goes on for `dt` seconds as in the step before; what is held stays.
+    /// Goes on from the start of the step for `dt` seconds as in the step before; what is held stays.
     pub fn predict(&mut self, dt: f64) {
         for i in (0..self.len()).filter(|&i| !self.held[i].position) {
             self.positions[i] = self.start[i] + self.velocities[i] * dt;
         }
         for i in (0..self.len()).filter(|&i| !self.held[i].angle) {
             self.spins[i] = self.turns[i] * dt;
-        }
-        self.refresh();
-    }
-
-    /// Takes a prediction back.
-    pub fn unpredict(&mut self) {
-        for i in (0..self.len()).filter(|&i| !self.held[i].position) {
-            self.positions[i] = self.start[i];
-        }
-        for i in (0..self.len()).filter(|&i| !self.held[i].angle) {
-            self.spins[i] = 0.0;
         }
         self.refresh();
     }
