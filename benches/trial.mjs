@@ -2,38 +2,30 @@
 // steps a second it makes while the scripted input runs. `node benches/trial.mjs FOLDER` prints a line of JSON.
 
 import { readFile } from "node:fs/promises";
-import { dist, launch } from "../tests/browser/browser.mjs";
-import { serve } from "../tests/browser/server.mjs";
-
-/** With these a page may read its clock to 5 microseconds, not to 100. */
-const ISOLATED = { "Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp" };
+import { launch } from "../tests/browser/browser.mjs";
+import { serveBench, workerPage } from "./worker.mjs";
 
 const folder = process.argv[2];
 const binary = async (name) => ({ type: "application/octet-stream", body: await readFile(`${folder}/${name}`) });
 const files = {
-  "bench.html": { type: "text/html", body: "<!doctype html><title>bench</title>" },
   positions: await binary("positions"),
   triangles: await binary("triangles"),
   "log.csv": await binary("log.csv"),
 };
 const facts = JSON.parse(await readFile(`${folder}/trial.json`, "utf8"));
 const browser = await launch();
-const server = await serve(dist, { headers: ISOLATED, files });
-const page = await browser.newPage();
-page.setDefaultTimeout(600_000);
-await page.goto(`${server.address}bench.html`);
+const server = await serveBench(files);
+const page = await workerPage(browser, server, files, "trial");
 const found = await page.evaluate(replay, facts);
 console.log(JSON.stringify({ ...found, chromium: browser.version() }));
 await browser.close();
 await server.close();
 
-/** In the page: starts the Worker as web/src/worker.rs does, replays the log, and takes the speed that the frames tell. */
+/** In the page: replays the log, and takes the speed that the frames tell. */
 async function replay({ setup, steps, scripted }) {
   const bytes = async (name) => (await fetch(name)).arrayBuffer();
   const [positions, triangles, csv] = await Promise.all(["positions", "triangles", "log.csv"].map(bytes));
-  const module = await WebAssembly.compileStreaming(fetch("lumen-web_bg.wasm"));
-  const worker = new Worker("worker.js", { type: "module" });
-  worker.postMessage({ module, job: "trial" });
+  const { worker } = window;
   const speeds = [];
   return new Promise((resolve, reject) => {
     worker.onerror = (event) => reject(new Error(event.message || "the Worker could not be started"));

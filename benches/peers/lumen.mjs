@@ -11,16 +11,12 @@
 import { readFile } from "node:fs/promises";
 import { createInterface } from "node:readline";
 import { openFile, settled } from "../../tests/browser/app.mjs";
-import { dist, launch, started } from "../../tests/browser/browser.mjs";
-import { serve } from "../../tests/browser/server.mjs";
-
-/** With these a page may read its clock to 5 microseconds, not to 100. */
-const ISOLATED = { "Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp" };
-const HOUR = 3_600_000;
+import { launch, started } from "../../tests/browser/browser.mjs";
+import { HOUR, serveBench, workerPage } from "../worker.mjs";
 
 const browser = await launch();
 const files = {};
-const server = await serve(dist, { headers: ISOLATED, files });
+const server = await serveBench(files);
 let stages;
 
 for await (const line of createInterface({ input: process.stdin })) {
@@ -33,11 +29,7 @@ await server.close();
 
 /** An empty page with a Worker, which serves one question after another, so that its code is warm. */
 async function engine() {
-  files["bench.html"] = { type: "text/html", body: "<!doctype html><title>bench</title>" };
-  const page = await browser.newPage();
-  page.setDefaultTimeout(HOUR);
-  await page.goto(`${server.address}bench.html`);
-  await page.evaluate(startWorker);
+  const page = await workerPage(browser, server, files, "pipeline");
   let opened = 0;
   return async ({ file, steps }) => {
     files["input"] = { type: "application/octet-stream", body: await readFile(file) };
@@ -45,13 +37,6 @@ async function engine() {
     opened += steps.length;
     return { reports, bytes: await memory(page.workers()[0]) };
   };
-}
-
-/** In the page: starts the Worker as web/src/worker.rs does. */
-async function startWorker() {
-  const module = await WebAssembly.compileStreaming(fetch("lumen-web_bg.wasm"));
-  window.worker = new Worker("worker.js", { type: "module" });
-  window.worker.postMessage({ module, job: "pipeline" });
 }
 
 /** In the page: opens the file with the first settings and goes through the others; the report of each. */

@@ -29,6 +29,14 @@ fn press(harness: &mut App, button: &str) {
     harness.run_steps(3);
 }
 
+/// Opens the coronary sample by the bar.
+fn open_coronary(harness: &mut App) {
+    press(harness, "Sample");
+    harness.get_by_label_contains("oronary").click();
+    harness.run_steps(3);
+    settle(harness);
+}
+
 /// Starts a trial by the bar.
 fn start(harness: &mut App) {
     if harness.query_by_role_and_label(Role::Button, "Menu").is_some() {
@@ -305,10 +313,7 @@ fn what_is_refused_is_said_and_what_stood_stands() {
 fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_trial_starts_with_that() {
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);
-    press(&mut harness, "Sample");
-    harness.get_by_label_contains("oronary").click();
-    harness.run_steps(3);
-    settle(&mut harness);
+    open_coronary(&mut harness);
     memory.borrow_mut().trial_runs = true;
     start(&mut harness);
     let is_refused = |harness: &App| says(harness, "The lumen is too thin for a wire of");
@@ -556,10 +561,7 @@ fn pictures_of_the_trial() {
             let (mut harness, memory) = app(size);
             settle(&mut harness);
             if sample == Sample::Coronary {
-                press(&mut harness, "Sample");
-                harness.get_by_label_contains("oronary").click();
-                harness.run_steps(3);
-                settle(&mut harness);
+                open_coronary(&mut harness);
             }
             memory.borrow_mut().trial_runs = true;
             start(&mut harness);
