@@ -5,7 +5,7 @@
 //!    a bent tip lies on one side of the lumen, and would turn for ever to look at the middle.
 //! 2. When the tip is off the route, when it has not come on for a while, or when the wire has turned back on itself:
 //!    withdraw along the route by one of [`BY`], and a little more while the tip does not look where it should.
-//! 3. Try again. The first time at a place, come to it with the tip turned from the wrong branch towards the right one;
+//! 3. Try again, at twice the feed. The first time at a place, come to it with the tip turned from the wrong branch towards the right one;
 //!    then as in 1, turned more and more to the one side or the other by [`OFFSETS`]. After [`ATTEMPTS`] give up.
 //!
 //! The tip reaches no farther to the side than its bend is long. A branch on the far side of a wide lumen, from where the
@@ -18,6 +18,8 @@ use super::setup::Input;
 
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;
+/// Speed of the feed where it is tried again, in mm/s: most of the time goes by there.
+const AGAIN: f64 = 20.0;
 /// Speed of withdrawal in mm/s.
 const BACK: f64 = 30.0;
 /// Feed and withdrawal while the tip looks the wrong way, in mm/s.
@@ -157,6 +159,7 @@ impl Autopilot {
             Doing::Withdrawing { arc, .. } if seen.is_off || seen.arc > arc => -BACK,
             Doing::Withdrawing { .. } => -CAREFUL,
             Doing::Advancing if error.abs() > WRONG => CAREFUL,
+            Doing::Advancing if self.trouble.is_some() => AGAIN,
             Doing::Advancing => FEED,
         };
         let roll = (ROLL.1 * error).clamp(-ROLL.0, ROLL.0);

@@ -166,7 +166,7 @@ impl Body {
             self.predict(dt, count);
         }
         for _ in 0..ROUNDS {
-            self.contacts.set_grip(&self.rod);
+            self.contacts.set_grip();
             let (mut moved, mut known) =
                 (f64::INFINITY, Known { potential: None, is_careful: false, hessian: Hessian::Pressed });
             for _ in 0..CORRECTIONS {

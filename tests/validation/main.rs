@@ -1,6 +1,7 @@
 //! The wire against what is known of rods and of wires in tubes: each benchmark beside its analytic answer, with its
 //! tolerance. `cargo xtask validation` draws them into `docs/validation.md`.
 
+mod balance;
 mod benchmark;
 mod bend;
 mod buckling;

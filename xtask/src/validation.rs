@@ -12,7 +12,7 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 24] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 25] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -45,6 +45,7 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 24] = [
     ("helix", "Pitch of a pushed wire", ["F r² / EI", "pitch over the clearance"], false),
     ("helix-wall", "What a pushed wire presses on the wall with", ["F r² / EI", "n r³ / EI"], false),
     ("return", "The tip on its way in and out", ["x, mm", "y, mm"], false),
+    ("balance", "Wall force while a wire is steered", ["time, s", "sum over the wall, mN"], false),
     ("refinement", "Wall force on the way into a bend", ["length fed in, mm", "sum over the wall, mN"], false),
     ("turned", "A loaded rod that is turned", ["", ""], false),
 ];
