@@ -19,7 +19,7 @@ use super::setup::Input;
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;
 /// Speed of the feed where it is tried again, in mm/s: most of the time goes by there.
-const AGAIN: f64 = 20.0;
+const AGAIN: f64 = 40.0;
 /// Speed of withdrawal in mm/s.
 const BACK: f64 = 30.0;
 /// Feed and withdrawal while the tip looks the wrong way, in mm/s.
