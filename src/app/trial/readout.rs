@@ -7,10 +7,8 @@ use crate::app::panel::number;
 use crate::render::{Colour, viridis};
 use crate::trial::frame::{Frame, Progress};
 
-/// The force at one place that has the last colour, in N.
-pub(super) const WALL_SCALE: f32 = 1.0;
-/// The end of a bar while forces are small, in N.
-const LEAST_SCALE: f64 = 0.1;
+/// The end of a bar while forces are small, in N: a floppy wire presses with some thousandths.
+const LEAST_SCALE: f64 = 0.01;
 /// The room beside a bar for where it ends, in points.
 const END: f32 = 40.0;
 
@@ -52,9 +50,10 @@ fn lower(text: &str) -> String {
 /// Shows the bars and the numbers.
 pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let wall = frame.max_wall_force_n as f32;
-    let Colour([r, g, b]) = viridis(wall / WALL_SCALE);
+    let end = trial.peaks.wall_scale();
+    let Colour([r, g, b]) = viridis(wall / end);
     let help = "The largest normal force at one place of the wall; the bar grows with the largest so far";
-    bar(ui, "Wall force", wall, scale(trial.peaks.wall), Color32::from_rgb(r, g, b), help);
+    bar(ui, "Wall force", wall, end, Color32::from_rgb(r, g, b), help);
     let accent = ui.visuals().hyperlink_color;
     let help = "What it takes to hold the wire at the guide: negative when it is held back. The bar shows how much";
     bar(ui, "Push force", frame.push_n as f32, scale(trial.peaks.push), accent, help);
@@ -101,9 +100,14 @@ impl Largest {
         self.wall = self.wall.max(frame.max_wall_force_n as f32);
         self.push = self.push.max(frame.push_n.abs() as f32);
     }
+
+    /// The force at one place of the wall that has the last colour and the end of its bar, in N.
+    pub(super) fn wall_scale(&self) -> f32 {
+        scale(self.wall)
+    }
 }
 
-/// Where a bar ends for forces of up to `peak`: the next of 0.1, 0.2, 0.5, 1, 2, 5, ... N.
+/// Where a bar ends for forces of up to `peak`: the next of 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, ... N.
 fn scale(peak: f32) -> f32 {
     let mut scale = LEAST_SCALE;
     for growth in [2.0, 2.5, 2.0].into_iter().cycle().take(24) {
@@ -173,8 +177,8 @@ pub(super) fn remark(ui: &mut Ui, text: &str, is_error: bool) {
 mod tests {
     #[test]
     fn bars_grow_by_round_steps() {
-        let peaks = [0.0, 0.1, 0.101, 0.35, 0.6, 1.0, 1.1, 4.9, 11.0];
-        assert_eq!(peaks.map(super::scale), [0.1, 0.1, 0.2, 0.5, 1.0, 1.0, 2.0, 5.0, 20.0]);
+        let peaks = [0.0, 0.01, 0.0101, 0.1, 0.101, 0.35, 0.6, 1.0, 1.1, 4.9, 11.0];
+        assert_eq!(peaks.map(super::scale), [0.01, 0.01, 0.02, 0.1, 0.2, 0.5, 1.0, 1.0, 2.0, 5.0, 20.0]);
         assert!(super::scale(f32::INFINITY).is_finite());
     }
 

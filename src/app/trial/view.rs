@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
 use glam::{Mat3, Quat};
 
-use super::readout::{WALL_SCALE, plate};
+use super::readout::plate;
 use super::scene::TrialScene;
 use super::{AWAITS, Stage, Trial, marks, tables};
 use crate::app::control::name;
@@ -24,9 +24,6 @@ const FLOW: f32 = 150.0;
 const TIP_REACH: f32 = 80.0;
 /// The tip's field of view, in radians.
 const TIP_FIELD: f32 = 1.7;
-
-/// The colours of forces on the wall.
-const FORCES: ColourMap = ColourMap { range_mm: (0.0, WALL_SCALE) };
 
 /// The views: what of them stands in GPU memory.
 pub(in crate::app) struct TrialView {
@@ -154,7 +151,8 @@ impl TrialView {
         name(&response, Role::Image, "Trial view");
         views.steer(ui, &response, 1, document, keep);
         let mut style = theme::style(ui.visuals());
-        style.map = Some(FORCES);
+        let forces = ColourMap { range_mm: (0.0, trial.peaks.wall_scale()) };
+        style.map = Some(forces);
         let camera = views.camera;
         let is_on = trial.ready.is_some();
         if let Some(scene) = self.scene.as_mut().filter(|_| is_on) {
@@ -166,8 +164,8 @@ impl TrialView {
         if is_on {
             marks::show(ui, rect, &camera, trial);
         }
-        let map = (is_on && rect.height() > 300.0).then_some(FORCES);
-        let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals: 1 });
+        let map = (is_on && rect.height() > 300.0).then_some(forces);
+        let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals: 2 });
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
         let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, legend };
         overlay::show(ui, rect, &writing);
