@@ -7,8 +7,10 @@ use crate::app::panel::number;
 use crate::render::{Colour, viridis};
 use crate::trial::frame::{Frame, Progress};
 
-/// The end of a bar while forces are small, in N: a floppy wire presses with some thousandths.
-const LEAST_SCALE: f64 = 0.01;
+/// The end of a bar while forces are small, in N: a floppy wire presses with less.
+const LEAST_SCALE: f64 = 0.001;
+/// Below this many N a force is told in mN.
+const SMALL: f64 = 0.01;
 /// The room beside a bar for where it ends, in points.
 const END: f32 = 40.0;
 
@@ -17,8 +19,9 @@ pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
     if let Some(summary) = &trial.summary {
         let text = if summary.success {
             format!(
-                "Success: the tip arrived after {:.1} s; largest wall force {:.3} N.",
-                summary.time_s, summary.max_wall_force_n
+                "Success: the tip arrived after {:.1} s; largest wall force {}.",
+                summary.time_s,
+                force(summary.max_wall_force_n)
             )
         } else {
             format!("Failed after {:.1} s: {}", summary.time_s, summary.reason)
@@ -67,10 +70,9 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     );
     number(ui, "Elapsed", &clock(frame.time_s), "Simulated time");
     number(ui, "Fluoroscopy", &clock(trial.carm.seconds), "Time that the beam was on");
-    let touches = format!("{}, {} N in all", frame.touches.len(), thousandths(frame.wall_force_n));
+    let touches = format!("{}, {} in all", frame.touches.len(), force(frame.wall_force_n));
     number(ui, "Contacts", &touches, "Places where the wire lies against the wall, and the sum of their forces");
-    let tip = format!("{} N", thousandths(frame.tip_force_n));
-    number(ui, "Force at the tip", &tip, "On the wall within 5 mm of the tip");
+    number(ui, "Force at the tip", &force(frame.tip_force_n), "On the wall within 5 mm of the tip");
     number(
         ui,
         "Torque",
@@ -107,7 +109,7 @@ impl Largest {
     }
 }
 
-/// Where a bar ends for forces of up to `peak`: the next of 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, ... N.
+/// Where a bar ends for forces of up to `peak`: the next of 0.001, 0.002, 0.005, 0.01, ... N.
 fn scale(peak: f32) -> f32 {
     let mut scale = LEAST_SCALE;
     for growth in [2.0, 2.5, 2.0].into_iter().cycle().take(24) {
@@ -121,18 +123,19 @@ fn scale(peak: f32) -> f32 {
 
 /// A bar with its number, and beside it the force at its end.
 fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
-    number(ui, what, &format!("{} N", thousandths(f64::from(value))), help);
+    let most = if f64::from(scale) < SMALL { format!("{:.0} mN", scale * 1e3) } else { format!("{scale} N") };
+    number(ui, what, &force(f64::from(value)), help);
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
     let rect = whole.shrink2(vec2(0.0, 2.0)).with_max_x(whole.right() - END);
     response.widget_info(|| {
-        let mut info = WidgetInfo::labeled(Role::Meter, true, format!("{what}, up to {scale} N"));
+        let mut info = WidgetInfo::labeled(Role::Meter, true, format!("{what}, up to {most}"));
         info.value = Some(f64::from(value));
         info
     });
     response.on_hover_text(help);
     let painter = ui.painter();
     let (end, font) = (whole.right_center(), FontId::proportional(12.0));
-    painter.text(end, Align2::RIGHT_CENTER, format!("{scale} N"), font, ui.visuals().weak_text_color());
+    painter.text(end, Align2::RIGHT_CENTER, most, font, ui.visuals().weak_text_color());
     painter.rect_filled(rect, 3.0, ui.visuals().widgets.inactive.bg_fill);
     let part = (value.abs() / scale).min(1.0);
     let filled = rect.with_max_x(rect.left() + rect.width() * part);
@@ -141,6 +144,15 @@ fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &
     let end = filled.right().max(rect.left() + 1.0);
     painter
         .line_segment([pos2(end, rect.top()), pos2(end, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
+}
+
+/// In N, or in mN where there are few.
+fn force(newtons: f64) -> String {
+    if newtons.abs() < SMALL {
+        format!("{:.2} mN", (newtons * 1e5).round() / 100.0 + 0.0)
+    } else {
+        format!("{} N", thousandths(newtons))
+    }
 }
 
 /// With three decimals, and never a negative nought.
@@ -177,9 +189,16 @@ pub(super) fn remark(ui: &mut Ui, text: &str, is_error: bool) {
 mod tests {
     #[test]
     fn bars_grow_by_round_steps() {
-        let peaks = [0.0, 0.01, 0.0101, 0.1, 0.101, 0.35, 0.6, 1.0, 1.1, 4.9, 11.0];
-        assert_eq!(peaks.map(super::scale), [0.01, 0.01, 0.02, 0.1, 0.2, 0.5, 1.0, 1.0, 2.0, 5.0, 20.0]);
+        let peaks = [0.0, 0.001, 0.0011, 0.009, 0.011, 0.101, 0.35, 0.6, 1.0, 1.1, 4.9, 11.0];
+        assert_eq!(peaks.map(super::scale), [0.001, 0.001, 0.002, 0.01, 0.02, 0.2, 0.5, 1.0, 1.0, 2.0, 5.0, 20.0]);
         assert!(super::scale(f32::INFINITY).is_finite());
+    }
+
+    #[test]
+    fn small_forces_are_told_in_thousandths() {
+        let forces = [0.0, -0.000_001, 0.000_214, -0.009_9, 0.01, 0.312_4];
+        let told = ["0.00 mN", "0.00 mN", "0.21 mN", "-9.90 mN", "0.010 N", "0.312 N"];
+        assert_eq!(forces.map(super::force), told);
     }
 
     #[test]

@@ -165,7 +165,8 @@ impl TrialView {
             marks::show(ui, rect, &camera, trial);
         }
         let map = (is_on && rect.height() > 300.0).then_some(forces);
-        let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals: 2 });
+        let decimals = if trial.peaks.wall_scale() < 0.01 { 3 } else { 2 };
+        let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals });
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
         let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, legend };
         overlay::show(ui, rect, &writing);

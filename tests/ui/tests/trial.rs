@@ -374,7 +374,7 @@ fn the_bars_of_forces_grow_with_the_largest_so_far() {
     tell(&mut harness, &memory, [TrialEvent::Frame(Box::new(held_back))]);
     assert!(says(&harness, "Wall force, up to 0.5 N") && says(&harness, "Push force, up to 2 N"));
     press(&mut harness, "Restart");
-    assert!(says(&harness, "Wall force, up to 0.01 N") && says(&harness, "Push force, up to 0.01 N"));
+    assert!(says(&harness, "Wall force, up to 1 mN") && says(&harness, "Push force, up to 1 mN"));
 }
 
 #[test]
