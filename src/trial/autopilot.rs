@@ -5,11 +5,12 @@
 //!    a bent tip lies on one side of the lumen, and would turn for ever to look at the middle.
 //! 2. When the tip is off the route, when it has not come on for a while, or when the wire has turned back on itself:
 //!    withdraw along the route by one of [`BY`], and a little more while the tip does not look where it should.
-//! 3. Try again, at twice the feed. The first time at a place, come to it with the tip turned from the wrong branch towards the right one;
-//!    then as in 1, turned more and more to the one side or the other by [`OFFSETS`]. After [`ATTEMPTS`] give up.
+//! 3. Try again, at [`AGAIN`]. The first time at a place, come to it with the tip turned from the wrong branch towards
+//!    the right one; then as in 1, turned more and more to the one side or the other by [`OFFSETS`]. After [`ATTEMPTS`]
+//!    give up.
 //!
-//! The tip reaches no farther to the side than its bend is long. A branch on the far side of a wide lumen, from where the
-//! shaft lies, is missed however often it is tried: that takes a wire with a longer bend.
+//! The tip reaches no farther to the side than its bend is long: a branch on the far side of a wide lumen, from where the
+//! shaft lies, takes many tries, or a wire with a longer bend.
 
 use glam::DVec3;
 
@@ -18,7 +19,7 @@ use super::setup::Input;
 
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;
-/// Speed of the feed where it is tried again, in mm/s: most of the time goes by there.
+/// Speed of the feed where it is tried again, in mm/s: there most of the time goes by.
 const AGAIN: f64 = 40.0;
 /// Speed of withdrawal in mm/s.
 const BACK: f64 = 30.0;
