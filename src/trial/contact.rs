@@ -30,8 +30,8 @@ const STIFFNESS: f64 = 4.0;
 const GRIP: f64 = 4.0;
 /// A gap of less than this, in mm, is looked after in the step from its beginning; others once they have closed.
 const REACH: f64 = 0.1;
-/// A gap is measured anew once less than this part of it may be left. Until then what was measured stands: nothing can
-/// have closed it.
+/// A gap that is looked after is measured anew once less than this part of it may be left. Until then what was measured
+/// stands: nothing can have closed it.
 const FRESH: f64 = 0.25;
 /// Below this gap in mm the inside of an edge is looked after.
 const EDGE_REACH: f64 = 0.05;
@@ -249,11 +249,7 @@ impl Contacts {
     fn look_at_node(&mut self, p: DVec3, i: usize, wall: &Wall) -> f64 {
         let (radius, known) = (self.radius, &mut self.clearances[i]);
         let contacts = &mut self.nodes[i];
-        if known.at_least(p) - radius > FRESH * (known.distance - radius) {
-            return known.at_least(p);
-        }
-        if known.hint != u32::MAX && known.at_least(p) >= radius + REACH {
-            *contacts = [Contact::NONE; FACETS];
+        if stands(known.distance - radius, known.at_least(p) - radius, REACH) {
             return known.at_least(p);
         }
         let Some(foot) = wall.index().foot(p, f64::INFINITY, known.hint) else { return f64::INFINITY };
@@ -295,7 +291,7 @@ impl Contacts {
     fn look_at_edge(&mut self, rod: &Rod, i: usize, wall: &Wall) -> f64 {
         let (a, b) = (rod.positions[i], rod.positions[i + 1]);
         let known = &self.insides[i];
-        if known.at_least(a, b) - self.radius > FRESH * (known.distance - self.radius) {
+        if stands(known.distance - self.radius, known.at_least(a, b) - self.radius, EDGE_REACH) {
             return known.at_least(a, b);
         }
         let (near_a, near_b) = (self.clearances[i].at_least(a), self.clearances[i + 1].at_least(b));
@@ -486,6 +482,12 @@ impl Contacts {
     pub fn pressing(&self) -> impl Iterator<Item = (usize, &Contact)> {
         self.near().filter(|(_, contact)| contact.force > 0.0)
     }
+}
+
+/// Whether a gap of `gap` mm need not be measured anew while at least `left` mm of it are left: what is looked after from
+/// `reach` on has been found.
+fn stands(gap: f64, left: f64, reach: f64) -> bool {
+    left > if gap < reach { FRESH * gap } else { reach }
 }
 
 /// How near to a segment of this length something can be that is at least `a` from its one end and `b` from the other.
