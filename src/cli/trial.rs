@@ -145,7 +145,7 @@ impl Trial {
         }
         wire.check().unwrap_or_else(|error| misuse(error));
         let entry = self.entry.map(|at| Entry { at, direction: self.direction.unwrap_or([0.0; 3]) });
-        Setup { wire, entry, target: self.target, seed: self.seed }
+        Setup { wire, entry, target: self.target, load: [0.0; 3], seed: self.seed }
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::contact::Contacts;
+use super::descent::{Spring, descend};
 use super::rod::{Hessian, Rod};
 use super::wall::Wall;
 
@@ -36,6 +37,8 @@ const STILL: f64 = 0.005;
 /// What a contact's force can rise by while the rod is braked, in N: the rest is what the brake does.
 const BRAKED_RISE: f64 = 0.005;
 
+/// x
+pub static DBG: std::sync::LazyLock<bool> = std::sync::LazyLock::new(|| std::env::var_os("DBG").is_some());
 /// What came of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
@@ -54,8 +57,6 @@ pub enum Stepped {
 struct Known {
     /// The potential, if it is known.
     potential: Option<f64>,
-    /// Whether the last one overshot.
-    is_careful: bool,
     /// The one that has been positive definite so far.
     hessian: Hessian,
 }
@@ -70,6 +71,7 @@ pub struct Body {
     /// How far it reaches into the wall, in mm; negative when it is clear.
     pub depth: f64,
     wall: Option<Arc<Wall>>,
+    springs: Vec<Spring>,
     /// Drag of each node beyond its own in the last step, in N s/mm.
     brake: f64,
     /// Whether nothing moved much in the last step: then waiting has no end, and what is held goes on.
@@ -86,6 +88,7 @@ impl Body {
             contacts: Contacts::new(radius, friction),
             depth: f64::NEG_INFINITY,
             wall,
+            springs: Vec::new(),
             brake: 0.0,
             is_still: false,
             is_stuck: false,
@@ -108,6 +111,7 @@ impl Body {
     /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is held where it
     /// should be at the end of the step; while something snaps it may have to wait where it is.
     pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
+        if *DBG { eprintln!(); }
         let friction = self.contacts.friction;
         if self.is_stuck {
             // There was no way: what friction and forces have wound up comes loose.
@@ -168,7 +172,7 @@ impl Body {
         for _ in 0..ROUNDS {
             self.contacts.set_grip();
             let (mut moved, mut known) =
-                (f64::INFINITY, Known { potential: None, is_careful: false, hessian: Hessian::Pressed });
+                (f64::INFINITY, Known { potential: None, hessian: Hessian::Pressed });
             for _ in 0..CORRECTIONS {
                 moved = self.correct(dt, brake, &mut known);
                 if moved < SETTLED {
@@ -180,6 +184,7 @@ impl Body {
             }
             self.contacts.balance(&self.rod);
             self.look(count);
+            if *DBG { eprint!(" | {:.1}", 100.0 * self.depth / radius); }
             if moved < ALMOST && self.depth <= DEPTH * radius {
                 return true;
             }
@@ -213,9 +218,9 @@ impl Body {
         let before = known.potential.unwrap_or_else(|| self.potential(dt, brake));
         let (moved, slope) = loop {
             self.rod.assemble(dt, brake, known.hessian);
-            self.contacts.apply(&mut self.rod, known.is_careful);
-            match self.rod.solve(known.hessian) {
-                Some(solved) => break solved,
+            self.contacts.along(&self.rod, &mut self.springs);
+            match descend(&mut self.rod, &mut self.springs, known.hessian) {
+                Some(found) => break found,
                 None => known.hessian = Hessian::Safe,
             }
         };
@@ -228,7 +233,8 @@ impl Body {
             let after = self.potential(dt, brake);
             // What rounding leaves of the potential is no reason to stop.
             if moved * part < SETTLED || after <= before + FALL * part * slope + 1e-12 * before.abs() {
-                (known.potential, known.is_careful) = (Some(after), part < 1.0);
+                known.potential = Some(after);
+                if *DBG { eprint!(" {:.1e}{}", moved * part, if part < 1.0 { format!("/{part}") } else { String::new() }); }
                 return moved * part;
             }
             part /= 4.0;

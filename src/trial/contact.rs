@@ -18,6 +18,7 @@
 
 use glam::DVec3;
 
+use super::descent::Spring;
 use super::rod::Rod;
 use super::wall::Wall;
 use crate::mesh::{PointFoot, SegmentFoot};
@@ -25,9 +26,9 @@ use crate::mesh::{PointFoot, SegmentFoot};
 /// Stiffness of a contact in N/mm: how much its force changes before the next step corrects the gap. A wire gives way
 /// across itself by 0.01 to 10 N/mm; the farther above that this is, the more corrections overshoot, and what they leave
 /// unsettled is felt as force (`tests/validation/balance.rs`).
-const STIFFNESS: f64 = 4.0;
+pub(super) const STIFFNESS: f64 = 4.0;
 /// Stiffness of what sticks, in N/mm.
-const GRIP: f64 = 4.0;
+pub(super) const GRIP: f64 = 4.0;
 /// A gap of less than this, in mm, is looked after in the step from its beginning; others once they have closed.
 const REACH: f64 = 0.1;
 /// A gap that is looked after is measured anew once less than this part of it may be left. Until then what was measured
@@ -165,8 +166,12 @@ impl Contact {
 
     /// The normal force in the step, as the rod is now.
     fn pressure(&self, rod: &Rod, node: usize) -> f64 {
-        let gap = self.gap + self.normal.dot(self.place(rod, node) - self.at);
-        (self.force - STIFFNESS * gap).max(0.0)
+        (self.force - STIFFNESS * self.gap_now(rod, node)).max(0.0)
+    }
+
+    /// The gap as the rod is now, if the wall is flat there.
+    fn gap_now(&self, rod: &Rod, node: usize) -> f64 {
+        self.gap + self.normal.dot(self.place(rod, node) - self.at)
     }
 
     /// How far what sticks would be stretched now, and the direction in which the wire's surface goes when it rolls.
@@ -337,7 +342,7 @@ impl Contacts {
     }
 
     /// Every contact that takes part in the step, with the node at which its edge begins.
-    fn near(&self) -> impl Iterator<Item = (usize, &Contact)> {
+    pub fn near(&self) -> impl Iterator<Item = (usize, &Contact)> {
         let contact = |place: &Place| match *place {
             Place::Node(i, k) => (i, &self.nodes[i][k]),
             Place::Edge(i, k) => (i, &self.edges[i][k]),
@@ -405,35 +410,25 @@ impl Contacts {
         self.near().map(|(node, contact)| contact.potential(rod, node, self.radius)).sum()
     }
 
-    /// Adds the springs of all contacts to the rod's equations; `is_careful` with secants of sliding friction.
-    pub fn apply(&self, rod: &mut Rod, is_careful: bool) {
-        for (node, contact) in self.near() {
+    /// The contacts as they are along a straight change of the rod from where it is now.
+    pub fn along(&self, rod: &Rod, springs: &mut Vec<Spring>) {
+        springs.clear();
+        springs.extend(self.near().map(|(node, contact)| {
             let (a, b) = (1.0 - contact.along, contact.along);
             let spread = |v: DVec3, angle: f64| [v.x * a, v.y * a, v.z * a, angle, v.x * b, v.y * b, v.z * b];
-            let normal = contact.smooth;
-            let force = contact.pressure(rod, node);
-            if force > 0.0 {
-                rod.add_spring(node, &spread(contact.normal, 0.0), -force, STIFFNESS);
-            }
-            if contact.grip <= 0.0 {
-                continue;
-            }
             let (stretch, roll) = contact.trial(rod, node, self.radius);
-            let length = stretch.length();
-            let is_sliding = length * GRIP > contact.grip;
-            let along = if is_sliding { stretch / length } else { normal.any_orthonormal_vector() };
-            let across = normal.cross(along);
-            // Sliding friction does not change along its way. Where that lets the corrections overshoot, the secant is a
-            // stiffness that never does.
-            let [stiff_along, stiff_across] = match (is_sliding, is_careful) {
-                (false, _) => [GRIP; 2],
-                (true, true) => [contact.grip / length; 2],
-                (true, false) => [0.0, contact.grip / length],
-            };
-            let force = if is_sliding { contact.grip } else { GRIP * stretch.dot(along) };
-            rod.add_spring(node, &spread(along, along.dot(roll)), force, stiff_along);
-            rod.add_spring(node, &spread(across, across.dot(roll)), stiff_across * stretch.dot(across), stiff_across);
-        }
+            let first = contact.smooth.any_orthonormal_vector();
+            let sides = [first, contact.smooth.cross(first)];
+            Spring {
+                node,
+                normal: spread(contact.normal, 0.0),
+                sides: sides.map(|side| spread(side, side.dot(roll))),
+                force: contact.force - STIFFNESS * contact.gap_now(rod, node),
+                stretch: sides.map(|side| side.dot(stretch)),
+                grip: contact.grip.max(0.0),
+                ..Spring::default()
+            }
+        }));
     }
 
     /// Lets go of all forces: the next step finds them anew.

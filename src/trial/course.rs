@@ -92,6 +92,13 @@ impl Course {
     /// # Errors
     /// When it does not fit there.
     pub fn place(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
+        let (mut simulation, friction) = self.enter(setup)?;
+        simulation.set_load(DVec3::from(setup.load.map(f64::from)))?;
+        Ok((simulation, friction))
+    }
+
+    /// The same without its load.
+    fn enter(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
         let entry = setup.entry.ok_or(TrialError::NoEntry)?;
         let is_inside = |entry: &Entry| self.tree.is_inside(Vec3::from(entry.at));
         if !is_inside(&entry) {

@@ -14,6 +14,7 @@ pub mod autopilot;
 pub mod body;
 pub mod compare;
 pub mod contact;
+pub mod descent;
 pub mod course;
 pub mod frame;
 pub mod log;

@@ -22,6 +22,9 @@ pub struct Setup {
     pub entry: Option<Entry>,
     /// Where it should go, a point in or near the lumen, in mm; `None` for what the route proposes.
     pub target: Option<[f32; 3]>,
+    /// Load on each mm of the wire outside its guide, in N: its weight, or what flowing blood does to it.
+    #[serde(default)]
+    pub load: [f32; 3],
     /// Varies the entry by 0.5 mm and 2 degrees, the roll, and friction by 20 %. 0 varies nothing.
     pub seed: u64,
 }

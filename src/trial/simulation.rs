@@ -20,6 +20,9 @@ use super::wire::{Wire, WireError};
 const FIRST: usize = 2;
 /// The least part of an element that a cell has: what is still inside the guide hardly bends.
 const LEAST_CELL: f64 = 0.02;
+/// The largest load in N/mm.
+const MOST_LOAD: f64 = 0.1;
+
 /// Why a wire cannot be put where it should be.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PlacementError {
@@ -39,6 +42,9 @@ pub enum PlacementError {
     /// The direction of the entry is no direction.
     #[error("the entry has no direction")]
     Direction,
+    /// The load is no load, or more than a wire can bear.
+    #[error("a load of {0} N on each mm of the wire is not possible: {MOST_LOAD} is the most")]
+    Load(f64),
     /// It is not in the vessel.
     #[error("the entry is not inside the vessel")]
     Outside,
@@ -51,6 +57,8 @@ pub struct Simulation {
     /// Place of each node in the material, in mm from the tip.
     grid: Vec<f64>,
     sections: Vec<Section>,
+    /// On each mm outside the guide, in N.
+    load: DVec3,
     mouth: DVec3,
     /// Into the vessel.
     way: DVec3,
@@ -106,6 +114,7 @@ impl Simulation {
             body: Body::new(rod, wire.radius(), friction, wall),
             grid,
             sections,
+            load: DVec3::ZERO,
             mouth,
             way,
             inserted,
@@ -119,6 +128,20 @@ impl Simulation {
         simulation.place();
         simulation.body.look(simulation.outside());
         Ok(simulation)
+    }
+
+    /// Puts a load on each mm outside the guide, in N.
+    ///
+    /// # Errors
+    /// When it is more than 0.1 N, or no number.
+    pub fn set_load(&mut self, load: DVec3) -> Result<(), PlacementError> {
+        let most = load.length();
+        if most.is_nan() || most > MOST_LOAD {
+            return Err(PlacementError::Load(most));
+        }
+        self.load = load;
+        self.place();
+        Ok(())
     }
 
     /// The first node inside the guide.
@@ -140,6 +163,10 @@ impl Simulation {
             let part = ((to.min(inserted) - from) / (to - from)).max(LEAST_CELL);
             rod.sections[i].cell = part * (to - from);
             rod.sections[i].rest = self.sections[i].rest.map(|rest| rest * part);
+        }
+        rod.forces.clear();
+        if self.load != DVec3::ZERO {
+            rod.forces.extend((0..first).map(|i| (i, self.load * rod.sections[i].cell)));
         }
     }
 

@@ -52,10 +52,13 @@ pub(crate) fn settle_by(part: f64, rod: &mut Rod, load: impl Fn(&mut Rod), suppo
         rod.assemble(f64::INFINITY, 0.0, Hessian::Safe);
         support(rod);
         let before: Vec<f64> = (0..rod.len() - 1).map(|edge| rod.spin(edge)).collect();
-        let (moved, _) = rod.solve(Hessian::Safe).expect("a safe Hessian");
+        rod.begin_change();
+        rod.begin_way();
+        let way = rod.solve(Hessian::Safe).expect("a safe Hessian");
+        rod.go(way.part, std::iter::empty());
         rod.advance(part);
         let spun = before.iter().enumerate().map(|(edge, before)| (rod.spin(edge) - before).abs()).fold(0.0, f64::max);
-        let change = moved.max(spun);
+        let change = way.moved.max(spun);
         since = if change < least { 0 } else { since + 1 };
         least = least.min(change);
         if change < 1e-10 || (least < 1e-7 && since > 200) {

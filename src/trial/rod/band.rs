@@ -8,12 +8,13 @@ pub(super) const HALF: usize = 10;
 /// there.
 pub(super) const PER_NODE: usize = 4;
 
-/// A row from its diagonal on; one lane more, so that rows are a whole number of vectors.
-type Row = [f64; HALF + 2];
+/// A row from its diagonal on; one lane more, always 0, so that rows are a whole number of vectors.
+pub(super) type Row = [f64; HALF + 2];
 
 /// The upper half of a band matrix.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Band {
+    /// Those of the matrix, and `HALF` of zeros, so that each has as many below it.
     rows: Vec<Row>,
 }
 
@@ -21,7 +22,7 @@ impl Band {
     /// Makes all of it 0, with this many rows.
     pub(super) fn reset(&mut self, rows: usize) {
         self.rows.clear();
-        self.rows.resize(rows, [0.0; HALF + 2]);
+        self.rows.resize(rows + HALF, [0.0; HALF + 2]);
     }
 
     /// Adds to one entry; `row <= column <= row + HALF`.
@@ -41,6 +42,24 @@ impl Band {
         }
     }
 
+    /// Adds the sum of `stiffness g g^T` over three `g` that begin at row `first`; the last lane of each is 0.
+    #[inline]
+    pub(super) fn add_squares(&mut self, first: usize, g: [&Row; 3], stiffness: [f64; 3]) {
+        let pulls: [Row; 3] = std::array::from_fn(|k| g[k].map(|entry| entry * stiffness[k]));
+        let Some([r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10]) = self.rows[first..].first_chunk_mut() else { return };
+        add::<12>(r0, 0, g, &pulls);
+        add::<10>(r1, 1, g, &pulls);
+        add::<10>(r2, 2, g, &pulls);
+        add::<8>(r3, 3, g, &pulls);
+        add::<8>(r4, 4, g, &pulls);
+        add::<6>(r5, 5, g, &pulls);
+        add::<6>(r6, 6, g, &pulls);
+        add::<4>(r7, 7, g, &pulls);
+        add::<4>(r8, 8, g, &pulls);
+        add::<2>(r9, 9, g, &pulls);
+        add::<2>(r10, 10, g, &pulls);
+    }
+
     /// Holds a row to 0 whatever the right-hand side.
     pub(super) fn hold(&mut self, row: usize) {
         for back in 1..=HALF.min(row) {
@@ -50,49 +69,69 @@ impl Band {
         self.rows[row][0] = 1.0;
     }
 
-    /// Factors the matrix in place. A pivot that is not positive, which only rounding can make, is replaced by a tiny
-    /// one of its row. Returns whether there was none.
-    pub(super) fn factor(&mut self) -> bool {
+    /// Factors the matrix in place and solves for a right-hand side. A pivot that is not positive, which only rounding can
+    /// make, is replaced by a tiny one of its row. Returns whether there was none.
+    pub(super) fn solve(&mut self, x: &mut Vec<f64>) -> bool {
+        let n = x.len();
+        x.resize(n + HALF, 0.0);
         let mut is_definite = true;
-        for i in 0..self.rows.len() {
-            let (done, rest) = self.rows.split_at_mut(i + 1);
-            let pivot_row = &mut done[i];
-            if pivot_row[0] <= f64::MIN_POSITIVE {
-                is_definite = false;
-                pivot_row[0] = pivot_row.iter().fold(1e-12, |most, entry| f64::max(most, entry.abs()));
-            }
-            let inverse = 1.0 / pivot_row[0];
-            let pivot_row = *pivot_row;
-            for (r, row) in rest.iter_mut().enumerate().take(HALF) {
-                let part = pivot_row[r + 1] * inverse;
-                if part == 0.0 {
-                    continue;
-                }
-                for (entry, &above) in row.iter_mut().zip(&pivot_row[r + 1..=HALF]) {
-                    *entry -= part * above;
-                }
-            }
-            // From here on the row is that of L^T, but for the diagonal, which stays D.
-            for entry in &mut done[i][1..] {
-                *entry *= inverse;
-            }
-        }
-        is_definite
-    }
-
-    /// Solves for a right-hand side, in place; after [`Self::factor`].
-    pub(super) fn solve(&self, x: &mut [f64]) {
-        let n = self.rows.len();
         for i in 0..n {
-            let value = x[i];
-            for (entry, &part) in x[i + 1..].iter_mut().zip(&self.rows[i][1..=HALF]) {
-                *entry -= part * value;
+            let (Some((row, below)), Some((&mut value, rest))) = (self.rows[i..].split_first_mut(), x[i..].split_first_mut())
+            else {
+                break;
+            };
+            if row[0] <= f64::MIN_POSITIVE {
+                is_definite = false;
+                row[0] = row.iter().fold(1e-12, |most, entry| f64::max(most, entry.abs()));
             }
-            x[i] = value / self.rows[i][0];
+            let above = *row;
+            let inverse = 1.0 / above[0];
+            // From here on the row is that of L^T.
+            *row = above.map(|entry| entry * inverse);
+            if let Some([r1, r2, r3, r4, r5, r6, r7, r8, r9, r10]) = below.first_chunk_mut() {
+                subtract::<10>(r1, &above[1..], row[1]);
+                subtract::<10>(r2, &above[2..], row[2]);
+                subtract::<8>(r3, &above[3..], row[3]);
+                subtract::<8>(r4, &above[4..], row[4]);
+                subtract::<6>(r5, &above[5..], row[5]);
+                subtract::<6>(r6, &above[6..], row[6]);
+                subtract::<4>(r7, &above[7..], row[7]);
+                subtract::<4>(r8, &above[8..], row[8]);
+                subtract::<2>(r9, &above[9..], row[9]);
+                subtract::<2>(r10, &above[10..], row[10]);
+            }
+            subtract::<HALF>(rest, &row[1..], value);
+            x[i] = value * inverse;
         }
         for i in (0..n).rev() {
-            let sum: f64 = x[i + 1..].iter().zip(&self.rows[i][1..=HALF]).map(|(&x, &part)| part * x).sum();
-            x[i] -= sum;
+            let (row, Some(x)) = (&self.rows[i], x[i..].first_chunk_mut::<{ HALF + 1 }>()) else { break };
+            // The entries that were found last come last, so that one row need not wait for the other.
+            let mut sums = [0.0; 2];
+            for k in (3..HALF).step_by(2) {
+                sums[0] += row[k] * x[k];
+                sums[1] += row[k + 1] * x[k + 1];
+            }
+            x[0] = (x[0] - (sums[0] + sums[1]) - row[2] * x[2]) - row[1] * x[1];
+        }
+        x.truncate(n);
+        is_definite
+    }
+}
+
+/// Adds the row from its diagonal on, which is entry `i`, of a sum of products, in as many lanes as it has.
+#[inline(always)]
+fn add<const LANES: usize>(row: &mut Row, i: usize, g: [&Row; 3], pulls: &[Row; 3]) {
+    for k in 0..LANES {
+        row[k] += pulls[0][i] * g[0][i + k] + pulls[1][i] * g[1][i + k] + pulls[2][i] * g[2][i + k];
+    }
+}
+
+/// `row -= part above`, in this many lanes: a number that the compiler knows.
+#[inline(always)]
+fn subtract<const LANES: usize>(row: &mut [f64], above: &[f64], part: f64) {
+    if let (Some(row), Some(above)) = (row.first_chunk_mut::<LANES>(), above.first_chunk::<LANES>()) {
+        for (entry, above) in row.iter_mut().zip(above) {
+            *entry -= part * above;
         }
     }
 }
@@ -124,8 +163,7 @@ mod tests {
         };
         let expected: Vec<f64> = (0..n).map(|i| if i == 5 { 0.0 } else { random() }).collect();
         let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| full(&band, i, j) * expected[j]).sum()).collect();
-        assert!(band.factor());
-        band.solve(&mut x);
+        assert!(band.solve(&mut x));
         for (i, (x, expected)) in x.iter().zip(&expected).enumerate() {
             assert!((x - expected).abs() < 1e-9, "{i}: {x} for {expected}");
         }

@@ -23,7 +23,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use self::band::{Band, HALF, PER_NODE};
+use self::band::{Band, PER_NODE, Row};
 
 /// Numbers of a node, its cell and the edge that begins there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,6 +87,17 @@ pub enum Hessian {
     Pressed,
 }
 
+/// A way on, as [`Rod::solve`] finds it.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// The part of it that is gone at most, as it may be long.
+    pub part: f64,
+    /// The largest move of a node in all of it, in mm; infinite when there is no answer.
+    pub moved: f64,
+    /// The slope of the potential along it, in N mm.
+    pub slope: f64,
+}
+
 /// A rod, at rest or on its way through a time step.
 #[derive(Clone, Debug, Default)]
 pub struct Rod {
@@ -117,6 +128,11 @@ pub struct Rod {
     strains: Vec<Strain>,
     gradient: Vec<f64>,
     band: Band,
+    /// The equations without springs, and the gradient without them at the change so far.
+    model: Band,
+    residual: Vec<f64>,
+    /// The way that was found last, and the change that has come of ways so far.
+    way: Vec<f64>,
     change: Vec<f64>,
     /// Positions and spins from which the change leads on.
     base: (Vec<DVec3>, Vec<f64>),
@@ -398,11 +414,11 @@ impl Rod {
         let k2_b = (a.tangent.cross(m1) - middle * k2) * lb;
         let twist_a = binormal * (0.5 * la);
         let twist_b = binormal * (0.5 * lb);
-        let spread = |from_a: DVec3, angle_a: f64, from_b: DVec3, angle_b: f64| -> [f64; HALF + 1] {
+        let spread = |from_a: DVec3, angle_a: f64, from_b: DVec3, angle_b: f64| -> Row {
             let middle = from_a - from_b;
             [
                 -from_a.x, -from_a.y, -from_a.z, angle_a, middle.x, middle.y, middle.z, angle_b, from_b.x, from_b.y,
-                from_b.z,
+                from_b.z, 0.0,
             ]
         };
         // By the angles: exact in the gradient, which has only what the rest shape does. In the Hessian it is the rest
@@ -413,7 +429,7 @@ impl Rod {
         ];
         let parts = [(k1_a, k1_b, turned[0], 0.5 * rest[1], rest[0]), (k2_a, k2_b, turned[1], -0.5 * rest[0], rest[1])];
         let first = (i - 1) * PER_NODE;
-        let mut add = |g: &[f64; HALF + 1], force: f64| {
+        let mut add = |g: &Row, force: f64| {
             for (entry, g) in self.gradient[first..].iter_mut().zip(g) {
                 *entry += force * g;
             }
@@ -425,15 +441,15 @@ impl Rod {
         let bent_a = (b.tangent - a.tangent * cosine) * (by_cosine * la);
         let bent_b = (a.tangent - b.tangent * cosine) * (by_cosine * lb);
         add(&spread(bent_a, 0.0, bent_b, 0.0), stiffness);
-        for (by_a, by_b, [angle_a, angle_b], angle, rest) in parts {
+        for (by_a, by_b, [angle_a, angle_b], _, rest) in parts {
             if rest != 0.0 {
                 add(&spread(by_a, angle_a, by_b, angle_b), -stiffness * rest);
             }
-            self.band.add_square(first, &spread(by_a, angle, by_b, angle), stiffness);
         }
+        let [by_towards, by_across] = parts.map(|(by_a, by_b, _, angle, _)| spread(by_a, angle, by_b, angle));
         let by_twist = spread(twist_a, -1.0, twist_b, 1.0);
         add(&by_twist, gj / cell * twist);
-        self.band.add_square(first, &by_twist, gj / cell);
+        self.band.add_squares(first, [&by_towards, &by_across, &by_twist], [stiffness, stiffness, gj / cell]);
     }
 
     /// Adds a spring to the equations: `pull` is its derivative by positions and angle of node `node` and by the position
@@ -471,38 +487,77 @@ impl Rod {
         self.energy() + (0..self.len()).map(motion).sum::<f64>() - pulled - turned
     }
 
-    /// Solves the equations for a change of positions and angles, for [`Self::advance`]. Returns the largest move of a node
-    /// in mm and the slope of the potential along the change; an infinite move when there is no answer. `None` when the
-    /// matrix is not positive definite, as that of [`Hessian::Pressed`] may be.
-    pub fn solve(&mut self, hessian: Hessian) -> Option<(f64, f64)> {
+    /// Makes what was assembled the model in which a change is sought, which begins at none.
+    pub fn begin_change(&mut self) {
+        std::mem::swap(&mut self.model, &mut self.band);
+        self.residual.clone_from(&self.gradient);
         self.change.clear();
-        self.change.extend(self.gradient.iter().map(|g| -g));
+        self.change.resize(self.gradient.len(), 0.0);
+        self.base.0.clone_from(&self.positions);
+        self.base.1.clone_from(&self.spins);
+    }
+
+    /// Sets up the model's equations at the change so far, for springs to be added.
+    pub fn begin_way(&mut self) {
+        self.band.clone_from(&self.model);
+        self.gradient.clone_from(&self.residual);
+    }
+
+    /// Solves the equations for the way on from the change so far. Returns the part of it that is gone at most, as it may
+    /// be long, the largest move of a node in it in mm, and the slope of the potential along it; an infinite move when
+    /// there is no answer. `None` when the matrix is not positive definite, as that of [`Hessian::Pressed`] may be.
+    pub fn solve(&mut self, hessian: Hessian) -> Option<Way> {
+        self.way.clear();
+        self.way.extend(self.gradient.iter().map(|g| -g));
         for (i, held) in self.held.iter().enumerate() {
             let axes: Range<usize> = if held.position { 0..3 } else { 0..0 };
             for row in axes.chain(held.angle.then_some(3)) {
                 self.band.hold(i * PER_NODE + row);
-                self.change[i * PER_NODE + row] = 0.0;
+                self.way[i * PER_NODE + row] = 0.0;
             }
         }
-        if !self.band.factor() && hessian == Hessian::Pressed {
+        if !self.band.solve(&mut self.way) && hessian == Hessian::Pressed {
             return None;
         }
-        self.band.solve(&mut self.change);
         let mut largest = 0.0f64;
-        let mut scale = 1.0f64;
-        for change in self.change.chunks_exact(PER_NODE) {
-            let (way, spin) = (DVec3::from_slice(change).length(), change[3].abs());
-            if !(way.is_finite() && spin.is_finite()) {
-                return Some((f64::INFINITY, 0.0));
+        let mut part = 1.0f64;
+        for way in self.way.chunks_exact(PER_NODE) {
+            let (moved, spin) = (DVec3::from_slice(way).length(), way[3].abs());
+            if !(moved.is_finite() && spin.is_finite()) {
+                return Some(Way { part: 0.0, moved: f64::INFINITY, slope: 0.0 });
             }
-            largest = largest.max(way);
-            scale = scale.min(MOST_WAY / way.max(MOST_WAY)).min(MOST_SPIN / spin.max(MOST_SPIN));
+            largest = largest.max(moved);
+            part = part.min(MOST_WAY / moved.max(MOST_WAY)).min(MOST_SPIN / spin.max(MOST_SPIN));
         }
-        self.change.iter_mut().for_each(|change| *change *= scale);
-        self.base.0.clone_from(&self.positions);
-        self.base.1.clone_from(&self.spins);
-        let slope = self.change.iter().zip(&self.gradient).map(|(change, gradient)| change * gradient).sum();
-        Some((largest, slope))
+        let slope = self.way.iter().zip(&self.gradient).map(|(way, gradient)| way * gradient).sum();
+        Some(Way { part, moved: largest, slope })
+    }
+
+    /// The way of a node, of the angle of the edge that begins there, and of the next node.
+    pub fn way(&self, node: usize) -> &[f64; 7] {
+        self.way[node * PER_NODE..].first_chunk().unwrap_or(&[0.0; 7])
+    }
+
+    /// Goes this part of the way in the model. `pulls` are the springs that were added for it: node, derivative, and by
+    /// what each has changed its force on the whole way.
+    pub fn go(&mut self, part: f64, springs: impl Iterator<Item = (usize, [f64; 7], f64)>) {
+        for (change, way) in self.change.iter_mut().zip(&self.way) {
+            *change += part * way;
+        }
+        // On the whole way the model with its springs comes to rest.
+        for (residual, gradient) in self.residual.iter_mut().zip(&self.gradient) {
+            *residual -= part * gradient;
+        }
+        for (node, pull, force) in springs {
+            for (residual, pull) in self.residual[node * PER_NODE..].iter_mut().zip(&pull) {
+                *residual -= part * force * pull;
+            }
+        }
+    }
+
+    /// The largest move of a node in the change, in mm.
+    pub fn largest_move(&self) -> f64 {
+        self.change.chunks_exact(PER_NODE).map(|change| DVec3::from_slice(change).length()).fold(0.0, f64::max)
     }
 
     /// Goes this part of the change that was found last.

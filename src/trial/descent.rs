@@ -1,0 +1,187 @@
+//! The way down in a step: the change of the rod at which the quadratic model of its energy, and contacts and friction as
+//! they are along it, come to rest.
+//!
+//! Elastic energy is nearly quadratic over a step, and contacts are anything but: most of what a step must find out is
+//! which contacts press and which stick. So a correction solves the whole problem with contacts in it, for the one
+//! model, before it looks at the rod again: a convex piecewise quadratic problem, by Newton's method with an exact
+//! search along each way (the augmented Lagrangian's inner problem; Nocedal and Wright, "Numerical optimization",
+//! sections 16 and 17). A way costs one factorisation; nothing of the rod is worked out anew.
+
+use super::contact::{GRIP, STIFFNESS};
+use super::rod::{Hessian, Rod};
+
+/// Ways in a correction.
+const WAYS: usize = 8;
+/// What may be left of the slope at the end of a way.
+const LEVEL: f64 = 0.1;
+/// Looks at a way for where it is level.
+const LOOKS: usize = 12;
+
+/// A contact and its friction along a straight change of the rod.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spring {
+    /// The node at which its edge begins.
+    pub node: usize,
+    /// Derivative of the gap by the node, its angle and the next node.
+    pub normal: [f64; 7],
+    /// Derivatives of what sticks is stretched by, in two directions.
+    pub sides: [[f64; 7]; 2],
+    /// What presses, in N; open where it is less than 0.
+    pub force: f64,
+    /// How far what sticks is stretched, in mm.
+    pub stretch: [f64; 2],
+    /// What friction can give, in N.
+    pub grip: f64,
+    /// By what force and stretch change on the whole way.
+    pub change: (f64, [f64; 2]),
+    /// Stiffness that the way was found with: of the normal, and across.
+    pub stiffness: (f64, [[f64; 2]; 2]),
+}
+
+fn dot(a: &[f64; 7], b: &[f64; 7]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl Spring {
+    fn length(stretch: [f64; 2]) -> f64 {
+        (stretch[0] * stretch[0] + stretch[1] * stretch[1]).sqrt()
+    }
+
+    /// Adds it to the equations of the way on.
+    fn add(&mut self, rod: &mut Rod) {
+        self.stiffness = (0.0, [[0.0; 2]; 2]);
+        if self.force > 0.0 {
+            self.stiffness.0 = STIFFNESS;
+            rod.add_spring(self.node, &self.normal, -self.force, STIFFNESS);
+        }
+        if self.grip <= 0.0 {
+            return;
+        }
+        let length = Self::length(self.stretch);
+        if length * GRIP <= self.grip {
+            self.stiffness.1 = [[GRIP, 0.0], [0.0, GRIP]];
+            for (side, stretch) in self.sides.iter().zip(self.stretch) {
+                rod.add_spring(self.node, side, GRIP * stretch, GRIP);
+            }
+            return;
+        }
+        // Sliding friction does not change along its way.
+        let [x, y] = self.stretch.map(|stretch| stretch / length);
+        let stiff = self.grip / length;
+        self.stiffness.1 = [[stiff * y * y, -stiff * x * y], [-stiff * x * y, stiff * x * x]];
+        let mix = |a: f64, b: f64| std::array::from_fn(|i| a * self.sides[0][i] + b * self.sides[1][i]);
+        rod.add_spring(self.node, &mix(x, y), self.grip, 0.0);
+        rod.add_spring(self.node, &mix(-y, x), 0.0, stiff);
+    }
+
+    /// Notes how it changes on the way that was found.
+    fn look_ahead(&mut self, rod: &Rod) {
+        let way = rod.way(self.node);
+        self.change = (-STIFFNESS * dot(&self.normal, way), [dot(&self.sides[0], way), dot(&self.sides[1], way)]);
+    }
+
+    /// The slope of its energy by the part of the way, at a part.
+    fn slope(&self, part: f64) -> f64 {
+        let (change, [dx, dy]) = self.change;
+        let pressed = (self.force + part * change).max(0.0) * change / STIFFNESS;
+        if self.grip <= 0.0 {
+            return pressed;
+        }
+        let [x, y] = [self.stretch[0] + part * dx, self.stretch[1] + part * dy];
+        let length = Self::length([x, y]);
+        let pull = if length * GRIP <= self.grip { GRIP } else { self.grip / length };
+        pressed + pull * (x * dx + y * dy)
+    }
+
+    /// What the springs that were added for the way change by on it: node, derivative, force.
+    fn changed(&self) -> impl Iterator<Item = (usize, [f64; 7], f64)> {
+        let (change, [dx, dy]) = self.change;
+        let (normal, [[xx, xy], [yx, yy]]) = self.stiffness;
+        let by = [xx * dx + xy * dy, yx * dx + yy * dy];
+        let pressed = (normal > 0.0).then_some((self.node, self.normal, -change));
+        let held = (self.grip > 0.0)
+            .then(|| (0..2).map(move |i| (self.node, self.sides[i], by[i])))
+            .into_iter()
+            .flatten();
+        pressed.into_iter().chain(held)
+    }
+
+    /// Goes a part of the way. Returns whether it opened, closed, stuck or slid there.
+    fn go(&mut self, part: f64) -> bool {
+        let state = |spring: &Self| (spring.force > 0.0, Self::length(spring.stretch) * GRIP <= spring.grip);
+        let before = state(self);
+        let (force, stretch) = self.change;
+        self.force += part * force;
+        for (stretch, change) in self.stretch.iter_mut().zip(stretch) {
+            *stretch += part * change;
+        }
+        state(self) != before
+    }
+}
+
+/// Finds the change of an assembled rod, for [`Rod::advance`]. Returns the largest move of a node in it, in mm, and at
+/// most by what the potential should fall, as a negative number of N mm; an infinite move when there is no answer.
+/// `None` when the matrix is not positive definite.
+pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Option<(f64, f64)> {
+    rod.begin_change();
+    let mut fall = 0.0;
+    for _ in 0..WAYS {
+        rod.begin_way();
+        springs.iter_mut().for_each(|spring| spring.add(rod));
+        let way = rod.solve(hessian)?;
+        if !way.moved.is_finite() {
+            return Some((way.moved, 0.0));
+        }
+        springs.iter_mut().for_each(|spring| spring.look_ahead(rod));
+        // Of the rod alone: its slope where the way begins, and by what that changes on the whole of it.
+        let springs_at = |part: f64| springs.iter().map(|spring| spring.slope(part)).sum::<f64>();
+        let first = way.slope - springs_at(0.0);
+        let added: f64 = springs.iter().map(|spring| added(spring)).sum();
+        let rise = -way.slope - added;
+        let part = level(way.part, |part| first + part * rise + springs_at(part));
+        fall += part * way.slope;
+        rod.go(part, springs.iter().flat_map(Spring::changed));
+        let mut is_settled = part >= 1.0;
+        for spring in springs.iter_mut() {
+            is_settled &= !spring.go(part);
+        }
+        if *super::body::DBG { eprint!("{}", if part == 1.0 {"."} else {"-"}); }
+        if is_settled {
+            break;
+        }
+    }
+    Some((rod.largest_move(), fall))
+}
+
+/// By what the slope of the springs that were added for a way would change on it.
+fn added(spring: &Spring) -> f64 {
+    let (change, [dx, dy]) = spring.change;
+    let (normal, [[xx, xy], [yx, yy]]) = spring.stiffness;
+    let pressed = if normal > 0.0 { change * change / STIFFNESS } else { 0.0 };
+    pressed + dx * (xx * dx + xy * dy) + dy * (yx * dx + yy * dy)
+}
+
+/// Where the slope along a way is level, at most at `most`: by the rule of false position, kept from stalling (Illinois).
+fn level(most: f64, slope: impl Fn(f64) -> f64) -> f64 {
+    let (mut from, mut at_from) = (0.0, slope(0.0));
+    let (mut to, mut at_to) = (most, slope(most));
+    let enough = LEVEL * at_from.abs();
+    if at_to <= enough {
+        return most;
+    }
+    for _ in 0..LOOKS {
+        let part = (from * at_to - to * at_from) / (at_to - at_from);
+        let here = slope(part);
+        if here.abs() <= enough {
+            return part;
+        }
+        if here > 0.0 {
+            (to, at_to) = (part, here);
+            at_from /= 2.0;
+        } else {
+            (from, at_from) = (part, here);
+            at_to /= 2.0;
+        }
+    }
+    from
+}
