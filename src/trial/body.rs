@@ -21,7 +21,7 @@ const CORRECTIONS: usize = 8;
 const ROUNDS: usize = 6;
 /// A correction of less than this, in mm, is the last. What is left over is a force of [`super::contact`]'s stiffness
 /// times it in each contact: it must be small against what a floppy wire presses with, or nothing slides as it should.
-const SETTLED: f64 = 1e-5;
+const SETTLED: f64 = 3e-6;
 /// At this, in mm, a step can still be taken as done.
 const ALMOST: f64 = 2e-2;
 /// The brake, which is drag of each node when something snaps: the least, in N s/mm.
@@ -50,15 +50,6 @@ pub enum Stepped {
     Waited,
     /// There was no way: the rod is where it was.
     Held,
-}
-
-/// What one correction tells the next.
-#[derive(Clone, Copy, Debug)]
-struct Known {
-    /// The potential, if it is known.
-    potential: Option<f64>,
-    /// The one that has been positive definite so far.
-    hessian: Hessian,
 }
 
 /// A rod, its contacts, and the wall.
@@ -171,11 +162,13 @@ impl Body {
         }
         for _ in 0..ROUNDS {
             self.contacts.set_grip();
-            let (mut moved, mut known) =
-                (f64::INFINITY, Known { potential: None, hessian: Hessian::Pressed });
+            let (mut moved, mut potential) = (f64::INFINITY, None);
             for _ in 0..CORRECTIONS {
-                moved = self.correct(dt, brake, &mut known);
-                if moved < SETTLED {
+                let before = moved;
+                moved = self.correct(dt, brake, &mut potential);
+                // The next one would be shorter by as much again, at least.
+                let shorter = if before.is_finite() { (moved / before).min(1.0) } else { 1.0 };
+                if moved * shorter < SETTLED {
                     break;
                 }
             }
@@ -212,16 +205,17 @@ impl Body {
         self.rod.potential(dt, brake) + self.contacts.potential(&self.rod)
     }
 
-    /// One step of Newton's method, made shorter until the potential falls. `known` is what the one before has found.
+    /// One step of Newton's method, made shorter until the potential falls. `potential` is what it is now, if that is known.
     /// Returns the largest move of a node in mm.
-    fn correct(&mut self, dt: f64, brake: f64, known: &mut Known) -> f64 {
-        let before = known.potential.unwrap_or_else(|| self.potential(dt, brake));
+    fn correct(&mut self, dt: f64, brake: f64, potential: &mut Option<f64>) -> f64 {
+        let before = potential.unwrap_or_else(|| self.potential(dt, brake));
+        let mut hessian = Hessian::Exact;
         let (moved, slope) = loop {
-            self.rod.assemble(dt, brake, known.hessian);
+            self.rod.assemble(dt, brake, hessian);
             self.contacts.along(&self.rod, &mut self.springs);
-            match descend(&mut self.rod, &mut self.springs, known.hessian) {
+            match descend(&mut self.rod, &mut self.springs, hessian) {
                 Some(found) => break found,
-                None => known.hessian = Hessian::Safe,
+                None => hessian = hessian.safer(),
             }
         };
         if !moved.is_finite() {
@@ -233,8 +227,8 @@ impl Body {
             let after = self.potential(dt, brake);
             // What rounding leaves of the potential is no reason to stop.
             if moved * part < SETTLED || after <= before + FALL * part * slope + 1e-12 * before.abs() {
-                known.potential = Some(after);
-                if *DBG { eprint!(" {:.1e}{}", moved * part, if part < 1.0 { format!("/{part}") } else { String::new() }); }
+                *potential = Some(after);
+                if *DBG { eprint!("{} {:.1e}{}", match hessian { Hessian::Exact => "", Hessian::Pressed => "p", Hessian::Safe => "s" }, moved * part, if part < 1.0 { format!("/{part}") } else { String::new() }); }
                 return moved * part;
             }
             part /= 4.0;

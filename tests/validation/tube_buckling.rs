@@ -17,6 +17,11 @@ const CLEARANCE: f64 = TUBE - RADIUS;
 /// N mm2.
 const EI: f64 = 1.0;
 
+/// By how much the load of a snake grows with the square of the angle to which it goes up the wall, over √(EI w/r): of the
+/// energies of `angle sin(k s)` on a cylinder, bending `EI r² (θ''² + θ'⁴) / 2` and weight `w r (1 - cos θ)`, to the
+/// fourth order, at the wave of the onset, `k⁴ = w / (EI r)`.
+const GROWTH: f64 = 1.375;
+
 /// A little to the side, never the same, so that every way of buckling is begun.
 fn uneven(i: usize) -> f64 {
     let mut state = i as u32 ^ 0x9e37_79b9;
@@ -39,9 +44,9 @@ fn a_pushed_wire_snakes_in_its_tube() {
     // The tip is held, the other end is pushed.
     body.rod.held[0].position = true;
     body.rod.forces.extend((0..count - 2).map(|i| (i, (DVec3::NEG_Y + DVec3::Z * 0.02 * uneven(i)) * load * h)));
-    let mut snaking = Vec::new();
-    for i in 0..1000 {
-        let ends = [count - 2, count - 1].map(|i| (i, body.rod.positions[i] + DVec3::NEG_X * 0.0025));
+    let mut onsets = Vec::new();
+    for i in 0..2000 {
+        let ends = [count - 2, count - 1].map(|i| (i, body.rod.positions[i] + DVec3::NEG_X * 0.00125));
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
         assert_ne!(stepped, Stepped::Held);
         if i % 40 != 39 {
@@ -51,23 +56,22 @@ fn a_pushed_wire_snakes_in_its_tube() {
         rod.assemble_from(count - 5);
         let push = -(count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().x / unit;
         let middle = &body.rod.positions[count / 3..2 * count / 3];
-        let widest = middle.iter().map(|p| p.z.abs() / CLEARANCE).fold(f64::MIN, f64::max);
-        found.point("ours", push, widest);
-        if (0.25..0.5).contains(&widest) {
-            snaking.push((push, widest * widest));
+        let square = 2.0 * middle.iter().map(|p| p.z.atan2(-p.y).powi(2)).sum::<f64>() / middle.len() as f64;
+        found.point("ours", push, square.sqrt());
+        if (0.25..0.5).contains(&square.sqrt()) {
+            onsets.push(push - GROWTH * square);
         }
     }
-    // Beyond its onset the square of the width grows with the load.
-    let count = snaking.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| snaking.iter().map(of).sum::<f64>() / count;
-    let (load_mean, square_mean) = (mean(|p| p.0), mean(|p| p.1));
-    let slope = mean(|p| p.0 * p.1) - load_mean * square_mean;
-    let slope = slope / (mean(|p| p.0 * p.0) - load_mean * load_mean);
-    let onset = load_mean - square_mean / slope;
+    for i in 0..=20 {
+        let angle = 0.03 * f64::from(i);
+        found.point("analytic", 2.0 + GROWTH * angle * angle, angle);
+    }
+    let onset = onsets.iter().sum::<f64>() / onsets.len() as f64;
     found.compare("load at which it snakes over √(EI w/r)", 2.0, onset, Part(0.02), 150);
     found.mark("Dawson and Paslay", 2.0, 0.0);
     found.finish();
 }
+
 /// How far the wire has gone round the tube at most anywhere, from its tip, which is on the floor; in radians.
 fn round(body: &Body) -> f64 {
     let angles = body.rod.positions.iter().map(|p| p.z.atan2(-p.y));

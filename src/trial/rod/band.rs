@@ -1,6 +1,8 @@
 //! A symmetric positive definite band matrix, and its direct solution in linear time: `L D L^T` without pivoting
 //! (Golub and Van Loan, "Matrix computations", section 4.3).
 
+use super::bend::Blocks;
+
 /// Entries beside the diagonal: a bend joins three nodes of three coordinates and two angles between them.
 pub(super) const HALF: usize = 10;
 
@@ -9,7 +11,7 @@ pub(super) const HALF: usize = 10;
 pub(super) const PER_NODE: usize = 4;
 
 /// A row from its diagonal on; one lane more, always 0, so that rows are a whole number of vectors.
-pub(super) type Row = [f64; HALF + 2];
+type Row = [f64; HALF + 2];
 
 /// The upper half of a band matrix.
 #[derive(Clone, Debug, Default)]
@@ -42,22 +44,42 @@ impl Band {
         }
     }
 
-    /// Adds the sum of `stiffness g g^T` over three `g` that begin at row `first`; the last lane of each is 0.
+    /// Adds what a bend is by its three nodes and two angles; the first coordinate is row `first`.
     #[inline]
-    pub(super) fn add_squares(&mut self, first: usize, g: [&Row; 3], stiffness: [f64; 3]) {
-        let pulls: [Row; 3] = std::array::from_fn(|k| g[k].map(|entry| entry * stiffness[k]));
-        let Some([r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10]) = self.rows[first..].first_chunk_mut() else { return };
-        add::<12>(r0, 0, g, &pulls);
-        add::<10>(r1, 1, g, &pulls);
-        add::<10>(r2, 2, g, &pulls);
-        add::<8>(r3, 3, g, &pulls);
-        add::<8>(r4, 4, g, &pulls);
-        add::<6>(r5, 5, g, &pulls);
-        add::<6>(r6, 6, g, &pulls);
-        add::<4>(r7, 7, g, &pulls);
-        add::<4>(r8, 8, g, &pulls);
-        add::<2>(r9, 9, g, &pulls);
-        add::<2>(r10, 10, g, &pulls);
+    pub(super) fn add_blocks(&mut self, first: usize, blocks: &Blocks) {
+        let Blocks { aa, ab, bb, mixed: [[a_by_a, a_by_b], [b_by_a, b_by_b]], angles: [angle_a, both, angle_b] } = *blocks;
+        let Some(rows) = self.rows[first..].first_chunk_mut::<{ HALF + 1 }>() else { return };
+        // A node moves the edge behind it backwards, and the one before it forwards.
+        let (before, middle, behind) = (ab - aa, aa - ab - ab.transpose() + bb, ab - bb);
+        let (a_middle, b_middle) = (a_by_a - a_by_b, b_by_a - b_by_b);
+        for i in 0..3 {
+            for j in i..3 {
+                rows[i][j - i] += aa.col(j)[i];
+                rows[4 + i][j - i] += middle.col(j)[i];
+                rows[8 + i][j - i] += bb.col(j)[i];
+            }
+            rows[i][3 - i] -= a_by_a[i];
+            rows[i][7 - i] -= b_by_a[i];
+            rows[3][1 + i] += a_middle[i];
+            rows[3][5 + i] += a_by_b[i];
+            rows[4 + i][3 - i] += b_middle[i];
+            rows[7][1 + i] += b_by_b[i];
+            for j in 0..3 {
+                rows[i][4 + j - i] += before.col(j)[i];
+                rows[i][8 + j - i] -= ab.col(j)[i];
+                rows[4 + i][4 + j - i] += behind.col(j)[i];
+            }
+        }
+        rows[3][0] += angle_a;
+        rows[3][4] += both;
+        rows[7][0] += angle_b;
+    }
+
+    /// An entry.
+    #[cfg(test)]
+    pub(super) fn entry(&self, row: usize, column: usize) -> f64 {
+        let (row, column) = (row.min(column), row.max(column));
+        self.rows[row].get(column - row).copied().unwrap_or(0.0)
     }
 
     /// Holds a row to 0 whatever the right-hand side.
@@ -118,14 +140,6 @@ impl Band {
     }
 }
 
-/// Adds the row from its diagonal on, which is entry `i`, of a sum of products, in as many lanes as it has.
-#[inline(always)]
-fn add<const LANES: usize>(row: &mut Row, i: usize, g: [&Row; 3], pulls: &[Row; 3]) {
-    for k in 0..LANES {
-        row[k] += pulls[0][i] * g[0][i + k] + pulls[1][i] * g[1][i + k] + pulls[2][i] * g[2][i + k];
-    }
-}
-
 /// `row -= part above`, in this many lanes: a number that the compiler knows.
 #[inline(always)]
 fn subtract<const LANES: usize>(row: &mut [f64], above: &[f64], part: f64) {
@@ -157,12 +171,8 @@ mod tests {
         }
         (0..n).for_each(|i| band.add(i, i, 0.01));
         band.hold(5);
-        let full = |band: &Band, i: usize, j: usize| {
-            let (a, b) = (i.min(j), i.max(j));
-            if b - a <= HALF { band.rows[a][b - a] } else { 0.0 }
-        };
         let expected: Vec<f64> = (0..n).map(|i| if i == 5 { 0.0 } else { random() }).collect();
-        let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| full(&band, i, j) * expected[j]).sum()).collect();
+        let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| band.entry(i, j) * expected[j]).sum()).collect();
         assert!(band.solve(&mut x));
         for (i, (x, expected)) in x.iter().zip(&expected).enumerate() {
             assert!((x - expected).abs() < 1e-9, "{i}: {x} for {expected}");

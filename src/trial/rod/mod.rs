@@ -18,12 +18,14 @@
 //! Nodes are numbered from the tip; tangents point away from it.
 
 mod band;
+mod bend;
 
 use std::ops::Range;
 
 use glam::DVec3;
 
-use self::band::{Band, PER_NODE, Row};
+use self::band::{Band, PER_NODE};
+use self::bend::{Blocks, Slopes};
 
 /// Numbers of a node, its cell and the edge that begins there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,6 +87,16 @@ pub enum Hessian {
     /// The same, and what pressure takes away: nearer to the truth, and not positive definite beyond the load at which
     /// the rod buckles.
     Pressed,
+    /// All of them.
+    Exact,
+}
+
+impl Hessian {
+    /// The one to be tried when this one is not positive definite.
+    #[must_use]
+    pub fn safer(self) -> Self {
+        if self == Self::Exact { Self::Pressed } else { Self::Safe }
+    }
 }
 
 /// A way on, as [`Rod::solve`] finds it.
@@ -341,7 +353,7 @@ impl Rod {
             self.gradient[edge * PER_NODE + 3] -= moment;
         }
         (0..self.edges.len()).for_each(|i| self.add_stretch(i, hessian));
-        (1..self.edges.len()).for_each(|i| self.add_bend(i));
+        (1..self.edges.len()).for_each(|i| self.add_bend(i, hessian));
     }
 
     /// Works out the elastic part of the gradient anew from node `first + 2` on, for [`Self::holding_force`] and
@@ -352,7 +364,7 @@ impl Rod {
         self.gradient.clear();
         self.gradient.resize(rows, 0.0);
         (first..self.edges.len()).for_each(|i| self.add_stretch(i, Hessian::Safe));
-        (first.max(1)..self.edges.len()).for_each(|i| self.add_bend(i));
+        (first.max(1)..self.edges.len()).for_each(|i| self.add_bend(i, Hessian::Safe));
     }
 
     fn add_inertia(&mut self, dt: f64, brake: f64) {
@@ -384,7 +396,7 @@ impl Rod {
         }
         self.band.add_square(first, &g, ea / length);
         // Under tension it is stiff across, too, and under pressure it gives way.
-        if tension > 0.0 || hessian == Hessian::Pressed {
+        if tension > 0.0 || hessian != Hessian::Safe {
             let across = tension / edge.length;
             for (axis, along) in t.to_array().into_iter().enumerate() {
                 for (other, also) in t.to_array().into_iter().enumerate() {
@@ -399,57 +411,29 @@ impl Rod {
         }
     }
 
-    fn add_bend(&mut self, i: usize) {
-        let Section { cell, ei, gj, rest, .. } = self.sections[i];
-        let Strain { towards: k1, across: k2, twist, .. } = self.strains[i];
+    fn add_bend(&mut self, i: usize, hessian: Hessian) {
+        let (section, strain) = (self.sections[i], self.strains[i]);
         let (a, b) = (self.edges[i - 1], self.edges[i]);
-        let inverse = 1.0 / chi(a.tangent, b.tangent);
-        let binormal = a.tangent.cross(b.tangent) * (2.0 * inverse);
-        let middle = (a.tangent + b.tangent) * inverse;
-        let (m1, m2) = ((a.m1 + b.m1) * inverse, (a.m2 + b.m2) * inverse);
-        let (la, lb) = (1.0 / a.length, 1.0 / b.length);
-        let k1_a = (b.tangent.cross(m2) - middle * k1) * la;
-        let k1_b = (-a.tangent.cross(m2) - middle * k1) * lb;
-        let k2_a = (-b.tangent.cross(m1) - middle * k2) * la;
-        let k2_b = (a.tangent.cross(m1) - middle * k2) * lb;
-        let twist_a = binormal * (0.5 * la);
-        let twist_b = binormal * (0.5 * lb);
-        let spread = |from_a: DVec3, angle_a: f64, from_b: DVec3, angle_b: f64| -> Row {
-            let middle = from_a - from_b;
-            [
-                -from_a.x, -from_a.y, -from_a.z, angle_a, middle.x, middle.y, middle.z, angle_b, from_b.x, from_b.y,
-                from_b.z, 0.0,
-            ]
-        };
-        // By the angles: exact in the gradient, which has only what the rest shape does. In the Hessian it is the rest
-        // shape that turns with the edges, so that nothing holds a straight wire from turning in a bend.
-        let turned = [
-            [-0.5 * binormal.dot(a.m1), -0.5 * binormal.dot(b.m1)],
-            [-0.5 * binormal.dot(a.m2), -0.5 * binormal.dot(b.m2)],
-        ];
-        let parts = [(k1_a, k1_b, turned[0], 0.5 * rest[1], rest[0]), (k2_a, k2_b, turned[1], -0.5 * rest[0], rest[1])];
-        let first = (i - 1) * PER_NODE;
-        let mut add = |g: &Row, force: f64| {
-            for (entry, g) in self.gradient[first..].iter_mut().zip(g) {
-                *entry += force * g;
-            }
-        };
-        let stiffness = ei / cell;
-        // Of half the square of the curvature.
-        let cosine = a.tangent.dot(b.tangent);
-        let by_cosine = -4.0 * inverse * inverse;
-        let bent_a = (b.tangent - a.tangent * cosine) * (by_cosine * la);
-        let bent_b = (a.tangent - b.tangent * cosine) * (by_cosine * lb);
-        add(&spread(bent_a, 0.0, bent_b, 0.0), stiffness);
-        for (by_a, by_b, [angle_a, angle_b], _, rest) in parts {
+        let slopes = Slopes::new(&a, &b, &strain);
+        let (bend, twist) = (section.ei / section.cell, section.gj / section.cell * strain.twist);
+        let (mut by_edges, mut by_angles) = ([0, 1].map(|e| slopes.bent[e] * bend + slopes.twisted[e] * twist), [-twist, twist]);
+        for ((curved, turned), rest) in slopes.curved.iter().zip(slopes.turned).zip(section.rest) {
             if rest != 0.0 {
-                add(&spread(by_a, angle_a, by_b, angle_b), -stiffness * rest);
+                by_edges = [0, 1].map(|e| by_edges[e] - curved[e] * (bend * rest));
+                by_angles = [0, 1].map(|e| by_angles[e] - turned[e] * (bend * rest));
             }
         }
-        let [by_towards, by_across] = parts.map(|(by_a, by_b, _, angle, _)| spread(by_a, angle, by_b, angle));
-        let by_twist = spread(twist_a, -1.0, twist_b, 1.0);
-        add(&by_twist, gj / cell * twist);
-        self.band.add_squares(first, [&by_towards, &by_across, &by_twist], [stiffness, stiffness, gj / cell]);
+        let first = (i - 1) * PER_NODE;
+        let [before, behind] = by_edges;
+        let middle = before - behind;
+        let [angle_a, angle_b] = by_angles;
+        let pulls = [
+            -before.x, -before.y, -before.z, angle_a, middle.x, middle.y, middle.z, angle_b, behind.x, behind.y, behind.z,
+        ];
+        for (entry, pull) in self.gradient[first..].iter_mut().zip(pulls) {
+            *entry += pull;
+        }
+        self.band.add_blocks(first, &Blocks::new(&a, &b, &section, &strain, &slopes, hessian));
     }
 
     /// Adds a spring to the equations: `pull` is its derivative by positions and angle of node `node` and by the position
@@ -505,7 +489,7 @@ impl Rod {
 
     /// Solves the equations for the way on from the change so far. Returns the part of it that is gone at most, as it may
     /// be long, the largest move of a node in it in mm, and the slope of the potential along it; an infinite move when
-    /// there is no answer. `None` when the matrix is not positive definite, as that of [`Hessian::Pressed`] may be.
+    /// there is no answer. `None` when the matrix is not positive definite, which only that of [`Hessian::Safe`] always is.
     pub fn solve(&mut self, hessian: Hessian) -> Option<Way> {
         self.way.clear();
         self.way.extend(self.gradient.iter().map(|g| -g));
@@ -516,7 +500,7 @@ impl Rod {
                 self.way[i * PER_NODE + row] = 0.0;
             }
         }
-        if !self.band.solve(&mut self.way) && hessian == Hessian::Pressed {
+        if !self.band.solve(&mut self.way) && hessian != Hessian::Safe {
             return None;
         }
         let mut largest = 0.0f64;
