@@ -1,5 +1,5 @@
 //! Random input, for 50,000 steps: no number that is none, nothing through the wall, nothing farther into it than 5 % of
-//! the wire's radius. `LUMEN_FUZZ_STEPS` asks for more (`cargo xtask fuzz-trial`: a million).
+//! the wire's radius, no wire that is stuck for good. `LUMEN_FUZZ_STEPS` asks for more (`cargo xtask fuzz-trial`: a million).
 //!
 //! Penetration is measured on capsules against triangles in f64, escape by winding numbers: by `audit`, which shares
 //! nothing with the contact solver.
@@ -12,12 +12,16 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
+use lumen::trial::body::Stepped;
 use lumen::trial::course::Course;
 use lumen::trial::setup::{Input, Setup};
 use lumen::trial::wire::Wire;
 
 /// Steps between two audits: nothing moves farther than 3.2 mm meanwhile.
 const AUDITED: u64 = 20;
+
+/// Steps in a row without a way on that are too many.
+const STUCK: u64 = 50;
 
 struct Chance(u64);
 
@@ -45,6 +49,7 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
     let radius = setup.wire.radius();
     let mut chance = Chance(0x2545_f491_4f6c_dd1d ^ u64::from(rate));
     let (mut input, mut deepest, mut longest) = (Input::default(), 0.0f64, 0.0f64);
+    let (mut held, mut held_on) = (0u64, 0u64);
     for step in 0..steps {
         if step % 50 == 0 || chance.next() < 0.01 {
             // Mostly in, sometimes out, now and then beyond what is allowed or no number at all.
@@ -55,7 +60,10 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
                 input = Input { feed: f32::NAN, roll: 1e30 };
             }
         }
-        simulation.step(input);
+        let is_held = simulation.step(input) == Stepped::Held;
+        held += u64::from(is_held);
+        held_on = if is_held { held_on + 1 } else { 0 };
+        assert!(held_on < STUCK, "{sample} at {rate}: no way on from step {}", step + 1 - held_on);
         longest = longest.max(simulation.inserted());
         if step % AUDITED == 0 {
             let nodes: Vec<DVec3> = simulation.nodes().collect();
@@ -76,7 +84,7 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
         }
     }
     println!(
-        "{sample} at {rate}: {steps} steps, {:.2} % of the radius deep, {longest:.0} mm inserted",
+        "{sample} at {rate}: {steps} steps, {:.2} % of the radius deep, {longest:.0} mm inserted, {held} without a way on",
         100.0 * deepest / radius
     );
     assert!(longest > 20.0, "the wire did not come in");

@@ -26,7 +26,9 @@ use crate::mesh::{PointFoot, SegmentFoot};
 /// Stiffness of a contact in N/mm: how much its force changes before the next step corrects the gap. A wire gives way
 /// across itself by 0.01 to 10 N/mm; the farther above that this is, the more corrections overshoot, and what they leave
 /// unsettled is felt as force (`tests/validation/balance.rs`).
-pub(super) const STIFFNESS: f64 = 4.0;
+const STIFFNESS: f64 = 4.0;
+/// By what the stiffness grows where forces are raised.
+const STIFFER: f64 = 4.0;
 /// Stiffness of what sticks, in N/mm.
 pub(super) const GRIP: f64 = 4.0;
 /// A gap of less than this, in mm, is looked after in the step from its beginning; others once they have closed.
@@ -165,8 +167,8 @@ impl Contact {
     }
 
     /// The normal force in the step, as the rod is now.
-    fn pressure(&self, rod: &Rod, node: usize) -> f64 {
-        (self.force - STIFFNESS * self.gap_now(rod, node)).max(0.0)
+    fn pressure(&self, rod: &Rod, node: usize, stiffness: f64) -> f64 {
+        (self.force - stiffness * self.gap_now(rod, node)).max(0.0)
     }
 
     /// The gap as the rod is now, if the wall is flat there.
@@ -187,9 +189,9 @@ impl Contact {
     }
 
     /// The energy of the contact, in N mm: what the normal force and friction are the derivatives of.
-    fn potential(&self, rod: &Rod, node: usize, radius: f64) -> f64 {
-        let force = self.pressure(rod, node);
-        let pressed = 0.5 * force * force / STIFFNESS;
+    fn potential(&self, rod: &Rod, node: usize, radius: f64, stiffness: f64) -> f64 {
+        let force = self.pressure(rod, node, stiffness);
+        let pressed = 0.5 * force * force / stiffness;
         if self.grip <= 0.0 {
             return pressed;
         }
@@ -222,12 +224,14 @@ pub struct Contacts {
     pub radius: f64,
     /// Coefficients of friction, sticking and sliding.
     pub friction: [f64; 2],
+    /// Stiffness of each contact in the corrections that follow, in N/mm.
+    stiffness: f64,
 }
 
 impl Contacts {
     /// None yet, for a rod of this radius in mm and these coefficients of friction.
     pub fn new(radius: f64, friction: [f64; 2]) -> Self {
-        Self { radius, friction, ..Self::default() }
+        Self { radius, friction, stiffness: STIFFNESS, ..Self::default() }
     }
 
     /// Measures the gaps of the first `count` nodes, the last one excepted, and of the edges between them. Returns how far
@@ -387,27 +391,32 @@ impl Contacts {
 
     /// Notes the forces that the corrections have come to.
     pub fn balance(&mut self, rod: &Rod) {
-        self.each(|node, contact| contact.balanced = contact.pressure(rod, node));
+        let stiffness = self.stiffness;
+        self.each(|node, contact| contact.balanced = contact.pressure(rod, node, stiffness));
     }
 
     /// Begins a step.
     pub fn begin(&mut self) {
+        self.stiffness = STIFFNESS;
         self.each(|_, contact| (contact.first, contact.balanced) = (contact.force, contact.force));
     }
 
-    /// Lets the corrections that follow begin with the forces that those before have come to.
+    /// Lets the corrections that follow begin with the forces that those before have come to, and be stiffer: what is
+    /// pushed hard into the wall would come out of it too slowly.
     pub fn raise(&mut self) {
+        self.stiffness *= STIFFER;
         self.each(|_, contact| contact.force = contact.balanced);
     }
 
     /// Goes back to the forces at the beginning of the step.
     pub fn undo(&mut self) {
+        self.stiffness = STIFFNESS;
         self.each(|_, contact| (contact.force, contact.balanced) = (contact.first, contact.first));
     }
 
     /// The energy of all contacts, in N mm.
     pub fn potential(&self, rod: &Rod) -> f64 {
-        self.near().map(|(node, contact)| contact.potential(rod, node, self.radius)).sum()
+        self.near().map(|(node, contact)| contact.potential(rod, node, self.radius, self.stiffness)).sum()
     }
 
     /// The contacts as they are along a straight change of the rod from where it is now.
@@ -423,7 +432,8 @@ impl Contacts {
                 node,
                 normal: spread(contact.normal, 0.0),
                 sides: sides.map(|side| spread(side, side.dot(roll))),
-                force: contact.force - STIFFNESS * contact.gap_now(rod, node),
+                force: contact.force - self.stiffness * contact.gap_now(rod, node),
+                stiff: self.stiffness,
                 stretch: sides.map(|side| side.dot(stretch)),
                 grip: contact.grip.max(0.0),
                 ..Spring::default()

@@ -7,7 +7,7 @@
 //! search along each way (the augmented Lagrangian's inner problem; Nocedal and Wright, "Numerical optimization",
 //! sections 16 and 17). A way costs one factorisation; nothing of the rod is worked out anew.
 
-use super::contact::{GRIP, STIFFNESS};
+use super::contact::GRIP;
 use super::rod::{Hessian, Rod};
 
 /// Ways in a correction.
@@ -28,6 +28,8 @@ pub struct Spring {
     pub sides: [[f64; 7]; 2],
     /// What presses, in N; open where it is less than 0.
     pub force: f64,
+    /// By what that grows with less of a gap, in N/mm.
+    pub stiff: f64,
     /// How far what sticks is stretched, in mm.
     pub stretch: [f64; 2],
     /// What friction can give, in N.
@@ -51,8 +53,8 @@ impl Spring {
     fn add(&mut self, rod: &mut Rod) {
         self.stiffness = (0.0, [[0.0; 2]; 2]);
         if self.force > 0.0 {
-            self.stiffness.0 = STIFFNESS;
-            rod.add_spring(self.node, &self.normal, -self.force, STIFFNESS);
+            self.stiffness.0 = self.stiff;
+            rod.add_spring(self.node, &self.normal, -self.force, self.stiff);
         }
         if self.grip <= 0.0 {
             return;
@@ -77,13 +79,13 @@ impl Spring {
     /// Notes how it changes on the way that was found.
     fn look_ahead(&mut self, rod: &Rod) {
         let way = rod.way(self.node);
-        self.change = (-STIFFNESS * dot(&self.normal, way), [dot(&self.sides[0], way), dot(&self.sides[1], way)]);
+        self.change = (-self.stiff * dot(&self.normal, way), [dot(&self.sides[0], way), dot(&self.sides[1], way)]);
     }
 
     /// The slope of its energy by the part of the way, at a part.
     fn slope(&self, part: f64) -> f64 {
         let (change, [dx, dy]) = self.change;
-        let pressed = (self.force + part * change).max(0.0) * change / STIFFNESS;
+        let pressed = (self.force + part * change).max(0.0) * change / self.stiff;
         if self.grip <= 0.0 {
             return pressed;
         }
@@ -157,7 +159,7 @@ pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Optio
 fn added(spring: &Spring) -> f64 {
     let (change, [dx, dy]) = spring.change;
     let (normal, [[xx, xy], [yx, yy]]) = spring.stiffness;
-    let pressed = if normal > 0.0 { change * change / STIFFNESS } else { 0.0 };
+    let pressed = if normal > 0.0 { change * change / spring.stiff } else { 0.0 };
     pressed + dx * (xx * dx + xy * dy) + dy * (yx * dx + yy * dy)
 }
 
