@@ -425,19 +425,22 @@ impl Contacts {
         springs.extend(self.near().map(|(node, contact)| {
             let (a, b) = (1.0 - contact.along, contact.along);
             let spread = |v: DVec3, angle: f64| [v.x * a, v.y * a, v.z * a, angle, v.x * b, v.y * b, v.z * b];
-            let (stretch, roll) = contact.trial(rod, node, self.radius);
-            let first = contact.smooth.any_orthonormal_vector();
-            let sides = [first, contact.smooth.cross(first)];
-            Spring {
+            let mut spring = Spring {
                 node,
                 normal: spread(contact.normal, 0.0),
-                sides: sides.map(|side| spread(side, side.dot(roll))),
                 force: contact.force - self.stiffness * contact.gap_now(rod, node),
                 stiff: self.stiffness,
-                stretch: sides.map(|side| side.dot(stretch)),
-                grip: contact.grip.max(0.0),
                 ..Spring::default()
+            };
+            if contact.grip > 0.0 {
+                let (stretch, roll) = contact.trial(rod, node, self.radius);
+                let first = contact.smooth.any_orthonormal_vector();
+                let sides = [first, contact.smooth.cross(first)];
+                spring.grip = contact.grip;
+                spring.sides = sides.map(|side| spread(side, side.dot(roll)));
+                spring.stretch = sides.map(|side| side.dot(stretch));
             }
+            spring
         }));
     }
 

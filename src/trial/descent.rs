@@ -79,7 +79,13 @@ impl Spring {
     /// Notes how it changes on the way that was found.
     fn look_ahead(&mut self, rod: &Rod) {
         let way = rod.way(self.node);
-        self.change = (-self.stiff * dot(&self.normal, way), [dot(&self.sides[0], way), dot(&self.sides[1], way)]);
+        let sides = if self.grip > 0.0 { [dot(&self.sides[0], way), dot(&self.sides[1], way)] } else { [0.0; 2] };
+        self.change = (-self.stiff * dot(&self.normal, way), sides);
+    }
+
+    /// Whether it does anything between here and a part of the way.
+    fn is_live(&self, part: f64) -> bool {
+        self.force > 0.0 || self.grip > 0.0 || self.force + part * self.change.0 > 0.0
     }
 
     /// The slope of its energy by the part of the way, at a part.
@@ -93,6 +99,14 @@ impl Spring {
         let length = Self::length([x, y]);
         let pull = if length * GRIP <= self.grip { GRIP } else { self.grip / length };
         pressed + pull * (x * dx + y * dy)
+    }
+
+    /// By what the slope would change on the whole way if it stayed as it was added.
+    fn added(&self) -> f64 {
+        let (change, [dx, dy]) = self.change;
+        let (normal, [[xx, xy], [yx, yy]]) = self.stiffness;
+        let pressed = if normal > 0.0 { change * change / self.stiff } else { 0.0 };
+        pressed + dx * (xx * dx + xy * dy) + dy * (yx * dx + yy * dy)
     }
 
     /// What the springs that were added for the way change by on it: node, derivative, force.
@@ -126,6 +140,7 @@ impl Spring {
 /// `None` when the matrix is not positive definite.
 pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Option<(f64, f64)> {
     rod.begin_change();
+    let mut live: Vec<Spring> = Vec::with_capacity(springs.len());
     let mut fall = 0.0;
     for _ in 0..WAYS {
         rod.begin_way();
@@ -135,14 +150,15 @@ pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Optio
             return Some((way.moved, 0.0));
         }
         springs.iter_mut().for_each(|spring| spring.look_ahead(rod));
+        live.clear();
+        live.extend(springs.iter().filter(|spring| spring.is_live(way.part)));
         // Of the rod alone: its slope where the way begins, and by what that changes on the whole of it.
-        let springs_at = |part: f64| springs.iter().map(|spring| spring.slope(part)).sum::<f64>();
+        let springs_at = |part: f64| live.iter().map(|spring| spring.slope(part)).sum::<f64>();
         let first = way.slope - springs_at(0.0);
-        let added: f64 = springs.iter().map(|spring| added(spring)).sum();
-        let rise = -way.slope - added;
+        let rise = -way.slope - live.iter().map(Spring::added).sum::<f64>();
         let part = level(way.part, |part| first + part * rise + springs_at(part));
         fall += part * way.slope;
-        rod.go(part, springs.iter().flat_map(Spring::changed));
+        rod.go(part, live.iter().flat_map(Spring::changed));
         let mut is_settled = part >= 1.0;
         for spring in springs.iter_mut() {
             is_settled &= !spring.go(part);
@@ -153,14 +169,6 @@ pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Optio
         }
     }
     Some((rod.largest_move(), fall))
-}
-
-/// By what the slope of the springs that were added for a way would change on it.
-fn added(spring: &Spring) -> f64 {
-    let (change, [dx, dy]) = spring.change;
-    let (normal, [[xx, xy], [yx, yy]]) = spring.stiffness;
-    let pressed = if normal > 0.0 { change * change / spring.stiff } else { 0.0 };
-    pressed + dx * (xx * dx + xy * dy) + dy * (yx * dx + yy * dy)
 }
 
 /// Where the slope along a way is level, at most at `most`: by the rule of false position, kept from stalling (Illinois).

@@ -6,16 +6,12 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Edge, Hessian, Section, Strain, chi};
+use super::{Edge, Hessian, Section, Strain};
 
 /// The first derivatives at a node, by the edges before (`a`) and behind it (`b`).
 pub(super) struct Slopes {
     /// Of half the square of the curvature.
     pub bent: [DVec3; 2],
-    /// Of the curvatures towards the director and across.
-    pub curved: [[DVec3; 2]; 2],
-    /// The same by the angles.
-    pub turned: [[f64; 2]; 2],
     /// Of the twist; by the angles it is -1 and 1.
     pub twisted: [DVec3; 2],
 }
@@ -52,36 +48,34 @@ fn crossing(p: DVec3) -> DMat3 {
 }
 
 impl Slopes {
+    #[inline]
     pub(super) fn new(a: &Edge, b: &Edge, strain: &Strain) -> Self {
-        let inverse = 1.0 / chi(a.tangent, b.tangent);
-        let binormal = a.tangent.cross(b.tangent) * (2.0 * inverse);
-        let middle = (a.tangent + b.tangent) * inverse;
-        let (m1, m2) = ((a.m1 + b.m1) * inverse, (a.m2 + b.m2) * inverse);
-        let (la, lb) = (1.0 / a.length, 1.0 / b.length);
         let cosine = a.tangent.dot(b.tangent);
-        let by_cosine = -4.0 * inverse * inverse;
+        let by_cosine = -4.0 * strain.inverse * strain.inverse;
         Self {
             bent: [
-                (b.tangent - a.tangent * cosine) * (by_cosine * la),
-                (a.tangent - b.tangent * cosine) * (by_cosine * lb),
+                (b.tangent - a.tangent * cosine) * (by_cosine * a.inverse),
+                (a.tangent - b.tangent * cosine) * (by_cosine * b.inverse),
             ],
-            curved: [
-                [
-                    (b.tangent.cross(m2) - middle * strain.towards) * la,
-                    (-a.tangent.cross(m2) - middle * strain.towards) * lb,
-                ],
-                [
-                    (-b.tangent.cross(m1) - middle * strain.across) * la,
-                    (a.tangent.cross(m1) - middle * strain.across) * lb,
-                ],
-            ],
-            turned: [
-                [-0.5 * binormal.dot(a.m1), -0.5 * binormal.dot(b.m1)],
-                [-0.5 * binormal.dot(a.m2), -0.5 * binormal.dot(b.m2)],
-            ],
-            twisted: [binormal * (0.5 * la), binormal * (0.5 * lb)],
+            twisted: [strain.binormal * (0.5 * a.inverse), strain.binormal * (0.5 * b.inverse)],
         }
     }
+}
+
+/// The first derivatives of the curvatures towards the director and across, by the edges and by their angles.
+pub(super) fn curvature_slopes(a: &Edge, b: &Edge, strain: &Strain) -> [([DVec3; 2], [f64; 2]); 2] {
+    let middle = (a.tangent + b.tangent) * strain.inverse;
+    // A curvature is half the binormal's part along a director and its like; these turn into others with the edges.
+    [(strain.towards, [a.m2, b.m2], [-a.m1, -b.m1]), (strain.across, [-a.m1, -b.m1], [-a.m2, -b.m2])].map(
+        |(curvature, directors, turned)| {
+            let mean = (directors[0] + directors[1]) * strain.inverse;
+            let by_edges = [
+                (b.tangent.cross(mean) - middle * curvature) * a.inverse,
+                (mean.cross(a.tangent) - middle * curvature) * b.inverse,
+            ];
+            (by_edges, turned.map(|turned| 0.5 * strain.binormal.dot(turned)))
+        },
+    )
 }
 
 impl Blocks {
@@ -105,57 +99,60 @@ impl Blocks {
     pub(super) fn new(a: &Edge, b: &Edge, section: &Section, strain: &Strain, slopes: &Slopes, hessian: Hessian) -> Self {
         let (bend, twist) = (section.ei / section.cell, section.gj / section.cell);
         let [r1, r2] = section.rest;
-        let mut blocks =
-            Self { aa: DMat3::ZERO, ab: DMat3::ZERO, bb: DMat3::ZERO, mixed: [[DVec3::ZERO; 2]; 2], angles: [0.0; 3] };
-        blocks.add_square(slopes.twisted, [-1.0, 1.0], twist);
         if hessian == Hessian::Exact {
-            blocks.add_curvature(a, b, bend);
-            blocks.add_twist(a, b, twist * strain.twist);
+            let mut blocks = Self::exact(a, b, strain, slopes, bend, twist);
             if section.rest != [0.0; 2] {
                 blocks.add_rest(a, b, strain, [-bend * r1, -bend * r2]);
             }
-        } else {
-            // It is the rest shape that turns with the edges, so that nothing holds a straight wire from turning in a bend.
-            blocks.add_square(slopes.curved[0], [0.5 * r2; 2], bend);
-            blocks.add_square(slopes.curved[1], [-0.5 * r1; 2], bend);
+            return blocks;
         }
+        let mut blocks =
+            Self { aa: DMat3::ZERO, ab: DMat3::ZERO, bb: DMat3::ZERO, mixed: [[DVec3::ZERO; 2]; 2], angles: [0.0; 3] };
+        blocks.add_square(slopes.twisted, [-1.0, 1.0], twist);
+        // It is the rest shape that turns with the edges, so that nothing holds a straight wire from turning in a bend.
+        let [(towards, _), (across, _)] = curvature_slopes(a, b, strain);
+        blocks.add_square(towards, [0.5 * r2; 2], bend);
+        blocks.add_square(across, [-0.5 * r1; 2], bend);
         blocks
     }
 
-    /// Of half the square of the curvature, which is `2 (1 - x) / (1 + x)` with the cosine `x` of the turn.
-    fn add_curvature(&mut self, a: &Edge, b: &Edge, stiffness: f64) {
+    /// All of them but what a rest shape adds, with the stiffness against bending and twist: of half the square of the
+    /// curvature, which is `2 (1 - x) / (1 + x)` with the cosine `x` of the turn, and of half that of the twist.
+    #[inline]
+    fn exact(a: &Edge, b: &Edge, strain: &Strain, slopes: &Slopes, bend: f64, twist: f64) -> Self {
         let (ta, tb) = (a.tangent, b.tangent);
-        let (la, lb) = (1.0 / a.length, 1.0 / b.length);
-        let inverse = 1.0 / chi(ta, tb);
+        let (la, lb) = (a.inverse, b.inverse);
         let x = ta.dot(tb);
-        let first = -4.0 * inverse * inverse * stiffness;
+        let (inverse, torque) = (strain.inverse, twist * strain.twist);
+        let first = -4.0 * inverse * inverse * bend;
         let second = -2.0 * inverse * first;
         let (u, v) = ((tb - ta * x) * la, (ta - tb * x) * lb);
-        let (across_a, across_b) = (DMat3::IDENTITY - outer(ta, ta), DMat3::IDENTITY - outer(tb, tb));
-        self.aa += both(u, u * (0.5 * second) - ta * (first * la)) - across_a * (first * x * la * la);
-        self.bb += both(v, v * (0.5 * second) - tb * (first * lb)) - across_b * (first * x * lb * lb);
-        let rest = DMat3::IDENTITY - outer(ta, ta - tb * x) - outer(tb, tb);
-        self.ab += outer(u, v * second) + rest * (first * la * lb);
-    }
-
-    /// Of the twist, times a torque.
-    fn add_twist(&mut self, a: &Edge, b: &Edge, torque: f64) {
-        let (ta, tb) = (a.tangent, b.tangent);
-        let (la, lb) = (1.0 / a.length, 1.0 / b.length);
-        let inverse = 1.0 / chi(ta, tb);
-        let binormal = ta.cross(tb) * (2.0 * inverse * torque);
         let middle = (ta + tb) * inverse;
-        self.aa -= both(binormal, (ta + middle) * (0.25 * la * la));
-        self.bb -= both(binormal, (tb + middle) * (0.25 * lb * lb));
-        self.ab += (crossing(ta * (2.0 * inverse * torque)) - outer(binormal, middle)) * (0.5 * la * lb);
+        let [pa, pb] = slopes.twisted;
+        // Of one edge twice: bending about it, and its turn out of the plane of the two.
+        let twice = [(ta, la, u, pa), (tb, lb, v, pb)].map(|(t, l, u, p)| {
+            let (across, q) = (first * x * l * l, (t + middle) * (0.5 * l * torque));
+            let by_u = u * second - t * (first * l);
+            let by_t = t * across - u * (first * l);
+            let by_p = p * twist - q;
+            let column = |i: usize| by_u * u[i] + by_t * t[i] + by_p * p[i] - p * q[i];
+            DMat3::from_cols(column(0), column(1), column(2)) - DMat3::from_diagonal(DVec3::splat(across))
+        });
+        let both = first * la * lb;
+        let ab = DMat3::from_diagonal(DVec3::splat(both)) + outer(u, v * second)
+            - outer(ta, (ta - tb * x) * both)
+            - outer(tb, tb * both)
+            + outer(pa, pb * twist - middle * (lb * torque))
+            + crossing(ta * (la * lb * inverse * torque));
+        let mixed = [[pa * -twist, pb * -twist], [pa * twist, pb * twist]];
+        Self { aa: twice[0], ab, bb: twice[1], mixed, angles: [twist, -twist, twist] }
     }
 
     /// Of the curvatures towards the director and across, times a moment each.
     fn add_rest(&mut self, a: &Edge, b: &Edge, strain: &Strain, moments: [f64; 2]) {
         let (ta, tb) = (a.tangent, b.tangent);
-        let (la, lb) = (1.0 / a.length, 1.0 / b.length);
-        let inverse = 1.0 / chi(ta, tb);
-        let binormal = ta.cross(tb) * (2.0 * inverse);
+        let (la, lb) = (a.inverse, b.inverse);
+        let Strain { inverse, binormal, .. } = *strain;
         let middle = (ta + tb) * inverse;
         let one = DMat3::IDENTITY;
         // Of the two directors, `d` is the one that the curvature is along, and `e` what it becomes when the edge turns.

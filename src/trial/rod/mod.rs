@@ -22,10 +22,10 @@ mod bend;
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use self::band::{Band, PER_NODE};
-use self::bend::{Blocks, Slopes};
+use self::bend::{Blocks, Slopes, curvature_slopes};
 
 /// Numbers of a node, its cell and the edge that begins there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,6 +61,8 @@ pub struct Held {
 #[derive(Clone, Copy, Debug, Default)]
 struct Edge {
     length: f64,
+    /// 1 / length.
+    inverse: f64,
     tangent: DVec3,
     /// The directors, at right angles to the tangent and each other.
     m1: DVec3,
@@ -75,8 +77,11 @@ struct Strain {
     across: f64,
     /// Twist in radians.
     twist: f64,
-    /// The square of the discrete curvature.
+    /// The vector of the discrete curvature, and its square.
+    binormal: DVec3,
     squared: f64,
+    /// 1 / (1 + cos) of the turn.
+    inverse: f64,
 }
 
 /// What stands for the second derivatives of the energy.
@@ -292,18 +297,21 @@ impl Rod {
                 let (sine, cosine) = libm::sincos(self.spins[i]);
                 across * cosine + tangent.cross(across) * sine
             };
-            *edge = Edge { length, tangent, m1, m2: tangent.cross(m1) };
+            *edge = Edge { length, inverse: 1.0 / length, tangent, m1, m2: tangent.cross(m1) };
         }
         self.strains.resize(self.len(), Strain::default());
         for i in 1..self.edges.len() {
             let (a, b) = (&self.edges[i - 1], &self.edges[i]);
-            let binormal = a.tangent.cross(b.tangent) * (2.0 / chi(a.tangent, b.tangent));
+            let inverse = 1.0 / chi(a.tangent, b.tangent);
+            let binormal = a.tangent.cross(b.tangent) * (2.0 * inverse);
             let director = carried(a.m1, a.tangent, b.tangent);
             let twist = unwrapped(angle(-director.dot(b.m2), director.dot(b.m1)), self.twists[i]);
             self.strains[i] = Strain {
                 towards: 0.5 * binormal.dot(a.m2 + b.m2),
                 across: -0.5 * binormal.dot(a.m1 + b.m1),
+                binormal,
                 squared: binormal.length_squared(),
+                inverse,
                 twist,
             };
         }
@@ -329,7 +337,7 @@ impl Rod {
         let bend = |i: usize| {
             let section = &self.sections[i];
             let [r1, r2] = section.rest;
-            let Strain { towards, across, twist, squared } = self.strains[i];
+            let Strain { towards, across, twist, squared, .. } = self.strains[i];
             let bend = squared - 2.0 * (r1 * towards + r2 * across) + r1 * r1 + r2 * r2;
             0.5 / section.cell * (section.ei * bend + section.gj * twist * twist)
         };
@@ -340,7 +348,7 @@ impl Rod {
     /// `brake` is drag beyond that of the nodes, in N s/mm each.
     pub fn assemble(&mut self, dt: f64, brake: f64, hessian: Hessian) {
         let rows = self.len() * PER_NODE;
-        self.band.reset(rows);
+        self.band.reset(self.positions.len());
         self.gradient.clear();
         self.gradient.resize(rows, 0.0);
         self.add_inertia(dt, brake);
@@ -360,7 +368,7 @@ impl Rod {
     /// [`Self::holding_moment`] there.
     pub fn assemble_from(&mut self, first: usize) {
         let rows = self.len() * PER_NODE;
-        self.band.reset(rows);
+        self.band.reset(self.positions.len());
         self.gradient.clear();
         self.gradient.resize(rows, 0.0);
         (first..self.edges.len()).for_each(|i| self.add_stretch(i, Hessian::Safe));
@@ -377,11 +385,11 @@ impl Rod {
             let force = (moved - way) * inertia + moved * drag;
             for axis in 0..3 {
                 self.gradient[i * PER_NODE + axis] += force[axis];
-                self.band.add(i * PER_NODE + axis, i * PER_NODE + axis, inertia + drag);
+                self.band.add(i, axis, inertia + drag);
             }
         }
         // The last node has no edge.
-        self.band.add(self.len() * PER_NODE - 1, self.len() * PER_NODE - 1, 1.0);
+        self.band.add(self.len() - 1, 3, 1.0);
     }
 
     fn add_stretch(&mut self, i: usize, hessian: Hessian) {
@@ -389,26 +397,17 @@ impl Rod {
         let edge = self.edges[i];
         let tension = ea * (edge.length / length - 1.0);
         let t = edge.tangent;
-        let g = [-t.x, -t.y, -t.z, 0.0, t.x, t.y, t.z];
         let first = i * PER_NODE;
-        for (entry, g) in self.gradient[first..].iter_mut().zip(&g) {
-            *entry += tension * g;
+        let pull = t * tension;
+        for (axis, pull) in pull.to_array().into_iter().enumerate() {
+            self.gradient[first + axis] -= pull;
+            self.gradient[first + PER_NODE + axis] += pull;
         }
-        self.band.add_square(first, &g, ea / length);
         // Under tension it is stiff across, too, and under pressure it gives way.
-        if tension > 0.0 || hessian != Hessian::Safe {
-            let across = tension / edge.length;
-            for (axis, along) in t.to_array().into_iter().enumerate() {
-                for (other, also) in t.to_array().into_iter().enumerate() {
-                    let value = across * (f64::from(u8::from(axis == other)) - along * also);
-                    if other >= axis {
-                        self.band.add(first + axis, first + other, value);
-                        self.band.add(first + PER_NODE + axis, first + PER_NODE + other, value);
-                    }
-                    self.band.add(first + axis, first + PER_NODE + other, -value);
-                }
-            }
-        }
+        let across = if tension > 0.0 || hessian != Hessian::Safe { tension / edge.length } else { 0.0 };
+        let along = t * (ea / length - across);
+        let stiffness = DMat3::from_cols(along * t.x, along * t.y, along * t.z);
+        self.band.add_edge(i, &(stiffness + DMat3::from_diagonal(DVec3::splat(across))));
     }
 
     fn add_bend(&mut self, i: usize, hessian: Hessian) {
@@ -416,11 +415,12 @@ impl Rod {
         let (a, b) = (self.edges[i - 1], self.edges[i]);
         let slopes = Slopes::new(&a, &b, &strain);
         let (bend, twist) = (section.ei / section.cell, section.gj / section.cell * strain.twist);
-        let (mut by_edges, mut by_angles) = ([0, 1].map(|e| slopes.bent[e] * bend + slopes.twisted[e] * twist), [-twist, twist]);
-        for ((curved, turned), rest) in slopes.curved.iter().zip(slopes.turned).zip(section.rest) {
-            if rest != 0.0 {
-                by_edges = [0, 1].map(|e| by_edges[e] - curved[e] * (bend * rest));
-                by_angles = [0, 1].map(|e| by_angles[e] - turned[e] * (bend * rest));
+        let mut by_edges = [0, 1].map(|e| slopes.bent[e] * bend + slopes.twisted[e] * twist);
+        let mut by_angles = [-twist, twist];
+        if section.rest != [0.0; 2] {
+            for ((by_edge, by_angle), rest) in curvature_slopes(&a, &b, &strain).into_iter().zip(section.rest) {
+                by_edges = [0, 1].map(|e| by_edges[e] - by_edge[e] * (bend * rest));
+                by_angles = [0, 1].map(|e| by_angles[e] - by_angle[e] * (bend * rest));
             }
         }
         let first = (i - 1) * PER_NODE;
@@ -433,7 +433,7 @@ impl Rod {
         for (entry, pull) in self.gradient[first..].iter_mut().zip(pulls) {
             *entry += pull;
         }
-        self.band.add_blocks(first, &Blocks::new(&a, &b, &section, &strain, &slopes, hessian));
+        self.band.add_bend(i - 1, &Blocks::new(&a, &b, &section, &strain, &slopes, hessian));
     }
 
     /// Adds a spring to the equations: `pull` is its derivative by positions and angle of node `node` and by the position
@@ -443,7 +443,7 @@ impl Rod {
         for (entry, pull) in self.gradient[first..].iter_mut().zip(pull) {
             *entry += force * pull;
         }
-        self.band.add_square(first, pull, stiffness);
+        self.band.add_square(node, pull, stiffness);
     }
 
     /// What it takes to hold a node where it is, in N: the gradient of all that was assembled.
@@ -496,7 +496,7 @@ impl Rod {
         for (i, held) in self.held.iter().enumerate() {
             let axes: Range<usize> = if held.position { 0..3 } else { 0..0 };
             for row in axes.chain(held.angle.then_some(3)) {
-                self.band.hold(i * PER_NODE + row);
+                self.band.hold(i, row);
                 self.way[i * PER_NODE + row] = 0.0;
             }
         }
