@@ -1,14 +1,22 @@
 //! What a step of the trial costs, against triangles and against nodes: `cargo bench --bench trial --no-default-features`.
 //!
-//! The workhorse wire, cut into equal elements, is fed into the coronary sample, unreduced, until it has the nodes; then
-//! one scripted input moves and rolls it to and fro. Arguments are triangle counts or, with an `n` behind them, node
-//! counts: `-- 10000 1000000 300n`. With `LUMEN_TRIAL_LOG` surface, setup and log of the last are left in that folder, for
-//! `benches/trial.mjs` to replay in the browser's Worker.
+//! A wire of equal elements is steered by the autopilot until [`LENGTH`] of it lie in the coronary sample, on the route,
+//! whatever the surface; then one scripted input moves and rolls it to and fro. Arguments are triangle counts or, with an
+//! `n` behind them, node counts: `-- 10000 1000000 300n`. Counts below a million are levels of the sample of a million.
+//!
+//! Two inputs: `workhorse`, which touches here and there as wires do, and, with a `p` before the count, `pressed`: as soft
+//! as the workhorse's tip all along, and pressed against the wall by a load on each mm, so that most of it lies there. At the wall is a
+//! node with a contact that takes part in the step: nearer than 0.1 mm, beside the radius.
+//!
+//! With `LUMEN_TRIAL_LOG` surface, setup and log of the last are left in that folder, for `benches/trial.mjs` to replay
+//! in the browser's Worker.
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
+use glam::DVec3;
 use lumen::io::import_mesh;
 use lumen::mesh::TriMesh;
 use lumen::phantom::{Sample, generate};
@@ -26,73 +34,122 @@ const LENGTH: f64 = 100.0;
 const NODES: usize = 300;
 /// Triangles where nodes vary.
 const TRIANGLES: usize = 380_000;
+/// Triangles of the sample that smaller levels are made from.
+const WHOLE: usize = 1_000_000;
+/// Load on the pressed wire in N/mm: 40 times the weight of its steel.
+const LOAD: f64 = 3e-4;
 /// Steps that are timed.
 const STEPS: usize = 3000;
 
+/// What is done to the wire beside the input.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Workhorse,
+    Pressed,
+}
+
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
-    let is_nodes = |text: &&String| text.ends_with('n');
-    let number =
-        |text: &String| text.trim_end_matches('n').parse().expect("a number of triangles, or of nodes with an n");
-    let mut triangles: Vec<usize> = asked.iter().filter(|text| !is_nodes(text)).map(number).collect();
-    let mut nodes: Vec<usize> = asked.iter().filter(is_nodes).map(number).collect();
+    let number = |text: &str| text.parse::<usize>().expect("a number of triangles, with a p before or an n behind it");
+    let mut rows: Vec<(Kind, usize, usize)> = Vec::new();
+    for text in &asked {
+        rows.push(match (text.strip_prefix('p'), text.strip_suffix('n')) {
+            (Some(count), _) => (Kind::Pressed, number(count), NODES),
+            (_, Some(nodes)) => (Kind::Workhorse, TRIANGLES, number(nodes)),
+            _ => (Kind::Workhorse, number(text), NODES),
+        });
+    }
     if asked.is_empty() {
-        triangles = vec![10_000, 100_000, 1_000_000, 4_000_000];
-        nodes = vec![50, 100, 200, 400, 800];
+        rows.extend([10_000, 100_000, WHOLE, 4_000_000].map(|count| (Kind::Workhorse, count, NODES)));
+        rows.extend([10_000, WHOLE].map(|count| (Kind::Pressed, count, NODES)));
+        rows.extend([50, 100, 200, 400, 800].map(|nodes| (Kind::Workhorse, TRIANGLES, nodes)));
     }
-    println!("| triangles | nodes | touching | mean ms | p50 | p99 | max | steps/s | boxes ms |");
-    println!("|---|---|---|---|---|---|---|---|---|");
-    for count in triangles {
-        let mesh =
-            Arc::new(import_mesh(generate(Sample::Coronary, count.max(60_000)).expect("a sample"), "sample").mesh);
-        measure(&level(mesh, count), NODES);
-    }
-    if !nodes.is_empty() {
-        let mesh = Arc::new(import_mesh(generate(Sample::Coronary, TRIANGLES).expect("a sample"), "sample").mesh);
-        let mesh = level(mesh, TRIANGLES);
-        nodes.into_iter().for_each(|count| measure(&mesh, count));
+    println!("| input | triangles | nodes | at the wall | pressing | mean ms | p50 | p99 | max | steps/s | boxes ms |");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    let mut whole = (WHOLE, smoothed(WHOLE));
+    for (kind, count, nodes) in rows {
+        let made = if nodes == NODES { count.max(WHOLE) } else { count };
+        if made != whole.0 {
+            whole = (made, smoothed(made));
+        }
+        measure(&level(&mut whole.1, count), kind, nodes);
     }
 }
 
-fn level(mesh: Arc<TriMesh>, count: usize) -> Arc<TriMesh> {
+/// The sample of so many triangles, smoothed as the trial needs it.
+fn smoothed(count: usize) -> Pipeline {
+    let mesh = Arc::new(import_mesh(generate(Sample::Coronary, count).expect("a sample"), "sample").mesh);
     let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
-    let settings = Settings { smoothing, target: Target::Triangles(count as u32), ..Settings::default() };
-    let mut pipeline = Pipeline::new(mesh, settings).without_measures();
+    Pipeline::new(mesh, Settings { smoothing, ..Settings::default() }).without_measures()
+}
+
+fn level(pipeline: &mut Pipeline, count: usize) -> Arc<TriMesh> {
+    let settings = Settings { target: Target::Triangles(count as u32), ..pipeline.settings().clone() };
+    pipeline.set(settings).expect("settings that are allowed");
     pipeline.finish().expect("settings that are allowed");
     pipeline.reduced().expect("a level").mesh.clone()
 }
 
-fn measure(mesh: &Arc<TriMesh>, nodes: usize) {
-    let wire = Wire { elements_mm: [LENGTH / nodes as f64; 2], ..Wire::preset("workhorse").expect("a preset") };
+fn distinct(nodes: impl Iterator<Item = usize>) -> usize {
+    nodes.collect::<HashSet<_>>().len()
+}
+
+/// Across the route as far as can be, all along.
+fn across(course: &Course) -> DVec3 {
+    let along = |way: DVec3| -> f64 {
+        (0..LENGTH as usize).map(|arc| course.route.at(arc as f64).direction.dot(way).powi(4)).sum()
+    };
+    // Evenly over half a sphere.
+    let ways = (0..200).map(|i| {
+        let (z, turn) = ((f64::from(i) + 0.5) / 200.0, f64::from(i) * 2.399_963);
+        let r = (1.0 - z * z).sqrt();
+        DVec3::new(r * turn.cos(), r * turn.sin(), z)
+    });
+    ways.min_by(|&a, &b| along(a).total_cmp(&along(b))).expect("a way")
+}
+
+fn measure(mesh: &Arc<TriMesh>, kind: Kind, nodes: usize) {
+    let mut wire = Wire { elements_mm: [LENGTH / nodes as f64; 2], ..Wire::preset("workhorse").expect("a preset") };
+    if kind == Kind::Pressed {
+        wire.shaft_ei = wire.tip_ei;
+    }
     let mut setup = Setup { wire, ..Setup::default() };
     let course = Arc::new(Course::new(mesh, Some(Sample::Coronary), &mut setup).expect("a way"));
+    if kind == Kind::Pressed {
+        setup.load = (across(&course) * LOAD).as_vec3().to_array();
+    }
     let mut trial = Trial::new(course.clone(), setup).expect("room");
-    trial.drive(Input { feed: 20.0, roll: 0.0 });
+    trial.set_autopilot(true);
     while trial.simulation().count() < nodes {
         trial.step();
         assert_eq!(trial.progress(), Progress::Running, "with {} nodes", trial.simulation().count());
     }
+    let arc = trial.frame().arc_mm;
+    assert!(arc > 0.9 * LENGTH, "the tip is not on the route, but at {arc} mm");
+    trial.set_autopilot(false);
     let mut times = Vec::with_capacity(STEPS);
-    let mut touching = 0;
+    let (mut at_wall, mut pressing) = (0, 0);
     for step in 0..STEPS {
         trial.drive(Input { feed: if step / 250 % 2 == 0 { -10.0 } else { 10.0 }, roll: 2.0 });
         let start = Instant::now();
         trial.step();
         times.push(start.elapsed().as_secs_f64() * 1e3);
-        let mut at: Vec<usize> = trial.simulation().body().touches().map(|touch| touch.0).collect();
-        at.sort_unstable();
-        at.dedup();
-        touching += at.len();
+        let body = trial.simulation().body();
+        at_wall += distinct(body.contacts.near().map(|near| near.0));
+        pressing += distinct(body.touches().map(|touch| touch.0));
     }
     assert_eq!(trial.progress(), Progress::Running);
     times.sort_by(f64::total_cmp);
     let mean = times.iter().sum::<f64>() / STEPS as f64;
     let at = |part: f64| times[((STEPS as f64 * part) as usize).min(STEPS - 1)];
+    let part = |count: usize| 100.0 * count as f64 / (STEPS * trial.simulation().count()) as f64;
     println!(
-        "| {} | {} | {:.0} % | {mean:.3} | {:.3} | {:.3} | {:.3} | {:.0} | {:.0} |",
+        "| {} | {} | {} | {:.0} % | {:.0} % | {mean:.3} | {:.3} | {:.3} | {:.3} | {:.0} | {:.0} |",
+        if kind == Kind::Pressed { "pressed" } else { "workhorse" },
         mesh.triangles.len(),
         trial.simulation().count(),
-        100.0 * touching as f64 / (STEPS * trial.simulation().count()) as f64,
+        part(at_wall),
+        part(pressing),
         at(0.5),
         at(0.99),
         at(1.0),

@@ -37,8 +37,6 @@ const STILL: f64 = 0.005;
 /// What a contact's force can rise by while the rod is braked, in N: the rest is what the brake does.
 const BRAKED_RISE: f64 = 0.005;
 
-/// x
-pub static DBG: std::sync::LazyLock<bool> = std::sync::LazyLock::new(|| std::env::var_os("DBG").is_some());
 /// What came of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
@@ -102,7 +100,6 @@ impl Body {
     /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is held where it
     /// should be at the end of the step; while something snaps it may have to wait where it is.
     pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
-        if *DBG { eprintln!(); }
         let friction = self.contacts.friction;
         if self.is_stuck {
             // There was no way: what friction and forces have wound up comes loose.
@@ -171,13 +168,15 @@ impl Body {
                 if moved * shorter < SETTLED {
                     break;
                 }
+                if is_too_far(&self.rod) {
+                    return false;
+                }
             }
             if !moved.is_finite() || is_too_far(&self.rod) {
                 return false;
             }
             self.contacts.balance(&self.rod);
             self.look(count);
-            if *DBG { eprint!(" | {:.1}", 100.0 * self.depth / radius); }
             if moved < ALMOST && self.depth <= DEPTH * radius {
                 return true;
             }
@@ -205,7 +204,7 @@ impl Body {
         self.rod.potential(dt, brake) + self.contacts.potential(&self.rod)
     }
 
-    /// One step of Newton's method, made shorter until the potential falls. `potential` is what it is now, if that is known.
+    /// One step of Newton's method with contacts in it, made shorter until the potential falls. `potential` is what it is now, if that is known.
     /// Returns the largest move of a node in mm.
     fn correct(&mut self, dt: f64, brake: f64, potential: &mut Option<f64>) -> f64 {
         let before = potential.unwrap_or_else(|| self.potential(dt, brake));
@@ -228,7 +227,6 @@ impl Body {
             // What rounding leaves of the potential is no reason to stop.
             if moved * part < SETTLED || after <= before + FALL * part * slope + 1e-12 * before.abs() {
                 *potential = Some(after);
-                if *DBG { eprint!("{} {:.1e}{}", match hessian { Hessian::Exact => "", Hessian::Pressed => "p", Hessian::Safe => "s" }, moved * part, if part < 1.0 { format!("/{part}") } else { String::new() }); }
                 return moved * part;
             }
             part /= 4.0;

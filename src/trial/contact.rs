@@ -11,7 +11,8 @@
 //! N = max(0, N_before - k gap)
 //! ```
 //!
-//! so that what lies still against the wall lies at a gap of 0, however hard it is pressed. Friction is a spring across
+//! so that what lies still against the wall lies at a gap of 0, however hard it is pressed; which contacts press is found
+//! by [`super::descent`]. Friction is a spring across
 //! the normal that begins where the contact last stuck and gives no more than `mu N` (return mapping, as in plasticity:
 //! Simo and Laursen 1992); the way it is stretched by has the roll of the wire's surface in it, so that turning and
 //! pushing share one cone.
@@ -24,7 +25,7 @@ use super::wall::Wall;
 use crate::mesh::{PointFoot, SegmentFoot};
 
 /// Stiffness of a contact in N/mm: how much its force changes before the next step corrects the gap. A wire gives way
-/// across itself by 0.01 to 10 N/mm; the farther above that this is, the more corrections overshoot, and what they leave
+/// across itself by 0.01 to 10 N/mm; the farther above that this is, the more ways a correction takes, and what is left
 /// unsettled is felt as force (`tests/validation/balance.rs`).
 const STIFFNESS: f64 = 4.0;
 /// By what the stiffness grows where forces are raised.
@@ -425,22 +426,16 @@ impl Contacts {
         springs.extend(self.near().map(|(node, contact)| {
             let (a, b) = (1.0 - contact.along, contact.along);
             let spread = |v: DVec3, angle: f64| [v.x * a, v.y * a, v.z * a, angle, v.x * b, v.y * b, v.z * b];
-            let mut spring = Spring {
-                node,
-                normal: spread(contact.normal, 0.0),
-                force: contact.force - self.stiffness * contact.gap_now(rod, node),
-                stiff: self.stiffness,
-                ..Spring::default()
-            };
-            if contact.grip > 0.0 {
-                let (stretch, roll) = contact.trial(rod, node, self.radius);
-                let first = contact.smooth.any_orthonormal_vector();
-                let sides = [first, contact.smooth.cross(first)];
-                spring.grip = contact.grip;
-                spring.sides = sides.map(|side| spread(side, side.dot(roll)));
-                spring.stretch = sides.map(|side| side.dot(stretch));
+            let force = contact.force - self.stiffness * contact.gap_now(rod, node);
+            let spring = Spring::new(node, spread(contact.normal, 0.0), force, self.stiffness);
+            if contact.grip <= 0.0 {
+                return spring;
             }
-            spring
+            let (stretch, roll) = contact.trial(rod, node, self.radius);
+            let first = contact.smooth.any_orthonormal_vector();
+            let sides = [first, contact.smooth.cross(first)];
+            let stretch = sides.map(|side| side.dot(stretch));
+            spring.with_friction(contact.grip, stretch, sides.map(|side| spread(side, side.dot(roll))))
         }));
     }
 

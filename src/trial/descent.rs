@@ -3,9 +3,10 @@
 //!
 //! Elastic energy is nearly quadratic over a step, and contacts are anything but: most of what a step must find out is
 //! which contacts press and which stick. So a correction solves the whole problem with contacts in it, for the one
-//! model, before it looks at the rod again: a convex piecewise quadratic problem, by Newton's method with an exact
-//! search along each way (the augmented Lagrangian's inner problem; Nocedal and Wright, "Numerical optimization",
-//! sections 16 and 17). A way costs one factorisation; nothing of the rod is worked out anew.
+//! model, before it looks at the rod again: the convex problem within an augmented Lagrangian's round (Nocedal and
+//! Wright, "Numerical optimization", 2006, section 17.4), by Newton's method with a search along each way. A way costs
+//! one factorisation; nothing of the rod is worked out anew. Where only the rod knew of contacts, each new one on the way
+//! cut a correction short, down to a hundredth, and the next began with the same direction but for that one.
 
 use super::contact::GRIP;
 use super::rod::{Hessian, Rod};
@@ -21,23 +22,23 @@ const LOOKS: usize = 12;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spring {
     /// The node at which its edge begins.
-    pub node: usize,
+    node: usize,
     /// Derivative of the gap by the node, its angle and the next node.
-    pub normal: [f64; 7],
-    /// Derivatives of what sticks is stretched by, in two directions.
-    pub sides: [[f64; 7]; 2],
+    normal: [f64; 7],
     /// What presses, in N; open where it is less than 0.
-    pub force: f64,
+    force: f64,
     /// By what that grows with less of a gap, in N/mm.
-    pub stiff: f64,
-    /// How far what sticks is stretched, in mm.
-    pub stretch: [f64; 2],
+    stiff: f64,
     /// What friction can give, in N.
-    pub grip: f64,
+    grip: f64,
+    /// How far what sticks is stretched, in mm, in two directions across the normal.
+    stretch: [f64; 2],
+    /// Derivatives of that.
+    sides: [[f64; 7]; 2],
     /// By what force and stretch change on the whole way.
-    pub change: (f64, [f64; 2]),
+    change: (f64, [f64; 2]),
     /// Stiffness that the way was found with: of the normal, and across.
-    pub stiffness: (f64, [[f64; 2]; 2]),
+    stiffness: (f64, [[f64; 2]; 2]),
 }
 
 fn dot(a: &[f64; 7], b: &[f64; 7]) -> f64 {
@@ -45,6 +46,19 @@ fn dot(a: &[f64; 7], b: &[f64; 7]) -> f64 {
 }
 
 impl Spring {
+    /// A contact at a node and on the edge behind it: the derivative of its gap by the node, its angle and the next node,
+    /// what presses in N, less than 0 where it is open, and by what that grows with less of a gap, in N/mm.
+    pub fn new(node: usize, normal: [f64; 7], force: f64, stiff: f64) -> Self {
+        Self { node, normal, force, stiff, ..Self::default() }
+    }
+
+    /// The same with friction: what it can give in N, how far what sticks is stretched in mm in two directions across the
+    /// normal, and the derivatives of that.
+    #[must_use]
+    pub fn with_friction(self, grip: f64, stretch: [f64; 2], sides: [[f64; 7]; 2]) -> Self {
+        Self { grip, stretch, sides, ..self }
+    }
+
     fn length(stretch: [f64; 2]) -> f64 {
         (stretch[0] * stretch[0] + stretch[1] * stretch[1]).sqrt()
     }
@@ -115,10 +129,8 @@ impl Spring {
         let (normal, [[xx, xy], [yx, yy]]) = self.stiffness;
         let by = [xx * dx + xy * dy, yx * dx + yy * dy];
         let pressed = (normal > 0.0).then_some((self.node, self.normal, -change));
-        let held = (self.grip > 0.0)
-            .then(|| (0..2).map(move |i| (self.node, self.sides[i], by[i])))
-            .into_iter()
-            .flatten();
+        let held =
+            (self.grip > 0.0).then(|| (0..2).map(move |i| (self.node, self.sides[i], by[i]))).into_iter().flatten();
         pressed.into_iter().chain(held)
     }
 
@@ -163,7 +175,6 @@ pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Optio
         for spring in springs.iter_mut() {
             is_settled &= !spring.go(part);
         }
-        if *super::body::DBG { eprint!("{}", if part == 1.0 {"."} else {"-"}); }
         if is_settled {
             break;
         }

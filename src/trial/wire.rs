@@ -147,7 +147,7 @@ impl Wire {
             ("soft part", self.soft_mm, 10_000.0),
             ("taper", self.taper_mm, 10_000.0),
             ("bend", self.bend_mm, 100.0),
-            ("angle of the bend", self.bend_degrees, 7200.0),
+            ("angle of the bend", self.bend_degrees, 360.0),
             ("straight end", self.straight_end_mm, 100.0),
             ("static friction", self.friction[0], 2.0),
             ("kinetic friction", self.friction[1], 2.0),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
+use lumen::mesh::TriMesh;
 use lumen::trial::body::Stepped;
 use lumen::trial::rod::Rod;
 use lumen::trial::setup::{Entry, Input};
@@ -15,15 +16,45 @@ use crate::benchmark::Tolerance::Within;
 use crate::rods::{EI, HELD, LENGTH, cantilever, settle};
 use crate::tubes::{curve, tube};
 
-/// A wire at the mouth of a bent vessel, its guide a little out of the plane of the bend.
-fn entered() -> Simulation {
+/// A bent vessel.
+fn vessel() -> TriMesh {
     let path = curve(&[(20.0, f64::INFINITY), (40.0, 25.0), (20.0, f64::INFINITY)], 0.5);
-    let wall = Arc::new(Wall::open(Arc::new(tube(&path, |_| 1.5, 48))));
+    tube(&path, |_| 1.5, 48)
+}
+
+/// A wire at the mouth of that vessel, its guide a little out of the plane of the bend; all of it turned.
+fn entered_in(vessel: TriMesh, turn: DQuat) -> Simulation {
+    let wall = Arc::new(Wall::open(Arc::new(vessel)));
     // Too stiff to buckle: what buckles does so to any side.
     let wire = Wire { bend_degrees: 0.0, tip_ei: 5.0, ..Wire::preset("workhorse").unwrap() };
-    let way = DVec3::new(1.0, 0.0, 0.012).as_vec3();
-    let entry = Entry { at: [4.0, 0.0, 0.0], direction: way.to_array() };
+    let turned = |v: DVec3| (turn * v).as_vec3().to_array();
+    let entry = Entry { at: turned(DVec3::X * 4.0), direction: turned(DVec3::new(1.0, 0.0, 0.012)) };
     Simulation::new(&wire, wire.friction, &entry, 0.0, Some(wall)).unwrap()
+}
+
+/// The same as it is.
+fn entered() -> Simulation {
+    entered_in(vessel(), DQuat::IDENTITY)
+}
+
+/// The same surface with its vertices and triangles in another order, each triangle from another corner on.
+fn shuffled(mesh: &TriMesh) -> TriMesh {
+    let shuffle = |count: usize, by: usize| -> Vec<usize> {
+        // A prime that does not divide the count goes through all of them.
+        assert!(!count.is_multiple_of(by));
+        (0..count).map(|i| i * by % count).collect()
+    };
+    let order = shuffle(mesh.positions.len(), 7919);
+    let mut place = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(to, &from)| place[from] = to as u32);
+    let triangle = |(i, t): (usize, usize)| {
+        let [a, b, c] = mesh.triangles[t].map(|v| place[v as usize]);
+        [[a, b, c], [b, c, a], [c, a, b]][i % 3]
+    };
+    TriMesh {
+        positions: order.iter().map(|&v| mesh.positions[v]).collect(),
+        triangles: shuffle(mesh.triangles.len(), 7907).into_iter().enumerate().map(triangle).collect(),
+    }
 }
 
 /// Feeds until this much is in, at this speed in mm/s, rolling at this one in rad/s; where the tip is after each step.
@@ -51,6 +82,26 @@ fn what_goes_in_comes_out_as_it_was() {
         for tip in tips.iter().step_by(60) {
             found.point(name, tip.x, tip.y);
         }
+    }
+    found.finish();
+}
+
+#[test]
+fn neither_the_order_of_triangles_nor_the_way_it_all_lies_matters() {
+    let mut found = Benchmark::new("vessel");
+    let run = |mut simulation: Simulation| fed(&mut simulation, 60.0, 20.0, 1.0);
+    let plain = run(entered());
+    let turn = DQuat::from_axis_angle(DVec3::new(0.3, -0.5, 0.8).normalize(), 1.1);
+    let mut turned = vessel();
+    turned.positions.iter_mut().for_each(|p| *p = (turn * p.as_dvec3()).as_vec3());
+    for (name, other, back) in [
+        ("shuffled", run(entered_in(shuffled(&vessel()), DQuat::IDENTITY)), DQuat::IDENTITY),
+        ("turned", run(entered_in(turned, turn)), turn.inverse()),
+    ] {
+        assert_eq!(plain.len(), other.len());
+        let apart = plain.iter().zip(&other).map(|(p, &q)| p.distance(back * q));
+        let what = format!("largest distance of the tip on the way into a vessel that is {name} (mm)");
+        found.compare(&what, 0.0, apart.fold(0.0, f64::max), Within(0.01), 0);
     }
     found.finish();
 }

@@ -12,7 +12,7 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 25] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 26] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -48,6 +48,7 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 25] = [
     ("balance", "Wall force while a wire is steered", ["time, s", "sum over the wall, mN"], false),
     ("refinement", "Wall force on the way into a bend", ["length fed in, mm", "sum over the wall, mN"], false),
     ("turned", "A loaded rod that is turned", ["", ""], false),
+    ("vessel", "A vessel in another order, and turned", ["", ""], false),
 ];
 
 /// Runs, draws and tabulates.

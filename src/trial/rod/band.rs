@@ -70,7 +70,8 @@ impl Band {
     /// Adds what a bend is by its three nodes, from this one on, and two angles.
     #[inline]
     pub(super) fn add_bend(&mut self, node: usize, bend: &Blocks) {
-        let Blocks { aa, ab, bb, mixed: [[a_by_a, a_by_b], [b_by_a, b_by_b]], angles: [angle_a, both, angle_b] } = *bend;
+        let Blocks { aa, ab, bb, mixed: [[a_by_a, a_by_b], [b_by_a, b_by_b]], angles: [angle_a, both, angle_b] } =
+            *bend;
         let Some([own, next, last]) = self.blocks[node..].first_chunk_mut() else { return };
         // A node moves the edge behind it backwards, and the one before it forwards.
         let (before, middle, behind) = (ab - aa, aa - ab - ab.transpose() + bb, ab - bb);
@@ -193,7 +194,11 @@ fn subtract<const FROM: usize, const LANES: usize>(row: &mut Row, above: &Row, p
 
 /// Takes parts of four rows, `SHIFT` entries farther on, out of as many entries of a row from `FROM` on.
 #[inline(always)]
-fn shifted<const FROM: usize, const LANES: usize, const SHIFT: usize>(row: &mut Row, above: [&Row; 4], parts: [f64; 4]) {
+fn shifted<const FROM: usize, const LANES: usize, const SHIFT: usize>(
+    row: &mut Row,
+    above: [&Row; 4],
+    parts: [f64; 4],
+) {
     for k in FROM..FROM + LANES {
         let product = |i: usize| parts[i] * above[i][SHIFT + k];
         row[k] -= (product(0) + product(1)) + (product(2) + product(3));

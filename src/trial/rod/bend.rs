@@ -96,7 +96,14 @@ impl Blocks {
     }
 
     /// Those of the bend and the twist at a node.
-    pub(super) fn new(a: &Edge, b: &Edge, section: &Section, strain: &Strain, slopes: &Slopes, hessian: Hessian) -> Self {
+    pub(super) fn new(
+        a: &Edge,
+        b: &Edge,
+        section: &Section,
+        strain: &Strain,
+        slopes: &Slopes,
+        hessian: Hessian,
+    ) -> Self {
         let (bend, twist) = (section.ei / section.cell, section.gj / section.cell);
         let [r1, r2] = section.rest;
         if hessian == Hessian::Exact {
@@ -156,7 +163,8 @@ impl Blocks {
         let middle = (ta + tb) * inverse;
         let one = DMat3::IDENTITY;
         // Of the two directors, `d` is the one that the curvature is along, and `e` what it becomes when the edge turns.
-        let curvatures = [(strain.towards, [a.m2, b.m2], [-a.m1, -b.m1]), (strain.across, [-a.m1, -b.m1], [-a.m2, -b.m2])];
+        let curvatures =
+            [(strain.towards, [a.m2, b.m2], [-a.m1, -b.m1]), (strain.across, [-a.m1, -b.m1], [-a.m2, -b.m2])];
         for ((k, [da, db], [ea, eb]), moment) in curvatures.into_iter().zip(moments) {
             let mean = (da + db) * inverse;
             let (by_a, by_b) = (tb.cross(mean), -ta.cross(mean));
@@ -164,7 +172,11 @@ impl Blocks {
             let across = |t: DVec3| (one - outer(t, t)) * (k * inverse);
             self.aa += (twice - both(by_a, middle) - across(ta) + both(binormal, da) * 0.25) * (moment * la * la);
             self.bb += (twice - both(by_b, middle) - across(tb) + both(binormal, db) * 0.25) * (moment * lb * lb);
-            self.ab += (twice - outer(by_a, middle) - outer(middle, by_b) - (one + outer(ta, tb)) * (k * inverse) - crossing(mean))
+            self.ab += (twice
+                - outer(by_a, middle)
+                - outer(middle, by_b)
+                - (one + outer(ta, tb)) * (k * inverse)
+                - crossing(mean))
                 * (moment * la * lb);
             for (angle, (d, e)) in [(da, ea), (db, eb)].into_iter().enumerate() {
                 self.mixed[angle][0] += (tb.cross(e) * inverse - middle * (0.5 * binormal.dot(e))) * (moment * la);
@@ -207,16 +219,20 @@ mod tests {
         let differences = |row: usize| -> Vec<f64> {
             let moved = |by: f64| {
                 let mut rod = rod.clone();
-                if row % 4 == 3 { rod.spins[row / 4] += by } else { rod.positions[row / 4][row % 4] += by }
+                if row % 4 == 3 {
+                    rod.spins[row / 4] += by;
+                } else {
+                    rod.positions[row / 4][row % 4] += by;
+                }
                 slopes(&mut rod)
             };
             moved(h).iter().zip(moved(-h)).map(|(more, less)| (more - less) / (2.0 * h)).collect()
         };
         let found: Vec<Vec<f64>> = (0..19).map(differences).collect();
-        for row in 0..19 {
-            for column in 0..19 {
+        for (row, by_row) in found.iter().enumerate() {
+            for (column, by_column) in found.iter().enumerate() {
                 // What is carried along two ways comes to two places: a turn about both, which has no symmetric part.
-                let expected = f64::midpoint(found[row][column], found[column][row]);
+                let expected = f64::midpoint(by_row[column], by_column[row]);
                 let entry = exact.band.entry(row, column);
                 assert!((entry - expected).abs() < 1e-6, "{row} {column}: {entry} for {expected}");
             }

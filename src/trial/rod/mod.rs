@@ -11,21 +11,21 @@
 //!
 //! where the bend is the mean of what it is in the frames of the two edges, so that twist does not soften it, and `c` is
 //! the length of the node's cell, which reaches half-way to its neighbours. A time step is implicit (backward Euler): it
-//! is found by Newton's method with the squares of first derivatives and what tension and pressure do across an edge in
-//! place of the Hessian, without pressure where that is not positive definite ([`Hessian`]); it has a half bandwidth of
-//! 10 (`band`). The gradient is exact, so what a step comes to, and what stands still, are too.
+//! is found by Newton's method with all second derivatives (`bend`), and with fewer where those are not positive definite
+//! ([`Hessian`]). The matrix has a half bandwidth of 10 (`band`). The gradient is exact, so what a step comes to, and what
+//! stands still, are too.
 //!
 //! Nodes are numbered from the tip; tangents point away from it.
 
 mod band;
 mod bend;
-
-use std::ops::Range;
+mod change;
 
 use glam::{DMat3, DVec3};
 
 use self::band::{Band, PER_NODE};
 use self::bend::{Blocks, Slopes, curvature_slopes};
+pub use self::change::Way;
 
 /// Numbers of a node, its cell and the edge that begins there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -102,17 +102,6 @@ impl Hessian {
     pub fn safer(self) -> Self {
         if self == Self::Exact { Self::Pressed } else { Self::Safe }
     }
-}
-
-/// A way on, as [`Rod::solve`] finds it.
-#[derive(Clone, Copy, Debug)]
-pub struct Way {
-    /// The part of it that is gone at most, as it may be long.
-    pub part: f64,
-    /// The largest move of a node in all of it, in mm; infinite when there is no answer.
-    pub moved: f64,
-    /// The slope of the potential along it, in N mm.
-    pub slope: f64,
 }
 
 /// A rod, at rest or on its way through a time step.
@@ -428,7 +417,8 @@ impl Rod {
         let middle = before - behind;
         let [angle_a, angle_b] = by_angles;
         let pulls = [
-            -before.x, -before.y, -before.z, angle_a, middle.x, middle.y, middle.z, angle_b, behind.x, behind.y, behind.z,
+            -before.x, -before.y, -before.z, angle_a, middle.x, middle.y, middle.z, angle_b, behind.x, behind.y,
+            behind.z,
         ];
         for (entry, pull) in self.gradient[first..].iter_mut().zip(pulls) {
             *entry += pull;
@@ -469,88 +459,6 @@ impl Rod {
         let pulled: f64 = self.forces.iter().map(|&(node, force)| force.dot(self.positions[node])).sum();
         let turned: f64 = self.moments.iter().map(|&(edge, moment)| moment * self.spins[edge]).sum();
         self.energy() + (0..self.len()).map(motion).sum::<f64>() - pulled - turned
-    }
-
-    /// Makes what was assembled the model in which a change is sought, which begins at none.
-    pub fn begin_change(&mut self) {
-        std::mem::swap(&mut self.model, &mut self.band);
-        self.residual.clone_from(&self.gradient);
-        self.change.clear();
-        self.change.resize(self.gradient.len(), 0.0);
-        self.base.0.clone_from(&self.positions);
-        self.base.1.clone_from(&self.spins);
-    }
-
-    /// Sets up the model's equations at the change so far, for springs to be added.
-    pub fn begin_way(&mut self) {
-        self.band.clone_from(&self.model);
-        self.gradient.clone_from(&self.residual);
-    }
-
-    /// Solves the equations for the way on from the change so far. Returns the part of it that is gone at most, as it may
-    /// be long, the largest move of a node in it in mm, and the slope of the potential along it; an infinite move when
-    /// there is no answer. `None` when the matrix is not positive definite, which only that of [`Hessian::Safe`] always is.
-    pub fn solve(&mut self, hessian: Hessian) -> Option<Way> {
-        self.way.clear();
-        self.way.extend(self.gradient.iter().map(|g| -g));
-        for (i, held) in self.held.iter().enumerate() {
-            let axes: Range<usize> = if held.position { 0..3 } else { 0..0 };
-            for row in axes.chain(held.angle.then_some(3)) {
-                self.band.hold(i, row);
-                self.way[i * PER_NODE + row] = 0.0;
-            }
-        }
-        if !self.band.solve(&mut self.way) && hessian != Hessian::Safe {
-            return None;
-        }
-        let mut largest = 0.0f64;
-        let mut part = 1.0f64;
-        for way in self.way.chunks_exact(PER_NODE) {
-            let (moved, spin) = (DVec3::from_slice(way).length(), way[3].abs());
-            if !(moved.is_finite() && spin.is_finite()) {
-                return Some(Way { part: 0.0, moved: f64::INFINITY, slope: 0.0 });
-            }
-            largest = largest.max(moved);
-            part = part.min(MOST_WAY / moved.max(MOST_WAY)).min(MOST_SPIN / spin.max(MOST_SPIN));
-        }
-        let slope = self.way.iter().zip(&self.gradient).map(|(way, gradient)| way * gradient).sum();
-        Some(Way { part, moved: largest, slope })
-    }
-
-    /// The way of a node, of the angle of the edge that begins there, and of the next node.
-    pub fn way(&self, node: usize) -> &[f64; 7] {
-        self.way[node * PER_NODE..].first_chunk().unwrap_or(&[0.0; 7])
-    }
-
-    /// Goes this part of the way in the model. `pulls` are the springs that were added for it: node, derivative, and by
-    /// what each has changed its force on the whole way.
-    pub fn go(&mut self, part: f64, springs: impl Iterator<Item = (usize, [f64; 7], f64)>) {
-        for (change, way) in self.change.iter_mut().zip(&self.way) {
-            *change += part * way;
-        }
-        // On the whole way the model with its springs comes to rest.
-        for (residual, gradient) in self.residual.iter_mut().zip(&self.gradient) {
-            *residual -= part * gradient;
-        }
-        for (node, pull, force) in springs {
-            for (residual, pull) in self.residual[node * PER_NODE..].iter_mut().zip(&pull) {
-                *residual -= part * force * pull;
-            }
-        }
-    }
-
-    /// The largest move of a node in the change, in mm.
-    pub fn largest_move(&self) -> f64 {
-        self.change.chunks_exact(PER_NODE).map(|change| DVec3::from_slice(change).length()).fold(0.0, f64::max)
-    }
-
-    /// Goes this part of the change that was found last.
-    pub fn advance(&mut self, part: f64) {
-        for (i, change) in self.change.chunks_exact(PER_NODE).enumerate() {
-            self.positions[i] = self.base.0[i] + DVec3::from_slice(change) * part;
-            self.spins[i] = self.base.1[i] + change[3] * part;
-        }
-        self.refresh();
     }
 
     /// Goes on from the start of the step for `dt` seconds as in the step before; what is held stays.
@@ -594,11 +502,6 @@ impl Rod {
         self.refresh();
     }
 }
-
-/// The farthest that one correction moves a node, in mm.
-const MOST_WAY: f64 = 1.0;
-/// The largest turn of an edge about its tangent in one correction, in radians.
-const MOST_SPIN: f64 = 0.5;
 
 /// `1 + cos` of the turn; never 0.
 fn chi(a: DVec3, b: DVec3) -> f64 {
