@@ -29,7 +29,7 @@ const BRAKE: f64 = 1e-6;
 /// By what it grows when that is too little, and falls when it was enough.
 const HARDER: f64 = 4.0;
 /// Brakes that are tried in a step.
-const ATTEMPTS: usize = 9;
+const ATTEMPTS: usize = 12;
 /// The brake above which what is held waits: else it would be torn away from what cannot follow.
 const PATIENCE: f64 = 1e-5;
 /// Moves of less than this in a step are stillness, in mm.
