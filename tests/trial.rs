@@ -11,12 +11,14 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
+use lumen::trial::body::Stepped;
 use lumen::trial::compare::TrialComparison;
 use lumen::trial::course::{Course, TrialError};
 use lumen::trial::frame::Progress;
 use lumen::trial::log::Log;
 use lumen::trial::session::Trial;
 use lumen::trial::setup::{Entry, Input, Setup};
+use lumen::trial::simulation::Simulation;
 use lumen::trial::wire::Wire;
 
 /// Levels of a sample at rates in tenths of a percent, smoothed so that thin vessels stay open.
@@ -176,6 +178,28 @@ fn stepping_back_leads_to_where_it_was() {
         trial.step_back();
     }
     assert_eq!(trial.simulation().steps(), 0);
+}
+
+#[test]
+fn a_load_bends_a_wire_like_a_beam() {
+    let (ei, load, length) = (5.0, 1e-4, 20.0);
+    let preset = Wire::preset("workhorse").unwrap();
+    let wire = Wire { tip_ei: ei, shaft_ei: ei, bend_degrees: 0.0, elements_mm: [0.5; 2], ..preset };
+    let entry = Entry { at: [0.0; 3], direction: [1.0, 0.0, 0.0] };
+    let mut simulation = Simulation::new(&wire, [0.0; 2], &entry, 0.0, None).unwrap();
+    simulation.set_load(DVec3::Y * load).unwrap();
+    while simulation.inserted() < length - 0.02 {
+        simulation.step(Input { feed: 20.0, roll: 0.0 });
+    }
+    (0..5000).for_each(|_| assert_ne!(simulation.step(Input::default()), Stepped::Held));
+    // Euler and Bernoulli: w L^4 / 8 EI.
+    let expected = load * simulation.inserted().powi(4) / (8.0 * ei);
+    let found = simulation.tip().y;
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} mm for {expected}");
+    for impossible in [DVec3::X, DVec3::NAN] {
+        let refused = simulation.set_load(impossible).unwrap_err().to_string();
+        assert!(refused.starts_with("a load of") && refused.contains("0.1 is the most"), "{refused}");
+    }
 }
 
 #[test]

@@ -42,6 +42,9 @@ pub struct Trial {
     /// Where it should go: x,y,z in mm
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     target: Option<[f32; 3]>,
+    /// Load on each mm of the wire in N, x,y,z: its weight, or what flowing blood does to it
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    load: Option<[f32; 3]>,
     /// Varies entry, roll and friction; 0 varies nothing
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -145,7 +148,7 @@ impl Trial {
         }
         wire.check().unwrap_or_else(|error| misuse(error));
         let entry = self.entry.map(|at| Entry { at, direction: self.direction.unwrap_or([0.0; 3]) });
-        Setup { wire, entry, target: self.target, load: [0.0; 3], seed: self.seed }
+        Setup { wire, entry, target: self.target, load: self.load.unwrap_or_default(), seed: self.seed }
     }
 }
 

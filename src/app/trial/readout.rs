@@ -10,7 +10,7 @@ use crate::trial::frame::{Frame, Progress};
 /// The end of a bar while forces are small, in N: a floppy wire presses with less.
 const LEAST_SCALE: f64 = 0.001;
 /// Below this many N a force is told in mN.
-const SMALL: f64 = 0.01;
+pub(super) const SMALL: f64 = 0.01;
 /// The room beside a bar for where it ends, in points.
 const END: f32 = 40.0;
 

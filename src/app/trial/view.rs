@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
 use glam::{Mat3, Quat};
 
-use super::readout::plate;
+use super::readout::{SMALL, plate};
 use super::scene::TrialScene;
 use super::{AWAITS, Stage, Trial, marks, tables};
 use crate::app::control::name;
@@ -164,9 +164,7 @@ impl TrialView {
         if is_on {
             marks::show(ui, rect, &camera, trial);
         }
-        let map = (is_on && rect.height() > 300.0).then_some(forces);
-        let decimals = if trial.peaks.wall_scale() < 0.01 { 3 } else { 2 };
-        let legend = map.map(|map| Legend { map, title: "Peak force", unit: "N", decimals });
+        let legend = (is_on && rect.height() > 300.0).then(|| peak_legend(trial.peaks.wall_scale()));
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
         let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, legend };
         overlay::show(ui, rect, &writing);
@@ -361,4 +359,10 @@ fn lumen_at(at: egui::Pos2, rect: Rect, camera: &Camera, mesh: &TriMesh) -> Opti
     let inside = Ray { origin: near + ray.direction * 0.05, ..ray };
     let far = pick(&inside, &mesh.positions, &mesh.triangles)?;
     Some(near + ray.direction * (far.distance / 2.0))
+}
+
+/// What the colours of the wall are up to a force in N; in the unit in which the panel tells such forces.
+fn peak_legend(most: f32) -> Legend {
+    let (most, unit, decimals) = if most < SMALL as f32 { (most * 1e3, "mN", 0) } else { (most, "N", 2) };
+    Legend { map: ColourMap { range_mm: (0.0, most) }, title: "Peak force", unit, decimals }
 }
