@@ -5,8 +5,8 @@
 //! `n` behind them, node counts: `-- 10000 1000000 300n`. Counts below a million are levels of the sample of a million.
 //!
 //! Two inputs: `workhorse`, which touches here and there as wires do, and, with a `p` before the count, `pressed`: as soft
-//! as the workhorse's tip all along, and pressed against the wall by a load on each mm, so that most of it lies there. At the wall is a
-//! node with a contact that takes part in the step: nearer than 0.1 mm, beside the radius.
+//! as the workhorse's tip all along, and pressed against the wall by a load on each mm, so that most of it lies there. At
+//! the wall is a node with a contact that takes part in the step: nearer than 0.1 mm, beside the radius.
 //!
 //! With `LUMEN_TRIAL_LOG` surface, setup and log of the last are left in that folder, for `benches/trial.mjs` to replay
 //! in the browser's Worker.
@@ -68,7 +68,7 @@ fn main() {
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     let mut whole = (WHOLE, smoothed(WHOLE));
     for (kind, count, nodes) in rows {
-        let made = if nodes == NODES { count.max(WHOLE) } else { count };
+        let made = if count == TRIANGLES { count } else { count.max(WHOLE) };
         if made != whole.0 {
             whole = (made, smoothed(made));
         }

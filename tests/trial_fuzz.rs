@@ -1,5 +1,6 @@
 //! Random input, for 50,000 steps: no number that is none, nothing through the wall, nothing farther into it than 5 % of
-//! the wire's radius, no wire that is stuck for good. `LUMEN_FUZZ_STEPS` asks for more (`cargo xtask fuzz-trial`: a million).
+//! the wire's radius, no wire that is stuck for good. `LUMEN_FUZZ_STEPS` asks for more (`cargo xtask fuzz-trial`: a
+//! million).
 //!
 //! Penetration is measured on capsules against triangles in f64, escape by winding numbers: by `audit`, which shares
 //! nothing with the contact solver.

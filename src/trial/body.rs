@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::contact::Contacts;
-use super::descent::{Spring, descend};
+use super::descent::{Descent, Spring, descend};
 use super::rod::{Hessian, Rod};
 use super::wall::Wall;
 
@@ -19,8 +19,9 @@ const FALL: f64 = 1e-4;
 const CORRECTIONS: usize = 8;
 /// Times the gaps are measured in a step.
 const ROUNDS: usize = 6;
-/// A correction of less than this, in mm, is the last. What is left over is a force of [`super::contact`]'s stiffness
-/// times it in each contact: it must be small against what a floppy wire presses with, or nothing slides as it should.
+/// Where the next correction would be less than this, in mm, this one is the last. What is left over is a force of
+/// [`super::contact`]'s stiffness times it in each contact: it must be small against what a floppy wire presses with, or
+/// nothing slides as it should.
 const SETTLED: f64 = 3e-6;
 /// At this, in mm, a step can still be taken as done.
 const ALMOST: f64 = 2e-2;
@@ -161,10 +162,10 @@ impl Body {
             self.contacts.set_grip();
             let (mut moved, mut potential) = (f64::INFINITY, None);
             for _ in 0..CORRECTIONS {
-                let before = moved;
-                moved = self.correct(dt, brake, &mut potential);
-                // The next one would be shorter by as much again, at least.
-                let shorter = if before.is_finite() { (moved / before).min(1.0) } else { 1.0 };
+                let (before, is_whole);
+                (before, (moved, is_whole)) = (moved, self.correct(dt, brake, &mut potential));
+                // The one after a whole one would be shorter by as much again, at least.
+                let shorter = if is_whole && before.is_finite() { (moved / before).min(1.0) } else { 1.0 };
                 if moved * shorter < SETTLED {
                     break;
                 }
@@ -204,12 +205,12 @@ impl Body {
         self.rod.potential(dt, brake) + self.contacts.potential(&self.rod)
     }
 
-    /// One step of Newton's method with contacts in it, made shorter until the potential falls. `potential` is what it is now, if that is known.
-    /// Returns the largest move of a node in mm.
-    fn correct(&mut self, dt: f64, brake: f64, potential: &mut Option<f64>) -> f64 {
+    /// One step of Newton's method with contacts in it, made shorter until the potential falls. `potential` is what it is
+    /// now, if that is known. Returns the largest move of a node in mm, and whether the step was all that it should be.
+    fn correct(&mut self, dt: f64, brake: f64, potential: &mut Option<f64>) -> (f64, bool) {
         let before = potential.unwrap_or_else(|| self.potential(dt, brake));
         let mut hessian = Hessian::Exact;
-        let (moved, slope) = loop {
+        let Descent { moved, fall, is_settled } = loop {
             self.rod.assemble(dt, brake, hessian);
             self.contacts.along(&self.rod, &mut self.springs);
             match descend(&mut self.rod, &mut self.springs, hessian) {
@@ -218,16 +219,16 @@ impl Body {
             }
         };
         if !moved.is_finite() {
-            return moved;
+            return (moved, false);
         }
         let mut part = 1.0;
         loop {
             self.rod.advance(part);
             let after = self.potential(dt, brake);
             // What rounding leaves of the potential is no reason to stop.
-            if moved * part < SETTLED || after <= before + FALL * part * slope + 1e-12 * before.abs() {
+            if moved * part < SETTLED || after <= before + FALL * part * fall + 1e-12 * before.abs() {
                 *potential = Some(after);
-                return moved * part;
+                return (moved * part, is_settled && part == 1.0);
             }
             part /= 4.0;
         }

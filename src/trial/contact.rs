@@ -12,10 +12,9 @@
 //! ```
 //!
 //! so that what lies still against the wall lies at a gap of 0, however hard it is pressed; which contacts press is found
-//! by [`super::descent`]. Friction is a spring across
-//! the normal that begins where the contact last stuck and gives no more than `mu N` (return mapping, as in plasticity:
-//! Simo and Laursen 1992); the way it is stretched by has the roll of the wire's surface in it, so that turning and
-//! pushing share one cone.
+//! in `descent`. Friction is a spring across the normal that begins where the contact last stuck and gives no more than
+//! `mu N` (return mapping, as in plasticity: Simo and Laursen 1992); the way it is stretched by has the roll of the
+//! wire's surface in it, so that turning and pushing share one cone.
 
 use glam::DVec3;
 
@@ -421,7 +420,7 @@ impl Contacts {
     }
 
     /// The contacts as they are along a straight change of the rod from where it is now.
-    pub fn along(&self, rod: &Rod, springs: &mut Vec<Spring>) {
+    pub(super) fn along(&self, rod: &Rod, springs: &mut Vec<Spring>) {
         springs.clear();
         springs.extend(self.near().map(|(node, contact)| {
             let (a, b) = (1.0 - contact.along, contact.along);

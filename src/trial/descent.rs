@@ -16,11 +16,11 @@ const WAYS: usize = 8;
 /// What may be left of the slope at the end of a way.
 const LEVEL: f64 = 0.1;
 /// Looks at a way for where it is level.
-const LOOKS: usize = 12;
+const LOOKS: usize = 60;
 
 /// A contact and its friction along a straight change of the rod.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Spring {
+pub(super) struct Spring {
     /// The node at which its edge begins.
     node: usize,
     /// Derivative of the gap by the node, its angle and the next node.
@@ -38,7 +38,7 @@ pub struct Spring {
     /// By what force and stretch change on the whole way.
     change: (f64, [f64; 2]),
     /// Stiffness that the way was found with: of the normal, and across.
-    stiffness: (f64, [[f64; 2]; 2]),
+    added_stiffness: (f64, [[f64; 2]; 2]),
 }
 
 fn dot(a: &[f64; 7], b: &[f64; 7]) -> f64 {
@@ -48,14 +48,14 @@ fn dot(a: &[f64; 7], b: &[f64; 7]) -> f64 {
 impl Spring {
     /// A contact at a node and on the edge behind it: the derivative of its gap by the node, its angle and the next node,
     /// what presses in N, less than 0 where it is open, and by what that grows with less of a gap, in N/mm.
-    pub fn new(node: usize, normal: [f64; 7], force: f64, stiff: f64) -> Self {
+    pub(super) fn new(node: usize, normal: [f64; 7], force: f64, stiff: f64) -> Self {
         Self { node, normal, force, stiff, ..Self::default() }
     }
 
     /// The same with friction: what it can give in N, how far what sticks is stretched in mm in two directions across the
     /// normal, and the derivatives of that.
     #[must_use]
-    pub fn with_friction(self, grip: f64, stretch: [f64; 2], sides: [[f64; 7]; 2]) -> Self {
+    pub(super) fn with_friction(self, grip: f64, stretch: [f64; 2], sides: [[f64; 7]; 2]) -> Self {
         Self { grip, stretch, sides, ..self }
     }
 
@@ -65,9 +65,9 @@ impl Spring {
 
     /// Adds it to the equations of the way on.
     fn add(&mut self, rod: &mut Rod) {
-        self.stiffness = (0.0, [[0.0; 2]; 2]);
+        self.added_stiffness = (0.0, [[0.0; 2]; 2]);
         if self.force > 0.0 {
-            self.stiffness.0 = self.stiff;
+            self.added_stiffness.0 = self.stiff;
             rod.add_spring(self.node, &self.normal, -self.force, self.stiff);
         }
         if self.grip <= 0.0 {
@@ -75,7 +75,7 @@ impl Spring {
         }
         let length = Self::length(self.stretch);
         if length * GRIP <= self.grip {
-            self.stiffness.1 = [[GRIP, 0.0], [0.0, GRIP]];
+            self.added_stiffness.1 = [[GRIP, 0.0], [0.0, GRIP]];
             for (side, stretch) in self.sides.iter().zip(self.stretch) {
                 rod.add_spring(self.node, side, GRIP * stretch, GRIP);
             }
@@ -84,7 +84,7 @@ impl Spring {
         // Sliding friction does not change along its way.
         let [x, y] = self.stretch.map(|stretch| stretch / length);
         let stiff = self.grip / length;
-        self.stiffness.1 = [[stiff * y * y, -stiff * x * y], [-stiff * x * y, stiff * x * x]];
+        self.added_stiffness.1 = [[stiff * y * y, -stiff * x * y], [-stiff * x * y, stiff * x * x]];
         let mix = |a: f64, b: f64| std::array::from_fn(|i| a * self.sides[0][i] + b * self.sides[1][i]);
         rod.add_spring(self.node, &mix(x, y), self.grip, 0.0);
         rod.add_spring(self.node, &mix(-y, x), 0.0, stiff);
@@ -118,7 +118,7 @@ impl Spring {
     /// By what the slope would change on the whole way if it stayed as it was added.
     fn added(&self) -> f64 {
         let (change, [dx, dy]) = self.change;
-        let (normal, [[xx, xy], [yx, yy]]) = self.stiffness;
+        let (normal, [[xx, xy], [yx, yy]]) = self.added_stiffness;
         let pressed = if normal > 0.0 { change * change / self.stiff } else { 0.0 };
         pressed + dx * (xx * dx + xy * dy) + dy * (yx * dx + yy * dy)
     }
@@ -126,7 +126,7 @@ impl Spring {
     /// What the springs that were added for the way change by on it: node, derivative, force.
     fn changed(&self) -> impl Iterator<Item = (usize, [f64; 7], f64)> {
         let (change, [dx, dy]) = self.change;
-        let (normal, [[xx, xy], [yx, yy]]) = self.stiffness;
+        let (normal, [[xx, xy], [yx, yy]]) = self.added_stiffness;
         let by = [xx * dx + xy * dy, yx * dx + yy * dy];
         let pressed = (normal > 0.0).then_some((self.node, self.normal, -change));
         let held =
@@ -147,20 +147,26 @@ impl Spring {
     }
 }
 
-/// Finds the change of an assembled rod, for [`Rod::advance`]. Returns the largest move of a node in it, in mm, and at
-/// most by what the potential should fall, as a negative number of N mm; an infinite move when there is no answer.
-/// `None` when the matrix is not positive definite.
-pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Option<(f64, f64)> {
+/// What came of a descent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Descent {
+    /// The largest move of a node in the change, in mm; infinite when there is no answer.
+    pub(super) moved: f64,
+    /// At most by what the potential should fall, as a negative number of N mm.
+    pub(super) fall: f64,
+    /// Whether the model and its contacts are at rest there.
+    pub(super) is_settled: bool,
+}
+
+/// Finds the change of an assembled rod, for [`Rod::advance`]. `None` when the matrix is not positive definite.
+pub(super) fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Option<Descent> {
     rod.begin_change();
     let mut live: Vec<Spring> = Vec::with_capacity(springs.len());
-    let mut fall = 0.0;
+    let (mut fall, mut is_settled) = (0.0, false);
     for _ in 0..WAYS {
         rod.begin_way();
         springs.iter_mut().for_each(|spring| spring.add(rod));
         let way = rod.solve(hessian)?;
-        if !way.moved.is_finite() {
-            return Some((way.moved, 0.0));
-        }
         springs.iter_mut().for_each(|spring| spring.look_ahead(rod));
         live.clear();
         live.extend(springs.iter().filter(|spring| spring.is_live(way.part)));
@@ -169,20 +175,25 @@ pub fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Optio
         let first = way.slope - springs_at(0.0);
         let rise = -way.slope - live.iter().map(Spring::added).sum::<f64>();
         let part = level(way.part, |part| first + part * rise + springs_at(part));
+        if !(way.moved.is_finite() && part.is_finite()) {
+            return Some(Descent { moved: f64::INFINITY, fall: 0.0, is_settled: false });
+        }
         fall += part * way.slope;
         rod.go(part, live.iter().flat_map(Spring::changed));
-        let mut is_settled = part >= 1.0;
+        is_settled = part >= 1.0;
         for spring in springs.iter_mut() {
             is_settled &= !spring.go(part);
         }
-        if is_settled {
+        // A way that is too long for the model ends the correction.
+        if is_settled || (way.part < 1.0 && part >= way.part) {
             break;
         }
     }
-    Some((rod.largest_move(), fall))
+    Some(Descent { moved: rod.largest_move(), fall, is_settled })
 }
 
-/// Where the slope along a way is level, at most at `most`: by the rule of false position, kept from stalling (Illinois).
+/// Where the slope along a way is level, at most at `most`; by false position and by halves in turn, as the one alone
+/// stalls before a stiff contact.
 fn level(most: f64, slope: impl Fn(f64) -> f64) -> f64 {
     let (mut from, mut at_from) = (0.0, slope(0.0));
     let (mut to, mut at_to) = (most, slope(most));
@@ -190,18 +201,17 @@ fn level(most: f64, slope: impl Fn(f64) -> f64) -> f64 {
     if at_to <= enough {
         return most;
     }
-    for _ in 0..LOOKS {
-        let part = (from * at_to - to * at_from) / (at_to - at_from);
+    for look in 0..LOOKS {
+        let part =
+            if look % 2 == 0 { (from * at_to - to * at_from) / (at_to - at_from) } else { f64::midpoint(from, to) };
         let here = slope(part);
         if here.abs() <= enough {
             return part;
         }
         if here > 0.0 {
             (to, at_to) = (part, here);
-            at_from /= 2.0;
         } else {
             (from, at_from) = (part, here);
-            at_to /= 2.0;
         }
     }
     from

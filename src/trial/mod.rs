@@ -15,7 +15,7 @@ pub mod body;
 pub mod compare;
 pub mod contact;
 pub mod course;
-pub mod descent;
+mod descent;
 pub mod frame;
 pub mod log;
 pub mod meter;

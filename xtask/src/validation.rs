@@ -38,7 +38,7 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 26] = [
     (
         "snaking",
         "A wire that is pushed along the floor of a tube",
-        ["push over √(EI w/r)", "width over the clearance"],
+        ["push over √(EI w/r)", "angle up the wall, rad"],
         false,
     ),
     ("helix-onset", "A snake goes over into a helix", ["push over √(EI w/r)", "turns about the axis"], false),

@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::band::PER_NODE;
 use super::{Hessian, Rod};
 
-/// The farthest that one correction moves a node, in mm.
+/// The farthest that one way moves a node, in mm.
 const MOST_WAY: f64 = 1.0;
-/// The largest turn of an edge about its tangent in one correction, in radians.
+/// The largest turn of an edge about its tangent in one way, in radians.
 const MOST_SPIN: f64 = 0.5;
 
 /// A way on, as [`Rod::solve`] finds it.
@@ -75,8 +75,8 @@ impl Rod {
         self.way[node * PER_NODE..].first_chunk().unwrap_or(&[0.0; 7])
     }
 
-    /// Goes this part of the way in the model. `pulls` are the springs that were added for it: node, derivative, and by
-    /// what each has changed its force on the whole way.
+    /// Goes this part of the way in the model. `springs` are those that were added for it: node, derivative, and by
+    /// what each changes its force on the whole way.
     pub fn go(&mut self, part: f64, springs: impl Iterator<Item = (usize, [f64; 7], f64)>) {
         for (change, way) in self.change.iter_mut().zip(&self.way) {
             *change += part * way;

@@ -134,7 +134,7 @@ pub struct Rod {
     strains: Vec<Strain>,
     gradient: Vec<f64>,
     band: Band,
-    /// The equations without springs, and the gradient without them at the change so far.
+    /// The equations without springs, and the gradient without them at the change so far; where rows are held, nothing.
     model: Band,
     residual: Vec<f64>,
     /// The way that was found last, and the change that has come of ways so far.
