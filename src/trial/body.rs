@@ -61,6 +61,7 @@ pub struct Body {
     /// How far it reaches into the wall, in mm; negative when it is clear.
     pub depth: f64,
     wall: Option<Arc<Wall>>,
+    /// The contacts of the correction under way.
     springs: Vec<Spring>,
     /// Drag of each node beyond its own in the last step, in N s/mm.
     brake: f64,
@@ -162,19 +163,17 @@ impl Body {
             self.contacts.set_grip();
             let (mut moved, mut potential) = (f64::INFINITY, None);
             for _ in 0..CORRECTIONS {
-                let (before, is_whole);
-                (before, (moved, is_whole)) = (moved, self.correct(dt, brake, &mut potential));
+                let before = moved;
+                let is_whole;
+                (moved, is_whole) = self.correct(dt, brake, &mut potential);
+                if !moved.is_finite() || is_too_far(&self.rod) {
+                    return false;
+                }
                 // The one after a whole one would be shorter by as much again, at least.
                 let shorter = if is_whole && before.is_finite() { (moved / before).min(1.0) } else { 1.0 };
                 if moved * shorter < SETTLED {
                     break;
                 }
-                if is_too_far(&self.rod) {
-                    return false;
-                }
-            }
-            if !moved.is_finite() || is_too_far(&self.rod) {
-                return false;
             }
             self.contacts.balance(&self.rod);
             self.look(count);

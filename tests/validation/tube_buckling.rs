@@ -64,7 +64,7 @@ fn a_pushed_wire_snakes_in_its_tube() {
     }
     for i in 0..=20 {
         let angle = 0.03 * f64::from(i);
-        found.point("analytic", 2.0 + GROWTH * angle * angle, angle);
+        found.curve("analytic", 2.0 + GROWTH * angle * angle, angle);
     }
     let onset = onsets.iter().sum::<f64>() / onsets.len() as f64;
     found.compare("load at which it snakes over √(EI w/r)", 2.0, onset, Part(0.02), 150);

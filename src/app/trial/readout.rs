@@ -10,7 +10,7 @@ use crate::trial::frame::{Frame, Progress};
 /// The end of a bar while forces are small, in N: a floppy wire presses with less.
 const LEAST_SCALE: f64 = 0.001;
 /// Below this many N a force is told in mN.
-pub(super) const SMALL: f64 = 0.01;
+const SMALL: f64 = 0.01;
 /// The room beside a bar for where it ends, in points.
 const END: f32 = 40.0;
 
@@ -123,7 +123,7 @@ fn scale(peak: f32) -> f32 {
 
 /// A bar with its number, and beside it the force at its end.
 fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
-    let most = if f64::from(scale) < SMALL { format!("{:.0} mN", scale * 1e3) } else { format!("{scale} N") };
+    let most = if is_small(scale) { format!("{:.0} mN", scale * 1e3) } else { format!("{scale} N") };
     number(ui, what, &force(f64::from(value)), help);
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
     let rect = whole.shrink2(vec2(0.0, 2.0)).with_max_x(whole.right() - END);
@@ -144,6 +144,11 @@ fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &
     let end = filled.right().max(rect.left() + 1.0);
     painter
         .line_segment([pos2(end, rect.top()), pos2(end, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
+}
+
+/// Whether a bar or a legend that ends at this many N is told in mN.
+pub(super) fn is_small(end: f32) -> bool {
+    end < SMALL as f32
 }
 
 /// In N, or in mN where there are few.

@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
 use glam::{Mat3, Quat};
 
-use super::readout::{SMALL, plate};
+use super::readout::{is_small, plate};
 use super::scene::TrialScene;
 use super::{AWAITS, Stage, Trial, marks, tables};
 use crate::app::control::name;
@@ -363,6 +363,6 @@ fn lumen_at(at: egui::Pos2, rect: Rect, camera: &Camera, mesh: &TriMesh) -> Opti
 
 /// What the colours of the wall are up to a force in N; in the unit in which the panel tells such forces.
 fn peak_legend(most: f32) -> Legend {
-    let (most, unit, decimals) = if most < SMALL as f32 { (most * 1e3, "mN", 0) } else { (most, "N", 2) };
+    let (most, unit, decimals) = if is_small(most) { (most * 1e3, "mN", 0) } else { (most, "N", 2) };
     Legend { map: ColourMap { range_mm: (0.0, most) }, title: "Peak force", unit, decimals }
 }

@@ -62,20 +62,23 @@ impl Slopes {
     }
 }
 
+/// The curvatures towards the director and across. Each is half the binormal's part along one director of each edge:
+/// those directors, and what they become when their edges turn.
+fn curvatures(a: &Edge, b: &Edge, strain: &Strain) -> [(f64, [DVec3; 2], [DVec3; 2]); 2] {
+    [(strain.towards, [a.m2, b.m2], [-a.m1, -b.m1]), (strain.across, [-a.m1, -b.m1], [-a.m2, -b.m2])]
+}
+
 /// The first derivatives of the curvatures towards the director and across, by the edges and by their angles.
 pub(super) fn curvature_slopes(a: &Edge, b: &Edge, strain: &Strain) -> [([DVec3; 2], [f64; 2]); 2] {
     let middle = (a.tangent + b.tangent) * strain.inverse;
-    // A curvature is half the binormal's part along a director and its like; these turn into others with the edges.
-    [(strain.towards, [a.m2, b.m2], [-a.m1, -b.m1]), (strain.across, [-a.m1, -b.m1], [-a.m2, -b.m2])].map(
-        |(curvature, directors, turned)| {
-            let mean = (directors[0] + directors[1]) * strain.inverse;
-            let by_edges = [
-                (b.tangent.cross(mean) - middle * curvature) * a.inverse,
-                (mean.cross(a.tangent) - middle * curvature) * b.inverse,
-            ];
-            (by_edges, turned.map(|turned| 0.5 * strain.binormal.dot(turned)))
-        },
-    )
+    curvatures(a, b, strain).map(|(curvature, directors, turned)| {
+        let mean = (directors[0] + directors[1]) * strain.inverse;
+        let by_edges = [
+            (b.tangent.cross(mean) - middle * curvature) * a.inverse,
+            (mean.cross(a.tangent) - middle * curvature) * b.inverse,
+        ];
+        (by_edges, turned.map(|turned| 0.5 * strain.binormal.dot(turned)))
+    })
 }
 
 impl Blocks {
@@ -162,10 +165,7 @@ impl Blocks {
         let Strain { inverse, binormal, .. } = *strain;
         let middle = (ta + tb) * inverse;
         let one = DMat3::IDENTITY;
-        // Of the two directors, `d` is the one that the curvature is along, and `e` what it becomes when the edge turns.
-        let curvatures =
-            [(strain.towards, [a.m2, b.m2], [-a.m1, -b.m1]), (strain.across, [-a.m1, -b.m1], [-a.m2, -b.m2])];
-        for ((k, [da, db], [ea, eb]), moment) in curvatures.into_iter().zip(moments) {
+        for ((k, [da, db], [ea, eb]), moment) in curvatures(a, b, strain).into_iter().zip(moments) {
             let mean = (da + db) * inverse;
             let (by_a, by_b) = (tb.cross(mean), -ta.cross(mean));
             let twice = outer(middle, middle) * (2.0 * k);
