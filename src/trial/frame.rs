@@ -141,6 +141,8 @@ pub struct Summary {
     pub surface: String,
     /// The wire's name.
     pub wire: String,
+    /// Load on each mm of the wire, in N.
+    pub load_n_per_mm: [f32; 3],
     /// The seed.
     pub seed: u64,
     /// Static and kinetic coefficient of friction, after the seed's variation.

@@ -188,6 +188,7 @@ impl Trial {
             triangles: course.wall.mesh().triangles.len(),
             surface: format!("{:016x}", course.fingerprint),
             wire: self.setup().wire.name.clone(),
+            load_n_per_mm: self.setup().load,
             seed: self.setup().seed,
             friction: self.friction(),
             route_length_mm: route.length_mm,
