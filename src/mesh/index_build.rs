@@ -374,7 +374,7 @@ impl IndexBuild {
         let end = self.items.len().min(self.next.saturating_add(work));
         for &Item { triangle, .. } in &self.items[self.next..end] {
             let corners = triangles[triangle as usize].map(|v| positions[v as usize]);
-            self.leaves.push(Leaf { corners, triangle, is_sliver: is_sliver(corners) });
+            self.leaves.push(Leaf { corners, triangle, is_sliver: is_sliver(corners), sides: Leaf::ALL_SIDES });
         }
         let used = end - self.next;
         self.next = end;

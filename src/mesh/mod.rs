@@ -9,6 +9,7 @@ mod capsule;
 mod closest_point;
 mod components;
 pub(crate) mod crossing;
+mod four;
 mod hausdorff;
 mod index_build;
 mod inner_ball;

@@ -95,9 +95,14 @@ pub(super) struct Leaf {
     pub(super) corners: [Vec3; 3],
     pub(super) triangle: u32,
     pub(super) is_sliver: bool,
+    /// Which sides a segment can come nearest to: bit 0 that from the first corner to the second, and so on.
+    pub(super) sides: u8,
 }
 
 impl Leaf {
+    /// Every side.
+    pub(super) const ALL_SIDES: u8 = 0b111;
+
     #[inline]
     pub(super) fn foot(&self, p: impl Into<glam::DVec3>) -> Foot {
         if self.is_sliver { foot_on_sliver(p, self.corners) } else { foot_on_triangle(p, self.corners) }
@@ -156,6 +161,14 @@ impl SurfaceIndex {
     /// Whether there is nothing to be near to.
     pub fn is_empty(&self) -> bool {
         self.leaves.is_empty()
+    }
+
+    /// Lets [`Self::segment_foot`] look at fewer sides: `sides` has those of the first triangles, bit 0 that from the
+    /// first corner to the second, and so on. A side of two triangles is enough in one of them.
+    pub fn keep_sides(&mut self, sides: &[u8]) {
+        for leaf in &mut self.leaves {
+            leaf.sides = sides.get(leaf.triangle as usize).copied().unwrap_or(Leaf::ALL_SIDES);
+        }
     }
 
     /// Numbers of the triangles, each once, in the order of the tree, in which neighbours are mostly neighbours in space

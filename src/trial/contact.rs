@@ -244,11 +244,13 @@ impl Contacts {
         self.edges.resize(count.saturating_sub(1), [Contact::NONE; RIDGES]);
         self.insides.resize(count.saturating_sub(1), Inside::UNKNOWN);
         let mut deepest = f64::NEG_INFINITY;
+        // An edge right after its ends, whose triangles are at hand then.
         for i in 0..count {
-            deepest = deepest.max(self.radius - self.look_at_node(rod.positions[i], i, wall));
-        }
-        for i in 1..count {
-            deepest = deepest.max(self.radius - self.look_at_edge(rod, i - 1, wall));
+            let mut distance = self.look_at_node(rod.positions[i], i, wall);
+            if i > 0 {
+                distance = distance.min(self.look_at_edge(rod, i - 1, wall));
+            }
+            deepest = deepest.max(self.radius - distance);
         }
         self.list();
         deepest

@@ -26,19 +26,23 @@ const TRUSTED: [f64; 2] = [0.87, 0.5];
 impl Wall {
     /// Of a surface whose triangles look out of the lumen.
     pub fn new(mesh: Arc<TriMesh>) -> Self {
-        let capped = capped(&mesh);
-        Self::of(mesh, capped)
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let capped = capped(&mesh, &topology);
+        Self::of(mesh, capped, &topology)
     }
 
     /// Likewise, with its open ends left open: for wires that pass through them.
     pub fn open(mesh: Arc<TriMesh>) -> Self {
-        Self::of(mesh.clone(), mesh)
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        Self::of(mesh.clone(), mesh, &topology)
     }
 
-    fn of(mesh: Arc<TriMesh>, capped: Arc<TriMesh>) -> Self {
-        let index = Arc::new(SurfaceIndex::new(&capped.positions, &capped.triangles));
+    fn of(mesh: Arc<TriMesh>, capped: Arc<TriMesh>, topology: &Topology) -> Self {
+        let mut index = SurfaceIndex::new(&capped.positions, &capped.triangles);
+        let sides = ridges(&mesh, topology, index.triangles());
+        index.keep_sides(&sides);
         let normals = vertex_normals(&capped.positions, &capped.triangles, Weighting::Angle);
-        Self { mesh, capped, index, normals }
+        Self { mesh, capped, index: Arc::new(index), normals }
     }
 
     /// Whether there are no open ends, so that the index is that of the surface itself.
@@ -76,8 +80,8 @@ impl Wall {
 }
 
 /// The surface with a fan over each open end; the surface itself where there is none.
-fn capped(mesh: &Arc<TriMesh>) -> Arc<TriMesh> {
-    let loops = boundary_loops(&Topology::new(mesh.positions.len(), &mesh.triangles));
+fn capped(mesh: &Arc<TriMesh>, topology: &Topology) -> Arc<TriMesh> {
+    let loops = boundary_loops(topology);
     if loops.is_empty() {
         return mesh.clone();
     }
@@ -91,4 +95,94 @@ fn capped(mesh: &Arc<TriMesh>) -> Arc<TriMesh> {
         }
     }
     Arc::new(capped)
+}
+
+/// The sides of each triangle that the inside of a segment in the lumen can come nearest to, bit by bit: not those of
+/// valleys, as to a point in the lumen one of the triangles beside them is nearer, and ridges in one of their two
+/// triangles only. `order` has all triangles, neighbours mostly side by side, as they are at hand then.
+fn ridges(mesh: &TriMesh, topology: &Topology, order: impl Iterator<Item = u32>) -> Vec<u8> {
+    let at = |v: u32| mesh.positions[v as usize].as_dvec3();
+    let of = |t: usize| {
+        let corners = mesh.triangles[t];
+        let [a, b, c] = corners.map(at);
+        let outward = (b - a).cross(c - a);
+        let is_kept = |&k: &usize| {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            let is_beside = |&&other: &&u32| other as usize != t && mesh.triangles[other as usize].contains(&to);
+            let mut beside = topology.triangles(from).iter().filter(is_beside);
+            let (Some(&other), None) = (beside.next(), beside.next()) else { return true };
+            // Triangles that are wound against each other have no common outside.
+            let Some(far) = beyond(mesh.triangles[other as usize], to, from) else { return true };
+            other as usize > t && outward.dot(at(far) - a) >= 0.0
+        };
+        (0..3).filter(is_kept).fold(0, |sides, k| sides | 1 << k)
+    };
+    let mut sides = vec![0; mesh.triangles.len()];
+    for t in order.map(|t| t as usize).filter(|&t| t < mesh.triangles.len()) {
+        sides[t] = of(t);
+    }
+    sides
+}
+
+/// The corner of a triangle beyond its side from `from` to `to`, if it is wound that way.
+fn beyond(triangle: [u32; 3], from: u32, to: u32) -> Option<u32> {
+    (0..3).find(|&k| triangle[k] == from && triangle[(k + 1) % 3] == to).map(|k| triangle[(k + 2) % 3])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::SegmentFoot;
+    use crate::mesh::shapes::icosphere;
+
+    /// Numbers from -1 to 1.
+    fn random() -> impl FnMut() -> f64 {
+        let mut state = 7u32;
+        move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 23) - 1.0
+        }
+    }
+
+    #[test]
+    fn without_valleys_the_inside_of_a_segment_is_as_near() {
+        let mut random = random();
+        let mut lumen = icosphere(3, 5.0, Vec3::ZERO);
+        lumen.positions.iter_mut().for_each(|p| *p *= 1.0 + 0.1 * random() as f32);
+        let whole = SurfaceIndex::new(&lumen.positions, &lumen.triangles);
+        let wall = Wall::new(Arc::new(lumen));
+        let mut point = || DVec3::new(random(), random(), random()) * 4.5;
+        let mut inside = 0;
+        for _ in 0..4000 {
+            let a = point();
+            let b = a + point() * 0.2;
+            let [near_a, near_b] = [a, b].map(|p| whole.foot(p, f64::INFINITY, u32::MAX).unwrap().distance);
+            if whole.winding(a.as_vec3(), Vec3::Z) != 1 || whole.winding(b.as_vec3(), Vec3::Z) != 1 {
+                continue;
+            }
+            let within = near_a.min(near_b) - 1e-9;
+            let [of_all, of_ridges] = [&whole, wall.index().as_ref()].map(|index| index.segment_foot(a, b, within));
+            let distance = |found: Option<SegmentFoot>| found.map_or(within, |found| found.foot.distance);
+            assert!((distance(of_all) - distance(of_ridges)).abs() < 1e-12, "{of_all:?} {of_ridges:?}");
+            inside += usize::from(of_all.is_some());
+        }
+        assert!(inside > 100, "{inside}");
+    }
+
+    #[test]
+    fn a_lumen_without_ridges_has_no_side_to_be_near_to() {
+        let ball = icosphere(3, 5.0, Vec3::ZERO);
+        let sides = |mesh: &TriMesh| -> u32 {
+            let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+            ridges(mesh, &topology, 0..mesh.triangles.len() as u32).into_iter().map(u8::count_ones).sum()
+        };
+        assert_eq!(sides(&ball), 0);
+        // Seen from outside each side is a ridge, in one triangle.
+        let mut turned = ball;
+        turned.triangles.iter_mut().for_each(|corners| corners.swap(0, 1));
+        assert_eq!(sides(&turned) as usize, turned.triangles.len() * 3 / 2);
+        // The sides at an open end have one triangle.
+        turned.triangles.pop();
+        assert_eq!(sides(&turned) as usize, (turned.triangles.len() + 1) * 3 / 2);
+    }
 }
