@@ -67,7 +67,8 @@ fn check(path: &Path, ends: [usize; 2], length: [f64; 2], wire: f64) -> Result<(
 
 fn check_level(mesh: &TriMesh, ends: [usize; 2], length: [f64; 2], wire: f64) -> Result<(), Failed> {
     let tree = Tree::new(mesh)?;
-    let (entries, targets) = (tree.entries(), tree.targets());
+    let entries = tree.entries();
+    let targets = entries.first().map(|entry| tree.targets(Vec3::from(entry.at), 0.0)).unwrap_or_default();
     let found = format!("{} ends of {} triangles", entries.len(), mesh.triangles.len());
     if !(ends[0]..=ends[1]).contains(&entries.len()) {
         return Err(found.into());

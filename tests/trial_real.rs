@@ -8,6 +8,9 @@ use std::sync::Arc;
 use glam::DVec3;
 use libtest_mimic::{Failed, Trial as Test};
 use lumen::io;
+use lumen::mesh::TriMesh;
+use lumen::pipeline::run::Pipeline;
+use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
 use lumen::trial::course::Course;
 use lumen::trial::session::Trial;
@@ -22,17 +25,35 @@ const FILES: [(&str, &str); 5] = [
     ("beamadapter_carotids.stl", "workhorse"),
     ("beamadapter_phantom.obj", "workhorse-j"),
 ];
+/// Those that are smoothed as the app does it, with the wire, entry and target that are proposed.
+const PROPOSED: [&str; 7] = [
+    "aorta-surface-open-ends.stl",
+    "aorta-surface-segment-2.stl",
+    "beamadapter_carotids.stl",
+    "beamadapter_phantom.obj",
+    "steve_mechanical_thrombectomy.obj",
+    "steve_vessel_architecture.obj",
+    "vmtk_aorta_mra_iso1000.ply",
+];
 const SEEDS: u64 = 10;
 
-fn arrives(file: &Path, wire: &str) -> Result<(), Failed> {
-    let bytes = std::fs::read(file)?;
-    let name = file.to_string_lossy();
-    let mesh = Arc::new(io::read(&bytes, &name, &io::ImportOptions::default())?.mesh);
-    let wire = Wire::preset(wire).ok_or("no such wire")?;
-    let mut setup = Setup { wire, ..Setup::default() };
-    let course = Arc::new(Course::new(&mesh, None, &mut setup)?);
+fn read(file: &Path) -> Result<Arc<TriMesh>, Failed> {
+    Ok(Arc::new(io::read(&std::fs::read(file)?, &file.to_string_lossy(), &io::ImportOptions::default())?.mesh))
+}
+
+fn smoothed(mesh: Arc<TriMesh>) -> Result<Arc<TriMesh>, Failed> {
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
+    let settings = Settings { smoothing, target: Target::Reduction(0), ..Settings::default() };
+    let mut pipeline = Pipeline::new(mesh, settings).without_measures();
+    pipeline.finish()?;
+    Ok(pipeline.reduced().ok_or("it was waited for")?.mesh.clone())
+}
+
+/// The autopilot arrives from every seed.
+fn arrives(name: &str, mesh: &Arc<TriMesh>, mut setup: Setup) -> Result<(), Failed> {
+    let course = Arc::new(Course::new(mesh, None, &mut setup)?);
     let middle: Vec<DVec3> = course.route.points.iter().map(|point| point.at).collect();
-    if let Err(shut) = Audit::new(&mesh).is_open(&middle, setup.wire.diameter_mm) {
+    if let Err(shut) = Audit::new(mesh).is_open(&middle, setup.wire.diameter_mm) {
         return Err(format!("the lumen is not open: {shut:?}").into());
     }
     let mut failures = Vec::new();
@@ -52,10 +73,20 @@ fn arrives(file: &Path, wire: &str) -> Result<(), Failed> {
 
 fn main() {
     common::run("trial_real", |folder| {
-        let test = |(file, wire): (&'static str, &'static str)| {
-            let path = folder.join("real").join(file);
-            Test::test(format!("the autopilot arrives in {file} by {wire}"), move || arrives(&path, wire))
+        let path = |file: &str| folder.join("real").join(file);
+        let by = |(file, wire): (&'static str, &'static str)| {
+            let path = path(file);
+            Test::test(format!("the autopilot arrives in {file} by {wire}"), move || {
+                let wire = Wire::preset(wire).ok_or("no such wire")?;
+                arrives(file, &read(&path)?, Setup { wire, ..Setup::default() })
+            })
         };
-        FILES.into_iter().map(test).collect()
+        let proposed = |file: &'static str| {
+            let path = path(file);
+            Test::test(format!("the autopilot arrives in {file} by what is proposed"), move || {
+                arrives(file, &smoothed(read(&path)?)?, Setup { proposes_wire: true, ..Setup::default() })
+            })
+        };
+        FILES.into_iter().map(by).chain(PROPOSED.into_iter().map(proposed)).collect()
     });
 }

@@ -71,7 +71,7 @@ impl LumenApp {
             state,
             views: Views::new(render_state),
             compare: compare::CompareView::new(render_state),
-            trial: trial::Trial::default(),
+            trial: trial::Trial::new(),
             trial_view: trial::TrialView::new(render_state),
             platform,
             sheet: None,

@@ -30,7 +30,7 @@ pub struct Trial {
     /// Triangles that a sample is made with; of a file, those that are left (in place of --reduction)
     #[arg(long, value_name = "N")]
     triangles: Option<u32>,
-    /// The wire
+    /// The wire [default: what suits the sample, or the way]
     #[arg(long, value_name = "NAME")]
     wire: Option<String>,
     /// Where the wire enters: x,y,z in mm; it points along the vessel
@@ -136,19 +136,27 @@ impl Trial {
     }
 
     fn setup(&self) -> Setup {
-        let sample = self.file.strip_prefix("sample:");
-        let usual = if sample == Some("aorta") { "035-j" } else { "workhorse" };
-        let name = self.wire.as_deref().unwrap_or(usual);
-        let mut wire = Wire::preset(name).unwrap_or_else(|| {
-            let names: Vec<_> = Wire::names().collect();
-            misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
-        });
+        let sample = self.file.strip_prefix("sample:").and_then(|name| name.parse().ok());
+        let mut wire = match &self.wire {
+            Some(name) => Wire::preset(name).unwrap_or_else(|| {
+                let names: Vec<_> = Wire::names().collect();
+                misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
+            }),
+            None => sample.map_or_else(Wire::default, Wire::for_sample),
+        };
         if let Some(element) = self.element {
             wire.elements_mm = [element; 2];
         }
         wire.check().unwrap_or_else(|error| misuse(error));
         let entry = self.entry.map(|at| Entry { at, direction: self.direction.unwrap_or([0.0; 3]) });
-        Setup { wire, entry, target: self.target, load: self.load.unwrap_or_default(), seed: self.seed }
+        Setup {
+            wire,
+            proposes_wire: self.wire.is_none() && self.element.is_none(),
+            entry,
+            target: self.target,
+            load: self.load.unwrap_or_default(),
+            seed: self.seed,
+        }
     }
 }
 

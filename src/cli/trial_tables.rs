@@ -9,13 +9,11 @@ use super::optimise::advance;
 use super::sheet::{Entry, Item, Sheet, Table};
 use super::trial::{SMOOTHING, settings, surface, trial};
 use crate::io::Unit;
-use crate::phantom::Sample;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Target;
 use crate::trial::frame::Summary;
 use crate::trial::setup::Setup;
-use crate::trial::wire::Wire;
 
 /// The tables of a surface: Table III for the aorta, Table IV for the whole tree or a file. For the default, the aorta,
 /// both are made.
@@ -43,19 +41,23 @@ fn table(number: &'static str, file: &str, unit: Option<Unit>, notes: &mut Vec<S
     let (rates, printed): (&[u32], &[TrialRow]) =
         if number == "III" { (&[10, 50, 75, 90, 99], &TABLE_III) } else { (&[0, 90, 95, 99], &TABLE_IV) };
     let (opened, sample) = surface(file, None, unit)?;
-    let wire = if sample == Some(Sample::Aorta) { "035-j" } else { "workhorse" };
-    let wire = Wire::preset(wire).context("a wire is missing")?;
-    notes.push(format!("Table {number}: {file}, wire {}.", wire.name));
+    let mut setup = Setup { proposes_wire: true, ..Setup::default() };
     let mut pipeline = Pipeline::new(opened, settings(SMOOTHING, Target::default())).without_measures();
     let mut items = Vec::new();
     for &rate in rates {
         pipeline.set(settings(SMOOTHING, Target::Reduction(rate * 10)))?;
         advance(&mut pipeline)?;
         let mesh = pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone();
-        let setup = Setup { wire: wire.clone(), ..Setup::default() };
         let paper = printed.iter().find(|row| row.rate == rate);
-        match trial(&mesh, sample, setup) {
-            Ok(run) => items.push(item(rate, &run.summary(), paper)),
+        match trial(&mesh, sample, setup.clone()) {
+            Ok(run) => {
+                if items.is_empty() {
+                    notes.push(format!("Table {number}: {file}, wire {}.", run.setup().wire.name));
+                }
+                // The same wire, entry and target at every rate.
+                setup = run.setup().clone();
+                items.push(item(rate, &run.summary(), paper));
+            }
             Err(error) => notes.push(format!("At {rate} % there is no trial: {error}.")),
         }
     }

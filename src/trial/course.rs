@@ -6,10 +6,11 @@ use glam::{DQuat, DVec3};
 use thiserror::Error;
 use web_time::Instant;
 
-use super::route::{Route, RouteError, Tree, phantom_task};
+use super::route::{Route, RouteError, Target, Tree, phantom_task};
 use super::setup::{Entry, Setup};
 use super::simulation::{PlacementError, Simulation};
 use super::wall::Wall;
+use super::wire::Wire;
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::results::fingerprint;
@@ -17,6 +18,14 @@ use crate::pipeline::task::milliseconds;
 
 /// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
 const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
+
+/// The lumen is so many times as wide as the wire all along to a target that is proposed.
+const ROOM: f64 = 1.5;
+/// A wire of 0.035 in is proposed for a way of at least this usual radius, in mm, and as far as it comes: past small
+/// branches it goes straight on, and at forks its long bend reaches to the other side of a wide lumen.
+const WIDE: f64 = 2.0;
+/// Unless it comes less far than this part of where one of 0.014 in comes.
+const PART: f64 = 0.5;
 
 /// Why a trial cannot begin.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -57,8 +66,8 @@ pub struct Course {
 }
 
 impl Course {
-    /// Finds the way, and fills in what `setup` leaves open: samples bring their own entry and target, and an entry without
-    /// a direction points along the way.
+    /// Finds the way, and fills in what `setup` leaves open: samples bring their own entry, target and wire, and an entry
+    /// without a direction points along the way.
     ///
     /// # Errors
     /// When there is no way for this wire.
@@ -70,12 +79,30 @@ impl Course {
         let start = Instant::now();
         let tree = if wall.is_closed() { Tree::with_index(mesh, wall.index().clone())? } else { Tree::new(mesh)? };
         let task = sample.map(phantom_task);
-        let entries: Vec<Entry> = task.iter().map(|(entry, _)| *entry).chain(tree.entries()).collect();
-        let own = task.iter().map(|(_, target)| ("the sample's own".to_owned(), target.to_array()));
-        let found = tree.targets().into_iter().map(|target| (target.name, target.at.to_array()));
-        let targets: Vec<_> = own.chain(found).collect();
+        // Where walls cross each other, the end of one vessel may be outside of another.
+        let is_inside = |entry: &Entry| tree.is_inside(Vec3::from(entry.at));
+        let entries: Vec<Entry> =
+            task.iter().map(|(entry, _)| *entry).chain(tree.entries()).filter(is_inside).collect();
         let entry = *setup.entry.get_or_insert(*entries.first().ok_or(TrialError::NoEntry)?);
-        let target = *setup.target.get_or_insert(targets.first().ok_or(TrialError::NoTarget)?.1);
+        let from = Vec3::from(entry.at);
+        if std::mem::take(&mut setup.proposes_wire) {
+            setup.wire = match sample {
+                Some(sample) => Wire::for_sample(sample),
+                None => proposed_wire(&tree, from, setup.target.map(Vec3::from)),
+            };
+        }
+        let own = task.iter().map(|(_, target)| ("the sample's own".to_owned(), target.to_array()));
+        let named = |target: Target| (target.name, target.at.to_array());
+        let targets: Vec<_> = own.chain(tree.targets(from, 0.0).into_iter().map(named)).collect();
+        let target = match (setup.target, &task) {
+            (Some(target), _) => target,
+            (None, Some((_, target))) => target.to_array(),
+            (None, None) => {
+                let roomy = tree.targets(from, ROOM * setup.wire.diameter_mm).into_iter().map(named).next();
+                roomy.or_else(|| targets.first().cloned()).ok_or(TrialError::NoTarget)?.1
+            }
+        };
+        setup.target = Some(target);
         let route = tree.route(Vec3::from(entry.at), Vec3::from(target))?;
         route.clearance(setup.wire.diameter_mm)?;
         if entry.direction == [0.0; 3] {
@@ -131,6 +158,26 @@ impl Course {
         }
         Ok((Simulation::new(&setup.wire, friction, &entry, roll, Some(self.wall.clone()))?, friction))
     }
+}
+
+/// The wire for the way to a target, or to the best of those that it can reach.
+fn proposed_wire(tree: &Tree, from: Vec3, target: Option<Vec3>) -> Wire {
+    let [thick, thin] = ["035-angled", "workhorse"].map(|name| Wire::preset(name).unwrap_or_default());
+    let reached = |wire: &Wire| tree.targets(from, ROOM * wire.diameter_mm).into_iter().next();
+    let is_wide = match target.map(|target| tree.route(from, target)) {
+        Some(Ok(route)) => {
+            let mut radii: Vec<f64> = route.points.iter().map(|point| point.radius).collect();
+            radii.sort_by(f64::total_cmp);
+            let usual = radii.get(radii.len() / 2).copied().unwrap_or(0.0);
+            usual >= WIDE && route.clearance(ROOM * thick.diameter_mm).is_ok()
+        }
+        // That is said once the route is asked for.
+        Some(Err(_)) => false,
+        None => reached(&thick)
+            .zip(reached(&thin))
+            .is_some_and(|(thick, thin)| thick.usual_radius_mm >= WIDE && thick.length_mm >= PART * thin.length_mm),
+    };
+    if is_wide { thick } else { thin }
 }
 
 /// Numbers from 0 to 1 that a seed decides: `SplitMix64` (Steele, Lea and Flood 2014).

@@ -18,6 +18,9 @@ pub struct Entry {
 pub struct Setup {
     /// The wire.
     pub wire: Wire,
+    /// Whether the wire is to be the one that the route proposes, in place of [`Self::wire`].
+    #[serde(default)]
+    pub proposes_wire: bool,
     /// Where it enters; `None` for the place that the route proposes.
     pub entry: Option<Entry>,
     /// Where it should go, a point in or near the lumen, in mm; `None` for what the route proposes.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::rod::Section;
+use crate::phantom::Sample;
 
 /// A guidewire.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,8 +64,8 @@ const PRESETS: [Numbers; 7] = [
     ("stiff", 0.356, [1.5, 150.0], [20.0, 200.0], 5.0, 45.0, 3.0),
     // The workhorse with its end rolled to a J of 2 mm radius.
     ("workhorse-j", 0.356, [0.1, 40.0], [30.0, 300.0], 6.3, 180.0, 0.0),
-    // A plain 0.035 in wire, 9.5 GPa: 291; bent by 45 degrees 6 mm from its end, for a lumen of 10 mm.
-    ("035-angled", 0.889, [1.0, 291.0], [30.0, 150.0], 10.0, 45.0, 6.0),
+    // A plain 0.035 in wire, 9.5 GPa: 291; bent by 60 degrees 8 mm from its end, which reaches 9 mm aside.
+    ("035-angled", 0.889, [1.0, 291.0], [30.0, 150.0], 12.0, 60.0, 8.0),
     // The same with a J of 3 mm radius.
     ("035-j", 0.889, [1.0, 291.0], [30.0, 150.0], 9.4, 180.0, 0.0),
     // Amplatz stiff, 17 GPa: 521.
@@ -121,6 +122,12 @@ impl Wire {
             density: STEEL.0,
             elements_mm: if diameter_mm < 0.6 { [0.5, 2.0] } else { [1.0, 3.0] },
         })
+    }
+
+    /// The wire that a sample is tried with: for the abdominal aorta one of 0.035 in, which passes its branches.
+    pub fn for_sample(sample: Sample) -> Self {
+        let name = if sample == Sample::Aorta { "035-j" } else { "workhorse" };
+        Self::preset(name).unwrap_or_else(|| unreachable!("{name} is a preset"))
     }
 
     /// Radius in mm.

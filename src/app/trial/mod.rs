@@ -118,6 +118,11 @@ pub struct Trial {
 }
 
 impl Trial {
+    /// None is on; the wire is to be the one that is proposed.
+    pub(super) fn new() -> Self {
+        Self { setup: Setup { proposes_wire: true, ..Setup::default() }, ..Self::default() }
+    }
+
     /// Whether frames come by themselves.
     pub fn is_moving(&self) -> bool {
         let is_over = self.frame.as_ref().is_some_and(|frame| frame.progress != Progress::Running);
@@ -419,6 +424,12 @@ impl Trial {
         self.frame = None;
         let way: Vec<Vec3> = ready.route.points.iter().map(|&p| p.into()).collect();
         self.carm.centre(&crate::mesh::Bounds::of(&way));
+        // The numbers of the wire that was proposed are shown.
+        for setup in [Some(&mut self.setup), self.sent.as_mut()].into_iter().flatten() {
+            if setup.proposes_wire {
+                setup.wire.clone_from(&ready.setup.wire);
+            }
+        }
         self.ready = Some(ready);
         self.stage = Stage::On;
         // The engine begins as fast as time.

@@ -4,28 +4,38 @@ use egui::{Button, ComboBox, DragValue, RichText, Role, Ui};
 
 use super::{Pick, Trial};
 use crate::app::control::{Setting, name};
-use crate::trial::setup::Entry;
+use crate::trial::setup::{Entry, Setup};
 use crate::trial::wire::Wire;
 
-/// The wire's list and, folded up, its numbers.
-pub(super) fn wire(ui: &mut Ui, wire: &mut Wire) {
-    let before = wire.name.clone();
+/// The wire's list and, folded up, its numbers. What is proposed has a name once the way `is_known`.
+pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, is_known: bool) {
+    // Nothing stands for the wire that is proposed.
+    let before = (!setup.proposes_wire).then(|| setup.wire.name.clone());
     let mut chosen = before.clone();
-    row(ui, "Wire", "What the wire is made of; the numbers are in the fold below", |ui| {
-        let list = ComboBox::from_id_salt("wire").width(128.0).selected_text(words(&before));
+    let help =
+        "What the wire is made of, one that suits the way unless another is chosen; the numbers are in the fold below";
+    row(ui, "Wire", help, |ui| {
+        let is_named = before.is_some() || is_known;
+        let shown = if is_named { words(&setup.wire.name) } else { "Proposed".to_owned() };
+        let list = ComboBox::from_id_salt("wire").width(128.0).height(300.0).selected_text(shown);
         let response = list.show_ui(ui, |ui| {
+            ui.selectable_value(&mut chosen, None, "Proposed");
             for preset in Wire::names() {
-                ui.selectable_value(&mut chosen, preset.to_owned(), words(preset));
+                ui.selectable_value(&mut chosen, Some(preset.to_owned()), words(preset));
             }
         });
         name(&response.response, Role::ComboBox, "Wire");
     });
-    if chosen != before
-        && let Some(preset) = Wire::preset(&chosen)
-    {
-        *wire = preset;
+    if chosen != before {
+        setup.proposes_wire = chosen.is_none();
+        if let Some(preset) = chosen.as_deref().and_then(Wire::preset) {
+            setup.wire = preset;
+        }
     }
-    ui.collapsing("Tip, stiffness, friction", |ui| numbers(ui, wire));
+    let known = setup.wire.clone();
+    ui.collapsing("Tip, stiffness, friction", |ui| numbers(ui, &mut setup.wire));
+    // What is changed by hand is no longer what is proposed.
+    setup.proposes_wire &= setup.wire == known;
 }
 
 /// A preset's name in words.

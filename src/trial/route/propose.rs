@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::course::direction;
+use super::paths::NONE;
 use super::tree::{Branch, End, Tree};
 use crate::phantom::{Sample, Vessel, vessels};
 use crate::trial::setup::Entry;
@@ -24,6 +25,10 @@ pub struct Target {
     pub at: Vec3,
     /// Radius of the lumen there, in mm.
     pub radius_mm: f64,
+    /// Length of the way there, in mm.
+    pub length_mm: f64,
+    /// The median of the lumen's radii on the way, in mm.
+    pub usual_radius_mm: f64,
 }
 
 /// An end of a vessel.
@@ -49,25 +54,51 @@ impl Tree {
         tips.iter().map(Tip::entry).collect()
     }
 
-    /// Places where a wire could go, best first: in the largest tree, far from the first of [`Self::entries`] and thin.
-    pub fn targets(&self) -> Vec<Target> {
-        let Some(entry) = self.entries().first().copied() else { return Vec::new() };
-        let from = Vec3::from(entry.at);
-        let lengths = self.nearest_ball(from).map(|ball| self.graph.ways(ball).length);
+    /// Places where a wire from `from` could go, best first: far, and thin. Where the lumen on the way becomes thinner
+    /// than `room_mm`, the last place before that.
+    pub fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target> {
+        let Some(ways) = self.nearest_ball(from).map(|ball| self.graph.ways(ball)) else { return Vec::new() };
         let tips = self.tips();
         let widest = tips.iter().map(|tip| tip.radius).fold(0.0, f64::max);
         let mut found: Vec<(bool, f64, Target)> = Vec::new();
         for tip in &tips {
-            let at = tip.branch.points[tip.at].at.as_vec3();
-            let way =
-                self.nearest_ball(at).zip(lengths.as_ref()).map_or(f32::INFINITY, |(ball, all)| all[ball as usize]);
-            if way.is_finite() && from.distance(at) > 2.0 * tip.radius as f32 {
-                let what = if tip.end == End::Open { "open end" } else { "closed end" };
-                let name = format!("{}, {what}", tip.branch.name);
-                let worth = f64::from(way) / tip.radius.sqrt();
-                let is_thread = tip.radius < THREAD * widest;
-                found.push((is_thread, worth, Target { name, at, radius_mm: tip.radius }));
+            let end = tip.branch.points[tip.at].at.as_vec3();
+            let Some(last) = self.nearest_ball(end).filter(|&ball| ways.length[ball as usize].is_finite()) else {
+                continue;
+            };
+            let mut way: Vec<u32> = std::iter::successors(Some(last), |&ball| {
+                Some(ways.before[ball as usize]).filter(|&before| before != NONE)
+            })
+            .collect();
+            way.reverse();
+            let ball = |i: usize| &self.graph.balls[way[i] as usize];
+            let is_roomy = |i: &usize| {
+                let passage = ball(*i).passage(ball(i.saturating_sub(1)));
+                2.0 * f64::from(passage.min(ball(*i).radius)) >= room_mm
+            };
+            let room = (0..way.len()).take_while(is_roomy).count();
+            let Some(there) = room.checked_sub(1) else { continue };
+            let is_whole = room == way.len();
+            let (at, radius) =
+                if is_whole { (end, tip.radius) } else { (ball(there).centre, ball(there).radius.into()) };
+            if from.distance(at) <= 2.0 * radius as f32 {
+                continue;
             }
+            let what = match tip.end {
+                _ if !is_whole => "as far as there is room",
+                End::Open => "open end",
+                _ => "closed end",
+            };
+            let mut radii: Vec<f32> = (0..room).map(|i| ball(i).radius).collect();
+            let usual = *radii.select_nth_unstable_by(room / 2, f32::total_cmp).1;
+            let target = Target {
+                name: format!("{}, {what}", tip.branch.name),
+                at,
+                radius_mm: radius,
+                length_mm: f64::from(ways.length[way[there] as usize]),
+                usual_radius_mm: f64::from(usual),
+            };
+            found.push((tip.radius < THREAD * widest, target.length_mm / radius.sqrt(), target));
         }
         found.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
         found.into_iter().map(|(.., target)| target).collect()

@@ -176,10 +176,18 @@ fn a_fork_has_three_branches_and_each_route_is_as_long_as_its_axes() {
         assert_eq!(located.branch, aside);
         assert!(route.is_off(off, &located) && !route.is_off(joint, &tree.locate(joint, None).unwrap()));
     }
-    assert_eq!((tree.entries().len(), tree.targets().len()), (3, 2));
     let entry = tree.entries()[0];
+    let targets = tree.targets(entry.at.into(), 0.0);
+    assert_eq!((tree.entries().len(), targets.len()), (3, 2));
     assert!(Vec3::from(entry.at).distance(bottom.as_vec3()) < 6.0 && entry.direction[2] > 0.99, "{entry:?}");
-    assert!(tree.targets()[0].at.distance(right.as_vec3()) < 6.0, "the thin branch is the best target");
+    assert!(targets[0].at.distance(right.as_vec3()) < 6.0, "the thin branch is the best target");
+    let route = tree.route(entry.at.into(), targets[0].at).unwrap();
+    near(targets[0].length_mm, route.length_mm, 0.05);
+    // Where there is no room in the thin branch, it goes as far as its mouth, and the wide one is the best target.
+    let roomy = tree.targets(entry.at.into(), 2.5 * targets[0].radius_mm);
+    assert!(roomy[0].at.distance(left.as_vec3()) < 6.0, "{roomy:?}");
+    assert!(roomy[1..].iter().all(|target| target.radius_mm > 1.25 * targets[0].radius_mm), "{roomy:?}");
+    near(roomy[0].usual_radius_mm, targets[0].usual_radius_mm, 0.6);
 }
 
 #[test]

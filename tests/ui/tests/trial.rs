@@ -7,13 +7,14 @@ use std::rc::Rc;
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::engine::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
 use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Settings, Smoothing};
 use lumen::trial::frame::{Frame, Progress, StationResult, Summary};
 use lumen::trial::setup::{Entry, Input, Setup};
+use lumen::trial::wire::Wire;
 use lumen_ui_tests::{Memory, app, settle};
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
@@ -140,7 +141,7 @@ fn the_trial_starts_with_the_level_that_is_shown_and_its_views_take_the_place_of
     let commands = asked(&memory);
     let Some(TrialCommand::Start { id, mesh, sample, setup }) = commands.first() else { panic!("{commands:?}") };
     assert!((7_429..=7_430).contains(&mesh.triangles.len()), "Table II at 90 %: {}", mesh.triangles.len());
-    assert_eq!((*sample, setup), (Some(Sample::Aorta), &Setup::default()));
+    assert_eq!((*sample, setup), (Some(Sample::Aorta), &Setup { proposes_wire: true, ..Setup::default() }));
     tell(&mut harness, &memory, [TrialEvent::Preparing { id: *id, fraction: 0.4 }]);
     assert!(says(&harness, "Finding"));
     tell(&mut harness, &memory, [ready(*id), TrialEvent::Frame(Box::new(frame()))]);
@@ -378,6 +379,29 @@ fn the_bars_of_forces_grow_with_the_largest_so_far() {
 }
 
 #[test]
+fn the_wire_is_proposed_and_named_until_another_is_chosen() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    start(&mut harness);
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { setup, .. }) = commands.last() else { panic!("{commands:?}") };
+    assert!(setup.proposes_wire);
+    let TrialEvent::Ready(mut ready) = ready(id_of_start(&commands)) else { panic!("it is ready") };
+    ready.setup.wire = Wire::preset("035-j").unwrap();
+    tell(&mut harness, &memory, [TrialEvent::Ready(ready)]);
+    let list = harness.get_by_role_and_label(Role::ComboBox, "Wire");
+    assert_eq!(list.accesskit_node().value().as_deref(), Some("0.035 in J tip"));
+    assert!(!says(&harness, "Restart to try"));
+    choose(&mut harness, "Wire");
+    harness.get_by_label("0.014 in floppy").click();
+    harness.run_steps(3);
+    press(&mut harness, "Restart");
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { setup, .. }) = commands.first() else { panic!("{commands:?}") };
+    assert!(setup.wire.name == "floppy" && !setup.proposes_wire);
+}
+
+#[test]
 fn another_wire_takes_effect_on_restart() {
     let (mut harness, memory) = on(DESKTOP);
     choose(&mut harness, "Wire");
@@ -387,7 +411,7 @@ fn another_wire_takes_effect_on_restart() {
     press(&mut harness, "Restart");
     let commands = asked(&memory);
     let Some(TrialCommand::Start { setup, .. }) = commands.first() else { panic!("{commands:?}") };
-    assert_eq!(setup.wire.name, "035-j");
+    assert!(setup.wire.name == "035-j" && !setup.proposes_wire);
 }
 
 #[test]
