@@ -26,14 +26,13 @@ const FILES: [(&str, &str); 5] = [
     ("beamadapter_phantom.obj", "workhorse-j"),
 ];
 /// Those that are smoothed as the app does it, with the wire, entry and target that are proposed.
-const PROPOSED: [&str; 7] = [
+const PROPOSED: [&str; 6] = [
     "aorta-surface-open-ends.stl",
     "aorta-surface-segment-2.stl",
     "beamadapter_carotids.stl",
     "beamadapter_phantom.obj",
     "steve_mechanical_thrombectomy.obj",
     "steve_vessel_architecture.obj",
-    "vmtk_aorta_mra_iso1000.ply",
 ];
 const SEEDS: u64 = 10;
 

@@ -123,7 +123,7 @@ impl Trial {
         let mut pipeline = Pipeline::new(opened, settings).without_measures();
         advance(&mut pipeline)?;
         let mesh = pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone();
-        let run = trial(&mesh, sample, setup)?;
+        let run = trial(&mesh, sample, setup, self.element)?;
         let summary = run.summary();
         if let Some(path) = &self.log {
             write_whole(path, run.log().csv(summary.steps)?.as_bytes())?;
@@ -136,14 +136,12 @@ impl Trial {
     }
 
     fn setup(&self) -> Setup {
-        let sample = self.file.strip_prefix("sample:").and_then(|name| name.parse().ok());
-        let mut wire = match &self.wire {
-            Some(name) => Wire::preset(name).unwrap_or_else(|| {
+        let mut wire = self.wire.as_deref().map_or_else(Wire::default, |name| {
+            Wire::preset(name).unwrap_or_else(|| {
                 let names: Vec<_> = Wire::names().collect();
                 misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
-            }),
-            None => sample.map_or_else(Wire::default, Wire::for_sample),
-        };
+            })
+        });
         if let Some(element) = self.element {
             wire.elements_mm = [element; 2];
         }
@@ -151,7 +149,7 @@ impl Trial {
         let entry = self.entry.map(|at| Entry { at, direction: self.direction.unwrap_or([0.0; 3]) });
         Setup {
             wire,
-            proposes_wire: self.wire.is_none() && self.element.is_none(),
+            proposes_wire: self.wire.is_none(),
             entry,
             target: self.target,
             load: self.load.unwrap_or_default(),
@@ -160,9 +158,18 @@ impl Trial {
     }
 }
 
-/// Runs the autopilot on a surface to the end.
-pub(super) fn trial(mesh: &Arc<TriMesh>, sample: Option<Sample>, mut setup: Setup) -> Result<Run> {
+/// Runs the autopilot on a surface to the end, the wire in elements of `element` mm if that is asked for.
+pub(super) fn trial(
+    mesh: &Arc<TriMesh>,
+    sample: Option<Sample>,
+    mut setup: Setup,
+    element: Option<f64>,
+) -> Result<Run> {
     let course = Course::new(mesh, sample, &mut setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
+    // The wire that is proposed comes with its own.
+    if let Some(element) = element {
+        setup.wire.elements_mm = [element; 2];
+    }
     let mut run = Run::new(Arc::new(course), setup).map_err(|error| anyhow!("no trial is possible: {error}"))?;
     run.set_autopilot(true);
     run.finish();

@@ -151,7 +151,8 @@ impl SurfaceIndex {
         squared: &mut f64,
         mut visit: impl FnMut(u32, &[Leaf], &mut f64),
     ) {
-        if self.nodes.is_empty() || squared.is_nan() {
+        // Beyond what f32 holds there are no answers.
+        if self.nodes.is_empty() || squared.is_nan() || !rounding.is_finite() {
             return;
         }
         let cut_off = |squared: f64| (squared * ALLOWANCE).min(1e30) as f32 + rounding;

@@ -15,12 +15,12 @@ type Lanes = [Vec4; 3];
 const ALLOWANCE: f32 = 1.0 + 1e-3;
 /// The same by the squares of the lengths that it is worked out from.
 const OF_LENGTHS: f32 = 4e-10;
-/// By what the plane of a triangle that is no sliver may be off: of the square of the distance from a corner.
+/// By what the plane of a triangle that is no sliver may be off: of the squares of the lengths.
 const OF_PLANE: f32 = 1e-4;
 /// Weights of corners below which a point is surely beside a triangle.
 const BESIDE: f32 = -1e-3;
 /// By what two segments may seem farther apart, in f32: of the shorter one's length.
-const OF_SEGMENTS: f32 = 2e-3;
+const OF_SEGMENTS: f32 = 1e-2;
 /// Keeps quotients finite.
 const TINY: Vec4 = Vec4::splat(1e-30);
 
@@ -122,7 +122,7 @@ impl Segment {
             start: splat(a.as_vec3()),
             direction: splat((b - a).normalize_or_zero().as_vec3()),
             length: Vec4::splat((b - a).length() as f32),
-            rounding: rounding(a).max(rounding(b)),
+            rounding: rounding(a) + rounding(b),
         }
     }
 
@@ -141,7 +141,9 @@ impl Segment {
         let Some([a, b, c]) = corners(leaves) else { return 0 };
         let from = minus(&self.start, &a);
         let normal = cross(&minus(&b, &a), &minus(&c, &a));
-        let (size, off) = (dot(&normal, &normal), dot(&from, &from) * OF_PLANE + Vec4::splat(self.rounding));
+        let size = dot(&normal, &normal);
+        let lengths = dot(&from, &from) + self.length * self.length;
+        let off = lengths * OF_PLANE + Vec4::splat(self.rounding);
         let start = dot(&normal, &from);
         let end = start + dot(&normal, &self.direction) * self.length;
         let is_one_side = (start * end).cmpgt(Vec4::ZERO);

@@ -81,25 +81,30 @@ impl Course {
         let task = sample.map(phantom_task);
         // Where walls cross each other, the end of one vessel may be outside of another.
         let is_inside = |entry: &Entry| tree.is_inside(Vec3::from(entry.at));
-        let entries: Vec<Entry> =
-            task.iter().map(|(entry, _)| *entry).chain(tree.entries()).filter(is_inside).collect();
-        let entry = *setup.entry.get_or_insert(*entries.first().ok_or(TrialError::NoEntry)?);
+        let found = tree.entries().into_iter().filter(is_inside);
+        let entries: Vec<Entry> = task.iter().map(|(entry, _)| *entry).chain(found).collect();
+        let entry = match setup.entry {
+            Some(entry) => entry,
+            None => *entries.first().ok_or(TrialError::NoEntry)?,
+        };
+        setup.entry = Some(entry);
         let from = Vec3::from(entry.at);
+        let mut best = None;
         if std::mem::take(&mut setup.proposes_wire) {
-            setup.wire = match sample {
-                Some(sample) => Wire::for_sample(sample),
-                None => proposed_wire(&tree, from, setup.target.map(Vec3::from)),
+            (setup.wire, best) = match sample {
+                Some(sample) => (Wire::for_sample(sample), None),
+                None => proposed(&tree, from, setup.target.map(Vec3::from)),
             };
         }
-        let own = task.iter().map(|(_, target)| ("the sample's own".to_owned(), target.to_array()));
         let named = |target: Target| (target.name, target.at.to_array());
+        let own = task.iter().map(|(_, target)| ("the sample's own".to_owned(), target.to_array()));
         let targets: Vec<_> = own.chain(tree.targets(from, 0.0).into_iter().map(named)).collect();
         let target = match (setup.target, &task) {
             (Some(target), _) => target,
             (None, Some((_, target))) => target.to_array(),
             (None, None) => {
-                let roomy = tree.targets(from, ROOM * setup.wire.diameter_mm).into_iter().map(named).next();
-                roomy.or_else(|| targets.first().cloned()).ok_or(TrialError::NoTarget)?.1
+                let best = best.or_else(|| reached(&tree, from, &setup.wire)).map(|target| target.at.to_array());
+                best.or_else(|| Some(targets.first()?.1)).ok_or(TrialError::NoTarget)?
             }
         };
         setup.target = Some(target);
@@ -160,24 +165,27 @@ impl Course {
     }
 }
 
-/// The wire for the way to a target, or to the best of those that it can reach.
-fn proposed_wire(tree: &Tree, from: Vec3, target: Option<Vec3>) -> Wire {
-    let [thick, thin] = ["035-angled", "workhorse"].map(|name| Wire::preset(name).unwrap_or_default());
-    let reached = |wire: &Wire| tree.targets(from, ROOM * wire.diameter_mm).into_iter().next();
-    let is_wide = match target.map(|target| tree.route(from, target)) {
-        Some(Ok(route)) => {
-            let mut radii: Vec<f64> = route.points.iter().map(|point| point.radius).collect();
-            radii.sort_by(f64::total_cmp);
-            let usual = radii.get(radii.len() / 2).copied().unwrap_or(0.0);
-            usual >= WIDE && route.clearance(ROOM * thick.diameter_mm).is_ok()
-        }
-        // That is said once the route is asked for.
-        Some(Err(_)) => false,
-        None => reached(&thick)
-            .zip(reached(&thin))
-            .is_some_and(|(thick, thin)| thick.usual_radius_mm >= WIDE && thick.length_mm >= PART * thin.length_mm),
-    };
-    if is_wide { thick } else { thin }
+/// The best target that a wire can reach.
+fn reached(tree: &Tree, from: Vec3, wire: &Wire) -> Option<Target> {
+    tree.targets(from, ROOM * wire.diameter_mm).into_iter().next()
+}
+
+/// The wire for the way to a target; without one, for the best that it can reach, and that.
+fn proposed(tree: &Tree, from: Vec3, target: Option<Vec3>) -> (Wire, Option<Target>) {
+    let [thick, thin] = [Wire::LONG_BEND, Wire::USUAL].map(Wire::named);
+    if let Some(target) = target {
+        // That there is no route is said when it is asked for.
+        let is_wide = tree
+            .route(from, target)
+            .is_ok_and(|route| route.usual_radius_mm() >= WIDE && route.clearance(ROOM * thick.diameter_mm).is_ok());
+        return (if is_wide { thick } else { thin }, None);
+    }
+    let [by_thick, by_thin] = [&thick, &thin].map(|wire| reached(tree, from, wire));
+    let is_far = |target: &Target| by_thin.as_ref().is_none_or(|other| target.length_mm >= PART * other.length_mm);
+    match by_thick.filter(|target| target.usual_radius_mm >= WIDE && is_far(target)) {
+        Some(target) => (thick, Some(target)),
+        None => (thin, by_thin),
+    }
 }
 
 /// Numbers from 0 to 1 that a seed decides: `SplitMix64` (Steele, Lea and Flood 2014).

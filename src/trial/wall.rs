@@ -23,6 +23,9 @@ pub struct Wall {
 /// is the direction of contact, and the one from which on the former alone is; as cosines.
 const TRUSTED: [f64; 2] = [0.87, 0.5];
 
+/// Cosine of the turn between two triangles below which they are folded.
+const FOLD: f64 = 0.3;
+
 impl Wall {
     /// Of a surface whose triangles look out of the lumen.
     pub fn new(mesh: Arc<TriMesh>) -> Self {
@@ -99,7 +102,7 @@ fn capped(mesh: &Arc<TriMesh>, topology: &Topology) -> Arc<TriMesh> {
 
 /// The sides of each triangle that the inside of a segment in the lumen can come nearest to, bit by bit: not those of
 /// valleys, as to a point in the lumen one of the triangles beside them is nearer, and ridges in one of their two
-/// triangles only. `order` has all triangles, neighbours mostly side by side, as they are at hand then.
+/// triangles only. Where walls cross each other, one is seen from behind, and only nodes are held off by it. `order` has all triangles, neighbours mostly side by side, as they are at hand then.
 fn ridges(mesh: &TriMesh, topology: &Topology, order: impl Iterator<Item = u32>) -> Vec<u8> {
     let at = |v: u32| mesh.positions[v as usize].as_dvec3();
     let of = |t: usize| {
@@ -112,8 +115,11 @@ fn ridges(mesh: &TriMesh, topology: &Topology, order: impl Iterator<Item = u32>)
             let mut beside = topology.triangles(from).iter().filter(is_beside);
             let (Some(&other), None) = (beside.next(), beside.next()) else { return true };
             // Triangles that are wound against each other have no common outside.
-            let Some(far) = beyond(mesh.triangles[other as usize], to, from) else { return true };
-            other as usize > t && outward.dot(at(far) - a) >= 0.0
+            let Some(far) = beyond(mesh.triangles[other as usize], to, from).map(at) else { return true };
+            let others = (at(from) - at(to)).cross(far - at(to));
+            // Slivers that are folded over a ridge seem to lie between two valleys.
+            let is_plain = outward.dot(others) > FOLD * outward.length() * others.length();
+            !is_plain || other as usize > t && outward.dot(far - a) >= 0.0
         };
         (0..3).filter(is_kept).fold(0, |sides, k| sides | 1 << k)
     };

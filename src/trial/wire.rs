@@ -124,10 +124,18 @@ impl Wire {
         })
     }
 
+    /// The name of the wire for coronary arteries, and of that for wide vessels with forks.
+    pub(super) const USUAL: &str = "workhorse";
+    pub(super) const LONG_BEND: &str = "035-angled";
+
+    /// One of the presets.
+    pub(super) fn named(name: &'static str) -> Self {
+        Self::preset(name).unwrap_or_else(|| unreachable!("{name} is a preset"))
+    }
+
     /// The wire that a sample is tried with: for the abdominal aorta one of 0.035 in, which passes its branches.
     pub fn for_sample(sample: Sample) -> Self {
-        let name = if sample == Sample::Aorta { "035-j" } else { "workhorse" };
-        Self::preset(name).unwrap_or_else(|| unreachable!("{name} is a preset"))
+        Self::named(if sample == Sample::Aorta { "035-j" } else { Self::USUAL })
     }
 
     /// Radius in mm.

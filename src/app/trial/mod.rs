@@ -36,7 +36,9 @@ use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::{Smoothing, Target};
 use crate::trial::frame::{Frame, Progress, Summary};
+use crate::trial::log::Log;
 use crate::trial::setup::{Entry, Input, Setup};
+use crate::trial::wire::Wire;
 
 /// Simulated seconds a second in slow motion.
 const SLOW: f32 = 0.25;
@@ -139,6 +141,12 @@ impl Trial {
         self.ready.as_ref().map(|ready| &ready.setup)
     }
 
+    /// The wire that is proposed for the way that is shown, where one was.
+    fn proposed_wire(&self) -> Option<&Wire> {
+        let is_proposed = self.coming.is_none() && self.sent.as_ref().is_some_and(|sent| sent.proposes_wire);
+        self.setup_in_force().filter(|_| is_proposed).map(|setup| &setup.wire)
+    }
+
     /// The smoothing that is offered in place of `smoothing`, where the lumen is too thin for the wire.
     fn gentler(&self, smoothing: &Smoothing) -> Option<Smoothing> {
         let (pass_band, iterations) = GENTLE;
@@ -171,7 +179,12 @@ impl Trial {
 
     /// Whether the controls say other than what the wire is in for.
     pub fn has_changed(&self) -> bool {
-        self.sent.as_ref().is_some_and(|sent| *sent != self.setup)
+        let is_proposed = |sent: &Setup| sent.proposes_wire && self.setup.proposes_wire;
+        let as_now = |sent: &Setup| Setup {
+            wire: if is_proposed(sent) { self.setup.wire.clone() } else { sent.wire.clone() },
+            ..sent.clone()
+        };
+        self.sent.as_ref().is_some_and(|sent| as_now(sent) != self.setup)
     }
 
     /// Does what the user asks for. What needs a platform or the settings ([`Ask::OpenLog`],
@@ -222,7 +235,10 @@ impl Trial {
             Ask::Tables => {
                 self.tables.is_open = true;
                 if let Some(document) = document.filter(|document| self.tables.can_start(document)) {
-                    self.tables.begin(document, sample_of(document), &self.setup);
+                    // The wire, entry and target of the trial that is on, if one is in this surface.
+                    let is_on = self.stage == Stage::On && self.name == document.name && !self.has_changed();
+                    let setup = self.setup_in_force().filter(|_| is_on).unwrap_or(&self.setup).clone();
+                    self.tables.begin(document, sample_of(document), &setup);
                 }
             }
             Ask::Close => self.close(link),
@@ -266,13 +282,27 @@ impl Trial {
 
     /// Starts with a saved log: what was done then is done again.
     pub fn replay(&mut self, bytes: Vec<u8>, document: Option<&Document>, link: &mut TrialLink) {
+        let recorded = Log::read(&bytes).map(|recorded| recorded.setup);
         let csv = Arc::new(bytes);
-        if self.stage == Stage::On {
-            self.begin_again();
-            link.send(TrialCommand::Replay { csv });
-        } else {
-            self.log = Some(csv);
-            self.start(document, link);
+        let same = |setup: &&Setup| {
+            self.setup_in_force().is_some_and(|force| (force.entry, force.target) == (setup.entry, setup.target))
+        };
+        match recorded {
+            // With another wire another target is proposed: the log's own way is taken.
+            Ok(setup) if self.stage != Stage::On || Some(&setup).filter(same).is_none() => {
+                self.setup = Setup { proposes_wire: false, ..setup };
+                self.log = Some(csv);
+                self.start(document, link);
+            }
+            // What is no log is refused by the engine.
+            _ if self.stage == Stage::On => {
+                self.begin_again();
+                link.send(TrialCommand::Replay { csv });
+            }
+            _ => {
+                self.log = Some(csv);
+                self.start(document, link);
+            }
         }
     }
 

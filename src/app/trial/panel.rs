@@ -58,7 +58,8 @@ fn open(ui: &mut Ui, trial: &mut Trial) -> Option<Ask> {
         ui.scope(|ui| readout::show(ui, trial, &frame));
     }
     ui.separator();
-    ui.push_id("wire", |ui| setup::wire(ui, &mut trial.setup, trial.ready.is_some()));
+    let proposed = trial.proposed_wire().cloned();
+    ui.push_id("wire", |ui| setup::wire(ui, &mut trial.setup, proposed.as_ref()));
     if ui.push_id("places", |ui| setup::places(ui, trial)).inner {
         ask = Some(Ask::Restart);
     }

@@ -7,16 +7,16 @@ use crate::app::control::{Setting, name};
 use crate::trial::setup::{Entry, Setup};
 use crate::trial::wire::Wire;
 
-/// The wire's list and, folded up, its numbers. What is proposed has a name once the way `is_known`.
-pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, is_known: bool) {
+/// The wire's list and, folded up, its numbers. `proposed` is the one that is proposed, once the way is known.
+pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, proposed: Option<&Wire>) {
     // Nothing stands for the wire that is proposed.
     let before = (!setup.proposes_wire).then(|| setup.wire.name.clone());
     let mut chosen = before.clone();
+    let known = before.as_ref().or(proposed.map(|wire| &wire.name));
+    let shown = known.map_or("Proposed".to_owned(), |name| words(name));
     let help =
         "What the wire is made of, one that suits the way unless another is chosen; the numbers are in the fold below";
     row(ui, "Wire", help, |ui| {
-        let is_named = before.is_some() || is_known;
-        let shown = if is_named { words(&setup.wire.name) } else { "Proposed".to_owned() };
         let list = ComboBox::from_id_salt("wire").width(128.0).height(300.0).selected_text(shown);
         let response = list.show_ui(ui, |ui| {
             ui.selectable_value(&mut chosen, None, "Proposed");
@@ -28,9 +28,11 @@ pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, is_known: bool) {
     });
     if chosen != before {
         setup.proposes_wire = chosen.is_none();
-        if let Some(preset) = chosen.as_deref().and_then(Wire::preset) {
-            setup.wire = preset;
-        }
+        let preset = chosen.as_deref().and_then(Wire::preset);
+        setup.wire = preset.or_else(|| proposed.cloned()).unwrap_or_default();
+    }
+    if setup.proposes_wire && proposed.is_none() {
+        return;
     }
     let known = setup.wire.clone();
     ui.collapsing("Tip, stiffness, friction", |ui| numbers(ui, &mut setup.wire));

@@ -19,6 +19,7 @@ use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::Target;
 use crate::trial::frame::Summary;
 use crate::trial::setup::Setup;
+use crate::trial::wire::Wire;
 
 /// Reduction rates in percent: of Table III, and of Table IV with the whole surface before them.
 const RATES: [&[u32]; 2] = [&[10, 50, 75, 90, 99], &[0, 90, 95, 99]];
@@ -128,6 +129,10 @@ impl Tables {
     pub(super) fn receive(&mut self, id: u64, summary: Box<Summary>) {
         if self.is_measuring(id) {
             self.running = None;
+            // One wire for all rows.
+            if let Some(wire) = Wire::preset(&summary.wire).filter(|_| self.setup.proposes_wire) {
+                (self.setup.wire, self.setup.proposes_wire) = (wire, false);
+            }
             if let Some(row) = self.current() {
                 row.outcome = Outcome::Done(summary);
             }

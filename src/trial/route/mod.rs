@@ -29,6 +29,18 @@ pub use propose::{Target, phantom_task};
 pub use tree::{Branch, End, Located, Tree};
 pub use way::{CrossSection, OnRoute, Route, RoutePoint};
 
+/// The radius that half of a way's length is narrower than: its pieces have a radius and a length each.
+fn usual_radius(mut pieces: Vec<(f64, f64)>) -> f64 {
+    pieces.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = pieces.iter().map(|piece| piece.1).sum::<f64>() / 2.0;
+    let mut sum = 0.0;
+    let is_beyond = |piece: &&(f64, f64)| {
+        sum += piece.1;
+        sum >= half
+    };
+    pieces.iter().find(is_beyond).map_or(0.0, |piece| piece.0)
+}
+
 /// Why there is no tree, or no route.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RouteError {

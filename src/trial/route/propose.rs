@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::course::direction;
 use super::paths::NONE;
 use super::tree::{Branch, End, Tree};
+use super::usual_radius;
 use crate::phantom::{Sample, Vessel, vessels};
 use crate::trial::setup::Entry;
 
@@ -27,7 +28,7 @@ pub struct Target {
     pub radius_mm: f64,
     /// Length of the way there, in mm.
     pub length_mm: f64,
-    /// The median of the lumen's radii on the way, in mm.
+    /// The radius that half of the way is narrower than, in mm.
     pub usual_radius_mm: f64,
 }
 
@@ -55,7 +56,7 @@ impl Tree {
     }
 
     /// Places where a wire from `from` could go, best first: far, and thin. Where the lumen on the way becomes thinner
-    /// than `room_mm`, the last place before that.
+    /// than `room_mm` across, the last place before that.
     pub fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target> {
         let Some(ways) = self.nearest_ball(from).map(|ball| self.graph.ways(ball)) else { return Vec::new() };
         let tips = self.tips();
@@ -72,6 +73,7 @@ impl Tree {
             .collect();
             way.reverse();
             let ball = |i: usize| &self.graph.balls[way[i] as usize];
+            // What fits through between balls is less than what fits through the lumen: an end is rather left out.
             let is_roomy = |i: &usize| {
                 let passage = ball(*i).passage(ball(i.saturating_sub(1)));
                 2.0 * f64::from(passage.min(ball(*i).radius)) >= room_mm
@@ -89,14 +91,14 @@ impl Tree {
                 End::Open => "open end",
                 _ => "closed end",
             };
-            let mut radii: Vec<f32> = (0..room).map(|i| ball(i).radius).collect();
-            let usual = *radii.select_nth_unstable_by(room / 2, f32::total_cmp).1;
+            let length = |i: usize| f64::from(ways.length[way[i] as usize]);
+            let pieces = (1..room).map(|i| (f64::from(ball(i).radius), length(i) - length(i - 1))).collect();
             let target = Target {
                 name: format!("{}, {what}", tip.branch.name),
                 at,
                 radius_mm: radius,
-                length_mm: f64::from(ways.length[way[there] as usize]),
-                usual_radius_mm: f64::from(usual),
+                length_mm: length(there),
+                usual_radius_mm: usual_radius(pieces),
             };
             found.push((tip.radius < THREAD * widest, target.length_mm / radius.sqrt(), target));
         }

@@ -5,11 +5,11 @@
 
 use glam::{DVec3, Vec3};
 
-use super::RouteError;
 use super::course::{Place, course, direction};
 use super::paths::NONE;
 use super::space::Ball;
 use super::tree::{Located, Tree};
+use super::{RouteError, usual_radius};
 
 /// Number of stations.
 const STATIONS: usize = 5;
@@ -315,6 +315,11 @@ impl Route {
         }
         let here = self.locate(p);
         here.distance_mm > here.radius_mm + located.radius_mm
+    }
+
+    /// The radius that half of the route is narrower than, in mm.
+    pub fn usual_radius_mm(&self) -> f64 {
+        usual_radius(self.points.windows(2).map(|pair| (pair[1].radius, pair[1].arc_mm - pair[0].arc_mm)).collect())
     }
 
     /// Whether a wire of this diameter in mm fits through.

@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use egui::Key;
 use egui::accesskit::Role;
@@ -10,8 +11,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::engine::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
-use lumen::phantom::Sample;
+use lumen::io::import_mesh;
+use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Settings, Smoothing};
+use lumen::trial::course::Course;
 use lumen::trial::frame::{Frame, Progress, StationResult, Summary};
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::wire::Wire;
@@ -395,6 +398,16 @@ fn the_wire_is_proposed_and_named_until_another_is_chosen() {
     choose(&mut harness, "Wire");
     harness.get_by_label("0.014 in floppy").click();
     harness.run_steps(3);
+    assert!(says(&harness, "Restart to try"));
+    choose(&mut harness, "Wire");
+    harness.get_by_label("Proposed").click();
+    harness.run_steps(3);
+    let list = harness.get_by_role_and_label(Role::ComboBox, "Wire");
+    assert_eq!(list.accesskit_node().value().as_deref(), Some("0.035 in J tip"));
+    assert!(!says(&harness, "Restart to try"));
+    choose(&mut harness, "Wire");
+    harness.get_by_label("0.014 in floppy").click();
+    harness.run_steps(3);
     press(&mut harness, "Restart");
     let commands = asked(&memory);
     let Some(TrialCommand::Start { setup, .. }) = commands.first() else { panic!("{commands:?}") };
@@ -551,6 +564,30 @@ fn the_log_is_saved_and_a_chosen_one_is_replayed() {
     let commands = asked(&memory);
     let [TrialCommand::Replay { csv: bytes }] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(&bytes[..], csv.as_bytes());
+}
+
+#[test]
+fn a_log_of_another_way_begins_a_trial_with_its_own_wire_and_way() {
+    let mesh = Arc::new(import_mesh(generate(Sample::Aorta, 4000).unwrap(), "sample").mesh);
+    let mut setup = Setup { wire: Wire::preset("stiff").unwrap(), ..Setup::default() };
+    let course = Arc::new(Course::new(&mesh, Some(Sample::Aorta), &mut setup).unwrap());
+    let mut run = lumen::trial::session::Trial::new(course, setup.clone()).unwrap();
+    (0..20).for_each(|_| run.step());
+    let csv = run.log().csv(20).unwrap();
+    let (mut harness, memory) = on(DESKTOP);
+    let chosen = lumen::app::PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
+    press(&mut harness, "Open log...");
+    memory.borrow_mut().events.push_back(chosen);
+    harness.run_steps(3);
+    let commands = asked(&memory);
+    let [TrialCommand::Start { id, setup: asked_for, .. }] = &commands[..] else { panic!("{commands:?}") };
+    assert_eq!(asked_for, &setup);
+    tell(&mut harness, &memory, [ready(*id)]);
+    let commands = asked(&memory);
+    assert!(
+        matches!(&commands[..], [TrialCommand::Replay { csv: bytes }] if bytes[..] == *csv.as_bytes()),
+        "{commands:?}"
+    );
 }
 
 #[test]
