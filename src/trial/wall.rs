@@ -102,7 +102,8 @@ fn capped(mesh: &Arc<TriMesh>, topology: &Topology) -> Arc<TriMesh> {
 
 /// The sides of each triangle that the inside of a segment in the lumen can come nearest to, bit by bit: not those of
 /// valleys, as to a point in the lumen one of the triangles beside them is nearer, and ridges in one of their two
-/// triangles only. Where walls cross each other, one is seen from behind, and only nodes are held off by it. `order` has all triangles, neighbours mostly side by side, as they are at hand then.
+/// triangles only. Where walls cross each other, one is seen from behind, and only nodes are held off by it. `order` has
+/// all triangles, neighbours mostly side by side, as they are at hand then.
 fn ridges(mesh: &TriMesh, topology: &Topology, order: impl Iterator<Item = u32>) -> Vec<u8> {
     let at = |v: u32| mesh.positions[v as usize].as_dvec3();
     let of = |t: usize| {

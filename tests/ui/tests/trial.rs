@@ -392,22 +392,22 @@ fn the_wire_is_proposed_and_named_until_another_is_chosen() {
     let TrialEvent::Ready(mut ready) = ready(id_of_start(&commands)) else { panic!("it is ready") };
     ready.setup.wire = Wire::preset("035-j").unwrap();
     tell(&mut harness, &memory, [TrialEvent::Ready(ready)]);
-    let list = harness.get_by_role_and_label(Role::ComboBox, "Wire");
-    assert_eq!(list.accesskit_node().value().as_deref(), Some("0.035 in J tip"));
-    assert!(!says(&harness, "Restart to try"));
-    choose(&mut harness, "Wire");
-    harness.get_by_label("0.014 in floppy").click();
-    harness.run_steps(3);
+    let is_as_proposed = |harness: &App| {
+        let list = harness.get_by_role_and_label(Role::ComboBox, "Wire");
+        assert_eq!(list.accesskit_node().value().as_deref(), Some("0.035 in J tip"));
+        assert!(!says(harness, "Restart to try"));
+    };
+    let pick = |harness: &mut App, wire: &str| {
+        choose(harness, "Wire");
+        harness.get_by_label(wire).click();
+        harness.run_steps(3);
+    };
+    is_as_proposed(&harness);
+    pick(&mut harness, "0.014 in floppy");
     assert!(says(&harness, "Restart to try"));
-    choose(&mut harness, "Wire");
-    harness.get_by_label("Proposed").click();
-    harness.run_steps(3);
-    let list = harness.get_by_role_and_label(Role::ComboBox, "Wire");
-    assert_eq!(list.accesskit_node().value().as_deref(), Some("0.035 in J tip"));
-    assert!(!says(&harness, "Restart to try"));
-    choose(&mut harness, "Wire");
-    harness.get_by_label("0.014 in floppy").click();
-    harness.run_steps(3);
+    pick(&mut harness, "Proposed");
+    is_as_proposed(&harness);
+    pick(&mut harness, "0.014 in floppy");
     press(&mut harness, "Restart");
     let commands = asked(&memory);
     let Some(TrialCommand::Start { setup, .. }) = commands.first() else { panic!("{commands:?}") };
