@@ -2,7 +2,7 @@
 //! of a segment. Both search the boxes of [`SurfaceIndex`] from a bound that an earlier answer gives, so that the cost
 //! hardly depends on the number of triangles.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec4};
 
 use super::closest_point::Foot;
 use super::four::{Point, Segment, rounding};
@@ -69,6 +69,9 @@ impl SurfaceIndex {
             rounding,
             &mut squared,
             |first, leaves, squared| {
+                if self.planes(first).is_some_and(|planes| point.beside(planes, *squared as f32) & mask(leaves) == 0) {
+                    return;
+                }
                 let near = point.nearer(leaves, *squared as f32, rounding);
                 for (slot, leaf) in (first..).zip(leaves) {
                     if near >> (slot - first) & 1 > 0 && slot != hint {
@@ -102,6 +105,9 @@ impl SurfaceIndex {
             segment.rounding,
             &mut squared,
             |first, leaves, squared| {
+                if self.planes(first).is_some_and(|planes| segment.beside(planes, *squared as f32) & mask(leaves) == 0) {
+                    return;
+                }
                 let near = segment.nearer(leaves, *squared as f32);
                 for (slot, leaf) in (first..).zip(leaves).filter(|(slot, _)| near >> (slot - first) & 1 > 0) {
                     if let Some(found) = approach(a, b, leaf, *squared) {
@@ -125,6 +131,12 @@ impl SurfaceIndex {
         let (point, barycentric) = leaf.at(v, w);
         let foot = PointFoot { triangle: leaf.triangle, point, distance: squared.sqrt(), barycentric, slot };
         Some(SegmentFoot { along, foot })
+    }
+
+    /// The planes of up to four leaves, if there are any.
+    #[inline]
+    fn planes(&self, first: u32) -> Option<&[Vec4; 4]> {
+        self.planes.get(first as usize..)?.first_chunk()
     }
 
     /// A leaf that is not far from a point.
@@ -186,6 +198,11 @@ impl SurfaceIndex {
             }
         }
     }
+}
+
+/// The lanes of one to four leaves.
+fn mask(leaves: &[Leaf]) -> u32 {
+    (1 << leaves.len()) - 1
 }
 
 /// Where a segment comes nearest to a triangle.

@@ -7,6 +7,7 @@
 use glam::{DVec3, Vec3, Vec4};
 
 use super::nearest::{Leaf, Node};
+use super::planes::Planes;
 
 /// Four vectors.
 type Lanes = [Vec4; 3];
@@ -72,24 +73,34 @@ fn to_side(from: &Lanes, side: &Lanes) -> (Vec4, Vec4) {
 }
 
 /// A point beside four boxes or triangles.
-pub(super) struct Point(Lanes);
+pub(super) struct Point {
+    at: Lanes,
+    /// Distance from the origin.
+    reach: Vec4,
+}
 
 impl Point {
     pub(super) fn new(p: Vec3) -> Self {
-        Self(splat(p))
+        Self { at: splat(p), reach: Vec4::splat(p.length()) }
     }
 
     /// Squared distances from the boxes.
     #[inline]
     pub(super) fn squared_distances(&self, node: &Node) -> [f32; 4] {
-        node.squared_distances(&self.0)
+        node.squared_distances(&self.at)
+    }
+
+    /// Bits of the triangles whose planes are not too far for the root of `squared`.
+    #[inline]
+    pub(super) fn beside(&self, planes: &[Vec4; 4], squared: f32) -> u32 {
+        Planes::new(planes).near_point(&self.at, self.reach, squared)
     }
 
     /// Bits of the triangles that may be as near as the root of `squared`. `rounding` is that of the point.
     #[inline]
     pub(super) fn nearer(&self, leaves: &[Leaf], squared: f32, rounding: f32) -> u32 {
         let Some([a, b, c]) = corners(leaves) else { return 0 };
-        let from = [&a, &b, &c].map(|corner| minus(&self.0, corner));
+        let from = [&a, &b, &c].map(|corner| minus(&self.at, corner));
         let sides = [minus(&b, &a), minus(&c, &b), minus(&a, &c)];
         let normal = cross(&sides[0], &sides[1]);
         // Where the point is above the inside or close to it, the plane counts, which f64 knows better.
@@ -108,8 +119,11 @@ pub(super) struct Segment {
     min: Lanes,
     max: Lanes,
     start: Lanes,
+    end: Lanes,
     direction: Lanes,
     length: Vec4,
+    /// Distance of the farther end from the origin.
+    reach: Vec4,
     /// What [`rounding`] is of its ends.
     pub(super) rounding: f32,
 }
@@ -120,6 +134,8 @@ impl Segment {
             min: splat(a.min(b).as_vec3()),
             max: splat(a.max(b).as_vec3()),
             start: splat(a.as_vec3()),
+            end: splat(b.as_vec3()),
+            reach: Vec4::splat(a.length().max(b.length()) as f32),
             direction: splat((b - a).normalize_or_zero().as_vec3()),
             length: Vec4::splat((b - a).length() as f32),
             rounding: rounding(a) + rounding(b),
@@ -132,6 +148,12 @@ impl Segment {
         let gap = |axis: usize| (node.min[axis] - self.max[axis]).max(self.min[axis] - node.max[axis]).max(Vec4::ZERO);
         let (x, y, z) = (gap(0), gap(1), gap(2));
         (x * x + y * y + z * z).to_array()
+    }
+
+    /// Bits of the triangles whose planes are not too far for the root of `squared`.
+    #[inline]
+    pub(super) fn beside(&self, planes: &[Vec4; 4], squared: f32) -> u32 {
+        Planes::new(planes).near_segment([&self.start, &self.end], self.reach, squared)
     }
 
     /// Bits of the triangles that the inside may come nearer to than the root of `squared`: through the face, or past a

@@ -280,7 +280,7 @@ impl IndexBuild {
             };
             if self.stage == Stage::Leaves && self.next == self.items.len() {
                 let Self { nodes, leaves, triangles, .. } = std::mem::take(self);
-                return Poll::Ready(SurfaceIndex { nodes, leaves, triangles });
+                return Poll::Ready(SurfaceIndex { nodes, leaves, planes: Vec::new(), triangles });
             }
             left = left.saturating_sub(used.max(1));
         }

@@ -16,6 +16,7 @@ mod inner_ball;
 mod inside;
 mod measures;
 mod nearest;
+mod planes;
 mod roughness;
 mod self_intersections;
 #[cfg(test)]

@@ -13,6 +13,7 @@ use glam::{Vec3, Vec4};
 
 use super::closest_point::{Foot, foot_on_sliver, foot_on_triangle};
 use super::index_build::IndexBuild;
+use super::planes::plane;
 
 /// Room for the nodes still to visit: at most three per level, and [`IndexBuild`] makes at most 32 levels.
 pub(super) const STACK: usize = 100;
@@ -48,6 +49,8 @@ pub struct SurfaceIndex {
     pub(super) nodes: Vec<Node>,
     /// A triangle may stand in several leaves.
     pub(super) leaves: Vec<Leaf>,
+    /// Those of the leaves, and three of none, so that four can be read from each on; empty when they were not asked for.
+    pub(super) planes: Vec<Vec4>,
     pub(super) triangles: usize,
 }
 
@@ -169,6 +172,7 @@ impl SurfaceIndex {
         for leaf in &mut self.leaves {
             leaf.sides = sides.get(leaf.triangle as usize).copied().unwrap_or(Leaf::ALL_SIDES);
         }
+        self.planes = self.leaves.iter().map(|leaf| plane(leaf.corners)).chain([Vec4::ZERO; 3]).collect();
     }
 
     /// Numbers of the triangles, each once, in the order of the tree, in which neighbours are mostly neighbours in space

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::contact::Contacts;
-use super::descent::{Descent, Spring, descend};
+use super::descent::{Descent, Springs, descend};
 use super::rod::{Hessian, Rod};
 use super::wall::Wall;
 
@@ -62,7 +62,7 @@ pub struct Body {
     pub depth: f64,
     wall: Option<Arc<Wall>>,
     /// The contacts of the correction under way.
-    springs: Vec<Spring>,
+    springs: Springs,
     /// Drag of each node beyond its own in the last step, in N s/mm.
     brake: f64,
     /// Whether nothing moved much in the last step: then waiting has no end, and what is held goes on.
@@ -79,7 +79,7 @@ impl Body {
             contacts: Contacts::new(radius, friction),
             depth: f64::NEG_INFINITY,
             wall,
-            springs: Vec::new(),
+            springs: Springs::default(),
             brake: 0.0,
             is_still: false,
             is_stuck: false,

@@ -18,7 +18,7 @@
 
 use glam::DVec3;
 
-use super::descent::Spring;
+use super::descent::{Open, Spring, Springs, spread};
 use super::rod::Rod;
 use super::wall::Wall;
 use crate::mesh::{PointFoot, SegmentFoot};
@@ -422,22 +422,25 @@ impl Contacts {
     }
 
     /// The contacts as they are along a straight change of the rod from where it is now.
-    pub(super) fn along(&self, rod: &Rod, springs: &mut Vec<Spring>) {
+    pub(super) fn along(&self, rod: &Rod, springs: &mut Springs) {
         springs.clear();
-        springs.extend(self.near().map(|(node, contact)| {
-            let (a, b) = (1.0 - contact.along, contact.along);
-            let spread = |v: DVec3, angle: f64| [v.x * a, v.y * a, v.z * a, angle, v.x * b, v.y * b, v.z * b];
+        for (node, contact) in self.near() {
             let force = contact.force - self.stiffness * contact.gap_now(rod, node);
-            let spring = Spring::new(node, spread(contact.normal, 0.0), force, self.stiffness);
-            if contact.grip <= 0.0 {
-                return spring;
+            if contact.grip <= 0.0 && force <= 0.0 {
+                springs.open.push(Open::new(node, contact.along, contact.normal, force, self.stiffness));
+                continue;
             }
-            let (stretch, roll) = contact.trial(rod, node, self.radius);
-            let first = contact.smooth.any_orthonormal_vector();
-            let sides = [first, contact.smooth.cross(first)];
-            let stretch = sides.map(|side| side.dot(stretch));
-            spring.with_friction(contact.grip, stretch, sides.map(|side| spread(side, side.dot(roll))))
-        }));
+            let spring = Spring::new(node, spread(contact.normal, 0.0, contact.along), force, self.stiffness);
+            springs.closed.push(if contact.grip > 0.0 { self.with_friction(spring, rod, node, contact) } else { spring });
+        }
+    }
+
+    fn with_friction(&self, spring: Spring, rod: &Rod, node: usize, contact: &Contact) -> Spring {
+        let (stretch, roll) = contact.trial(rod, node, self.radius);
+        let first = contact.smooth.any_orthonormal_vector();
+        let sides = [first, contact.smooth.cross(first)];
+        let by_sides = sides.map(|side| spread(side, side.dot(roll), contact.along));
+        spring.with_friction(contact.grip, sides.map(|side| side.dot(stretch)), by_sides)
     }
 
     /// Lets go of all forces: the next step finds them anew.

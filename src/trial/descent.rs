@@ -8,6 +8,8 @@
 //! one factorisation; nothing of the rod is worked out anew. Where only the rod knew of contacts, each new one on the way
 //! cut a correction short, down to a hundredth, and the next began with the same direction but for that one.
 
+use glam::DVec3;
+
 use super::contact::GRIP;
 use super::rod::{Hessian, Rod};
 
@@ -147,6 +149,78 @@ impl Spring {
     }
 }
 
+/// A contact that is open, and stays so unless a way closes it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Open {
+    /// The node at which its edge begins, and where on it.
+    node: usize,
+    along: f64,
+    /// The way its gap grows.
+    normal: DVec3,
+    /// What presses where the change begins, in N: less than 0; and by what it grows with less of a gap, in N/mm.
+    force: f64,
+    stiff: f64,
+}
+
+impl Open {
+    /// A contact at a part of the edge behind a node, whose gap grows along `normal`; `force` and `stiff` as in
+    /// [`Spring::new`].
+    pub(super) fn new(node: usize, along: f64, normal: DVec3, force: f64, stiff: f64) -> Self {
+        Self { node, along, normal, force, stiff }
+    }
+
+    /// By what its force changes when its edge moves so.
+    fn change(&self, [ax, ay, az, _, bx, by, bz]: &[f64; 7]) -> f64 {
+        let moved = DVec3::new(*ax, *ay, *az).lerp(DVec3::new(*bx, *by, *bz), self.along);
+        -self.stiff * self.normal.dot(moved)
+    }
+
+    fn spring(&self, force: f64) -> Spring {
+        Spring::new(self.node, spread(self.normal, 0.0, self.along), force, self.stiff)
+    }
+}
+
+/// The derivatives by a node, its angle and the next node of what moves with a place of the edge between them along `v`,
+/// and turns with the angle.
+pub(super) fn spread(v: DVec3, angle: f64, along: f64) -> [f64; 7] {
+    let (a, b) = (v * (1.0 - along), v * along);
+    [a.x, a.y, a.z, angle, b.x, b.y, b.z]
+}
+
+/// The contacts of a correction. Most of them are open and stay so: on a fine surface a node has several facets in
+/// reach. They cost a look until a way closes them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Springs {
+    pub(super) closed: Vec<Spring>,
+    pub(super) open: Vec<Open>,
+}
+
+impl Springs {
+    pub(super) fn clear(&mut self) {
+        self.closed.clear();
+        self.open.clear();
+    }
+
+    /// Takes those among the others that press at the end of the way that was found; `gone` is the farthest that a node
+    /// has moved before it, in mm, and `moved` on all of it.
+    fn close(&mut self, rod: &Rod, gone: f64, moved: f64) {
+        let reach = gone + moved;
+        let mut i = 0;
+        while let Some(open) = self.open.get(i) {
+            i += 1;
+            if open.force + open.stiff * reach <= 0.0 {
+                continue;
+            }
+            let force = open.force + open.change(rod.change(open.node));
+            if force + open.change(rod.way(open.node)) > 0.0 {
+                self.closed.push(open.spring(force));
+                i -= 1;
+                self.open.swap_remove(i);
+            }
+        }
+    }
+}
+
 /// What came of a descent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Descent {
@@ -159,17 +233,18 @@ pub(super) struct Descent {
 }
 
 /// Finds the change of an assembled rod, for [`Rod::advance`]. `None` when the matrix is not positive definite.
-pub(super) fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -> Option<Descent> {
+pub(super) fn descend(rod: &mut Rod, springs: &mut Springs, hessian: Hessian) -> Option<Descent> {
     rod.begin_change();
-    let mut live: Vec<Spring> = Vec::with_capacity(springs.len());
-    let (mut fall, mut is_settled) = (0.0, false);
+    let mut live: Vec<Spring> = Vec::with_capacity(springs.closed.len());
+    let (mut fall, mut gone, mut is_settled) = (0.0, 0.0, false);
     for _ in 0..WAYS {
         rod.begin_way();
-        springs.iter_mut().for_each(|spring| spring.add(rod));
+        springs.closed.iter_mut().for_each(|spring| spring.add(rod));
         let way = rod.solve(hessian)?;
-        springs.iter_mut().for_each(|spring| spring.look_ahead(rod));
+        springs.close(rod, gone, way.moved);
+        springs.closed.iter_mut().for_each(|spring| spring.look_ahead(rod));
         live.clear();
-        live.extend(springs.iter().filter(|spring| spring.is_live(way.part)));
+        live.extend(springs.closed.iter().filter(|spring| spring.is_live(way.part)));
         // Of the rod alone: its slope where the way begins, and by what that changes on the whole of it.
         let springs_at = |part: f64| live.iter().map(|spring| spring.slope(part)).sum::<f64>();
         let first = way.slope - springs_at(0.0);
@@ -181,7 +256,8 @@ pub(super) fn descend(rod: &mut Rod, springs: &mut [Spring], hessian: Hessian) -
         fall += part * way.slope;
         rod.go(part, live.iter().flat_map(Spring::changed));
         is_settled = part >= 1.0;
-        for spring in springs.iter_mut() {
+        gone += part * way.moved;
+        for spring in &mut springs.closed {
             is_settled &= !spring.go(part);
         }
         // A way that is too long for the model ends the correction.

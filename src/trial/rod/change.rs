@@ -75,6 +75,11 @@ impl Rod {
         self.way[node * PER_NODE..].first_chunk().unwrap_or(&[0.0; 7])
     }
 
+    /// The change so far, of the same.
+    pub fn change(&self, node: usize) -> &[f64; 7] {
+        self.change[node * PER_NODE..].first_chunk().unwrap_or(&[0.0; 7])
+    }
+
     /// Goes this part of the way in the model. `springs` are those that were added for it: node, derivative, and by
     /// what each changes its force on the whole way.
     pub fn go(&mut self, part: f64, springs: impl Iterator<Item = (usize, [f64; 7], f64)>) {
