@@ -4,9 +4,9 @@
 //! whatever the surface; then one scripted input moves and rolls it to and fro. Arguments are triangle counts or, with an
 //! `n` behind them, node counts: `-- 10000 1000000 300n`. Counts below a million are levels of the sample of a million.
 //!
-//! Two inputs: `workhorse`, which touches here and there as wires do, and, with a `p` before the count, `pressed`: as soft
-//! as the workhorse's tip all along, and pressed against the wall by a load on each mm, so that most of it lies there. At
-//! the wall is a node with a contact that takes part in the step: nearer than 0.1 mm, beside the radius.
+//! Two inputs: `workhorse`, which touches here and there as wires do, and, with a `p` before the count, `pressed`: a soft
+//! wire that lies along one side from its guide on, and is pressed outward to the wall, so that most of it is in contact.
+//! At the wall is a node with a contact that takes part in the step: nearer than 0.1 mm, beside the radius.
 //!
 //! With `LUMEN_TRIAL_LOG` surface, setup and log of the last are left in that folder, for `benches/trial.mjs` to replay
 //! in the browser's Worker.
@@ -24,8 +24,9 @@ use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::course::Course;
 use lumen::trial::frame::Progress;
+use lumen::trial::press::Press;
 use lumen::trial::session::Trial;
-use lumen::trial::setup::{Input, Setup};
+use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::wire::Wire;
 
 /// Length of the wire outside the guide, in mm.
@@ -36,8 +37,11 @@ const NODES: usize = 300;
 const TRIANGLES: usize = 380_000;
 /// Triangles of the sample that smaller levels are made from.
 const WHOLE: usize = 1_000_000;
-/// Load on the pressed wire in N/mm: 40 times the weight of its steel.
-const LOAD: f64 = 3e-4;
+/// The pressed wire: bending stiffness all along in N mm2, and what presses it, from a little less than [`LENGTH`] on.
+const SOFT: f64 = 0.2;
+const PRESS: Press = Press { n_per_mm: 0.01, from_mm: 94.0 };
+/// Distance of its entry from the wall in mm.
+const BESIDE: f64 = 0.3;
 /// Steps that are timed.
 const STEPS: usize = 3000;
 
@@ -94,29 +98,23 @@ fn distinct(nodes: impl Iterator<Item = usize>) -> usize {
     nodes.collect::<HashSet<_>>().len()
 }
 
-/// Across the route as far as can be, all along.
-fn across(course: &Course) -> DVec3 {
-    let along = |way: DVec3| -> f64 {
-        (0..LENGTH as usize).map(|arc| course.route.at(arc as f64).direction.dot(way).powi(4)).sum()
-    };
-    // Evenly over half a sphere.
-    let ways = (0..200).map(|i| {
-        let (z, turn) = ((f64::from(i) + 0.5) / 200.0, f64::from(i) * 2.399_963);
-        let r = (1.0 - z * z).sqrt();
-        DVec3::new(r * turn.cos(), r * turn.sin(), z)
-    });
-    ways.min_by(|&a, &b| along(a).total_cmp(&along(b))).expect("a way")
+/// An entry moved across to the wall.
+fn beside(course: &Course, Entry { at, direction }: Entry) -> Entry {
+    let side = DVec3::from(direction.map(f64::from)).any_orthonormal_vector();
+    let aside = side * (course.route.at(0.0).radius - BESIDE);
+    Entry { at: (DVec3::from(at.map(f64::from)) + aside).as_vec3().to_array(), direction }
 }
 
 fn measure(mesh: &Arc<TriMesh>, kind: Kind, nodes: usize) {
     let mut wire = Wire { elements_mm: [LENGTH / nodes as f64; 2], ..Wire::preset("workhorse").expect("a preset") };
     if kind == Kind::Pressed {
-        wire.shaft_ei = wire.tip_ei;
+        (wire.tip_ei, wire.shaft_ei) = (SOFT, SOFT);
     }
     let mut setup = Setup { wire, ..Setup::default() };
     let course = Arc::new(Course::new(mesh, Some(Sample::Coronary), &mut setup).expect("a way"));
     if kind == Kind::Pressed {
-        setup.load = (across(&course) * LOAD).as_vec3().to_array();
+        setup.press = PRESS;
+        setup.entry = setup.entry.map(|entry| beside(&course, entry));
     }
     let mut trial = Trial::new(course.clone(), setup).expect("room");
     trial.set_autopilot(true);

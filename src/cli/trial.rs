@@ -15,6 +15,7 @@ use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::{Settings, Smoothing, Target};
 use crate::trial::course::Course;
 use crate::trial::frame::Summary;
+use crate::trial::press::Press;
 use crate::trial::session::Trial as Run;
 use crate::trial::setup::{Entry, Setup};
 use crate::trial::wire::Wire;
@@ -45,6 +46,10 @@ pub struct Trial {
     /// Load on each mm of the wire in N, x,y,z: its weight, or what flowing blood does to it
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     load: Option<[f32; 3]>,
+    /// Presses each mm of the wire to the wall with so many N, away from the middle of the route, while at least so many
+    /// mm are outside the guide
+    #[arg(long, value_name = "N,MM", value_parser = press)]
+    press: Option<Press>,
     /// Varies entry, roll and friction; 0 varies nothing
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -78,6 +83,15 @@ fn point(text: &str) -> Result<[f32; 3], String> {
     match numbers.ok().and_then(|numbers| <[f32; 3]>::try_from(numbers).ok()) {
         Some(point) if point.iter().all(|x| x.is_finite()) => Ok(point),
         _ => Err(format!("{text} is not a place: three numbers with commas between are")),
+    }
+}
+
+/// `n,mm`.
+fn press(text: &str) -> Result<Press, String> {
+    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    match numbers.ok().and_then(|numbers| <[f32; 2]>::try_from(numbers).ok()) {
+        Some([n_per_mm, from_mm]) if n_per_mm.is_finite() && from_mm.is_finite() => Ok(Press { n_per_mm, from_mm }),
+        _ => Err(format!("{text} is no load with the length from which it acts: two numbers with a comma between are")),
     }
 }
 
@@ -153,6 +167,7 @@ impl Trial {
             entry,
             target: self.target,
             load: self.load.unwrap_or_default(),
+            press: self.press.unwrap_or_default(),
             seed: self.seed,
         }
     }

@@ -105,7 +105,8 @@ impl SurfaceIndex {
             segment.rounding,
             &mut squared,
             |first, leaves, squared| {
-                if self.planes(first).is_some_and(|planes| segment.beside(planes, *squared as f32) & mask(leaves) == 0) {
+                if self.planes(first).is_some_and(|planes| segment.beside(planes, *squared as f32) & mask(leaves) == 0)
+                {
                     return;
                 }
                 let near = segment.nearer(leaves, *squared as f32);

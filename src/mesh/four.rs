@@ -209,6 +209,7 @@ mod tests {
 
     use super::*;
     use crate::mesh::closest_point::{foot_on_sliver, is_sliver};
+    use crate::mesh::planes::plane;
 
     fn leaf(corners: [Vec3; 3]) -> Leaf {
         Leaf { corners, triangle: 0, is_sliver: is_sliver(corners), sides: Leaf::ALL_SIDES }
@@ -243,7 +244,13 @@ mod tests {
             let (p, q) = (far.as_dvec3() + p.as_dvec3(), far.as_dvec3() + q.as_dvec3());
             let exact: Vec<f64> = leaves.iter().map(|leaf| leaf.foot(p).squared).collect();
             let to_segment: Vec<f64> = leaves.iter().map(|leaf| sampled(p, q, leaf.corners)).collect();
+            let planes: [Vec4; 4] = std::array::from_fn(|i| leaves.get(i).map_or(Vec4::ZERO, |leaf| plane(leaf.corners)));
             for i in 0..count {
+                let beside = Point::new(p.as_vec3()).beside(&planes, exact[i] as f32);
+                prop_assert!((0..count).all(|k| exact[k] > exact[i] || beside >> k & 1 > 0), "{i} {beside:b} {exact:?}");
+                let within = (to_segment[i] * to_segment[i]) as f32;
+                let beside = Segment::new(p, q).beside(&planes, within);
+                prop_assert!((0..count).all(|k| to_segment[k] > to_segment[i] || beside >> k & 1 > 0), "{i} {beside:b}");
                 let near = Point::new(p.as_vec3()).nearer(&leaves, exact[i] as f32, rounding(p));
                 prop_assert!((0..count).all(|k| exact[k] > exact[i] || near >> k & 1 > 0), "{i} {near:b} {exact:?}");
                 prop_assert!(near >> count == 0);
@@ -265,7 +272,14 @@ mod tests {
         let p = DVec3::new(0.02, 0.02, 0.2);
         assert_eq!(Point::new(p.as_vec3()).nearer(&leaves, 0.04, rounding(p)), 0b0001);
         assert_eq!(Point::new(p.as_vec3()).nearer(&leaves[2..], 0.04, rounding(p)), 0);
+        // They lie in one plane.
+        let planes = leaves.map(|leaf| plane(leaf.corners));
+        assert_eq!(Point::new(p.as_vec3()).beside(&planes, 0.0401), 0b1111);
+        assert_eq!(Point::new(p.as_vec3()).beside(&planes, 0.0399), 0);
         let segment = Segment::new(p, p + DVec3::X * 0.1);
+        assert_eq!([0.0401, 0.0399].map(|squared| segment.beside(&planes, squared)), [0b1111, 0]);
+        let through = Segment::new(p, DVec3::new(0.02, 0.02, -0.2));
+        assert_eq!(through.beside(&planes, 1e-6), 0b1111);
         assert_eq!(segment.nearer(&leaves, 0.039), 0);
         // The third is 0.08 mm beyond the end.
         assert_eq!(segment.nearer(&leaves, 0.042), 0b0011);

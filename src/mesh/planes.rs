@@ -27,7 +27,8 @@ pub(super) fn plane(corners: [Vec3; 3]) -> Vec4 {
     }
     let normal = ((b - a).cross(c - a).normalize_or_zero() * SHORTER).as_vec3();
     let along = [a, b, c].map(|corner| normal.as_dvec3().dot(corner));
-    let [least, most] = [along.into_iter().fold(f64::INFINITY, f64::min), along.into_iter().fold(f64::NEG_INFINITY, f64::max)];
+    let [least, most] =
+        [along.into_iter().fold(f64::INFINITY, f64::min), along.into_iter().fold(f64::NEG_INFINITY, f64::max)];
     let distance = f64::midpoint(least, most);
     if most - least <= 2.0 * THICKNESS * distance.abs() { normal.extend(distance as f32) } else { Vec4::ZERO }
 }

@@ -431,7 +431,11 @@ impl Contacts {
                 continue;
             }
             let spring = Spring::new(node, spread(contact.normal, 0.0, contact.along), force, self.stiffness);
-            springs.closed.push(if contact.grip > 0.0 { self.with_friction(spring, rod, node, contact) } else { spring });
+            springs.closed.push(if contact.grip > 0.0 {
+                self.with_friction(spring, rod, node, contact)
+            } else {
+                spring
+            });
         }
     }
 

@@ -3,6 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
+use super::press::Press;
+
 /// A place where the wire lies against the wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
 #[repr(C)]
@@ -143,6 +145,8 @@ pub struct Summary {
     pub wire: String,
     /// Load on each mm of the wire, in N.
     pub load_n_per_mm: [f32; 3],
+    /// What pressed it to the wall.
+    pub press: Press,
     /// The seed.
     pub seed: u64,
     /// Static and kinetic coefficient of friction, after the seed's variation.

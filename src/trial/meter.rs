@@ -189,6 +189,7 @@ impl Trial {
             surface: format!("{:016x}", course.fingerprint),
             wire: self.setup().wire.name.clone(),
             load_n_per_mm: self.setup().load,
+            press: self.setup().press,
             seed: self.setup().seed,
             friction: self.friction(),
             route_length_mm: route.length_mm,

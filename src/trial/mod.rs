@@ -19,6 +19,7 @@ mod descent;
 pub mod frame;
 pub mod log;
 pub mod meter;
+pub mod press;
 pub mod rod;
 pub mod route;
 pub mod session;

@@ -11,6 +11,7 @@ use super::course::{Course, TrialError};
 use super::frame::{Frame, Progress, Touch};
 use super::log::{Log, Row};
 use super::meter::Meter;
+use super::press::outward;
 use super::route::Located;
 use super::setup::{Input, Setup};
 use super::simulation::Simulation;
@@ -173,6 +174,7 @@ impl Trial {
             return;
         }
         let start = Instant::now();
+        self.press();
         let stepped = self.state.simulation.step(self.state.input);
         self.state.meter.stepped(milliseconds(start), stepped, &self.state.simulation);
         let steps = self.state.simulation.steps();
@@ -182,6 +184,20 @@ impl Trial {
                 self.mark();
             }
         }
+    }
+
+    /// Presses the wire to the wall, if that is to be.
+    fn press(&mut self) {
+        let (press, simulation) = (self.setup.press, &mut self.state.simulation);
+        if press.n_per_mm <= 0.0 {
+            return;
+        }
+        let mut loads = Vec::new();
+        if simulation.inserted() >= f64::from(press.from_mm) {
+            loads = outward(&self.course.route, simulation.nodes());
+            loads.iter_mut().for_each(|load| *load *= f64::from(press.n_per_mm));
+        }
+        simulation.set_loads(loads);
     }
 
     /// Runs to the end.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::press::Press;
 use super::wire::Wire;
 
 /// Where the wire comes out of its sheath or guide catheter, which is rigid.
@@ -28,6 +29,9 @@ pub struct Setup {
     /// Load on each mm of the wire outside its guide, in N: its weight, or what flowing blood does to it.
     #[serde(default)]
     pub load: [f32; 3],
+    /// What presses the wire to the wall.
+    #[serde(default)]
+    pub press: Press,
     /// Varies the entry by 0.5 mm and 2 degrees, the roll, and friction by 20 %. 0 varies nothing.
     pub seed: u64,
 }

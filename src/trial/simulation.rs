@@ -50,6 +50,11 @@ pub enum PlacementError {
     Outside,
 }
 
+/// Refuses a load of so many N on each mm that is more than a wire can bear, or none.
+pub(super) fn check_load(n_per_mm: f64) -> Result<(), PlacementError> {
+    if (0.0..=MOST_LOAD).contains(&n_per_mm) { Ok(()) } else { Err(PlacementError::Load(n_per_mm)) }
+}
+
 /// A wire on its way.
 #[derive(Clone, Debug)]
 pub struct Simulation {
@@ -57,8 +62,9 @@ pub struct Simulation {
     /// Place of each node in the material, in mm from the tip.
     grid: Vec<f64>,
     sections: Vec<Section>,
-    /// On each mm outside the guide, in N.
+    /// On each mm outside the guide, in N: everywhere, and at each node from the tip.
     load: DVec3,
+    loads: Vec<DVec3>,
     mouth: DVec3,
     /// Into the vessel.
     way: DVec3,
@@ -115,6 +121,7 @@ impl Simulation {
             grid,
             sections,
             load: DVec3::ZERO,
+            loads: Vec::new(),
             mouth,
             way,
             inserted,
@@ -135,13 +142,15 @@ impl Simulation {
     /// # Errors
     /// When it is more than 0.1 N, or no number.
     pub fn set_load(&mut self, load: DVec3) -> Result<(), PlacementError> {
-        let most = load.length();
-        if most.is_nan() || most > MOST_LOAD {
-            return Err(PlacementError::Load(most));
-        }
+        check_load(load.length())?;
         self.load = load;
         self.place();
         Ok(())
+    }
+
+    /// Puts these loads on each mm at the nodes from the tip, in N, beside that, from the next step on.
+    pub(super) fn set_loads(&mut self, loads: Vec<DVec3>) {
+        self.loads = loads;
     }
 
     /// The first node inside the guide.
@@ -165,8 +174,9 @@ impl Simulation {
             rod.sections[i].rest = self.sections[i].rest.map(|rest| rest * part);
         }
         rod.forces.clear();
-        if self.load != DVec3::ZERO {
-            rod.forces.extend((0..first).map(|i| (i, self.load * rod.sections[i].cell)));
+        if self.load != DVec3::ZERO || !self.loads.is_empty() {
+            let load = |i: usize| self.load + self.loads.get(i).copied().unwrap_or_default();
+            rod.forces.extend((0..first).map(|i| (i, load(i) * rod.sections[i].cell)));
         }
     }
 
@@ -238,7 +248,7 @@ impl Simulation {
     }
 
     /// Nodes outside the guide, from the tip, and the mouth.
-    pub fn nodes(&self) -> impl Iterator<Item = DVec3> {
+    pub fn nodes(&self) -> impl DoubleEndedIterator<Item = DVec3> {
         self.body.rod.positions[..self.outside()].iter().copied().chain([self.mouth])
     }
 
