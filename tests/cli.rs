@@ -292,3 +292,90 @@ fn a_rate_between_nought_and_one_draws_a_warning() {
     assert!(output.status.success());
     assert!(String::from_utf8(output.stderr).unwrap().contains("warning: --reduction 0.9"));
 }
+
+#[test]
+fn a_trial_writes_every_promised_field_and_a_log_and_is_the_same_again() {
+    let folder = Folder::new("trial");
+    let [summary, again, log] = ["trial.json", "again.json", "trial.csv"].map(|name| folder.file(name));
+    let sample = ["trial", "sample:aorta", "--reduction", "99", "--seed", "3"];
+    let printed = succeed(&[&sample[..], &["--json", &summary, "--log", &log]].concat());
+    assert!(printed.contains("the tip arrived") && printed.ends_with("Not for clinical decisions.\n"), "{printed}");
+    let found = json(&summary);
+    for field in [
+        "reason",
+        "time_s",
+        "steps",
+        "steps_per_second",
+        "route_length_mm",
+        "tip_distance_mm",
+        "max_wall_force_n",
+        "max_penetration_mm",
+        "wire",
+        "surface",
+    ] {
+        assert!(!found[field].is_null(), "{field} of {found}");
+    }
+    assert!(["mean", "p50", "p99", "max"].iter().all(|part| found["step_ms"][part].as_f64().unwrap() > 0.0));
+    assert_eq!((found["schema"].as_u64(), found["success"].as_bool()), (Some(1), Some(true)));
+    assert_eq!((found["seed"].as_u64(), found["triangles"].as_u64()), (Some(3), Some(742)));
+    let stations = found["stations"].as_array().unwrap();
+    assert!(stations.len() == 5 && stations.iter().all(|station| station["steps_per_second"].as_f64().unwrap() > 0.0));
+    assert!(found["tip_distance_mm"].as_f64().unwrap() <= 2.0 && found["max_wall_force_n"].as_f64().unwrap() > 0.0);
+    // A row every ten steps, below the heading's six lines.
+    let rows = std::fs::read_to_string(&log).unwrap();
+    assert_eq!(rows.lines().count() as u64, 6 + found["steps"].as_u64().unwrap().div_ceil(10));
+    assert!(rows.contains("not for clinical decisions"));
+    let has_sign = |field: &str| field.starts_with('-') && field.bytes().all(|byte| b"-0.".contains(&byte));
+    assert!(!rows.split([',', '\n']).any(has_sign), "nought has no sign");
+    succeed(&[&sample[..], &["--json", &again]].concat());
+    for field in ["steps", "tip_distance_mm", "max_wall_force_n", "max_penetration_mm", "max_push_n"] {
+        assert_eq!(json(&again)[field], found[field], "{field}");
+    }
+}
+
+#[test]
+fn a_wire_that_is_pressed_touches_in_more_places() {
+    let folder = Folder::new("press");
+    let path = folder.file("trial.json");
+    let share = |press: &[&str]| {
+        succeed(&[&["trial", "sample:aorta", "--reduction", "99", "--json", &path], press].concat());
+        json(&path)["max_contact_share"].as_f64().unwrap()
+    };
+    let (free, pressed) = (share(&[]), share(&["--press", "0.001,60"]));
+    assert!(pressed > 1.5 * free, "{pressed} for {free}");
+}
+
+#[test]
+fn what_no_trial_can_be_made_of_gets_a_sentence() {
+    for (arguments, status, sentence) in [
+        (&["--wire", "bamboo"][..], 2, "there is no wire \"bamboo\"; there are floppy, workhorse"),
+        (&["--press", "1"], 2, "two numbers with a comma between"),
+        (&["--entry", "1,2"], 2, "three numbers with commas between"),
+        (&["--element", "0"], 2, "element"),
+        (&["--entry", "500,0,0"], 1, "no trial is possible: the entry (500.0, 0.0, 0.0) lies outside"),
+        (&["--press", "0.2,0"], 1, "no trial is possible: a load of 0.2"),
+    ] {
+        let output = lumen(&[&["trial", "sample:aorta", "--reduction", "99"], arguments].concat());
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{arguments:?}: {error}");
+        assert!(error.contains(sentence), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn the_trial_s_tables_have_the_papers_rates_each_of_its_sample() {
+    let csv = succeed(&["tables", "--trial", "--format", "csv"]);
+    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let of = |table: &str, quantity: &str| -> Vec<(String, String, String)> {
+        let is = |row: &&Vec<&str>| row[0] == table && row[2] == quantity;
+        rows.iter().filter(is).map(|row| (row[1].to_owned(), row[4].to_owned(), row[7].to_owned())).collect()
+    };
+    let row = |rate: &str, paper: &str, input: &str| (rate.to_owned(), paper.to_owned(), input.to_owned());
+    // The paper's Table III has an initial rate for each; its Table IV none for the whole tree as it was.
+    let aorta = ["10 %", "50 %", "75 %", "90 %", "99 %"];
+    let third = of("III", "success");
+    assert!(third.iter().map(|row| row.0.as_str()).eq(aorta) && third.iter().all(|row| row.2 == "sample:aorta"));
+    let fourth = [("0 %", ""), ("90 %", "0"), ("95 %", "0"), ("99 %", "1")];
+    assert_eq!(of("IV", "success"), fourth.map(|(rate, paper)| row(rate, paper, "sample:coronary")));
+    assert!(rows.iter().filter(|row| row[2] == "success").all(|row| row[5] == "1"), "{csv}");
+}

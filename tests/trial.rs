@@ -16,6 +16,7 @@ use lumen::trial::compare::TrialComparison;
 use lumen::trial::course::{Course, TrialError};
 use lumen::trial::frame::Progress;
 use lumen::trial::log::Log;
+use lumen::trial::press::Press;
 use lumen::trial::session::Trial;
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::simulation::Simulation;
@@ -221,6 +222,10 @@ fn what_cannot_be_tried_gets_a_sentence() {
     assert!(refused(&|setup| setup.wire.diameter_mm = 9.9).to_string().contains("too thin"));
     assert!(refused(&|setup| setup.wire.diameter_mm = f64::NAN).to_string().contains("diameter"));
     assert!(refused(&|setup| setup.wire.elements_mm = [0.0, 1.0]).to_string().contains("element"));
+    for n_per_mm in [0.2, -0.01, f32::NAN] {
+        let refused = refused(&|setup| setup.press = Press { n_per_mm, from_mm: 0.0 }).to_string();
+        assert!(refused.starts_with("a load of") && refused.contains("0.1 is the most"), "{refused}");
+    }
     let mut inside_out = (**mesh).clone();
     inside_out.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
     let mut turned = setup(Sample::Aorta);

@@ -3,10 +3,8 @@
 use crate::digits::grouped;
 use crate::pipeline::report::DISCLAIMER;
 
-/// All tables of one surface.
+/// Tables, with what is said of all of them.
 pub(super) struct Sheet {
-    /// The surface: a file or a sample.
-    pub input: String,
     /// What a reader has to know about all tables.
     pub notes: Vec<String>,
     /// The tables, in the paper's order.
@@ -19,6 +17,8 @@ pub(super) struct Table {
     pub number: &'static str,
     /// What it shows.
     pub title: &'static str,
+    /// Of which surface: a file or a sample.
+    pub input: String,
     /// What its items are, at the head of their column.
     pub of: &'static str,
     /// Its rows, all with the same quantities.
@@ -191,7 +191,9 @@ impl Table {
 impl Sheet {
     fn heading(&self) -> String {
         let tables: Vec<_> = self.tables.iter().map(|table| table.number).collect();
-        format!("Tables {} of the paper, made again for {}", tables.join(" and "), self.input)
+        let mut inputs: Vec<_> = self.tables.iter().map(|table| table.input.as_str()).collect();
+        inputs.dedup();
+        format!("Tables {} of the paper, made again for {}", tables.join(" and "), inputs.join(" and "))
     }
 
     fn footer() -> String {
@@ -241,7 +243,7 @@ impl Sheet {
                         &number(entry.paper),
                         &number(entry.lumen),
                         &number(entry.difference()),
-                        &self.input,
+                        &table.input,
                         env!("CARGO_PKG_VERSION"),
                         DISCLAIMER,
                     ]

@@ -84,9 +84,8 @@ impl Tables {
         }
         let first = &levels.first().context("there is no rate in Table II")?.2;
         let sheet = Sheet {
-            input: self.file.clone(),
             notes: notes(&self.file, first),
-            tables: vec![table_1(first, degenerate), table_2(&levels)],
+            tables: vec![table_1(&self.file, first, degenerate), table_2(&self.file, &levels)],
         };
         self.write(&sheet)?;
         for shortfall in levels.iter().filter_map(|(.., report)| report.shortfall.as_ref()) {
@@ -134,7 +133,7 @@ fn notes(input: &str, report: &Report) -> Vec<String> {
     notes
 }
 
-fn table_1(report: &Report, degenerate: usize) -> Table {
+fn table_1(input: &str, report: &Report, degenerate: usize) -> Table {
     let [before, after] = paper::TABLE_I;
     let (opened, kept) = (report.opened, report.after_connectivity);
     let item = |name: &str, paper: usize, counts: crate::pipeline::report::Counts| Item {
@@ -156,13 +155,14 @@ fn table_1(report: &Report, degenerate: usize) -> Table {
     Table {
         number: "I",
         title: "Polygons before and after the validation of connectivity",
+        input: input.to_owned(),
         of: "",
         items: vec![item("before validation", before, opened), item("after validation", after, kept)],
         notes,
     }
 }
 
-fn table_2(levels: &[(u32, usize, Report)]) -> Table {
+fn table_2(input: &str, levels: &[(u32, usize, Report)]) -> Table {
     let of_paper = paper::TABLE_I[1];
     let items = levels.iter().map(|(percent, polygons, report)| {
         let deviation = |pick: fn(&Deviation) -> f64| report.deviation_mm.as_ref().map(pick);
@@ -196,6 +196,7 @@ fn table_2(levels: &[(u32, usize, Report)]) -> Table {
     Table {
         number: "II",
         title: "Polygons at different reduction rates",
+        input: input.to_owned(),
         of: "reduction rate",
         items: items.collect(),
         notes,

@@ -34,7 +34,7 @@ pub(super) fn sheet(file: &str, unit: Option<Unit>) -> Result<Sheet> {
     } else {
         vec![table("IV", file, unit, &mut notes)?]
     };
-    Ok(Sheet { input: file.to_owned(), notes, tables })
+    Ok(Sheet { notes, tables })
 }
 
 fn table(number: &'static str, file: &str, unit: Option<Unit>, notes: &mut Vec<String>) -> Result<Table> {
@@ -64,6 +64,7 @@ fn table(number: &'static str, file: &str, unit: Option<Unit>, notes: &mut Vec<S
     Ok(Table {
         number,
         title: if number == "III" { "The trial in the aorta" } else { "The trial in the whole tree" },
+        input: file.to_owned(),
         of: "reduction rate",
         items,
         notes: Vec::new(),

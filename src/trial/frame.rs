@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
 use super::press::Press;
+use super::setup::Entry;
 
 /// A place where the wire lies against the wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
@@ -143,6 +144,10 @@ pub struct Summary {
     pub surface: String,
     /// The wire's name.
     pub wire: String,
+    /// Where it entered.
+    pub entry: Option<Entry>,
+    /// Where it should go, in mm.
+    pub target: Option<[f32; 3]>,
     /// Load on each mm of the wire, in N.
     pub load_n_per_mm: [f32; 3],
     /// What pressed it to the wall.

@@ -190,32 +190,40 @@ impl Log {
 impl Row {
     fn write(&self, text: &mut String) {
         let Self { step, input, inserted_mm, roll, tip, tip_direction, .. } = *self;
-        let point = |p: DVec3| format!("{:.4},{:.4},{:.4}", p.x, p.y, p.z);
+        let point = |p: DVec3| p.to_array().map(|x| fixed(x, 4)).join(",");
         // Speeds stand in full, so that a replay has the same bits.
-        let line = format!(
-            "{step},{:.3},{},{},{inserted_mm:.4},{roll:.5},{},{},{:.3},{},{},{:.3},{:.4},{},{:.6},{:.6},{},{:.6},{:.6},{:.6},{},{},{:.4}",
-            step as f64 * STEP,
-            input.feed,
-            input.roll,
+        let fields = [
+            step.to_string(),
+            fixed(step as f64 * STEP, 3),
+            input.feed.to_string(),
+            input.roll.to_string(),
+            fixed(inserted_mm, 4),
+            fixed(roll, 5),
             point(tip),
             point(tip_direction),
-            self.arc_mm,
-            self.branch,
-            u8::from(self.is_off),
-            self.target_mm,
-            self.path_ratio,
-            self.contacts,
-            self.wall_force_n,
-            self.max_wall_force_n,
+            fixed(self.arc_mm, 3),
+            self.branch.to_string(),
+            u8::from(self.is_off).to_string(),
+            fixed(self.target_mm, 3),
+            fixed(self.path_ratio, 4),
+            self.contacts.to_string(),
+            fixed(self.wall_force_n, 6),
+            fixed(self.max_wall_force_n, 6),
             point(self.max_at),
-            self.tip_force_n,
-            self.push_n,
-            self.torque_n_mm,
-            self.retractions,
-            self.wrong_branches,
-            self.step_ms,
-        );
+            fixed(self.tip_force_n, 6),
+            fixed(self.push_n, 6),
+            fixed(self.torque_n_mm, 6),
+            self.retractions.to_string(),
+            self.wrong_branches.to_string(),
+            fixed(self.step_ms, 4),
+        ];
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{line}");
+        let _ = writeln!(text, "{}", fields.join(","));
     }
+}
+
+/// With this many digits behind the point; nought has no sign.
+fn fixed(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    if text.bytes().all(|byte| b"-0.".contains(&byte)) { text.replace('-', "") } else { text }
 }

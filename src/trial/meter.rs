@@ -188,6 +188,8 @@ impl Trial {
             triangles: course.wall.mesh().triangles.len(),
             surface: format!("{:016x}", course.fingerprint),
             wire: self.setup().wire.name.clone(),
+            entry: self.setup().entry,
+            target: self.setup().target,
             load_n_per_mm: self.setup().load,
             press: self.setup().press,
             seed: self.setup().seed,

@@ -83,7 +83,7 @@ impl Tables {
         self.rows = rates.iter().map(|&rate| Row { rate, ..Row::default() }).collect();
         self.levels = Some(levels.clone());
         self.sample = sample;
-        // Places that were picked by hand are places in this surface; others are proposed anew for each level.
+        // Places that were picked by hand are places in this surface; others are those that the first row proposes.
         self.setup = setup.clone();
         document.name.clone_into(&mut self.name);
     }
@@ -129,10 +129,12 @@ impl Tables {
     pub(super) fn receive(&mut self, id: u64, summary: Box<Summary>) {
         if self.is_measuring(id) {
             self.running = None;
-            // One wire for all rows.
+            // One wire and one way for all rows.
             if let Some(wire) = Wire::preset(&summary.wire).filter(|_| self.setup.proposes_wire) {
                 (self.setup.wire, self.setup.proposes_wire) = (wire, false);
             }
+            self.setup.entry = self.setup.entry.or(summary.entry);
+            self.setup.target = self.setup.target.or(summary.target);
             if let Some(row) = self.current() {
                 row.outcome = Outcome::Done(summary);
             }

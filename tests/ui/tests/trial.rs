@@ -494,13 +494,25 @@ fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
     settle(&mut harness);
     press(&mut harness, "Tables III and IV");
     let station = StationResult { simulation_ms: Some(8.0), ..StationResult::default() };
-    let summary =
-        Summary { success: true, initial_simulation_ms: 5.0, stations: vec![station; 5], ..Summary::default() };
+    let summary = Summary {
+        success: true,
+        initial_simulation_ms: 5.0,
+        stations: vec![station; 5],
+        wire: "stiff".to_owned(),
+        entry: Some(Entry { at: [1.0, 2.0, 3.0], direction: [0.0, 0.0, 1.0] }),
+        target: Some([4.0, 5.0, 6.0]),
+        ..Summary::default()
+    };
     // Table II of the paper.
-    for printed in [66_875, 37_153, 18_576] {
+    for (row, printed) in [66_875, 37_153, 18_576].into_iter().enumerate() {
         harness.run_steps(3);
         let commands = asked(&memory);
-        let [TrialCommand::Measure { id, mesh, sample, .. }] = &commands[..] else { panic!("{commands:?}") };
+        let [TrialCommand::Measure { id, mesh, sample, setup }] = &commands[..] else { panic!("{commands:?}") };
+        // What the first row proposes is what all are run with.
+        let proposed = (false, summary.entry, summary.target);
+        let with = (setup.proposes_wire, setup.entry, setup.target);
+        assert_eq!(with, if row == 0 { (true, None, None) } else { proposed });
+        assert!(row == 0 || setup.wire.name == "stiff");
         assert!((printed - 2..=printed).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
         assert_eq!(*sample, Some(Sample::Aorta));
         tell(&mut harness, &memory, [TrialEvent::Measured { id: *id, summary: Box::new(summary.clone()) }]);
