@@ -38,6 +38,9 @@ const REACH: f64 = 0.1;
 const FRESH: f64 = 0.25;
 /// Below this gap in mm the inside of an edge is looked after.
 const EDGE_REACH: f64 = 0.05;
+/// What is not nearest, but was, is looked after as long as its gap is less than this, in mm: on a fine surface a wire
+/// that slides leaves many facets behind. What closes a wider gap within a step is found after it, as nearest then.
+const CORNER: f64 = 0.02;
 /// The part of the radius by which the inside of an edge must be nearer than its ends to be a contact of its own.
 const DEEPER: f64 = 0.01;
 
@@ -272,7 +275,7 @@ impl Contacts {
         let away = (p - foot.point).normalize_or_zero();
         let mut same = None;
         for (k, contact) in contacts.iter_mut().enumerate().filter(|(_, contact)| contact.is_near) {
-            let Some(own) = wall.index().foot_in(contact.slot, p).filter(|own| own.distance < radius + REACH) else {
+            let Some(own) = wall.index().foot_in(contact.slot, p).filter(|own| own.distance < radius + CORNER) else {
                 *contact = Contact::NONE;
                 continue;
             };
@@ -311,7 +314,7 @@ impl Contacts {
         let (radius, contacts) = (self.radius, &mut self.edges[i]);
         let mut least = f64::INFINITY;
         for contact in contacts.iter_mut().filter(|contact| contact.is_near) {
-            match wall.index().segment_foot_in(contact.slot, a, b, radius + EDGE_REACH) {
+            match wall.index().segment_foot_in(contact.slot, a, b, radius + CORNER) {
                 Some(own) => {
                     contact.meet(wall, a.lerp(b, own.along), own.along, &own.foot, radius);
                     least = least.min(own.foot.distance);
