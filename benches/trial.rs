@@ -37,8 +37,9 @@ const NODES: usize = 300;
 const TRIANGLES: usize = 380_000;
 /// Triangles of the sample that smaller levels are made from.
 const WHOLE: usize = 1_000_000;
-/// The pressed wire: bending stiffness all along in N mm2, and what presses it, from a little less than [`LENGTH`] on.
+/// Bending stiffness of the pressed wire, all along, in N mm2.
 const SOFT: f64 = 0.2;
+/// What presses it: from a little less than [`LENGTH`] on.
 const PRESS: Press = Press { n_per_mm: 0.01, from_mm: 94.0 };
 /// Distance of its entry from the wall in mm.
 const BESIDE: f64 = 0.3;

@@ -89,9 +89,14 @@ impl LumenApp {
         &self.trial
     }
 
-    /// How many pictures of the trial were drawn.
+    /// How many pictures of the trial were drawn since its views were first shown.
     pub fn trial_draws(&self) -> u64 {
         self.trial_view.draws()
+    }
+
+    /// Whether the trial's views stand in the device's memory.
+    pub fn trial_holds_memory(&self) -> bool {
+        self.trial_view.holds_memory()
     }
 
     fn listen(&mut self, ctx: &egui::Context) {
@@ -227,6 +232,9 @@ impl LumenApp {
                 }
                 if !comparison.is_open() {
                     self.compare.let_go();
+                }
+                if !(self.trial.is_open || self.trial.tables.is_open || self.trial.tables.is_busy()) {
+                    self.trial_view.let_go();
                 }
                 if self.trial.is_open {
                     picked = self.trial_view.show(ui, &mut self.trial, &mut self.views, document, keep, is_narrow);

@@ -124,10 +124,13 @@ impl Table {
     }
 
     fn text(&self, out: &mut String) {
+        if self.items.is_empty() {
+            return no_rows(out);
+        }
         let (heads, rows) = self.cells();
         // A quantity's head stands over all of its columns: two spaces between these, three between quantities.
         let starts: Vec<usize> = (1..heads.len()).filter(|&i| !heads[i][0].is_empty()).collect();
-        let ends = starts[1..].iter().copied().chain([heads.len()]);
+        let ends = starts.iter().skip(1).copied().chain([heads.len()]);
         let groups: Vec<_> = starts.iter().zip(ends).map(|(&start, end)| start..end).collect();
         let mut widths: Vec<usize> = heads.iter().map(|head| head[1].len()).collect();
         widths[0] = heads[0][0].len();
@@ -165,6 +168,9 @@ impl Table {
     }
 
     fn markdown(&self, out: &mut String) {
+        if self.items.is_empty() {
+            return no_rows(out);
+        }
         let (heads, rows) = self.cells();
         let mut quantity = String::new();
         let mut line = "|".to_owned();
@@ -256,6 +262,11 @@ impl Sheet {
     }
 }
 
+/// What stands in place of a table without rows.
+fn no_rows(out: &mut String) {
+    *out += "(no rows: the notes say why)\n";
+}
+
 /// A note as a point of a list, wrapped.
 fn bullet(out: &mut String, note: &str) {
     const WIDTH: usize = 100;
@@ -291,6 +302,26 @@ mod tests {
         assert_eq!(entry(99.0, 98.004).shown_difference(), "-1.00");
         assert_eq!(entry(0.0, -0.001).plain(-0.001), "0.00");
         assert_eq!(Entry::number("x", "mm", 2, None, Some(1.0)).shown_difference(), "-");
+    }
+
+    #[test]
+    fn a_table_without_rows_says_so() {
+        let table = Table {
+            number: "IV",
+            title: "The trial in the whole tree",
+            input: "box.stl".to_owned(),
+            of: "reduction rate",
+            items: Vec::new(),
+            notes: Vec::new(),
+        };
+        let sheet = Sheet { notes: vec!["There is no trial.".to_owned()], tables: vec![table] };
+        for shown in [sheet.text(), sheet.markdown()] {
+            assert!(
+                shown.contains("(no rows: the notes say why)\n") && shown.contains("There is no trial."),
+                "{shown}"
+            );
+        }
+        assert_eq!(sheet.csv().lines().count(), 1);
     }
 
     #[test]

@@ -48,7 +48,7 @@ pub struct Trial {
     load: Option<[f32; 3]>,
     /// Presses each mm of the wire to the wall with so many N, away from the middle of the route, while at least so many
     /// mm are outside the guide
-    #[arg(long, value_name = "N,MM", value_parser = press)]
+    #[arg(long, value_name = "N,MM", value_parser = press, allow_hyphen_values = true)]
     press: Option<Press>,
     /// Varies entry, roll and friction; 0 varies nothing
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -161,7 +161,7 @@ impl Trial {
         }
         wire.check().unwrap_or_else(|error| misuse(error));
         let entry = self.entry.map(|at| Entry { at, direction: self.direction.unwrap_or([0.0; 3]) });
-        Setup {
+        let setup = Setup {
             wire,
             proposes_wire: self.wire.is_none(),
             entry,
@@ -169,7 +169,9 @@ impl Trial {
             load: self.load.unwrap_or_default(),
             press: self.press.unwrap_or_default(),
             seed: self.seed,
-        }
+        };
+        setup.check_loads().unwrap_or_else(|error| misuse(error));
+        setup
     }
 }
 

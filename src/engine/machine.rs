@@ -63,6 +63,6 @@ impl Machine for TrialEngine {
     }
 
     fn is_passing(event: &TrialEvent) -> bool {
-        matches!(event, TrialEvent::Frame(_))
+        matches!(event, TrialEvent::Frame { .. })
     }
 }

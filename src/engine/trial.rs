@@ -37,13 +37,21 @@ pub enum TrialCommand {
     /// Simulated seconds a second of the clock: 1, or less for slow motion.
     Pace(f32),
     /// Begins again with the same setup.
-    Restart,
+    Restart {
+        /// Comes back with the frames from then on: those that are under way still belong to what was before.
+        id: u64,
+    },
     /// Goes back by a second of simulated time, and stands still.
-    StepBack,
+    StepBack {
+        /// As for `Restart`.
+        id: u64,
+    },
     /// Asks for the log.
     Save,
     /// Plays a saved log on the same surface, from the start.
     Replay {
+        /// As for `Restart`.
+        id: u64,
         /// The log, as it was saved.
         csv: Arc<Vec<u8>>,
     },
@@ -153,9 +161,19 @@ pub enum TrialEvent {
         is_too_thin: bool,
     },
     /// The wire now.
-    Frame(Box<Frame>),
+    Frame {
+        /// That of the command which began this: a start, a restart, a step back or a replay.
+        id: u64,
+        /// What is to be shown.
+        frame: Box<Frame>,
+    },
     /// The trial is over.
-    Ended(Box<Summary>),
+    Ended {
+        /// As for `Frame`.
+        id: u64,
+        /// What came of it.
+        summary: Box<Summary>,
+    },
     /// The log.
     Saved {
         /// Sample by sample.

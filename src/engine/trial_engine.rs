@@ -43,6 +43,8 @@ enum JobKind {
 
 /// The trial that is shown.
 struct Shown {
+    /// That of the command which began what is shown now.
+    id: u64,
     trial: Box<Trial>,
     is_steered: bool,
     is_paused: bool,
@@ -60,8 +62,9 @@ struct Shown {
 }
 
 impl Shown {
-    fn new(trial: Trial) -> Self {
+    fn new(id: u64, trial: Trial) -> Self {
         Self {
+            id,
             trial: Box::new(trial),
             is_steered: false,
             is_paused: false,
@@ -81,7 +84,7 @@ impl Shown {
     fn restart(&mut self) -> Result<(), TrialError> {
         let trial = Trial::new(self.trial.course().clone(), self.trial.setup().clone())?;
         let (is_steered, pace) = (self.is_steered, self.pace);
-        *self = Self { is_steered, pace, ..Self::new(trial) };
+        *self = Self { is_steered, pace, ..Self::new(self.id, trial) };
         self.trial.set_autopilot(is_steered);
         Ok(())
     }
@@ -120,7 +123,12 @@ impl TrialEngine {
                     _ => self.fail(NO_TRIAL),
                 },
                 Some(mut shown) => {
-                    if matches!(other, TrialCommand::Restart | TrialCommand::StepBack | TrialCommand::Replay { .. }) {
+                    if let TrialCommand::Restart { id }
+                    | TrialCommand::StepBack { id }
+                    | TrialCommand::Replay { id, .. } = other
+                    {
+                        // Whether or not it can be done: the frames that follow are those after it.
+                        shown.id = id;
                         self.drop_comparisons();
                     }
                     self.handle_shown(other, &mut shown);
@@ -143,17 +151,17 @@ impl TrialEngine {
             TrialCommand::Pace(pace) => {
                 shown.pace = if pace.is_finite() { f64::from(pace).clamp(0.01, 1.0) } else { 1.0 };
             }
-            TrialCommand::Restart => {
+            TrialCommand::Restart { .. } => {
                 if let Err(error) = shown.restart() {
                     self.fail(&error.to_string());
                 }
             }
-            TrialCommand::StepBack => {
+            TrialCommand::StepBack { .. } => {
                 trial.step_back();
                 (shown.is_paused, shown.owed, shown.is_told) = (true, 0.0, false);
             }
             TrialCommand::Save => self.save(trial),
-            TrialCommand::Replay { csv } => {
+            TrialCommand::Replay { csv, .. } => {
                 if let Err(message) = replay(shown, &csv) {
                     self.fail(&message);
                 }
@@ -182,7 +190,7 @@ impl TrialEngine {
                 let ready = ready(id, trial.setup(), &course);
                 self.events.push_back(TrialEvent::Ready(Box::new(ready)));
                 self.drop_comparisons();
-                self.shown = Some(Shown::new(trial));
+                self.shown = Some(Shown::new(id, trial));
             }
             Err(error) => self.refuse_for(id, &error),
         }
@@ -239,11 +247,12 @@ impl TrialEngine {
             shown.needs_frame = false;
             let mut frame = shown.trial.frame();
             (frame.steps_per_second, frame.is_behind) = (shown.speed, shown.is_behind);
-            self.events.push_back(TrialEvent::Frame(Box::new(frame)));
+            self.events.push_back(TrialEvent::Frame { id: shown.id, frame: Box::new(frame) });
         }
         if is_over && !shown.is_told {
             shown.is_told = true;
-            self.events.push_back(TrialEvent::Ended(Box::new(shown.trial.summary())));
+            let summary = Box::new(shown.trial.summary());
+            self.events.push_back(TrialEvent::Ended { id: shown.id, summary });
         }
         if is_over || shown.is_paused {
             return None;
@@ -332,7 +341,7 @@ fn replay(shown: &mut Shown, csv: &[u8]) -> Result<(), String> {
     let mut trial = Trial::new(course.clone(), recorded.setup).map_err(|error| error.to_string())?;
     trial.replay(recorded.inputs, recorded.steps);
     let pace = shown.pace;
-    *shown = Shown { pace, ..Shown::new(trial) };
+    *shown = Shown { pace, ..Shown::new(shown.id, trial) };
     Ok(())
 }
 
@@ -377,7 +386,7 @@ mod tests {
         engine.handle(TrialCommand::Pause(true));
         while engine.advance(now_s, SLICE).is_some() {}
         let mut frames = events(engine).into_iter().rev().filter_map(|event| match event {
-            TrialEvent::Frame(frame) => Some(*frame),
+            TrialEvent::Frame { frame, .. } => Some(*frame),
             _ => None,
         });
         frames.next().unwrap()
@@ -410,6 +419,37 @@ mod tests {
         }
         assert!(frame(&mut engine, 8.0).step > before.step);
         assert!(!events(&mut engine).iter().any(|event| matches!(event, TrialEvent::Compared { .. })));
+    }
+
+    #[test]
+    fn frames_tell_what_they_belong_to() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        let run = |engine: &mut TrialEngine, from: i32| {
+            for i in from..from + 20 {
+                engine.advance(f64::from(i) * 0.02, Duration::from_millis(50));
+            }
+            let ids = events(engine).into_iter().filter_map(|event| match event {
+                TrialEvent::Frame { id, frame } => Some((id, frame.step)),
+                _ => None,
+            });
+            ids.collect::<Vec<_>>()
+        };
+        let is_of = |frames: &[(u64, u64)], id| frames.len() > 5 && frames.iter().all(|frame| frame.0 == id);
+        let first = run(&mut engine, 0);
+        assert!(is_of(&first, 1), "{first:?}");
+        engine.handle(TrialCommand::Restart { id: 5 });
+        let second = run(&mut engine, 20);
+        assert!(is_of(&second, 5) && second[0].1 < first.last().unwrap().1, "{second:?}");
+        // What is refused leaves the trial as it stands, and is answered all the same.
+        engine.handle(TrialCommand::Replay { id: 6, csv: Arc::new(b"no log".to_vec()) });
+        let third = run(&mut engine, 40);
+        assert!(is_of(&third, 6), "{third:?}");
+        engine.handle(TrialCommand::StepBack { id: 7 });
+        engine.advance(2.0, SLICE);
+        assert!(matches!(events(&mut engine)[..], [TrialEvent::Frame { id: 7, .. }]));
     }
 
     #[test]

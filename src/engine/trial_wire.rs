@@ -20,10 +20,10 @@ enum CommandHeader {
     Autopilot(bool),
     Pause(bool),
     Pace(f32),
-    Restart,
-    StepBack,
+    Restart { id: u64 },
+    StepBack { id: u64 },
     Save,
-    Replay,
+    Replay { id: u64 },
     Compare { id: u64 },
     Measure { id: u64, sample: Option<Sample>, setup: Setup },
     Cancel { id: u64 },
@@ -35,8 +35,8 @@ enum EventHeader {
     Preparing { id: u64, fraction: f32 },
     Ready(Box<TrialReady>),
     Refused { id: u64, message: String, is_too_thin: bool },
-    Frame(Box<Frame>),
-    Ended(Box<Summary>),
+    Frame { id: u64, frame: Box<Frame> },
+    Ended { id: u64, summary: Box<Summary> },
     Saved,
     Compared { id: u64, comparison: Box<TrialComparison> },
     Busy { id: u64, fraction: f32 },
@@ -59,10 +59,10 @@ pub fn encode_command(command: &TrialCommand) -> Encoded<'_> {
         TrialCommand::Autopilot(on) => (CommandHeader::Autopilot(*on), vec![]),
         TrialCommand::Pause(on) => (CommandHeader::Pause(*on), vec![]),
         TrialCommand::Pace(pace) => (CommandHeader::Pace(*pace), vec![]),
-        TrialCommand::Restart => (CommandHeader::Restart, vec![]),
-        TrialCommand::StepBack => (CommandHeader::StepBack, vec![]),
+        TrialCommand::Restart { id } => (CommandHeader::Restart { id: *id }, vec![]),
+        TrialCommand::StepBack { id } => (CommandHeader::StepBack { id: *id }, vec![]),
         TrialCommand::Save => (CommandHeader::Save, vec![]),
-        TrialCommand::Replay { csv } => (CommandHeader::Replay, vec![&csv[..]]),
+        TrialCommand::Replay { id, csv } => (CommandHeader::Replay { id: *id }, vec![&csv[..]]),
         TrialCommand::Compare { id, mesh } => (CommandHeader::Compare { id: *id }, mesh_buffers(mesh)),
         TrialCommand::Measure { id, mesh, sample, setup } => {
             (CommandHeader::Measure { id: *id, sample: *sample, setup: setup.clone() }, mesh_buffers(mesh))
@@ -86,10 +86,10 @@ pub fn decode_command(header: &str, buffers: &impl Buffers) -> Result<TrialComma
         CommandHeader::Autopilot(on) => TrialCommand::Autopilot(on),
         CommandHeader::Pause(on) => TrialCommand::Pause(on),
         CommandHeader::Pace(pace) => TrialCommand::Pace(pace),
-        CommandHeader::Restart => TrialCommand::Restart,
-        CommandHeader::StepBack => TrialCommand::StepBack,
+        CommandHeader::Restart { id } => TrialCommand::Restart { id },
+        CommandHeader::StepBack { id } => TrialCommand::StepBack { id },
         CommandHeader::Save => TrialCommand::Save,
-        CommandHeader::Replay => TrialCommand::Replay { csv: Arc::new(array(buffers, 0)?) },
+        CommandHeader::Replay { id } => TrialCommand::Replay { id, csv: Arc::new(array(buffers, 0)?) },
         CommandHeader::Compare { id } => TrialCommand::Compare { id, mesh: Arc::new(mesh(buffers)?) },
         CommandHeader::Measure { id, sample, setup } => {
             TrialCommand::Measure { id, mesh: Arc::new(mesh(buffers)?), sample, setup }
@@ -107,13 +107,13 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
         TrialEvent::Refused { id, message, is_too_thin } => {
             (EventHeader::Refused { id: *id, message: message.clone(), is_too_thin: *is_too_thin }, vec![])
         }
-        TrialEvent::Frame(frame) => {
+        TrialEvent::Frame { id, frame } => {
             let mut rest = frame.clone();
             (rest.nodes, rest.forces, rest.touches) = Default::default();
             let buffers = vec![cast_slice(&frame.nodes), cast_slice(&frame.forces), cast_slice(&frame.touches)];
-            (EventHeader::Frame(rest), buffers)
+            (EventHeader::Frame { id: *id, frame: rest }, buffers)
         }
-        TrialEvent::Ended(summary) => (EventHeader::Ended(summary.clone()), vec![]),
+        TrialEvent::Ended { id, summary } => (EventHeader::Ended { id: *id, summary: summary.clone() }, vec![]),
         TrialEvent::Saved { csv, json } => (EventHeader::Saved, vec![csv.as_bytes(), json.as_bytes()]),
         TrialEvent::Compared { id, comparison: compared } => {
             let mut rest = compared.clone();
@@ -142,13 +142,13 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<TrialEvent, 
         EventHeader::Preparing { id, fraction } => TrialEvent::Preparing { id, fraction },
         EventHeader::Ready(ready) => TrialEvent::Ready(ready),
         EventHeader::Refused { id, message, is_too_thin } => TrialEvent::Refused { id, message, is_too_thin },
-        EventHeader::Frame(mut frame) => {
+        EventHeader::Frame { id, mut frame } => {
             frame.nodes = array(buffers, 0)?;
             frame.forces = array(buffers, 1)?;
             frame.touches = array(buffers, 2)?;
-            TrialEvent::Frame(frame)
+            TrialEvent::Frame { id, frame }
         }
-        EventHeader::Ended(summary) => TrialEvent::Ended(summary),
+        EventHeader::Ended { id, summary } => TrialEvent::Ended { id, summary },
         EventHeader::Saved => TrialEvent::Saved { csv: text(buffers, 0)?, json: text(buffers, 1)? },
         EventHeader::Compared { id, mut comparison } => {
             comparison.inserted_mm = array(buffers, 0)?;
@@ -190,10 +190,10 @@ mod tests {
             TrialCommand::Autopilot(true),
             TrialCommand::Pause(false),
             TrialCommand::Pace(0.25),
-            TrialCommand::Restart,
-            TrialCommand::StepBack,
+            TrialCommand::Restart { id },
+            TrialCommand::StepBack { id },
             TrialCommand::Save,
-            TrialCommand::Replay { csv: Arc::new(b"time_s\n0\n".to_vec()) },
+            TrialCommand::Replay { id, csv: Arc::new(b"time_s\n0\n".to_vec()) },
             TrialCommand::Compare { id, mesh: mesh.clone() },
             TrialCommand::Measure { id, mesh, sample: None, setup },
             TrialCommand::Cancel { id },
@@ -234,8 +234,8 @@ mod tests {
             TrialEvent::Preparing { id: 1, fraction: 0.5 },
             TrialEvent::Ready(Box::new(ready)),
             TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true },
-            TrialEvent::Frame(Box::new(frame)),
-            TrialEvent::Ended(summary.clone()),
+            TrialEvent::Frame { id: 4, frame: Box::new(frame) },
+            TrialEvent::Ended { id: 4, summary: summary.clone() },
             TrialEvent::Saved { csv: "a,b\n1,2\n".to_owned(), json: "{}".to_owned() },
             TrialEvent::Compared { id: 2, comparison: Box::new(comparison) },
             TrialEvent::Busy { id: 2, fraction: 0.25 },
@@ -244,7 +244,7 @@ mod tests {
         ];
         for event in events {
             let (header, buffers) = owned(encode_event(&event));
-            assert_eq!(is_frame(&header), matches!(event, TrialEvent::Frame(_)));
+            assert_eq!(is_frame(&header), matches!(event, TrialEvent::Frame { .. }));
             assert_eq!(decode_event(&header, &buffers).unwrap(), event);
         }
         assert!(decode_event("\"Saved\"", &vec![vec![0xFF], vec![]]).is_err(), "a log that is no text");

@@ -69,10 +69,12 @@ impl SurfaceIndex {
             rounding,
             &mut squared,
             |first, leaves, squared| {
-                if self.planes(first).is_some_and(|planes| point.beside(planes, *squared as f32) & mask(leaves) == 0) {
+                let beside = |planes| point.beside(planes, *squared as f32);
+                let beside = self.planes(first).map_or(u32::MAX, beside) & mask(leaves);
+                if beside == 0 {
                     return;
                 }
-                let near = point.nearer(leaves, *squared as f32, rounding);
+                let near = point.nearer(leaves, *squared as f32, rounding) & beside;
                 for (slot, leaf) in (first..).zip(leaves) {
                     if near >> (slot - first) & 1 > 0 && slot != hint {
                         offer(slot, leaf, squared);
@@ -105,11 +107,12 @@ impl SurfaceIndex {
             segment.rounding,
             &mut squared,
             |first, leaves, squared| {
-                if self.planes(first).is_some_and(|planes| segment.beside(planes, *squared as f32) & mask(leaves) == 0)
-                {
+                let beside = |planes| segment.beside(planes, *squared as f32);
+                let beside = self.planes(first).map_or(u32::MAX, beside) & mask(leaves);
+                if beside == 0 {
                     return;
                 }
-                let near = segment.nearer(leaves, *squared as f32);
+                let near = segment.nearer(leaves, *squared as f32) & beside;
                 for (slot, leaf) in (first..).zip(leaves).filter(|(slot, _)| near >> (slot - first) & 1 > 0) {
                     if let Some(found) = approach(a, b, leaf, *squared) {
                         *squared = found.squared;

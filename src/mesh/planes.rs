@@ -8,8 +8,8 @@ use glam::{BVec4A, Mat4, Vec3, Vec4};
 use super::closest_point::is_sliver;
 
 /// What the rounding of coordinates to f32, and of sums of their products, may add to a distance from a plane: of the
-/// distances of the point and the plane from the origin. (Four units in the last place for sums, one for the point, one
-/// for the plane, and the corners' [`THICKNESS`].)
+/// distances of the point and the plane from the origin. (Four half units in the last place for sums, one for the point,
+/// one for the plane, and the corners' [`THICKNESS`].)
 const ROUNDING: f32 = 6e-7;
 /// How far corners may be off the plane that f32 holds, as a part of its distance from the origin.
 const THICKNESS: f64 = 1e-7;

@@ -275,14 +275,14 @@ impl Contacts {
         let away = (p - foot.point).normalize_or_zero();
         let mut same = None;
         for (k, contact) in contacts.iter_mut().enumerate().filter(|(_, contact)| contact.is_near) {
-            let Some(own) = wall.index().foot_in(contact.slot, p).filter(|own| own.distance < radius + CORNER) else {
+            let Some(own) = wall.index().foot_in(contact.slot, p).filter(|own| own.distance < radius + REACH) else {
                 *contact = Contact::NONE;
                 continue;
             };
             let is_same = own.triangle == foot.triangle || (p - own.point).normalize_or_zero().dot(away) > SAME;
             if is_same && same.is_none() {
                 same = Some(k);
-            } else if is_same {
+            } else if is_same || own.distance >= radius + CORNER {
                 // Two that have come together are one.
                 *contact = Contact::NONE;
             } else {
@@ -314,7 +314,7 @@ impl Contacts {
         let (radius, contacts) = (self.radius, &mut self.edges[i]);
         let mut least = f64::INFINITY;
         for contact in contacts.iter_mut().filter(|contact| contact.is_near) {
-            match wall.index().segment_foot_in(contact.slot, a, b, radius + CORNER) {
+            match wall.index().segment_foot_in(contact.slot, a, b, radius + EDGE_REACH) {
                 Some(own) => {
                     contact.meet(wall, a.lerp(b, own.along), own.along, &own.foot, radius);
                     least = least.min(own.foot.distance);
@@ -325,12 +325,17 @@ impl Contacts {
         let found = if bound < within { wall.index().segment_foot(a, b, within.min(least)) } else { None };
         let distance = found.map_or(within.max(bound), |found| found.foot.distance).min(least);
         self.insides[i] = Inside { distance, ends: [a, b] };
-        let Some(SegmentFoot { along, foot }) = found else { return least };
+        let Some(SegmentFoot { along, foot }) = found else {
+            let nearest = least - radius;
+            leave(contacts, |_, contact| contact.gap <= nearest);
+            return least;
+        };
         let away = (a.lerp(b, along) - foot.point).normalize_or_zero();
         let is_same = |contact: &Contact| {
             contact.is_near && (contact.along - along).abs() < APART && contact.normal.dot(away) > ONE_SIDE
         };
         let same = contacts.iter().position(is_same);
+        leave(contacts, |k, _| same == Some(k));
         let free = || (0..RIDGES).min_by(|&a, &b| rank(&contacts[a]).total_cmp(&rank(&contacts[b])));
         if let Some(k) = same.or_else(free) {
             if same.is_none() {
@@ -504,6 +509,15 @@ fn stands(gap: f64, left: f64, reach: f64) -> bool {
     left > if gap < reach { FRESH * gap } else { reach }
 }
 
+/// Lets go of what is not nearest, and farther than what is looked after in a corner.
+fn leave(contacts: &mut [Contact], is_nearest: impl Fn(usize, &Contact) -> bool) {
+    for (k, contact) in contacts.iter_mut().enumerate() {
+        if contact.gap >= CORNER && !is_nearest(k, contact) {
+            *contact = Contact::NONE;
+        }
+    }
+}
+
 /// How near to a segment of this length something can be that is at least `a` from its one end and `b` from the other.
 fn between(a: f64, b: f64, length: f64) -> f64 {
     let (a, b) = (a.max(0.0), b.max(0.0));
@@ -537,6 +551,52 @@ mod tests {
         let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
         Wall::new(Arc::new(TriMesh { positions: (0..8).map(at).collect(), triangles }))
+    }
+
+    /// A ridge along z, from which the wall falls away to both sides, to be touched from above.
+    fn ridge() -> Wall {
+        let positions = [(0.0, 0.0), (1.0, -1.0), (-1.0, -1.0)]
+            .into_iter()
+            .flat_map(|(x, y)| [Vec3::new(x, y, -2.0), Vec3::new(x, y, 2.0)])
+            .collect();
+        Wall::new(Arc::new(TriMesh { positions, triangles: vec![[0, 2, 1], [1, 2, 3], [0, 1, 4], [1, 5, 4]] }))
+    }
+
+    /// A rod of one edge, 1 mm along x, beginning here.
+    fn rod_from(start: DVec3) -> Rod {
+        let section = Section { length: 1.0, cell: 1.0, ..Section::default() };
+        Rod::new(vec![start, start + DVec3::X, start + 2.0 * DVec3::X], vec![section; 3], DVec3::Y)
+    }
+
+    /// The forces of the contacts at these places, in N.
+    fn forces(contacts: &[Contact]) -> Vec<f64> {
+        contacts.iter().filter(|contact| contact.is_near).map(|contact| contact.force).collect()
+    }
+
+    #[test]
+    fn the_nearest_contact_of_a_node_keeps_its_force_as_it_opens() {
+        let wall = room();
+        let mut contacts = Contacts::new(0.2, [0.0; 2]);
+        contacts.look(&rod_from(DVec3::new(0.0, 1.8, 0.0)), 1, &wall);
+        contacts.each(|_, contact| contact.force = 0.25);
+        // Farther than what is kept in a corner, and so far that it is measured again.
+        let opened = CORNER + 0.03;
+        contacts.look(&rod_from(DVec3::new(0.0, 1.8 - opened, 0.0)), 1, &wall);
+        assert_eq!(forces(&contacts.nodes[0]), [0.25]);
+        assert!((contacts.nodes[0][0].gap - opened).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_nearest_contact_of_an_edge_keeps_its_force_as_it_opens() {
+        let wall = ridge();
+        let mut contacts = Contacts::new(0.2, [0.0; 2]);
+        contacts.look(&rod_from(DVec3::new(-0.5, 0.2, 0.0)), 2, &wall);
+        contacts.each(|_, contact| contact.force = 0.25);
+        assert_eq!(forces(&contacts.edges[0]), [0.25]);
+        let opened = CORNER + 0.02;
+        contacts.look(&rod_from(DVec3::new(-0.5, 0.2 + opened, 0.0)), 2, &wall);
+        assert_eq!(forces(&contacts.edges[0]), [0.25]);
+        assert!((contacts.edges[0][0].gap - opened).abs() < 1e-6);
     }
 
     #[test]

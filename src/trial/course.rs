@@ -8,7 +8,7 @@ use web_time::Instant;
 
 use super::route::{Route, RouteError, Target, Tree, phantom_task};
 use super::setup::{Entry, Setup};
-use super::simulation::{PlacementError, Simulation, check_load};
+use super::simulation::{PlacementError, Simulation};
 use super::wall::Wall;
 use super::wire::Wire;
 use crate::mesh::{TriMesh, Vec3};
@@ -124,9 +124,9 @@ impl Course {
     /// # Errors
     /// When it does not fit there.
     pub fn place(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
+        setup.check_loads()?;
         let (mut simulation, friction) = self.enter(setup)?;
         simulation.set_load(DVec3::from(setup.load.map(f64::from)))?;
-        check_load(f64::from(setup.press.n_per_mm))?;
         Ok((simulation, friction))
     }
 

@@ -157,7 +157,7 @@ pub(super) struct Open {
     along: f64,
     /// The way its gap grows.
     normal: DVec3,
-    /// What presses where the change begins, in N: less than 0; and by what it grows with less of a gap, in N/mm.
+    /// What presses where the change begins, in N: at most 0; and by what it grows with less of a gap, in N/mm.
     force: f64,
     stiff: f64,
 }
@@ -201,23 +201,22 @@ impl Springs {
         self.open.clear();
     }
 
-    /// Takes those among the others that press at the end of the way that was found; `gone` is the farthest that a node
-    /// has moved before it, in mm, and `moved` on all of it.
+    /// Takes those among the others that press at the end of the way that was found; on the ways before it no node has
+    /// moved by more than `gone` mm, on all of it none by more than `moved`.
     fn close(&mut self, rod: &Rod, gone: f64, moved: f64) {
+        let Self { closed, open } = self;
         let reach = gone + moved;
-        let mut i = 0;
-        while let Some(open) = self.open.get(i) {
-            i += 1;
+        open.retain(|open| {
             if open.force + open.stiff * reach <= 0.0 {
-                continue;
+                return true;
             }
             let force = open.force + open.change(rod.change(open.node));
-            if force + open.change(rod.way(open.node)) > 0.0 {
-                self.closed.push(open.spring(force));
-                i -= 1;
-                self.open.swap_remove(i);
+            let is_open = force + open.change(rod.way(open.node)) <= 0.0;
+            if !is_open {
+                closed.push(open.spring(force));
             }
-        }
+            is_open
+        });
     }
 }
 

@@ -144,7 +144,7 @@ pub struct Summary {
     pub surface: String,
     /// The wire's name.
     pub wire: String,
-    /// Where it entered.
+    /// Where it entered, before the seed varies that.
     pub entry: Option<Entry>,
     /// Where it should go, in mm.
     pub target: Option<[f32; 3]>,

@@ -2,6 +2,10 @@
 //!
 //! A wire under its own weight or a push lies along one side here and crosses the lumen there. Pressed outward it lies at
 //! the wall nearly all along: the most that contact can ask of a step (`benches/trial.rs`).
+//!
+//! The middle is the route's point beside each node, found from the guide on by going forward along the route while that
+//! comes nearer: a wire that turns back is pressed away from where it turned. A node at the middle itself has no way
+//! outward, and one that crosses it is pressed to the other side from then on.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

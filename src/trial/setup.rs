@@ -1,8 +1,10 @@
 //! What a trial is to be: the wire, where it enters, where it should go.
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::press::Press;
+use super::simulation::{PlacementError, check_load};
 use super::wire::Wire;
 
 /// Where the wire comes out of its sheath or guide catheter, which is rigid.
@@ -36,6 +38,17 @@ pub struct Setup {
     pub seed: u64,
 }
 
+impl Setup {
+    /// Checks the loads on the wire.
+    ///
+    /// # Errors
+    /// When one is more than a wire can bear, less than none, or no number.
+    pub fn check_loads(&self) -> Result<(), PlacementError> {
+        check_load(DVec3::from(self.load.map(f64::from)).length())?;
+        check_load(f64::from(self.press.n_per_mm))
+    }
+}
+
 /// What the operator does during a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Input {
@@ -51,10 +64,10 @@ impl Input {
     /// The fastest roll in rad/s: two turns a second.
     pub const MOST_ROLL: f32 = 4.0 * std::f32::consts::PI;
 
-    /// The input within what is allowed; what is no number is 0.
+    /// The input within what is allowed; what is no number is 0, and nought has no sign.
     #[must_use]
     pub fn limited(self) -> Self {
-        let within = |x: f32, most: f32| if x.is_finite() { x.clamp(-most, most) } else { 0.0 };
+        let within = |x: f32, most: f32| if x.is_finite() { x.clamp(-most, most) + 0.0 } else { 0.0 };
         Self { feed: within(self.feed, Self::MOST_FEED), roll: within(self.roll, Self::MOST_ROLL) }
     }
 }

@@ -20,8 +20,8 @@ use super::wire::{Wire, WireError};
 const FIRST: usize = 2;
 /// The least part of an element that a cell has: what is still inside the guide hardly bends.
 const LEAST_CELL: f64 = 0.02;
-/// The largest load in N/mm.
-const MOST_LOAD: f64 = 0.1;
+/// The largest load in N/mm; a setup has loads in f32.
+const MOST_LOAD: f32 = 0.1;
 
 /// Why a wire cannot be put where it should be.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -43,16 +43,17 @@ pub enum PlacementError {
     #[error("the entry has no direction")]
     Direction,
     /// The load is no load, or more than a wire can bear.
-    #[error("a load of {0} N on each mm of the wire is not possible: {MOST_LOAD} is the most")]
-    Load(f64),
+    #[error("a load of {0} N on each mm of the wire is not possible: it can be from 0 to {MOST_LOAD} N")]
+    Load(f32),
     /// It is not in the vessel.
     #[error("the entry is not inside the vessel")]
     Outside,
 }
 
-/// Refuses a load of so many N on each mm that is more than a wire can bear, or none.
+/// Refuses a load of so many N on each mm that is more than a wire can bear, less than none, or no number.
 pub(super) fn check_load(n_per_mm: f64) -> Result<(), PlacementError> {
-    if (0.0..=MOST_LOAD).contains(&n_per_mm) { Ok(()) } else { Err(PlacementError::Load(n_per_mm)) }
+    let is_possible = (0.0..=f64::from(MOST_LOAD)).contains(&n_per_mm);
+    if is_possible { Ok(()) } else { Err(PlacementError::Load(n_per_mm as f32)) }
 }
 
 /// A wire on its way.
@@ -148,7 +149,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Puts these loads on each mm at the nodes from the tip, in N, beside that, from the next step on.
+    /// Puts these loads on each mm at the nodes from the tip, in N, beside the load that is everywhere, from the next
+    /// step on.
     pub(super) fn set_loads(&mut self, loads: Vec<DVec3>) {
         self.loads = loads;
     }

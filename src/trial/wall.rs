@@ -44,6 +44,7 @@ impl Wall {
         let mut index = SurfaceIndex::new(&capped.positions, &capped.triangles);
         let sides = ridges(&mesh, topology, index.triangles());
         index.keep_sides(&sides);
+        index.keep_planes();
         let normals = vertex_normals(&capped.positions, &capped.triangles, Weighting::Angle);
         Self { mesh, capped, index: Arc::new(index), normals }
     }

@@ -109,6 +109,8 @@ pub struct Trial {
     sent: Option<Setup>,
     /// The number of the newest trial, measurement or comparison.
     number: u64,
+    /// That of the last start, restart, step back or replay: frames of those before are not shown.
+    begun: u64,
     /// That of the newest comparison.
     compared: u64,
     /// A log to be replayed once the wire is in.
@@ -200,7 +202,7 @@ impl Trial {
                     self.start(document, link);
                 } else {
                     self.begin_again();
-                    link.send(TrialCommand::Restart);
+                    link.send(TrialCommand::Restart { id: self.begun });
                 }
             }
             Ask::Autopilot => self.set_autopilot(!self.autopilot, link),
@@ -216,7 +218,7 @@ impl Trial {
                 self.is_paused = true;
                 self.summary = None;
                 self.comparing = None;
-                link.send(TrialCommand::StepBack);
+                link.send(TrialCommand::StepBack { id: self.next_begun() });
             }
             Ask::Save => link.send(TrialCommand::Save),
             Ask::Compare => {
@@ -297,7 +299,7 @@ impl Trial {
             // What is no log is refused by the engine.
             _ if self.stage == Stage::On => {
                 self.begin_again();
-                link.send(TrialCommand::Replay { csv });
+                link.send(TrialCommand::Replay { id: self.begun, csv });
             }
             _ => {
                 self.log = Some(csv);
@@ -306,7 +308,15 @@ impl Trial {
         }
     }
 
+    /// A number for what begins now.
+    fn next_begun(&mut self) -> u64 {
+        self.number += 1;
+        self.begun = self.number;
+        self.begun
+    }
+
     fn begin_again(&mut self) {
+        self.next_begun();
         (self.summary, self.comparison, self.comparing) = (None, None, None);
         if let Some(frame) = &mut self.frame {
             frame.progress = Progress::Running;
@@ -403,12 +413,14 @@ impl Trial {
             TrialEvent::Refused { id, message, .. } if self.tables.is_measuring(id) => self.tables.fails(&message),
             // What is left of a trial that was given up.
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
-            TrialEvent::Frame(frame) if self.stage == Stage::On => {
+            TrialEvent::Frame { id, frame } if self.stage == Stage::On && id == self.begun => {
                 self.peaks.take(&frame);
                 self.frame = Some(*frame);
             }
-            TrialEvent::Ended(summary) if self.stage == Stage::On => self.summary = Some(*summary),
-            TrialEvent::Frame(_) | TrialEvent::Ended(_) => {}
+            TrialEvent::Ended { id, summary } if self.stage == Stage::On && id == self.begun => {
+                self.summary = Some(*summary);
+            }
+            TrialEvent::Frame { .. } | TrialEvent::Ended { .. } => {}
             TrialEvent::Saved { csv, json } => {
                 let stem = format!("{}-trial", self.name.to_lowercase().replace([' ', '.'], "-"));
                 let file = |ending: &str, text: String| Offer { name: format!("{stem}.{ending}"), bytes: text.into() };
@@ -450,7 +462,9 @@ impl Trial {
         if let Some((_, subject)) = self.coming.take() {
             self.subject = Some(subject);
         }
+        let id = ready.id;
         self.begin_again();
+        self.begun = id;
         self.frame = None;
         let way: Vec<Vec3> = ready.route.points.iter().map(|&p| p.into()).collect();
         self.carm.centre(&crate::mesh::Bounds::of(&way));
@@ -467,7 +481,7 @@ impl Trial {
             link.send(TrialCommand::Pace(SLOW));
         }
         if let Some(csv) = self.log.take() {
-            link.send(TrialCommand::Replay { csv });
+            link.send(TrialCommand::Replay { id: self.next_begun(), csv });
         }
     }
 

@@ -258,6 +258,17 @@ impl TrialScene {
     }
 }
 
+impl Drop for TrialScene {
+    /// The window has pictures of its own for these.
+    fn drop(&mut self) {
+        let mut window = self.window.write();
+        let [vessel, tip] = &self.views;
+        for texture in [vessel.texture, tip.texture, self.picture.1] {
+            window.free_texture(&texture);
+        }
+    }
+}
+
 /// A surface with its triangles and no forces.
 fn upload(
     device: &wgpu::Device,

@@ -67,7 +67,7 @@ impl Tables {
     }
 
     /// Whether there is more to come: rows, or the time to draw a surface.
-    pub(super) fn is_busy(&self) -> bool {
+    pub(in crate::app) fn is_busy(&self) -> bool {
         self.is_running() || self.rows.iter().any(|row| row.timing.is_some())
     }
 

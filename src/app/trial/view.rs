@@ -56,7 +56,18 @@ impl TrialView {
         Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: None, held: None }
     }
 
-    /// How many pictures were drawn.
+    /// Gives back the memory of the device.
+    pub(in crate::app) fn let_go(&mut self) {
+        self.scene = None;
+        (self.felt, self.held) = (None, None);
+    }
+
+    /// Whether something stands in the memory of the device.
+    pub(in crate::app) fn holds_memory(&self) -> bool {
+        self.scene.is_some()
+    }
+
+    /// How many pictures were drawn since the views were first shown.
     pub(in crate::app) fn draws(&self) -> u64 {
         self.scene.as_ref().map_or(0, TrialScene::draws)
     }

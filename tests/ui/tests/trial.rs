@@ -98,6 +98,17 @@ fn ready(id: u64) -> TrialEvent {
     TrialEvent::Ready(Box::new(TrialReady { id, setup, route, entries: vec![entry], targets, ..TrialReady::default() }))
 }
 
+/// The number of the first trial of an app.
+const FIRST: u64 = 1;
+
+fn now(id: u64, frame: Frame) -> TrialEvent {
+    TrialEvent::Frame { id, frame: Box::new(frame) }
+}
+
+fn ended(id: u64, summary: Summary) -> TrialEvent {
+    TrialEvent::Ended { id, summary: Box::new(summary) }
+}
+
 fn frame() -> Frame {
     Frame {
         step: 500,
@@ -131,8 +142,8 @@ fn on(size: [f32; 2]) -> (App, Rc<RefCell<Memory>>) {
     let (mut harness, memory) = app(size);
     settle(&mut harness);
     start(&mut harness);
-    let id = id_of_start(&asked(&memory));
-    tell(&mut harness, &memory, [ready(id), TrialEvent::Frame(Box::new(frame()))]);
+    assert_eq!(id_of_start(&asked(&memory)), FIRST);
+    tell(&mut harness, &memory, [ready(FIRST), now(FIRST, frame())]);
     (harness, memory)
 }
 
@@ -147,7 +158,7 @@ fn the_trial_starts_with_the_level_that_is_shown_and_its_views_take_the_place_of
     assert_eq!((*sample, setup), (Some(Sample::Aorta), &Setup { proposes_wire: true, ..Setup::default() }));
     tell(&mut harness, &memory, [TrialEvent::Preparing { id: *id, fraction: 0.4 }]);
     assert!(says(&harness, "Finding"));
-    tell(&mut harness, &memory, [ready(*id), TrialEvent::Frame(Box::new(frame()))]);
+    tell(&mut harness, &memory, [ready(*id), now(*id, frame())]);
     for view in ["Trial view", "Fluoroscopy view", "Tip view"] {
         assert!(harness.query_by_role_and_label(Role::Image, view).is_some(), "{view}");
     }
@@ -221,11 +232,12 @@ fn pads_drive_by_pointer_and_by_two_fingers_at_once() {
 #[test]
 fn buttons_and_keys_ask_for_the_same() {
     let (mut harness, memory) = on(DESKTOP);
+    let restart = |id| TrialCommand::Restart { id };
     let asks: [(&str, Key, [TrialCommand; 2]); 4] = [
         ("Autopilot", Key::G, [TrialCommand::Autopilot(true), TrialCommand::Autopilot(false)]),
         ("Pause", Key::P, [TrialCommand::Pause(true), TrialCommand::Pause(false)]),
         ("Slow motion", Key::M, [TrialCommand::Pace(0.25), TrialCommand::Pace(1.0)]),
-        ("Restart", Key::R, [TrialCommand::Restart, TrialCommand::Restart]),
+        ("Restart", Key::R, [restart(FIRST + 1), restart(FIRST + 2)]),
     ];
     for (button, key, [first, second]) in asks {
         press(&mut harness, button);
@@ -236,7 +248,7 @@ fn buttons_and_keys_ask_for_the_same() {
     }
     harness.key_press(Key::Z);
     harness.run_steps(3);
-    assert_eq!(asked(&memory), [TrialCommand::StepBack]);
+    assert_eq!(asked(&memory), [TrialCommand::StepBack { id: FIRST + 3 }]);
     assert!(harness.state().trial().is_paused);
     harness.key_press(Key::Num2);
     harness.run_steps(3);
@@ -267,7 +279,7 @@ fn views_are_drawn_only_where_they_change_and_a_trial_that_stands_asks_for_no_fr
     assert_eq!(draws(&mut harness, 20), 0);
     let delay = |harness: &App| harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
     assert_eq!(delay(&harness), std::time::Duration::MAX, "no frame is asked for");
-    let next = |step| TrialEvent::Frame(Box::new(Frame { step, tip_direction: [0.0, 1.0, 0.0], ..frame() }));
+    let next = |step| now(FIRST, Frame { step, tip_direction: [0.0, 1.0, 0.0], ..frame() });
     memory.borrow_mut().trial_events.push_back(next(501));
     assert_eq!(draws(&mut harness, 20), 3, "each view once");
     harness.key_press(Key::Num2);
@@ -284,6 +296,20 @@ fn views_are_drawn_only_where_they_change_and_a_trial_that_stands_asks_for_no_fr
     assert!(draws(&mut harness, 80) > 10);
     assert_eq!(draws(&mut harness, 20), 0, "nothing is left of it");
     assert_eq!(delay(&harness), std::time::Duration::MAX);
+}
+
+#[test]
+fn a_trial_that_is_closed_gives_back_the_memory_of_its_views_and_can_be_started_again() {
+    let (mut harness, memory) = on(DESKTOP);
+    assert!(harness.state().trial_holds_memory());
+    press(&mut harness, "Close");
+    harness.run_steps(3);
+    assert!(!harness.state().trial_holds_memory());
+    start(&mut harness);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [ready(id), now(id, frame())]);
+    harness.run_steps(10);
+    assert!(harness.state().trial_holds_memory() && harness.state().trial_draws() >= 3);
 }
 
 #[test]
@@ -360,13 +386,13 @@ fn the_end_is_said() {
     let (mut harness, memory) = on(DESKTOP);
     let arrived = Frame { progress: Progress::Arrived, ..frame() };
     let summary = Summary { success: true, time_s: 23.4, max_wall_force_n: 0.31, ..Summary::default() };
-    tell(&mut harness, &memory, [TrialEvent::Frame(Box::new(arrived)), TrialEvent::Ended(Box::new(summary))]);
+    tell(&mut harness, &memory, [now(FIRST, arrived), ended(FIRST, summary)]);
     assert!(says(&harness, "Success: the tip arrived after 23.4 s; largest wall force 0.310 N."));
     press(&mut harness, "Restart");
     assert!(!says(&harness, "Success"));
     let reason = "the wire buckled three times.".to_owned();
     let summary = Summary { reason, time_s: 61.0, ..Summary::default() };
-    tell(&mut harness, &memory, [TrialEvent::Ended(Box::new(summary))]);
+    tell(&mut harness, &memory, [ended(FIRST + 1, summary)]);
     assert!(says(&harness, "Failed after 61.0 s: the wire buckled three times."));
 }
 
@@ -375,10 +401,20 @@ fn the_bars_of_forces_grow_with_the_largest_so_far() {
     let (mut harness, memory) = on(DESKTOP);
     assert!(says(&harness, "Wall force, up to 0.5 N") && says(&harness, "Push force, up to 0.2 N"));
     let held_back = Frame { step: 501, max_wall_force_n: 0.1, push_n: -1.3, ..frame() };
-    tell(&mut harness, &memory, [TrialEvent::Frame(Box::new(held_back))]);
+    tell(&mut harness, &memory, [now(FIRST, held_back)]);
     assert!(says(&harness, "Wall force, up to 0.5 N") && says(&harness, "Push force, up to 2 N"));
     press(&mut harness, "Restart");
-    assert!(says(&harness, "Wall force, up to 1 mN") && says(&harness, "Push force, up to 1 mN"));
+    let is_new = |harness: &App| says(harness, "Wall force, up to 1 mN") && says(harness, "Push force, up to 1 mN");
+    assert!(is_new(&harness));
+    let late = Frame { step: 502, max_wall_force_n: 0.1, push_n: -1.3, ..frame() };
+    tell(&mut harness, &memory, [now(FIRST, late), ended(FIRST, Summary { success: true, ..Summary::default() })]);
+    assert!(
+        is_new(&harness) && !says(&harness, "Success"),
+        "what was under way at the restart belongs to the run before"
+    );
+    let own = Frame { step: 1, max_wall_force_n: 0.3, push_n: 0.0, ..frame() };
+    tell(&mut harness, &memory, [now(FIRST + 1, own)]);
+    assert!(says(&harness, "Wall force, up to 0.5 N"));
 }
 
 #[test]
@@ -515,7 +551,12 @@ fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
         assert!(row == 0 || setup.wire.name == "stiff");
         assert!((printed - 2..=printed).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
         assert_eq!(*sample, Some(Sample::Aorta));
-        tell(&mut harness, &memory, [TrialEvent::Measured { id: *id, summary: Box::new(summary.clone()) }]);
+        // Later rows tell of other places, which nothing is taken from.
+        let mut told = Box::new(summary.clone());
+        if row > 0 {
+            (told.entry, told.target) = (None, Some([row as f32; 3]));
+        }
+        tell(&mut harness, &memory, [TrialEvent::Measured { id: *id, summary: told }]);
     }
     assert!(says(&harness, "yes (no)") && says(&harness, "yes (yes)"), "the paper's beside ours");
     press(&mut harness, "Cancel tables");
@@ -574,7 +615,7 @@ fn the_log_is_saved_and_a_chosen_one_is_replayed() {
     memory.borrow_mut().events.push_back(chosen);
     harness.run_steps(3);
     let commands = asked(&memory);
-    let [TrialCommand::Replay { csv: bytes }] = &commands[..] else { panic!("{commands:?}") };
+    let [TrialCommand::Replay { csv: bytes, .. }] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(&bytes[..], csv.as_bytes());
 }
 
@@ -597,7 +638,7 @@ fn a_log_of_another_way_begins_a_trial_with_its_own_wire_and_way() {
     tell(&mut harness, &memory, [ready(*id)]);
     let commands = asked(&memory);
     assert!(
-        matches!(&commands[..], [TrialCommand::Replay { csv: bytes }] if bytes[..] == *csv.as_bytes()),
+        matches!(&commands[..], [TrialCommand::Replay { csv: bytes, .. }] if bytes[..] == *csv.as_bytes()),
         "{commands:?}"
     );
 }
