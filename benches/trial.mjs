@@ -33,11 +33,12 @@ async function replay({ setup, steps, scripted }) {
       const event = JSON.parse(header);
       const failed = event.Refused ?? event.Failed;
       if (failed) reject(new Error(failed.message));
-      if (event.Ready) worker.postMessage([JSON.stringify("Replay"), csv], [csv]);
-      const speed = event.Frame?.steps_per_second;
-      if (speed && event.Frame.step > steps - scripted && speed !== speeds.at(-1)) speeds.push(speed);
+      if (event.Ready) worker.postMessage([JSON.stringify({ Replay: { id: 2 } }), csv], [csv]);
+      const frame = event.Frame?.frame;
+      const speed = frame?.steps_per_second;
+      if (speed && frame.step > steps - scripted && speed !== speeds.at(-1)) speeds.push(speed);
       if (event.Ended) {
-        const { step_ms, steps: made } = event.Ended;
+        const { step_ms, steps: made } = event.Ended.summary;
         // The time of each stretch counts alike, not its speed.
         const stepsPerSecond = speeds.length / speeds.reduce((sum, speed) => sum + 1 / speed, 0);
         resolve({ stepsPerSecond, stretches: speeds.length, step_ms, steps: made });
