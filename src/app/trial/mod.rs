@@ -201,8 +201,9 @@ impl Trial {
                 if self.has_changed() || is_other {
                     self.start(document, link);
                 } else {
+                    let id = self.next_begun();
                     self.begin_again();
-                    link.send(TrialCommand::Restart { id: self.begun });
+                    link.send(TrialCommand::Restart { id });
                 }
             }
             Ask::Autopilot => self.set_autopilot(!self.autopilot, link),
@@ -298,8 +299,9 @@ impl Trial {
             }
             // What is no log is refused by the engine.
             _ if self.stage == Stage::On => {
+                let id = self.next_begun();
                 self.begin_again();
-                link.send(TrialCommand::Replay { id: self.begun, csv });
+                link.send(TrialCommand::Replay { id, csv });
             }
             _ => {
                 self.log = Some(csv);
@@ -316,7 +318,6 @@ impl Trial {
     }
 
     fn begin_again(&mut self) {
-        self.next_begun();
         (self.summary, self.comparison, self.comparing) = (None, None, None);
         if let Some(frame) = &mut self.frame {
             frame.progress = Progress::Running;
@@ -462,9 +463,8 @@ impl Trial {
         if let Some((_, subject)) = self.coming.take() {
             self.subject = Some(subject);
         }
-        let id = ready.id;
+        self.begun = ready.id;
         self.begin_again();
-        self.begun = id;
         self.frame = None;
         let way: Vec<Vec3> = ready.route.points.iter().map(|&p| p.into()).collect();
         self.carm.centre(&crate::mesh::Bounds::of(&way));
