@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 pub use crate::trial::compare::TrialComparison;
-use crate::trial::frame::{Frame, Summary};
+use crate::trial::frame::{Frame, Summary, Touch};
 use crate::trial::route::{Route, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
 
@@ -166,6 +166,14 @@ pub enum TrialEvent {
         id: u64,
         /// What is to be shown.
         frame: Box<Frame>,
+    },
+    /// What the wall has felt more than before, in all steps up to the frame that follows; frames may be left out, this
+    /// is not.
+    Felt {
+        /// As for `Frame`.
+        id: u64,
+        /// Each place with its largest force since `id` began.
+        touches: Vec<Touch>,
     },
     /// The trial is over.
     Ended {

@@ -11,6 +11,7 @@ use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::trial::STEP;
 use crate::trial::course::{Course, TrialError};
+use crate::trial::felt::Felt;
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
 use crate::trial::route::RouteError;
@@ -46,6 +47,8 @@ struct Shown {
     /// That of the command which began what is shown now.
     id: u64,
     trial: Box<Trial>,
+    /// Of every step.
+    felt: Felt,
     is_steered: bool,
     is_paused: bool,
     pace: f64,
@@ -66,6 +69,7 @@ impl Shown {
         Self {
             id,
             trial: Box::new(trial),
+            felt: Felt::default(),
             is_steered: false,
             is_paused: false,
             pace: 1.0,
@@ -129,6 +133,7 @@ impl TrialEngine {
                     {
                         // Whether or not it can be done: the frames that follow are those after it.
                         shown.id = id;
+                        shown.felt = Felt::default();
                         self.drop_comparisons();
                     }
                     self.handle_shown(other, &mut shown);
@@ -245,6 +250,10 @@ impl TrialEngine {
         if shown.needs_frame || now_s - shown.framed >= FRAME && !shown.is_paused {
             shown.framed = now_s;
             shown.needs_frame = false;
+            let touches = shown.felt.news();
+            if !touches.is_empty() {
+                self.events.push_back(TrialEvent::Felt { id: shown.id, touches });
+            }
             let mut frame = shown.trial.frame();
             (frame.steps_per_second, frame.is_behind) = (shown.speed, shown.is_behind);
             self.events.push_back(TrialEvent::Frame { id: shown.id, frame: Box::new(frame) });
@@ -305,6 +314,7 @@ fn run(shown: &mut Shown, passed: f64, slice: Duration) {
     let mut steps = 0;
     while shown.owed >= STEP && start.elapsed() < slice && shown.trial.progress() == Progress::Running {
         shown.trial.step();
+        shown.felt.take(shown.trial.touches());
         shown.owed -= STEP;
         steps += 1;
     }
@@ -450,6 +460,35 @@ mod tests {
         engine.handle(TrialCommand::StepBack { id: 7 });
         engine.advance(2.0, SLICE);
         assert!(matches!(events(&mut engine)[..], [TrialEvent::Frame { id: 7, .. }]));
+    }
+
+    #[test]
+    fn what_the_wall_feels_between_frames_is_told() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup { proposes_wire: true, ..Setup::default() });
+        engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+        engine.handle(TrialCommand::Autopilot(true));
+        let (mut felt, mut framed, mut most) = (0.0_f64, 0.0_f64, None);
+        for i in 0..2000 {
+            // A frame in 25 steps.
+            engine.advance(f64::from(i) * BEHIND, Duration::from_secs(1));
+            for event in events(&mut engine) {
+                match event {
+                    TrialEvent::Felt { id: 1, touches } => {
+                        felt = touches.iter().fold(felt, |most, touch| most.max(f64::from(touch.force)));
+                    }
+                    TrialEvent::Frame { frame, .. } => framed = framed.max(frame.max_wall_force_n),
+                    TrialEvent::Ended { summary, .. } => most = Some(summary.max_wall_force_n),
+                    _ => {}
+                }
+            }
+            if most.is_some() {
+                break;
+            }
+        }
+        let most = most.expect("an end");
+        assert!((felt / most - 1.0).abs() < 1e-6, "{felt} of {most}");
+        assert!(framed < most, "no frame has shown it: {framed} of {most}");
     }
 
     #[test]

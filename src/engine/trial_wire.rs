@@ -36,6 +36,7 @@ enum EventHeader {
     Ready(Box<TrialReady>),
     Refused { id: u64, message: String, is_too_thin: bool },
     Frame { id: u64, frame: Box<Frame> },
+    Felt { id: u64 },
     Ended { id: u64, summary: Box<Summary> },
     Saved,
     Compared { id: u64, comparison: Box<TrialComparison> },
@@ -113,6 +114,7 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
             let buffers = vec![cast_slice(&frame.nodes), cast_slice(&frame.forces), cast_slice(&frame.touches)];
             (EventHeader::Frame { id: *id, frame: rest }, buffers)
         }
+        TrialEvent::Felt { id, touches } => (EventHeader::Felt { id: *id }, vec![cast_slice(touches)]),
         TrialEvent::Ended { id, summary } => (EventHeader::Ended { id: *id, summary: summary.clone() }, vec![]),
         TrialEvent::Saved { csv, json } => (EventHeader::Saved, vec![csv.as_bytes(), json.as_bytes()]),
         TrialEvent::Compared { id, comparison: compared } => {
@@ -148,6 +150,7 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<TrialEvent, 
             frame.touches = array(buffers, 2)?;
             TrialEvent::Frame { id, frame }
         }
+        EventHeader::Felt { id } => TrialEvent::Felt { id, touches: array(buffers, 0)? },
         EventHeader::Ended { id, summary } => TrialEvent::Ended { id, summary },
         EventHeader::Saved => TrialEvent::Saved { csv: text(buffers, 0)?, json: text(buffers, 1)? },
         EventHeader::Compared { id, mut comparison } => {
@@ -235,6 +238,7 @@ mod tests {
             TrialEvent::Ready(Box::new(ready)),
             TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true },
             TrialEvent::Frame { id: 4, frame: Box::new(frame) },
+            TrialEvent::Felt { id: 4, touches: vec![touch; 3] },
             TrialEvent::Ended { id: 4, summary: summary.clone() },
             TrialEvent::Saved { csv: "a,b\n1,2\n".to_owned(), json: "{}".to_owned() },
             TrialEvent::Compared { id: 2, comparison: Box::new(comparison) },

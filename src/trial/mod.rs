@@ -16,6 +16,7 @@ pub mod compare;
 pub mod contact;
 pub mod course;
 mod descent;
+pub mod felt;
 pub mod frame;
 pub mod log;
 pub mod meter;

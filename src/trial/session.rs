@@ -343,6 +343,16 @@ impl Trial {
         }
     }
 
+    /// Where the wire presses against the vessel now.
+    pub fn touches(&self) -> impl Iterator<Item = Touch> {
+        let is_vessel = |touch: &(usize, DVec3, u32, f64)| self.course.wall.is_vessel(touch.2);
+        let plain = |(_, at, triangle, force): (usize, DVec3, u32, f64)| {
+            let at = at.as_vec3().to_array();
+            Touch { at, triangle, force: force as f32 }
+        };
+        self.state.simulation.body().touches().filter(is_vessel).map(plain)
+    }
+
     /// The wire and all that is told of it now; what depends on the clock is filled in by the caller.
     pub fn frame(&self) -> Frame {
         let state = &self.state;
@@ -352,14 +362,12 @@ impl Trial {
         let (wall_force_n, max_wall_force_n) = body.pressure();
         let [push_n, torque_n_mm] = simulation.push_and_torque();
         let [direction, side] = self.tip_side();
-        let touch =
-            |(_, at, triangle, force): (usize, DVec3, u32, f64)| Touch { at: plain(at), triangle, force: force as f32 };
         Frame {
             step: simulation.steps(),
             time_s: simulation.steps() as f64 * STEP,
             nodes: simulation.nodes().map(plain).collect(),
             forces: body.contacts.forces(simulation.count()).into_iter().chain([DVec3::ZERO]).map(plain).collect(),
-            touches: body.touches().filter(|touch| self.course.wall.is_vessel(touch.2)).map(touch).collect(),
+            touches: self.touches().collect(),
             tip_direction: plain(direction),
             tip_side: plain(side.reject_from(direction).normalize_or(side)),
             inserted_mm: simulation.inserted(),

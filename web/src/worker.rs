@@ -136,8 +136,10 @@ impl Inbox {
         let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(&message.header));
         {
             let mut queue = self.queue.borrow_mut();
-            if is_passing(&heard) && queue.back().is_some_and(is_passing) {
-                queue.pop_back();
+            // What does not pass may have come between.
+            let older = if is_passing(&heard) { queue.iter().rposition(is_passing) } else { None };
+            if let Some(older) = older {
+                queue.remove(older);
             }
             queue.push_back(heard);
         }

@@ -35,7 +35,7 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::{Smoothing, Target};
-use crate::trial::frame::{Frame, Progress, Summary};
+use crate::trial::frame::{Frame, Progress, Summary, Touch};
 use crate::trial::log::Log;
 use crate::trial::setup::{Entry, Input, Setup};
 use crate::trial::wire::Wire;
@@ -96,6 +96,8 @@ pub struct Trial {
     is_too_thin: bool,
     /// The smoothing whose level is awaited: it begins with that.
     awaits: Option<Smoothing>,
+    /// What the wall has felt since then, in the order in which it was told.
+    felt: Vec<Touch>,
     /// The largest forces since the wire was at the entry.
     peaks: readout::Largest,
     drive: drive::Drive,
@@ -321,9 +323,8 @@ impl Trial {
         (self.summary, self.comparison, self.comparing) = (None, None, None);
         if let Some(frame) = &mut self.frame {
             frame.progress = Progress::Running;
-            // What the wall felt then it is not to feel anew.
-            frame.touches.clear();
         }
+        self.felt.clear();
         self.runs += 1;
         self.peaks = readout::Largest::default();
         self.carm.reset();
@@ -418,10 +419,14 @@ impl Trial {
                 self.peaks.take(&frame);
                 self.frame = Some(*frame);
             }
+            TrialEvent::Felt { id, touches } if self.stage == Stage::On && id == self.begun => {
+                self.peaks.feel(&touches);
+                self.felt.extend(touches);
+            }
             TrialEvent::Ended { id, summary } if self.stage == Stage::On && id == self.begun => {
                 self.summary = Some(*summary);
             }
-            TrialEvent::Frame { .. } | TrialEvent::Ended { .. } => {}
+            TrialEvent::Frame { .. } | TrialEvent::Felt { .. } | TrialEvent::Ended { .. } => {}
             TrialEvent::Saved { csv, json } => {
                 let stem = format!("{}-trial", self.name.to_lowercase().replace([' ', '.'], "-"));
                 let file = |ending: &str, text: String| Offer { name: format!("{stem}.{ending}"), bytes: text.into() };

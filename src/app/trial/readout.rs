@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, RichText, Role, Sense, Stroke, Ui, WidgetInf
 use super::Trial;
 use crate::app::panel::number;
 use crate::render::{Colour, viridis};
-use crate::trial::frame::{Frame, Progress};
+use crate::trial::frame::{Frame, Progress, Touch};
 
 /// The end of a bar while forces are small, in N: a floppy wire presses with less.
 const LEAST_SCALE: f64 = 0.001;
@@ -101,6 +101,10 @@ impl Largest {
     pub(super) fn take(&mut self, frame: &Frame) {
         self.wall = self.wall.max(frame.max_wall_force_n as f32);
         self.push = self.push.max(frame.push_n.abs() as f32);
+    }
+
+    pub(super) fn feel(&mut self, touches: &[Touch]) {
+        self.wall = touches.iter().fold(self.wall, |most, touch| most.max(touch.force));
     }
 
     /// The force at one place of the wall that has the last colour and the end of its bar, in N.

@@ -109,13 +109,14 @@ impl TrialScene {
         self.of.as_mut().map(|(_, peaks)| peaks)
     }
 
-    /// Takes the vessel of a trial and the way through it, if it is another one.
+    /// Takes the vessel of a trial and the way through it, if it is another one, which has felt nothing yet; says whether
+    /// it is.
     ///
     /// # Errors
     /// When it does not fit into the memory that the device allows.
-    pub(super) fn take(&mut self, mesh: &Arc<TriMesh>, route: &RouteShown) -> Result<(), SurfaceError> {
+    pub(super) fn take(&mut self, mesh: &Arc<TriMesh>, route: &RouteShown) -> Result<bool, SurfaceError> {
         if self.of.as_ref().is_some_and(|(of, _)| Arc::ptr_eq(of, mesh)) {
-            return Ok(());
+            return Ok(false);
         }
         let (device, queue) = (&self.device, &self.queue);
         upload(device, queue, &mut self.vessel, mesh)?;
@@ -128,10 +129,10 @@ impl TrialScene {
         self.uploaded = 0;
         self.measured = None;
         self.changes += 1;
-        Ok(())
+        Ok(true)
     }
 
-    /// Lets the wall feel what it feels now.
+    /// Lets the wall feel this.
     pub(super) fn feel(&mut self, touches: &[crate::trial::frame::Touch]) {
         if let Some((mesh, peaks)) = &mut self.of {
             peaks.take(mesh, touches);

@@ -35,8 +35,10 @@ pub(in crate::app) struct TrialView {
     shows_tip: bool,
     /// The run that the forces on the wall are of.
     run: u64,
-    /// The step that they were taken from last.
-    felt: Option<u64>,
+    /// How many of what the wall has felt they have in them.
+    felt: usize,
+    /// The step that the wire is shown at.
+    step: Option<u64>,
     /// What the last fluoroscopy was taken from.
     held: Option<Held>,
 }
@@ -53,13 +55,13 @@ impl TrialView {
     /// Views on the window's device; without one (in some tests) they say so.
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
         let device = device.cloned();
-        Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: None, held: None }
+        Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: 0, step: None, held: None }
     }
 
     /// Gives back the memory of the device.
     pub(in crate::app) fn let_go(&mut self) {
         self.scene = None;
-        (self.felt, self.held) = (None, None);
+        (self.felt, self.step, self.held) = (0, None, None);
     }
 
     /// Whether something stands in the memory of the device.
@@ -128,22 +130,27 @@ impl TrialView {
         let Some(scene) = &mut self.scene else { return };
         // What fails is tried again.
         self.failure = None;
-        if let (Some(mesh), Some(ready)) = (trial.mesh(), &trial.ready)
-            && let Err(error) = scene.take(mesh, &ready.route)
-        {
-            self.failure = Some(format!("The trial cannot be drawn: {error}."));
+        let Some((mesh, ready)) = trial.mesh().zip(trial.ready.as_ref()) else { return };
+        match scene.take(mesh, &ready.route) {
+            Ok(true) => (self.felt, self.step) = (0, None),
+            Ok(false) => {}
+            Err(error) => {
+                self.failure = Some(format!("The trial cannot be drawn: {error}."));
+                return;
+            }
         }
         if std::mem::replace(&mut self.run, trial.runs) != trial.runs {
-            (self.felt, self.held) = (None, None);
+            (self.felt, self.step, self.held) = (0, None, None);
             if let Some(peaks) = scene.peaks() {
                 peaks.clear();
             }
         }
         let Some(frame) = &trial.frame else { return };
-        if self.felt != Some(frame.step) {
-            scene.feel(&frame.touches);
+        if self.step != Some(frame.step) || self.felt < trial.felt.len() {
+            scene.feel(&trial.felt[self.felt.min(trial.felt.len())..]);
+            self.felt = trial.felt.len();
             match scene.set_wire(&frame.nodes, radius(trial)) {
-                Ok(()) => self.felt = Some(frame.step),
+                Ok(()) => self.step = Some(frame.step),
                 Err(error) => self.failure = Some(format!("The wire cannot be drawn: {error}.")),
             }
         }

@@ -15,7 +15,7 @@ use lumen::io::import_mesh;
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Settings, Smoothing};
 use lumen::trial::course::Course;
-use lumen::trial::frame::{Frame, Progress, StationResult, Summary};
+use lumen::trial::frame::{Frame, Progress, StationResult, Summary, Touch};
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::wire::Wire;
 use lumen_ui_tests::{Memory, app, settle};
@@ -412,6 +412,12 @@ fn the_bars_of_forces_grow_with_the_largest_so_far() {
         is_new(&harness) && !says(&harness, "Success"),
         "what was under way at the restart belongs to the run before"
     );
+    // What was felt in a step between two frames.
+    let felt = |id| TrialEvent::Felt { id, touches: vec![Touch { at: [0.0; 3], triangle: 0, force: 0.03 }] };
+    tell(&mut harness, &memory, [felt(FIRST)]);
+    assert!(is_new(&harness));
+    tell(&mut harness, &memory, [felt(FIRST + 1)]);
+    assert!(says(&harness, "Wall force, up to 0.05 N"));
     let own = Frame { step: 1, max_wall_force_n: 0.3, push_n: 0.0, ..frame() };
     tell(&mut harness, &memory, [now(FIRST + 1, own)]);
     assert!(says(&harness, "Wall force, up to 0.5 N"));

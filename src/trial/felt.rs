@@ -1,0 +1,63 @@
+//! The largest force that each place of the wall has felt, by every step.
+//!
+//! Frames come less often than steps, and where drawing is slow or the window is hidden most of them are never looked
+//! at: a force of a tenth of a second would be in the summary and nowhere on the vessel. So what a place feels more than
+//! before is told apart from the frames, once.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::frame::Touch;
+
+/// The side of a place in mm: less than the spots by which it is shown.
+const PLACE: f32 = 1.0;
+
+/// Peak forces, place by place.
+#[derive(Clone, Debug, Default)]
+pub struct Felt {
+    /// The largest force so far, in N.
+    peaks: HashMap<[i32; 3], f32>,
+    /// What of that was not told yet.
+    news: BTreeMap<[i32; 3], Touch>,
+}
+
+impl Felt {
+    /// Takes what the wall feels in a step.
+    pub fn take(&mut self, touches: impl Iterator<Item = Touch>) {
+        for touch in touches {
+            let place = touch.at.map(|x| (x / PLACE).floor() as i32);
+            let peak = self.peaks.entry(place).or_default();
+            if touch.force > *peak {
+                *peak = touch.force;
+                self.news.insert(place, touch);
+            }
+        }
+    }
+
+    /// The places that have felt more since this was asked for last, each with its largest force and where that was.
+    pub fn news(&mut self) -> Vec<Touch> {
+        std::mem::take(&mut self.news).into_values().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn touch(x: f32, force: f32) -> Touch {
+        Touch { at: [x, -0.5, 0.0], triangle: 3, force }
+    }
+
+    #[test]
+    fn each_place_tells_its_largest_force_once() {
+        let mut felt = Felt::default();
+        assert!(felt.news().is_empty());
+        // A peak between two frames, beside another place.
+        for touches in [[touch(0.1, 0.01), touch(5.0, 0.2)], [touch(0.9, 0.04), touch(5.0, 0.1)], [touch(0.2, 0.0); 2]]
+        {
+            felt.take(touches.into_iter());
+        }
+        assert_eq!(felt.news(), [touch(0.9, 0.04), touch(5.0, 0.2)]);
+        felt.take([touch(0.1, 0.04), touch(-0.1, 0.03)].into_iter());
+        assert_eq!(felt.news(), [touch(-0.1, 0.03)], "what is no more than before is no news");
+    }
+}
