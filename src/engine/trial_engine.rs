@@ -16,7 +16,7 @@ use crate::trial::frame::Progress;
 use crate::trial::log::Log;
 use crate::trial::route::RouteError;
 use crate::trial::session::Trial;
-use crate::trial::setup::Setup;
+use crate::trial::setup::{Input, Setup};
 
 /// Seconds by which the trial may be behind the clock before it slows down.
 const BEHIND: f64 = 0.05;
@@ -49,7 +49,9 @@ struct Shown {
     trial: Box<Trial>,
     /// Of every step.
     felt: Felt,
-    is_steered: bool,
+    /// Whether a hand, the autopilot or a log has moved the wire yet: until then it lies at its entry, and its time does
+    /// not run.
+    has_begun: bool,
     is_paused: bool,
     pace: f64,
     /// Simulated seconds that the clock has asked for and that are not done.
@@ -70,7 +72,7 @@ impl Shown {
             id,
             trial: Box::new(trial),
             felt: Felt::default(),
-            is_steered: false,
+            has_begun: false,
             is_paused: false,
             pace: 1.0,
             owed: 0.0,
@@ -84,13 +86,16 @@ impl Shown {
         }
     }
 
-    /// Begins again on the same course.
+    /// Begins again on the same course, by hand.
     fn restart(&mut self) -> Result<(), TrialError> {
         let trial = Trial::new(self.trial.course().clone(), self.trial.setup().clone())?;
-        let (is_steered, pace) = (self.is_steered, self.pace);
-        *self = Self { is_steered, pace, ..Self::new(self.id, trial) };
-        self.trial.set_autopilot(is_steered);
+        *self = Self { pace: self.pace, ..Self::new(self.id, trial) };
         Ok(())
+    }
+
+    /// Whether it stands, whatever the clock says.
+    fn stands(&self) -> bool {
+        self.is_paused || !self.has_begun
     }
 }
 
@@ -147,10 +152,13 @@ impl TrialEngine {
     fn handle_shown(&mut self, command: TrialCommand, shown: &mut Shown) {
         let trial = &mut shown.trial;
         match command {
-            TrialCommand::Drive(input) => trial.drive(input),
+            TrialCommand::Drive(input) => {
+                trial.drive(input);
+                shown.has_begun |= input != Input::default();
+            }
             TrialCommand::Autopilot(on) => {
-                shown.is_steered = on;
                 trial.set_autopilot(on);
+                shown.has_begun |= on;
             }
             TrialCommand::Pause(on) => shown.is_paused = on,
             TrialCommand::Pace(pace) => {
@@ -241,13 +249,17 @@ impl TrialEngine {
             return Some(Duration::ZERO);
         }
         let shown = self.shown.as_mut()?;
-        let passed = shown.clock.replace(now_s).map_or(0.0, |before| (now_s - before).max(0.0));
+        // Time that has passed while it stood is not owed.
+        let before = shown.clock.replace(now_s);
+        let passed = before.map_or(0.0, |before| (now_s - before).max(0.0));
         let is_over = shown.trial.progress() != Progress::Running;
-        if !(shown.is_paused || is_over) {
+        if shown.stands() || is_over {
+            shown.clock = None;
+        } else {
             run(shown, passed, slice);
         }
         let is_over = shown.trial.progress() != Progress::Running;
-        if shown.needs_frame || now_s - shown.framed >= FRAME && !shown.is_paused {
+        if shown.needs_frame || now_s - shown.framed >= FRAME && !shown.stands() {
             shown.framed = now_s;
             shown.needs_frame = false;
             let touches = shown.felt.news();
@@ -263,7 +275,7 @@ impl TrialEngine {
             let summary = Box::new(shown.trial.summary());
             self.events.push_back(TrialEvent::Ended { id: shown.id, summary });
         }
-        if is_over || shown.is_paused {
+        if is_over || shown.stands() {
             return None;
         }
         let next = if shown.owed >= STEP { 0.0 } else { 2.0 * STEP };
@@ -351,7 +363,7 @@ fn replay(shown: &mut Shown, csv: &[u8]) -> Result<(), String> {
     let mut trial = Trial::new(course.clone(), recorded.setup).map_err(|error| error.to_string())?;
     trial.replay(recorded.inputs, recorded.steps);
     let pace = shown.pace;
-    *shown = Shown { pace, ..Shown::new(shown.id, trial) };
+    *shown = Shown { pace, has_begun: true, ..Shown::new(shown.id, trial) };
     Ok(())
 }
 
@@ -379,7 +391,6 @@ fn sentence(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::trial::frame::Frame;
-    use crate::trial::setup::Input;
 
     const SLICE: Duration = Duration::from_millis(1);
 
@@ -432,6 +443,34 @@ mod tests {
     }
 
     #[test]
+    fn time_runs_from_the_first_input_on_and_a_restart_is_by_hand() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+        events(&mut engine);
+        let shown = |engine: &mut TrialEngine, from: f64| {
+            (0..20).for_each(|i| _ = engine.advance(from + f64::from(i) * 0.02, Duration::from_millis(50)));
+            let frames = events(engine).into_iter().filter_map(|event| match event {
+                TrialEvent::Frame { frame, .. } => Some(*frame),
+                _ => None,
+            });
+            frames.collect::<Vec<_>>()
+        };
+        assert!(matches!(&shown(&mut engine, 0.0)[..], [frame] if frame.step == 0), "the wire at its entry, once");
+        engine.handle(TrialCommand::Drive(Input::default()));
+        assert_eq!(shown(&mut engine, 100.0).last().unwrap().step, 0, "no input");
+        engine.handle(TrialCommand::Autopilot(true));
+        let steered = shown(&mut engine, 300.0);
+        assert!(steered.last().unwrap().time_s < 0.5 && !steered.last().unwrap().doing.is_empty());
+        assert!(!steered.iter().any(|frame| frame.is_behind), "what has passed while it stood is not owed");
+        engine.handle(TrialCommand::Restart { id: 2 });
+        assert_eq!(shown(&mut engine, 400.0).last().unwrap().step, 0);
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        let by_hand = shown(&mut engine, 500.0).pop().unwrap();
+        assert!(by_hand.feed == 20.0 && by_hand.doing.is_empty(), "{by_hand:?}");
+    }
+
+    #[test]
     fn frames_tell_what_they_belong_to() {
         let mut engine = TrialEngine::new();
         let (sample, setup) = (Some(Sample::Aorta), Setup::default());
@@ -451,6 +490,7 @@ mod tests {
         let first = run(&mut engine, 0);
         assert!(is_of(&first, 1), "{first:?}");
         engine.handle(TrialCommand::Restart { id: 5 });
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
         let second = run(&mut engine, 20);
         assert!(is_of(&second, 5) && second[0].1 < first.last().unwrap().1, "{second:?}");
         // What is refused leaves the trial as it stands, and is answered all the same.

@@ -131,8 +131,9 @@ impl Trial {
 
     /// Whether frames come by themselves.
     pub fn is_moving(&self) -> bool {
-        let is_over = self.frame.as_ref().is_some_and(|frame| frame.progress != Progress::Running);
-        self.stage == Stage::On && !self.is_paused && !is_over
+        // At its entry the wire waits for the first input.
+        let stands = |frame: &Frame| frame.progress != Progress::Running || frame.step == 0;
+        self.stage == Stage::On && !self.is_paused && !self.frame.as_ref().is_none_or(stands)
     }
 
     /// Whether something is being computed for it.

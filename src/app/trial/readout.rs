@@ -38,6 +38,9 @@ pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
         Progress::Running if frame.is_wrong_branch => "Wrong branch: withdraw and roll.",
         Progress::Running if frame.is_behind => "The machine is behind: the trial runs slower than time.",
         Progress::Running if !frame.doing.is_empty() => return (format!("Autopilot: {}.", lower(&frame.doing)), true),
+        Progress::Running if frame.step == 0 => {
+            "Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer: time runs from then on."
+        }
         Progress::Running => "Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer.",
     };
     (text.to_owned(), matches!(frame.progress, Progress::Arrived | Progress::Running))
