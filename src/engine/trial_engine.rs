@@ -457,6 +457,10 @@ mod tests {
             frames.collect::<Vec<_>>()
         };
         assert!(matches!(&shown(&mut engine, 0.0)[..], [frame] if frame.step == 0), "the wire at its entry, once");
+        engine.handle(TrialCommand::Save);
+        let Some(TrialEvent::Saved { csv, json }) = engine.poll() else { panic!("no log") };
+        assert_eq!(Log::read(csv.as_bytes()).unwrap().steps, 0);
+        assert!(json.contains("\"steps\": 0"), "{json}");
         engine.handle(TrialCommand::Drive(Input::default()));
         assert_eq!(shown(&mut engine, 100.0).last().unwrap().step, 0, "no input");
         engine.handle(TrialCommand::Autopilot(true));
