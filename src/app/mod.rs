@@ -89,7 +89,7 @@ impl LumenApp {
         &self.trial
     }
 
-    /// How many pictures of the trial were drawn since its views were first shown.
+    /// How many pictures of the trial were drawn since its views were shown.
     pub fn trial_draws(&self) -> u64 {
         self.trial_view.draws()
     }
@@ -304,8 +304,8 @@ impl eframe::App for LumenApp {
         let State { document, settings, .. } = &self.state;
         let has_level = self.state.has_level();
         self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
-        let is_moving = self.trial.is_open && self.trial.is_moving();
-        if is_moving || self.state.is_busy() || self.trial.is_busy() {
+        let is_in_hand = self.trial.is_open && self.trial.is_in_hand();
+        if is_in_hand || self.state.is_busy() || self.trial.is_busy() {
             ctx.request_repaint_after(LISTEN);
         }
     }

@@ -93,6 +93,12 @@ impl Shown {
         Ok(())
     }
 
+    /// What was to begin anew could not: it goes on, but in the hand of whoever asked.
+    fn hand_over(&mut self) {
+        self.trial.set_autopilot(false);
+        (self.is_paused, self.is_told) = (false, false);
+    }
+
     /// Whether it stands, whatever the clock says.
     fn stands(&self) -> bool {
         self.is_paused || !self.has_begun
@@ -138,7 +144,7 @@ impl TrialEngine {
                     {
                         // Whether or not it can be done: the frames that follow are those after it.
                         shown.id = id;
-                        shown.felt = Felt::default();
+                        shown.felt.tell_again();
                         self.drop_comparisons();
                     }
                     self.handle_shown(other, &mut shown);
@@ -166,6 +172,7 @@ impl TrialEngine {
             }
             TrialCommand::Restart { .. } => {
                 if let Err(error) = shown.restart() {
+                    shown.hand_over();
                     self.fail(&error.to_string());
                 }
             }
@@ -176,6 +183,7 @@ impl TrialEngine {
             TrialCommand::Save => self.save(trial),
             TrialCommand::Replay { csv, .. } => {
                 if let Err(message) = replay(shown, &csv) {
+                    shown.hand_over();
                     self.fail(&message);
                 }
             }
@@ -259,7 +267,8 @@ impl TrialEngine {
             run(shown, passed, slice);
         }
         let is_over = shown.trial.progress() != Progress::Running;
-        if shown.needs_frame || now_s - shown.framed >= FRAME && !shown.stands() {
+        let is_end = is_over && !shown.is_told;
+        if shown.needs_frame || is_end || now_s - shown.framed >= FRAME && !shown.stands() {
             shown.framed = now_s;
             shown.needs_frame = false;
             let touches = shown.felt.news();
@@ -270,7 +279,7 @@ impl TrialEngine {
             (frame.steps_per_second, frame.is_behind) = (shown.speed, shown.is_behind);
             self.events.push_back(TrialEvent::Frame { id: shown.id, frame: Box::new(frame) });
         }
-        if is_over && !shown.is_told {
+        if is_end {
             shown.is_told = true;
             let summary = Box::new(shown.trial.summary());
             self.events.push_back(TrialEvent::Ended { id: shown.id, summary });
@@ -513,15 +522,19 @@ mod tests {
         engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
         engine.handle(TrialCommand::Autopilot(true));
         let (mut felt, mut framed, mut most) = (0.0_f64, 0.0_f64, None);
-        for i in 0..2000 {
-            // A frame in 25 steps.
-            engine.advance(f64::from(i) * BEHIND, Duration::from_secs(1));
+        let mut last = Progress::Running;
+        for i in 0..20_000 {
+            // A frame in 25 steps at first, where the largest force is; then as the engine asks for.
+            let now_s = if i < 40 { f64::from(i) * BEHIND } else { 40.0 * BEHIND + f64::from(i) * 2.0 * STEP };
+            engine.advance(now_s, Duration::from_secs(1));
             for event in events(&mut engine) {
                 match event {
                     TrialEvent::Felt { id: 1, touches } => {
                         felt = touches.iter().fold(felt, |most, touch| most.max(f64::from(touch.force)));
                     }
-                    TrialEvent::Frame { frame, .. } => framed = framed.max(frame.max_wall_force_n),
+                    TrialEvent::Frame { frame, .. } => {
+                        (framed, last) = (framed.max(frame.max_wall_force_n), frame.progress);
+                    }
                     TrialEvent::Ended { summary, .. } => most = Some(summary.max_wall_force_n),
                     _ => {}
                 }
@@ -533,6 +546,7 @@ mod tests {
         let most = most.expect("an end");
         assert!((felt / most - 1.0).abs() < 1e-6, "{felt} of {most}");
         assert!(framed < most, "no frame has shown it: {framed} of {most}");
+        assert_eq!(last, Progress::Arrived, "the end is shown");
     }
 
     #[test]

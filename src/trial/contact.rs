@@ -283,7 +283,7 @@ impl Contacts {
             if is_same && same.is_none() {
                 same = Some(k);
             } else if is_same || own.distance >= radius + CORNER {
-                // Two that have come together are one.
+                // Two that have come together are one, and what is not nearest is let go of sooner.
                 *contact = Contact::NONE;
             } else {
                 contact.meet(wall, p, 0.0, &own, radius);

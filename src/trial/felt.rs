@@ -2,20 +2,21 @@
 //!
 //! Frames come less often than steps, and where drawing is slow or the window is hidden most of them are never looked
 //! at: a force of a tenth of a second would be in the summary and nowhere on the vessel. So what a place feels more than
-//! before is told apart from the frames, once.
+//! before is told apart from the frames, once. A place is as large as the spots that show it are at full colour, so that a
+//! wire which slides over fine triangles has little to tell; of two triangles that meet in one it tells the larger force.
 
 use std::collections::{BTreeMap, HashMap};
 
 use super::frame::Touch;
 
-/// The side of a place in mm: less than the spots by which it is shown.
+/// The side of a place in mm.
 const PLACE: f32 = 1.0;
 
 /// Peak forces, place by place.
 #[derive(Clone, Debug, Default)]
 pub struct Felt {
-    /// The largest force so far, in N.
-    peaks: HashMap<[i32; 3], f32>,
+    /// Each with its largest force so far.
+    peaks: HashMap<[i32; 3], Touch>,
     /// What of that was not told yet.
     news: BTreeMap<[i32; 3], Touch>,
 }
@@ -25,12 +26,16 @@ impl Felt {
     pub fn take(&mut self, touches: impl Iterator<Item = Touch>) {
         for touch in touches {
             let place = touch.at.map(|x| (x / PLACE).floor() as i32);
-            let peak = self.peaks.entry(place).or_default();
-            if touch.force > *peak {
-                *peak = touch.force;
+            if self.peaks.get(&place).is_none_or(|peak| touch.force > peak.force) {
+                self.peaks.insert(place, touch);
                 self.news.insert(place, touch);
             }
         }
+    }
+
+    /// Tells all of it anew, as to someone who has heard nothing.
+    pub fn tell_again(&mut self) {
+        self.news = self.peaks.iter().map(|(&place, &touch)| (place, touch)).collect();
     }
 
     /// The places that have felt more since this was asked for last, each with its largest force and where that was.
@@ -59,5 +64,8 @@ mod tests {
         assert_eq!(felt.news(), [touch(0.9, 0.04), touch(5.0, 0.2)]);
         felt.take([touch(0.1, 0.04), touch(-0.1, 0.03)].into_iter());
         assert_eq!(felt.news(), [touch(-0.1, 0.03)], "what is no more than before is no news");
+        felt.tell_again();
+        assert_eq!(felt.news(), [touch(-0.1, 0.03), touch(0.9, 0.04), touch(5.0, 0.2)]);
+        assert!(felt.news().is_empty());
     }
 }

@@ -96,17 +96,17 @@ pub struct Trial {
     is_too_thin: bool,
     /// The smoothing whose level is awaited: it begins with that.
     awaits: Option<Smoothing>,
-    /// What the wall has felt since then, in the order in which it was told.
+    /// What the wall has felt since the wire was at the entry, in the order in which it was told.
     felt: Vec<Touch>,
-    /// The largest forces since the wire was at the entry.
+    /// The largest forces since then.
     peaks: readout::Largest,
     drive: drive::Drive,
     /// The input that the engine has.
     driven: Input,
     /// The surface of the trial, once it is on.
     subject: Option<Subject>,
-    /// The number and the surface of the one that is on its way in.
-    coming: Option<(u64, Subject)>,
+    /// The numbers and the surfaces of those that are on their way in, in order.
+    coming: Vec<(u64, Subject)>,
     /// The setup that the engine has, as the controls had it.
     sent: Option<Setup>,
     /// The number of the newest trial, measurement or comparison.
@@ -129,11 +129,15 @@ impl Trial {
         Self { setup: Setup { proposes_wire: true, ..Setup::default() }, ..Self::default() }
     }
 
-    /// Whether frames come by themselves.
+    /// Whether a hand can move the wire: then it is looked after, as a gamepad tells nothing by itself.
+    pub fn is_in_hand(&self) -> bool {
+        let is_over = self.frame.as_ref().is_some_and(|frame| frame.progress != Progress::Running);
+        self.stage == Stage::On && !(self.is_paused || is_over || self.summary.is_some())
+    }
+
+    /// Whether frames come by themselves: at its entry the wire waits for the first input.
     pub fn is_moving(&self) -> bool {
-        // At its entry the wire waits for the first input.
-        let stands = |frame: &Frame| frame.progress != Progress::Running || frame.step == 0;
-        self.stage == Stage::On && !self.is_paused && !self.frame.as_ref().is_none_or(stands)
+        self.is_in_hand() && self.frame.as_ref().is_some_and(|frame| frame.step > 0)
     }
 
     /// Whether something is being computed for it.
@@ -148,7 +152,7 @@ impl Trial {
 
     /// The wire that is proposed for the way that is shown, where one was.
     fn proposed_wire(&self) -> Option<&Wire> {
-        let is_proposed = self.coming.is_none() && self.sent.as_ref().is_some_and(|sent| sent.proposes_wire);
+        let is_proposed = self.coming.is_empty() && self.sent.as_ref().is_some_and(|sent| sent.proposes_wire);
         self.setup_in_force().filter(|_| is_proposed).map(|setup| &setup.wire)
     }
 
@@ -203,7 +207,8 @@ impl Trial {
                 let is_other = document.is_some_and(|document| Some(taken_from(document)) != of);
                 if self.has_changed() || is_other {
                     self.start(document, link);
-                } else {
+                } else if self.coming.is_empty() {
+                    // What is on its way in begins at its entry.
                     let id = self.next_begun();
                     self.begin_again();
                     link.send(TrialCommand::Restart { id });
@@ -279,10 +284,9 @@ impl Trial {
         document.name.clone_into(&mut self.name);
         let (sample, setup) = (sample_of(document), self.setup.clone());
         self.sent = Some(setup.clone());
-        self.coming = Some((id, Subject { mesh: mesh.clone(), levels, of: taken_from(document) }));
+        self.coming.push((id, Subject { mesh: mesh.clone(), levels, of: taken_from(document) }));
         self.stage = Stage::Preparing(0.0);
         self.is_open = true;
-        self.driven = Input::default();
         link.send(TrialCommand::Start { id, mesh, sample, setup });
     }
 
@@ -323,7 +327,7 @@ impl Trial {
     fn begin_again(&mut self) {
         (self.summary, self.comparison, self.comparing) = (None, None, None);
         if let Some(frame) = &mut self.frame {
-            frame.progress = Progress::Running;
+            (frame.progress, frame.step, frame.time_s) = (Progress::Running, 0, 0.0);
         }
         self.felt.clear();
         self.runs += 1;
@@ -404,10 +408,12 @@ impl Trial {
             TrialEvent::Preparing { id, fraction } if self.is_coming(id) => self.stage = Stage::Preparing(fraction),
             TrialEvent::Ready(ready) if self.is_coming(ready.id) => self.receive_ready(*ready, link),
             TrialEvent::Refused { id, message, is_too_thin } if self.is_coming(id) => {
-                self.coming = None;
-                self.log = None;
+                self.coming.retain(|(coming, _)| *coming > id);
                 (self.problem, self.is_too_thin) = (Some(message), is_too_thin);
-                self.stage = if self.subject.is_some() { Stage::On } else { Stage::Off };
+                if self.coming.is_empty() {
+                    self.log = None;
+                    self.stage = if self.subject.is_some() { Stage::On } else { Stage::Off };
+                }
             }
             TrialEvent::Refused { id, message, .. } if self.is_compared(id) => {
                 self.comparing = None;
@@ -416,17 +422,15 @@ impl Trial {
             TrialEvent::Refused { id, message, .. } if self.tables.is_measuring(id) => self.tables.fails(&message),
             // What is left of a trial that was given up.
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
-            TrialEvent::Frame { id, frame } if self.stage == Stage::On && id == self.begun => {
+            TrialEvent::Frame { id, frame } if id == self.begun => {
                 self.peaks.take(&frame);
                 self.frame = Some(*frame);
             }
-            TrialEvent::Felt { id, touches } if self.stage == Stage::On && id == self.begun => {
+            TrialEvent::Felt { id, touches } if id == self.begun => {
                 self.peaks.feel(&touches);
                 self.felt.extend(touches);
             }
-            TrialEvent::Ended { id, summary } if self.stage == Stage::On && id == self.begun => {
-                self.summary = Some(*summary);
-            }
+            TrialEvent::Ended { id, summary } if id == self.begun => self.summary = Some(*summary),
             TrialEvent::Frame { .. } | TrialEvent::Felt { .. } | TrialEvent::Ended { .. } => {}
             TrialEvent::Saved { csv, json } => {
                 let stem = format!("{}-trial", self.name.to_lowercase().replace([' ', '.'], "-"));
@@ -457,7 +461,7 @@ impl Trial {
     }
 
     fn is_coming(&self, id: u64) -> bool {
-        self.coming.as_ref().is_some_and(|(coming, _)| *coming == id)
+        self.coming.iter().any(|(coming, _)| *coming == id)
     }
 
     /// Whether this is the number of the comparison that is awaited.
@@ -466,10 +470,10 @@ impl Trial {
     }
 
     fn receive_ready(&mut self, ready: TrialReady, link: &mut TrialLink) {
-        if let Some((_, subject)) = self.coming.take() {
-            self.subject = Some(subject);
-        }
-        self.begun = ready.id;
+        // Those before it are over; what was asked for since then is not.
+        let Some(at) = self.coming.iter().position(|(id, _)| *id == ready.id) else { return };
+        self.subject = self.coming.drain(..=at).next_back().map(|(_, subject)| subject);
+        self.begun = self.begun.max(ready.id);
         self.begin_again();
         self.frame = None;
         let way: Vec<Vec3> = ready.route.points.iter().map(|&p| p.into()).collect();
@@ -481,6 +485,9 @@ impl Trial {
             }
         }
         self.ready = Some(ready);
+        if !self.coming.is_empty() {
+            return;
+        }
         self.stage = Stage::On;
         // The engine begins as fast as time.
         if self.is_slow {

@@ -5,7 +5,7 @@
 //! are shown.
 
 use std::sync::Arc;
-use std::sync::mpsc::Receiver;
+use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::{Align, Grid, Layout, RichText, ScrollArea, Ui};
 
@@ -173,8 +173,10 @@ impl Tables {
             if let Some(mesh) = row.mesh.take() {
                 row.timing = time(&mesh);
             }
-            if let Some(ms) = row.timing.as_ref().and_then(|timing| timing.try_recv().ok()) {
-                (row.draw_ms, row.timing) = (Some(ms), None);
+            match row.timing.as_ref().map(Receiver::try_recv) {
+                None | Some(Err(TryRecvError::Empty)) => {}
+                // A device that is lost gives no answer.
+                Some(answer) => (row.draw_ms, row.timing) = (answer.ok(), None),
             }
         }
     }

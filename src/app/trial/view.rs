@@ -60,7 +60,7 @@ impl TrialView {
 
     /// Gives back the memory of the device.
     pub(in crate::app) fn let_go(&mut self) {
-        self.scene = None;
+        (self.scene, self.failure) = (None, None);
         (self.felt, self.step, self.held) = (0, None, None);
     }
 
@@ -69,7 +69,7 @@ impl TrialView {
         self.scene.is_some()
     }
 
-    /// How many pictures were drawn since the views were first shown.
+    /// How many pictures were drawn since the views were shown.
     pub(in crate::app) fn draws(&self) -> u64 {
         self.scene.as_ref().map_or(0, TrialScene::draws)
     }
@@ -85,7 +85,7 @@ impl TrialView {
 
     /// Shows the tables, if they are open; says whether they were cancelled.
     pub(in crate::app) fn tables(&mut self, ui: &Ui, trial: &mut Trial) -> bool {
-        if trial.tables.is_running() || trial.tables.is_open {
+        if trial.tables.is_busy() || trial.tables.is_open {
             self.prepare();
             let (scene, style) = (&self.scene, theme::style(ui.visuals()));
             let time = |mesh: &TriMesh| scene.as_ref()?.time_frame(mesh, &style).ok();

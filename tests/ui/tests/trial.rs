@@ -365,6 +365,30 @@ fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_tri
 }
 
 #[test]
+fn of_two_starts_the_first_goes_on_where_the_second_is_refused() {
+    let (mut harness, memory) = on(DESKTOP);
+    choose(&mut harness, "Target");
+    harness.get_by_label("Right renal").click();
+    harness.run_steps(3);
+    let second = id_of_start(&asked(&memory));
+    harness.key_press(Key::R);
+    harness.run_steps(3);
+    assert!(asked(&memory).is_empty(), "what is on its way in begins at its entry");
+    choose(&mut harness, "Wire");
+    harness.get_by_label("0.014 in stiff").click();
+    harness.run_steps(3);
+    harness.key_press(Key::R);
+    harness.run_steps(3);
+    let third = id_of_start(&asked(&memory));
+    assert!(FIRST < second && second < third);
+    tell(&mut harness, &memory, [ready(second), now(second, Frame { inserted_mm: 55.0, ..frame() })]);
+    tell(&mut harness, &memory, [refused(third, "The wire does not fit.", false)]);
+    assert!(says(&harness, "The wire does not fit.") && says(&harness, "5.5 cm"));
+    tell(&mut harness, &memory, [now(second, Frame { inserted_mm: 66.0, ..frame() })]);
+    assert!(says(&harness, "6.6 cm"));
+}
+
+#[test]
 fn a_level_that_is_no_longer_wanted_is_not_awaited() {
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Restart");
@@ -510,6 +534,8 @@ fn a_comparison_can_be_cancelled_alone_and_ends_with_its_trial() {
     press(&mut harness, compare);
     press(&mut harness, "Restart");
     assert!(!harness.state().trial().is_busy(), "the engine gives up comparing what is no more");
+    let Some(TrialCommand::Restart { id }) = asked(&memory).pop() else { panic!("no restart") };
+    tell(&mut harness, &memory, [now(id, frame())]);
     press(&mut harness, compare);
     let Some(TrialCommand::Compare { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
     tell(&mut harness, &memory, [refused(id, "The wire does not fit.", false)]);
