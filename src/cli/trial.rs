@@ -79,20 +79,21 @@ pub(super) const SMOOTHING: (f64, u32) = (0.1, 30);
 
 /// `x,y,z`.
 fn point(text: &str) -> Result<[f32; 3], String> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.ok().and_then(|numbers| <[f32; 3]>::try_from(numbers).ok()) {
-        Some(point) if point.iter().all(|x| x.is_finite()) => Ok(point),
-        _ => Err(format!("{text} is not a place: three numbers with commas between are")),
-    }
+    numbers(text).ok_or_else(|| format!("{text} is not a place: three numbers with commas between are"))
 }
 
 /// `n,mm`.
 fn press(text: &str) -> Result<Press, String> {
-    let numbers: Result<Vec<f32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    match numbers.ok().and_then(|numbers| <[f32; 2]>::try_from(numbers).ok()) {
-        Some([n_per_mm, from_mm]) if n_per_mm.is_finite() && from_mm.is_finite() => Ok(Press { n_per_mm, from_mm }),
-        _ => Err(format!("{text} is no load with the length from which it acts: two numbers with a comma between are")),
-    }
+    let wrong =
+        || format!("{text} is no load with the length from which it acts: two numbers with a comma between are");
+    let [n_per_mm, from_mm] = numbers(text).ok_or_else(wrong)?;
+    Ok(Press { n_per_mm, from_mm })
+}
+
+/// So many numbers with commas between, all finite.
+fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
+    let numbers: Vec<f32> = text.split(',').map(|part| part.trim().parse()).collect::<Result<_, _>>().ok()?;
+    <[f32; N]>::try_from(numbers).ok().filter(|numbers| numbers.iter().all(|x| x.is_finite()))
 }
 
 /// A surface, and the sample it is, if it is one.

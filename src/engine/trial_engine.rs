@@ -415,11 +415,22 @@ mod tests {
     fn frame(engine: &mut TrialEngine, now_s: f64) -> Frame {
         engine.handle(TrialCommand::Pause(true));
         while engine.advance(now_s, SLICE).is_some() {}
-        let mut frames = events(engine).into_iter().rev().filter_map(|event| match event {
-            TrialEvent::Frame { frame, .. } => Some(*frame),
+        frames(engine).pop().unwrap().1
+    }
+
+    /// What frames were told, each with its number.
+    fn frames(engine: &mut TrialEngine) -> Vec<(u64, Frame)> {
+        let frame = |event| match event {
+            TrialEvent::Frame { id, frame } => Some((id, *frame)),
             _ => None,
-        });
-        frames.next().unwrap()
+        };
+        events(engine).into_iter().filter_map(frame).collect()
+    }
+
+    /// The frames of 0.4 s of the clock.
+    fn run_from(engine: &mut TrialEngine, now_s: f64) -> Vec<(u64, Frame)> {
+        (0..20).for_each(|i| _ = engine.advance(now_s + f64::from(i) * 0.02, Duration::from_millis(50)));
+        frames(engine)
     }
 
     #[test]
@@ -457,29 +468,25 @@ mod tests {
         let (sample, setup) = (Some(Sample::Aorta), Setup::default());
         engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
         events(&mut engine);
-        let shown = |engine: &mut TrialEngine, from: f64| {
-            (0..20).for_each(|i| _ = engine.advance(from + f64::from(i) * 0.02, Duration::from_millis(50)));
-            let frames = events(engine).into_iter().filter_map(|event| match event {
-                TrialEvent::Frame { frame, .. } => Some(*frame),
-                _ => None,
-            });
-            frames.collect::<Vec<_>>()
-        };
-        assert!(matches!(&shown(&mut engine, 0.0)[..], [frame] if frame.step == 0), "the wire at its entry, once");
+        assert!(
+            matches!(&run_from(&mut engine, 0.0)[..], [(_, frame)] if frame.step == 0),
+            "the wire at its entry, once"
+        );
         engine.handle(TrialCommand::Save);
         let Some(TrialEvent::Saved { csv, json }) = engine.poll() else { panic!("no log") };
         assert_eq!(Log::read(csv.as_bytes()).unwrap().steps, 0);
         assert!(json.contains("\"steps\": 0"), "{json}");
         engine.handle(TrialCommand::Drive(Input::default()));
-        assert_eq!(shown(&mut engine, 100.0).last().unwrap().step, 0, "no input");
+        assert_eq!(run_from(&mut engine, 100.0).last().unwrap().1.step, 0, "no input");
         engine.handle(TrialCommand::Autopilot(true));
-        let steered = shown(&mut engine, 300.0);
-        assert!(steered.last().unwrap().time_s < 0.5 && !steered.last().unwrap().doing.is_empty());
-        assert!(!steered.iter().any(|frame| frame.is_behind), "what has passed while it stood is not owed");
+        let steered = run_from(&mut engine, 300.0);
+        let (_, last) = steered.last().unwrap();
+        assert!(last.step > 0 && last.time_s < 0.5 && !last.doing.is_empty(), "{last:?}");
+        assert!(!steered.iter().any(|(_, frame)| frame.is_behind), "what has passed while it stood is not owed");
         engine.handle(TrialCommand::Restart { id: 2 });
-        assert_eq!(shown(&mut engine, 400.0).last().unwrap().step, 0);
+        assert_eq!(run_from(&mut engine, 400.0).last().unwrap().1.step, 0);
         engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
-        let by_hand = shown(&mut engine, 500.0).pop().unwrap();
+        let (_, by_hand) = run_from(&mut engine, 500.0).pop().unwrap();
         assert!(by_hand.feed == 20.0 && by_hand.doing.is_empty(), "{by_hand:?}");
     }
 
@@ -489,26 +496,16 @@ mod tests {
         let (sample, setup) = (Some(Sample::Aorta), Setup::default());
         engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
         engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
-        let run = |engine: &mut TrialEngine, from: i32| {
-            for i in from..from + 20 {
-                engine.advance(f64::from(i) * 0.02, Duration::from_millis(50));
-            }
-            let ids = events(engine).into_iter().filter_map(|event| match event {
-                TrialEvent::Frame { id, frame } => Some((id, frame.step)),
-                _ => None,
-            });
-            ids.collect::<Vec<_>>()
-        };
-        let is_of = |frames: &[(u64, u64)], id| frames.len() > 5 && frames.iter().all(|frame| frame.0 == id);
-        let first = run(&mut engine, 0);
+        let is_of = |frames: &[(u64, Frame)], id| frames.len() > 5 && frames.iter().all(|frame| frame.0 == id);
+        let first = run_from(&mut engine, 0.0);
         assert!(is_of(&first, 1), "{first:?}");
         engine.handle(TrialCommand::Restart { id: 5 });
         engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
-        let second = run(&mut engine, 20);
-        assert!(is_of(&second, 5) && second[0].1 < first.last().unwrap().1, "{second:?}");
+        let second = run_from(&mut engine, 0.4);
+        assert!(is_of(&second, 5) && second[0].1.step < first.last().unwrap().1.step, "{second:?}");
         // What is refused leaves the trial as it stands, and is answered all the same.
         engine.handle(TrialCommand::Replay { id: 6, csv: Arc::new(b"no log".to_vec()) });
-        let third = run(&mut engine, 40);
+        let third = run_from(&mut engine, 0.8);
         assert!(is_of(&third, 6), "{third:?}");
         engine.handle(TrialCommand::StepBack { id: 7 });
         engine.advance(2.0, SLICE);

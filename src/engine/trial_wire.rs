@@ -110,8 +110,8 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
         }
         TrialEvent::Frame { id, frame } => {
             let mut rest = frame.clone();
-            (rest.nodes, rest.forces, rest.touches) = Default::default();
-            let buffers = vec![cast_slice(&frame.nodes), cast_slice(&frame.forces), cast_slice(&frame.touches)];
+            (rest.nodes, rest.forces) = Default::default();
+            let buffers = vec![cast_slice(&frame.nodes), cast_slice(&frame.forces)];
             (EventHeader::Frame { id: *id, frame: rest }, buffers)
         }
         TrialEvent::Felt { id, touches } => (EventHeader::Felt { id: *id }, vec![cast_slice(touches)]),
@@ -147,7 +147,6 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<TrialEvent, 
         EventHeader::Frame { id, mut frame } => {
             frame.nodes = array(buffers, 0)?;
             frame.forces = array(buffers, 1)?;
-            frame.touches = array(buffers, 2)?;
             TrialEvent::Frame { id, frame }
         }
         EventHeader::Felt { id } => TrialEvent::Felt { id, touches: array(buffers, 0)? },
@@ -214,7 +213,7 @@ mod tests {
         let frame = Frame {
             nodes: vec![[0.1, 0.2, 0.3]; 4],
             forces: vec![[0.0, -1.0, 0.5]; 4],
-            touches: vec![touch; 2],
+            contacts: 2,
             time_s: 0.1,
             progress: Progress::Arrived,
             doing: "feeds".to_owned(),

@@ -45,8 +45,8 @@ pub struct Frame {
     pub nodes: Vec<[f32; 3]>,
     /// What the wall does to each node, in N.
     pub forces: Vec<[f32; 3]>,
-    /// Where it lies against the wall.
-    pub touches: Vec<Touch>,
+    /// Places where it presses against the vessel.
+    pub contacts: usize,
     /// Direction of the tip, of length 1.
     pub tip_direction: [f32; 3],
     /// The side to which the tip is bent, of length 1 and at right angles to the direction.

@@ -367,7 +367,7 @@ impl Trial {
             time_s: simulation.steps() as f64 * STEP,
             nodes: simulation.nodes().map(plain).collect(),
             forces: body.contacts.forces(simulation.count()).into_iter().chain([DVec3::ZERO]).map(plain).collect(),
-            touches: self.touches().collect(),
+            contacts: self.touches().count(),
             tip_direction: plain(direction),
             tip_side: plain(side.reject_from(direction).normalize_or(side)),
             inserted_mm: simulation.inserted(),

@@ -109,7 +109,7 @@ pub struct Trial {
     coming: Vec<(u64, Subject)>,
     /// The setup that the engine has, as the controls had it.
     sent: Option<Setup>,
-    /// The number of the newest trial, measurement or comparison.
+    /// The number of the newest command that has one.
     number: u64,
     /// That of the last start, restart, step back or replay: frames of those before are not shown.
     begun: u64,

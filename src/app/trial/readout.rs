@@ -73,7 +73,7 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     );
     number(ui, "Elapsed", &clock(frame.time_s), "Simulated time");
     number(ui, "Fluoroscopy", &clock(trial.carm.seconds), "Time that the beam was on");
-    let touches = format!("{}, {} in all", frame.touches.len(), force(frame.wall_force_n));
+    let touches = format!("{}, {} in all", frame.contacts, force(frame.wall_force_n));
     number(ui, "Contacts", &touches, "Places where the wire lies against the wall, and the sum of their forces");
     number(ui, "Force at the tip", &force(frame.tip_force_n), "On the wall within 5 mm of the tip");
     number(
@@ -89,7 +89,8 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
         &format!("{}, {branch}", frame.branch + 1),
         "The branch of the vessel tree that the tip is in",
     );
-    let steps = format!("{:.0} a second", frame.steps_per_second);
+    let speed = frame.steps_per_second;
+    let steps = if speed > 0.0 { format!("{speed:.0} a second") } else { "-".to_owned() };
     number(ui, "Steps", &steps, "What this machine can do; 500 a second keep up with time");
 }
 

@@ -137,6 +137,13 @@ fn id_of_start(commands: &[TrialCommand]) -> u64 {
     }
 }
 
+/// Chooses another target, to which a trial starts.
+fn retarget(harness: &mut App) {
+    choose(harness, "Target");
+    harness.get_by_label("Right renal").click();
+    harness.run_steps(3);
+}
+
 /// The app with a trial on.
 fn on(size: [f32; 2]) -> (App, Rc<RefCell<Memory>>) {
     let (mut harness, memory) = app(size);
@@ -326,9 +333,7 @@ fn a_hand_on_the_wire_takes_it_from_the_autopilot() {
 #[test]
 fn what_is_refused_is_said_and_what_stood_stands() {
     let (mut harness, memory) = on(DESKTOP);
-    choose(&mut harness, "Target");
-    harness.get_by_label("Right renal").click();
-    harness.run_steps(3);
+    retarget(&mut harness);
     let commands = asked(&memory);
     let Some(TrialCommand::Start { id, setup, .. }) = commands.first() else { panic!("{commands:?}") };
     assert_eq!(setup.target, Some([1.0, 2.0, 3.0]));
@@ -367,9 +372,7 @@ fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_tri
 #[test]
 fn of_two_starts_the_first_goes_on_where_the_second_is_refused() {
     let (mut harness, memory) = on(DESKTOP);
-    choose(&mut harness, "Target");
-    harness.get_by_label("Right renal").click();
-    harness.run_steps(3);
+    retarget(&mut harness);
     let second = id_of_start(&asked(&memory));
     harness.key_press(Key::R);
     harness.run_steps(3);
@@ -392,9 +395,7 @@ fn of_two_starts_the_first_goes_on_where_the_second_is_refused() {
 fn a_level_that_is_no_longer_wanted_is_not_awaited() {
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Restart");
-    choose(&mut harness, "Target");
-    harness.get_by_label("Right renal").click();
-    harness.run_steps(3);
+    retarget(&mut harness);
     let id = id_of_start(&asked(&memory));
     tell(&mut harness, &memory, [refused(id, "The lumen is too thin.", true)]);
     memory.borrow_mut().runs = false;
