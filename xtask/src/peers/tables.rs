@@ -227,7 +227,8 @@ fn waited_for(surface: &Surface) -> String {
 
 /// Smoothing and normals beside VTK as it is in JavaScript.
 fn beside_vtkjs(surface: &Surface) -> String {
-    let mut text = String::from("\n| in JavaScript's engine | vtk.js ms | Lumen in the browser ms | ratio |\n|---|---|---|---|\n");
+    let mut text =
+        String::from("\n| in JavaScript's engine | vtk.js ms | Lumen in the browser ms | ratio |\n|---|---|---|---|\n");
     let rows = [
         ("smoothing, 30 iterations", "smoothing30", &["adjacency", "smoothing30"][..]),
         ("smoothing, 60 iterations", "smoothing60", &["adjacency", "smoothing60"]),

@@ -59,8 +59,7 @@ fn sample() -> Value {
     for (key, time) in [("vtk.paper.smoothing100", 72.0), ("vtk.paper.pro90", 130.0)] {
         add(key.to_owned(), time);
     }
-    for (stage, time) in
-        [("smoothing30", 1000.0), ("smoothing60", 1500.0), ("smoothing100", 2600.0), ("normals", 60.0)]
+    for (stage, time) in [("smoothing30", 1000.0), ("smoothing60", 1500.0), ("smoothing100", 2600.0), ("normals", 60.0)]
     {
         add(format!("vtkjs.{stage}"), time);
     }
