@@ -6,7 +6,7 @@ use crate::engine::{Opened, Reduced, Source};
 use crate::io::ImportReport;
 use crate::mesh::{Bounds, TriMesh};
 use crate::pipeline::connectivity::Component;
-use crate::pipeline::lumen::Pinch;
+use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Target};
