@@ -6,7 +6,7 @@ use crate::engine::{Opened, Reduced, Source};
 use crate::io::ImportReport;
 use crate::mesh::{Bounds, TriMesh};
 use crate::pipeline::connectivity::Component;
-use crate::pipeline::lumen::Pinch;
+use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Target};
@@ -49,7 +49,7 @@ pub struct Measured {
     pub generation: u64,
     /// All numbers.
     pub report: Report,
-    /// For each node, how far the vertices that it stands for are from the level, in mm; empty until it is known.
+    /// For each node of the level, the mean deviation around it, in mm; empty until it is known.
     pub deviation: Vec<f32>,
 }
 
@@ -197,8 +197,7 @@ impl Document {
         }
     }
 
-    /// For each node, how far the vertices that it stands for are from the level, in mm, if it is known for the level
-    /// that is shown.
+    /// For each node of the level that is shown, the mean deviation around it in mm, if it is known.
     pub fn deviation_by_node(&self) -> Option<&[f32]> {
         let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
         let is_of_shown = measured.report.output.triangles == shown.level.triangles.len();

@@ -187,8 +187,7 @@ pub enum Event {
         complete: bool,
         /// The numbers.
         report: Box<Report>,
-        /// For each node, the largest distance from the level, in mm, of the vertices that it stands for; empty until
-        /// `complete`.
+        /// For each node of the level, the mean deviation around it, in mm; empty until `complete`.
         deviation: Vec<f32>,
     },
     /// The work was stopped; these settings, and their results, are in force.

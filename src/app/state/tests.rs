@@ -7,7 +7,7 @@ use super::State;
 use crate::engine::{Command, Engine, Event, Link};
 use crate::io::Format;
 use crate::phantom::{self, Sample};
-use crate::pipeline::lumen::Pinch;
+use crate::pipeline::pinch::Pinch;
 use crate::pipeline::settings::{Keep, Target};
 
 /// A line on which commands lie until the next slice.
