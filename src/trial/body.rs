@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::contact::Contacts;
 use super::descent::{Descent, Springs, descend};
+use super::report::StepKind;
 use super::rod::{Hessian, Rod};
 use super::wall::Wall;
 
@@ -33,23 +34,10 @@ const HARDER: f64 = 4.0;
 const ATTEMPTS: usize = 12;
 /// The brake above which what is held waits: else it would be torn away from what cannot follow.
 const PATIENCE: f64 = 1e-5;
-/// Moves of less than this in a step are stillness, in mm.
-const STILL: f64 = 0.005;
-/// What a contact's force can rise by while the rod is braked, in N: the rest is what the brake does.
-const BRAKED_RISE: f64 = 0.005;
-
-/// What came of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stepped {
-    /// All is well.
-    Done,
-    /// The rod had to be braked: something snapped.
-    Braked,
-    /// It had to be braked so hard that what is held waited.
-    Waited,
-    /// There was no way: the rod is where it was.
-    Held,
-}
+/// Slower than this is stillness, in mm/s.
+const STILL: f64 = 2.5;
+/// What a contact's force can rise by while the rod is braked, in N/s: the rest is what the brake does.
+const BRAKED_RISE: f64 = 2.5;
 
 /// A rod, its contacts, and the wall.
 #[derive(Clone, Debug)]
@@ -101,20 +89,17 @@ impl Body {
 
     /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is held where it
     /// should be at the end of the step; while something snaps it may have to wait where it is.
-    pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
-        let friction = self.contacts.friction;
-        if self.is_stuck {
-            // There was no way: what friction and forces have wound up comes loose.
-            self.contacts.friction = [0.0; 2];
-        }
+    pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> StepKind {
+        // What has gone back into the guide touches nothing.
+        self.contacts.keep(count);
         self.contacts.begin();
-        let stepped = self.attempts(dt, count, prepare);
-        self.contacts.friction = friction;
-        self.is_stuck = stepped == Stepped::Held && !self.is_stuck;
-        stepped
+        let kind = self.attempts(dt, count, prepare);
+        // There was no way on: in the next step what is held waits.
+        self.is_stuck = kind == StepKind::Held && !self.is_stuck;
+        kind
     }
 
-    fn attempts(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
+    fn attempts(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> StepKind {
         let mut brake = self.brake / HARDER;
         if brake < BRAKE {
             brake = 0.0;
@@ -127,14 +112,14 @@ impl Body {
             self.rod.refresh();
             if self.try_step(dt, count, brake) {
                 let moved = (0..self.rod.len()).map(|i| self.rod.positions[i].distance(self.rod.start(i)));
-                self.is_still = moved.fold(0.0, f64::max) < STILL;
-                self.contacts.finish(&self.rod, if brake > 0.0 { BRAKED_RISE } else { f64::INFINITY });
+                self.is_still = moved.fold(0.0, f64::max) < STILL * dt;
+                self.contacts.finish(&self.rod, if brake > 0.0 { BRAKED_RISE * dt } else { f64::INFINITY });
                 self.rod.finish(dt);
                 self.brake = brake;
                 return match brake {
-                    _ if waits => Stepped::Waited,
-                    0.0 => Stepped::Done,
-                    _ => Stepped::Braked,
+                    _ if waits => StepKind::Waited,
+                    0.0 => StepKind::Balanced,
+                    _ => StepKind::Braked,
                 };
             }
             brake = (brake * HARDER).max(BRAKE);
@@ -144,7 +129,7 @@ impl Body {
         }
         self.brake = 0.0;
         self.contacts.forget();
-        Stepped::Held
+        StepKind::Held
     }
 
     fn try_step(&mut self, dt: f64, count: usize, brake: f64) -> bool {
@@ -235,13 +220,16 @@ impl Body {
 
     /// Sum over the wall of normal forces, in N, and the largest.
     pub fn pressure(&self) -> (f64, f64) {
-        self.contacts
-            .pressing()
-            .fold((0.0, 0.0), |(sum, most), (_, contact)| (sum + contact.force, contact.force.max(most)))
+        self.touches().fold((0.0, 0.0), |(sum, most), (_, _, _, force)| (sum + force, force.max(most)))
     }
 
-    /// Where the wire touches: node, place, force.
+    /// Where the wire touches the vessel: node, place, triangle, force. The fans over its open ends hold the wire, but are
+    /// no wall.
     pub fn touches(&self) -> impl Iterator<Item = (usize, DVec3, u32, f64)> {
-        self.contacts.pressing().map(|(node, contact)| (node, contact.point, contact.triangle, contact.force))
+        let is_vessel = |triangle| self.wall.as_ref().is_none_or(|wall| wall.is_vessel(triangle));
+        self.contacts
+            .pressing()
+            .filter(move |(_, contact)| is_vessel(contact.triangle))
+            .map(|(node, contact)| (node, contact.point, contact.triangle, contact.force))
     }
 }

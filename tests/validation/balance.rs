@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use lumen::trial::STEP;
-use lumen::trial::body::Stepped;
+use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
@@ -26,8 +26,8 @@ fn left_over(wire: &str, found: &mut Benchmark) -> Vec<f64> {
     while simulation.inserted() < 110.0 {
         let roll = if (simulation.steps() / 500).is_multiple_of(2) { 3.0 } else { -3.0 };
         let before = simulation.body().rod.velocities.clone();
-        let stepped = simulation.step(Input { feed: 20.0, roll });
-        assert_ne!(stepped, Stepped::Held);
+        let stepped = simulation.step(Input { feed: 20.0, roll }).kind;
+        assert_ne!(stepped, StepKind::Held);
         let body = simulation.body();
         let mut rod = body.rod.clone();
         let (first, count) = (simulation.count(), rod.len());
@@ -42,7 +42,7 @@ fn left_over(wire: &str, found: &mut Benchmark) -> Vec<f64> {
         let wall: DVec3 = body.contacts.forces(count).into_iter().sum();
         let (pressed, _) = body.pressure();
         // Where something snaps the solver adds drag of its own.
-        if pressed > 1e-4 && stepped == Stepped::Done {
+        if pressed > 1e-4 && stepped == StepKind::Balanced {
             parts.push((wall + held - taken).length() / pressed);
         }
         if simulation.steps().is_multiple_of(25) {

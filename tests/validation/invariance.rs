@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use lumen::mesh::TriMesh;
-use lumen::trial::body::Stepped;
+use lumen::trial::report::StepKind;
 use lumen::trial::rod::Rod;
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
@@ -63,7 +63,7 @@ fn fed(simulation: &mut Simulation, to: f64, feed: f32, roll: f32) -> Vec<DVec3>
     let mut tips = Vec::new();
     // While something snaps the guide waits.
     while (to - simulation.inserted()) / way > 0.5 && tips.len() < 100_000 {
-        assert_ne!(simulation.step(Input { feed, roll }), Stepped::Held);
+        assert_ne!(simulation.step(Input { feed, roll }).kind, StepKind::Held);
         tips.push(simulation.tip());
     }
     tips

@@ -4,7 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use lumen::trial::body::{Body, Stepped};
+use lumen::trial::body::Body;
+use lumen::trial::report::StepKind;
 use lumen::trial::rod::Section;
 
 use crate::benchmark::Benchmark;
@@ -48,7 +49,7 @@ fn a_pushed_wire_snakes_in_its_tube() {
     for i in 0..2000 {
         let ends = [count - 2, count - 1].map(|i| (i, body.rod.positions[i] + DVec3::NEG_X * 0.00125));
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
-        assert_ne!(stepped, Stepped::Held);
+        assert_ne!(stepped, StepKind::Held);
         if i % 40 != 39 {
             continue;
         }
@@ -104,7 +105,7 @@ fn a_snake_goes_over_into_a_helix() {
     for i in 0..1500 {
         let ends = [count - 2, count - 1].map(|i| (i, body.rod.positions[i] + DVec3::NEG_X * 0.006));
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
-        assert_ne!(stepped, Stepped::Held);
+        assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
         let push = -(count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().x / unit;
