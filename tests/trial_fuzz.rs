@@ -13,8 +13,8 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
-use lumen::trial::report::StepKind;
 use lumen::trial::course::Course;
+use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Input, Setup};
 use lumen::trial::wire::Wire;
 

@@ -228,7 +228,10 @@ fn print(summary: &Summary) {
         "balance",
         format!(
             "{:.1} % of the steps are not balanced ({} braked, {} waited, {} held); forces are those of the others",
-            100.0 * summary.unbalanced_share, kinds.braked, kinds.waited, kinds.held
+            100.0 * summary.unbalanced_share,
+            kinds.braked,
+            kinds.waited,
+            kinds.held
         ),
     );
     row("feed", format!("{:.1} mm of {:.1} mm asked for, there and back", summary.fed_mm, summary.wanted_feed_mm));

@@ -242,7 +242,9 @@ mod tests {
             assert!(text.contains("is chance"), "{text}");
         }
         assert!(said([false, true], [1.0, 0.5], [3, 1]).contains("with 2 of 4 orders"));
-        assert!(said([false, true], [1.0, 0.5], [3, 3]).contains("does not arrive, and on the unreduced surface it does"));
+        assert!(
+            said([false, true], [1.0, 0.5], [3, 3]).contains("does not arrive, and on the unreduced surface it does")
+        );
         assert!(said([false, false], [1.0, 0.5], [3, 0]).starts_with("This wire arrives on neither"));
         assert!(!said([true, true], [1.0, 0.0], [0, 0]).contains("itself"), "what was not tried is not said");
     }

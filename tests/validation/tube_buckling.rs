@@ -9,7 +9,7 @@ use lumen::trial::report::StepKind;
 use lumen::trial::rod::Section;
 
 use crate::benchmark::Benchmark;
-use crate::benchmark::Tolerance::{Band, Part};
+use crate::benchmark::Tolerance::{Missed, Part};
 use crate::friction::{RADIUS, STEP, TUBE, threaded};
 use crate::tubes::{curve, tube};
 
@@ -21,10 +21,10 @@ const EI: f64 = 1.0;
 /// By how much the load of a snake grows with the square of the angle to which it goes up the wall, over √(EI w/r): of the
 /// energies of `angle sin(k s)` on a cylinder, bending `EI r² (θ''² + θ'⁴) / 2` and weight `w r (1 - cos θ)`, to the
 /// fourth order, at the wave of the onset, `k⁴ = w / (EI r)`.
-const GROWTH: f64 = 1.375;
+pub(crate) const GROWTH: f64 = 1.375;
 
 /// A little to the side, never the same, so that every way of buckling is begun.
-fn uneven(i: usize) -> f64 {
+pub(crate) fn uneven(i: usize) -> f64 {
     let mut state = i as u32 ^ 0x9e37_79b9;
     for _ in 0..3 {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -122,9 +122,11 @@ fn a_snake_goes_over_into_a_helix() {
         }
     }
     assert!(round(&body) > PI, "no helix");
-    // From here on a helix is the lighter, and above twice of it a snake cannot be (Wicks, Wardle and Pafitis 2008).
+    // From here on a helix is the lighter, and above twice of it a snake cannot be (Wicks, Wardle and Pafitis 2008). The
+    // band of the notes (`guidewire.md`) goes from there to what was tried; this wire winds later, and is said to.
     let least = 8f64.sqrt();
-    found.compare("load at which it winds over √(EI w/r)", 1.3 * least, onset, Band(2.83, 5.66), 192);
+    let missed = Missed { least: 2.83, most: 3.66, found: [3.66, 4.1] };
+    found.compare("load at which it winds over √(EI w/r)", 1.3 * least, onset, missed, 192);
     found.mark("helix is the lighter", least, 1.0);
     found.mark("Wu and Juvkam-Wold", 1.3 * least, 1.0);
     found.mark("no snake can be", 2.0 * least, 1.0);
