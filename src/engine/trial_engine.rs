@@ -10,8 +10,8 @@ use super::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialR
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::trial::STEP;
+use crate::trial::compare::{Noise, SHUFFLES};
 use crate::trial::course::{Course, TrialError};
-use crate::trial::felt::Felt;
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
 use crate::trial::route::RouteError;
@@ -36,10 +36,35 @@ struct Job {
     told: Instant,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
 enum JobKind {
     Measure,
-    Compare,
+    Compare(Comparing),
+}
+
+/// A comparison: the trial runs on the unreduced surface, then on the same in other orders.
+struct Comparing {
+    mesh: Arc<TriMesh>,
+    /// The run on the surface as it is, once it is over.
+    original: Option<Box<Trial>>,
+    noise: Noise,
+    /// Orders that were tried.
+    orders: u64,
+}
+
+impl Job {
+    /// The part that is done.
+    fn fraction(&self) -> f32 {
+        let steps = self.trial.simulation().steps() as f64;
+        let all = self.trial.replayed_steps().map_or(self.trial.limit_s() / STEP, |all| all as f64);
+        let part = steps / all.max(1.0);
+        match &self.kind {
+            JobKind::Measure => part as f32,
+            JobKind::Compare(comparing) => {
+                let before = comparing.orders + u64::from(comparing.original.is_some());
+                ((before as f64 + part) / (SHUFFLES + 1) as f64) as f32
+            }
+        }
+    }
 }
 
 /// The trial that is shown.
@@ -47,8 +72,6 @@ struct Shown {
     /// That of the command which began what is shown now.
     id: u64,
     trial: Box<Trial>,
-    /// Of every step.
-    felt: Felt,
     /// Whether a hand, the autopilot or a log has moved the wire yet: until then it lies at its entry, and its time does
     /// not run.
     has_begun: bool,
@@ -71,7 +94,6 @@ impl Shown {
         Self {
             id,
             trial: Box::new(trial),
-            felt: Felt::default(),
             has_begun: false,
             is_paused: false,
             pace: 1.0,
@@ -138,16 +160,22 @@ impl TrialEngine {
                     _ => self.fail(NO_TRIAL),
                 },
                 Some(mut shown) => {
-                    if let TrialCommand::Restart { id }
-                    | TrialCommand::StepBack { id }
-                    | TrialCommand::Replay { id, .. } = other
-                    {
+                    let begun = match &other {
+                        TrialCommand::Restart { id }
+                        | TrialCommand::StepBack { id }
+                        | TrialCommand::Replay { id, .. } => Some(*id),
+                        _ => None,
+                    };
+                    if let Some(id) = begun {
                         // Whether or not it can be done: the frames that follow are those after it.
                         shown.id = id;
-                        shown.felt.tell_again();
                         self.drop_comparisons();
                     }
                     self.handle_shown(other, &mut shown);
+                    if begun.is_some() {
+                        // What the wall has felt up to where the wire is now, to whoever has forgotten all.
+                        shown.trial.felt_mut().tell_again();
+                    }
                     shown.needs_frame = true;
                     self.shown = Some(shown);
                 }
@@ -187,7 +215,11 @@ impl TrialEngine {
                     self.fail(&message);
                 }
             }
-            TrialCommand::Compare { id, mesh } => self.add_job(id, trial.on(&mesh), JobKind::Compare),
+            TrialCommand::Compare { id, mesh } => {
+                let job = trial.on(&mesh);
+                let comparing = Comparing { mesh, original: None, noise: Noise::default(), orders: 0 };
+                self.add_job(id, job, JobKind::Compare(comparing));
+            }
             TrialCommand::Start { .. }
             | TrialCommand::Measure { .. }
             | TrialCommand::Cancel { .. }
@@ -197,7 +229,7 @@ impl TrialEngine {
 
     /// Gives up comparing a trial that is no longer what it was.
     fn drop_comparisons(&mut self) {
-        self.jobs.retain(|job| job.kind != JobKind::Compare);
+        self.jobs.retain(|job| matches!(job.kind, JobKind::Measure));
     }
 
     fn fail(&mut self, message: &str) {
@@ -228,7 +260,7 @@ impl TrialEngine {
     fn add_job(&mut self, id: u64, trial: Result<Trial, TrialError>, kind: JobKind) {
         match trial {
             Ok(mut trial) => {
-                if kind == JobKind::Measure {
+                if matches!(kind, JobKind::Measure) {
                     trial.set_autopilot(true);
                 }
                 self.jobs.push_back(Job { id, trial: Box::new(trial), kind, told: Instant::now() });
@@ -271,7 +303,7 @@ impl TrialEngine {
         if shown.needs_frame || is_end || now_s - shown.framed >= FRAME && !shown.stands() {
             shown.framed = now_s;
             shown.needs_frame = false;
-            let touches = shown.felt.news();
+            let touches = shown.trial.felt_mut().news();
             if !touches.is_empty() {
                 self.events.push_back(TrialEvent::Felt { id: shown.id, touches });
             }
@@ -306,22 +338,47 @@ impl TrialEngine {
         if job.trial.progress() == Progress::Running {
             if job.told.elapsed().as_secs_f64() > TELL {
                 job.told = Instant::now();
-                let steps = job.trial.simulation().steps() as f64;
-                let all = job.trial.replayed_steps().map_or(job.trial.limit_s() / STEP, |all| all as f64);
-                self.events.push_back(TrialEvent::Busy { id: job.id, fraction: (steps / all.max(1.0)) as f32 });
+                self.events.push_back(TrialEvent::Busy { id: job.id, fraction: job.fraction() });
             }
             return;
         }
-        let Some(Job { id, trial, kind, .. }) = self.jobs.pop_front() else { return };
-        let event = match (kind, &self.shown) {
-            (JobKind::Measure, _) => TrialEvent::Measured { id, summary: Box::new(trial.summary()) },
-            (JobKind::Compare, Some(shown)) => {
-                let comparison = Box::new(TrialComparison::new(&shown.trial, &trial));
-                TrialEvent::Compared { id, comparison }
+        let Some(Job { id, trial, kind, told }) = self.jobs.pop_front() else { return };
+        match (kind, &self.shown) {
+            (JobKind::Measure, _) => {
+                self.events.push_back(TrialEvent::Measured { id, summary: Box::new(trial.summary()) });
             }
-            (JobKind::Compare, None) => return,
-        };
-        self.events.push_back(event);
+            (JobKind::Compare(mut comparing), Some(shown)) => {
+                if let Some(comparison) = comparing.ran(trial, &shown.trial) {
+                    self.events.push_back(TrialEvent::Compared { id, comparison: Box::new(comparison) });
+                    return;
+                }
+                match shown.trial.on_shuffled(&comparing.mesh, comparing.orders + 1) {
+                    Ok(trial) => self.jobs.push_front(Job {
+                        id,
+                        trial: Box::new(trial),
+                        kind: JobKind::Compare(comparing),
+                        told,
+                    }),
+                    Err(error) => self.refuse_for(id, &error),
+                }
+            }
+            (JobKind::Compare(_), None) => {}
+        }
+    }
+}
+
+impl Comparing {
+    /// Takes in a run that is over. Returns what comes of all of them, once none is left to be made.
+    fn ran(&mut self, trial: Box<Trial>, shown: &Trial) -> Option<TrialComparison> {
+        match &self.original {
+            None => self.original = Some(trial),
+            Some(original) => {
+                self.noise.take(original, &trial);
+                self.orders += 1;
+            }
+        }
+        let original = self.original.as_ref().filter(|_| self.orders == SHUFFLES)?;
+        Some(TrialComparison::new(shown, original, &self.noise))
     }
 }
 
@@ -335,7 +392,6 @@ fn run(shown: &mut Shown, passed: f64, slice: Duration) {
     let mut steps = 0;
     while shown.owed >= STEP && start.elapsed() < slice && shown.trial.progress() == Progress::Running {
         shown.trial.step();
-        shown.felt.take(shown.trial.touches());
         shown.owed -= STEP;
         steps += 1;
     }
