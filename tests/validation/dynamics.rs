@@ -153,7 +153,7 @@ fn the_length_of_a_step_hardly_matters() {
         let (ours, at) = way(ms / 1e3, &wall);
         found.compare(&format!("wall force in steps of {ms} ms (N)"), wall_n, ours[0], Part(0.01), 0);
         // What comes to the wall anew is held by no friction in its first step.
-        found.compare(&format!("push in steps of {ms} ms (N)"), push, ours[1], Part(0.015 * ms.max(2.0)), 0);
+        found.compare(&format!("push in steps of {ms} ms (N)"), push, ours[1], Part(0.02 * ms.max(2.0)), 0);
         found.compare(&format!("torque in steps of {ms} ms (N mm)"), torque, ours[2], Part(0.02), 0);
         found.compare(&format!("tip in steps of {ms} ms (mm)"), 0.0, at.distance(tip), Within(0.1), 0);
     }

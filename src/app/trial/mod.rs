@@ -117,8 +117,10 @@ pub struct Trial {
     compared: u64,
     /// A log to be replayed once the wire is in.
     log: Option<Arc<Vec<u8>>>,
-    /// Counts up with every trial and every beginning: forces that were felt before are forgotten.
+    /// Counts up with every trial, every beginning and every step back: forces that were felt before are forgotten.
     runs: u64,
+    /// Counts up whenever the wire is another than before: a beginning has a step of the same number.
+    pictures: u64,
     /// The name of the surface.
     name: String,
 }
@@ -227,6 +229,7 @@ impl Trial {
                 self.is_paused = true;
                 self.summary = None;
                 self.comparing = None;
+                self.forget_forces();
                 link.send(TrialCommand::StepBack { id: self.next_begun() });
             }
             Ask::Save => link.send(TrialCommand::Save),
@@ -326,15 +329,22 @@ impl Trial {
 
     fn begin_again(&mut self) {
         (self.summary, self.comparison, self.comparing) = (None, None, None);
+        // The wire of before is not that at the entry.
         if let Some(frame) = &mut self.frame {
-            (frame.progress, frame.step, frame.time_s) = (Progress::Running, 0, 0.0);
+            *frame = Frame::default();
+            self.pictures += 1;
         }
-        self.felt.clear();
-        self.runs += 1;
-        self.peaks = readout::Largest::default();
+        self.forget_forces();
         self.carm.reset();
         (self.autopilot, self.is_paused) = (false, false);
         self.driven = Input::default();
+    }
+
+    /// Forgets what the wall has felt; the engine tells what there was up to where it goes on from.
+    fn forget_forces(&mut self) {
+        self.felt.clear();
+        self.runs += 1;
+        self.peaks = readout::Largest::default();
     }
 
     fn set_autopilot(&mut self, on: bool, link: &mut TrialLink) {
@@ -354,8 +364,8 @@ impl Trial {
 
     fn forget(&mut self) {
         let (setup, tables, number) = (std::mem::take(&mut self.setup), std::mem::take(&mut self.tables), self.number);
-        let (name, runs) = (std::mem::take(&mut self.name), self.runs + 1);
-        *self = Self { setup, tables, number, name, runs, ..Self::default() };
+        let (name, runs, pictures) = (std::mem::take(&mut self.name), self.runs + 1, self.pictures + 1);
+        *self = Self { setup, tables, number, name, runs, pictures, ..Self::default() };
     }
 
     /// Sends what the hand does, where it has changed. A hand on the wire takes it from the autopilot.
@@ -424,6 +434,7 @@ impl Trial {
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
             TrialEvent::Frame { id, frame } if id == self.begun => {
                 self.peaks.take(&frame);
+                self.pictures += u64::from(self.frame.as_ref().is_none_or(|before| before.nodes != frame.nodes));
                 self.frame = Some(*frame);
             }
             TrialEvent::Felt { id, touches } if id == self.begun => {
