@@ -434,7 +434,8 @@ impl Trial {
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
             TrialEvent::Frame { id, frame } if id == self.begun => {
                 self.peaks.take(&frame);
-                self.pictures += u64::from(self.frame.as_ref().is_none_or(|before| before.nodes != frame.nodes));
+                let is_as_before = |before: &Frame| (before.step, &before.nodes) == (frame.step, &frame.nodes);
+                self.pictures += u64::from(!self.frame.as_ref().is_some_and(is_as_before));
                 self.frame = Some(*frame);
             }
             TrialEvent::Felt { id, touches } if id == self.begun => {
