@@ -126,7 +126,7 @@ fn what_is_shown_comes_from_balanced_steps_and_the_share_of_others_is_told() {
     let table: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
     let columns = table[0].split(',').count();
     assert!(table.iter().all(|line| line.split(',').count() == columns));
-    assert!(table[0].ends_with("balanced,braked,waited,held,wanted_mm,fed_mm,residual_n"));
+    assert!(table[0].ends_with("balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n"));
     // Logs of the schema before it can be replayed.
     let older = csv.replace("log, schema 2", "log, schema 1");
     assert_eq!(Log::read(older.as_bytes()).unwrap().steps, summary.steps);
@@ -135,22 +135,23 @@ fn what_is_shown_comes_from_balanced_steps_and_the_share_of_others_is_told() {
 #[test]
 fn a_wire_of_the_shortest_elements_is_withdrawn_as_fast_as_it_goes() {
     let wall = Arc::new(Wall::open(Arc::new(straight(40.0, 0.4))));
-    let wire = Wire { elements_mm: [0.05; 2], length_mm: 60.0, ..Wire::preset("workhorse").unwrap() };
-    let mut simulation = Simulation::new(&wire, wire.friction, &AT, 0.0, Some(wall)).unwrap();
-    let fed = |simulation: &mut Simulation, feed: f32, steps: u32| {
+    let wire = Wire { elements_mm: [0.05; 2], length_mm: 60.0, bend_degrees: 0.0, tip_ei: 2.0, ..Wire::default() };
+    // Along the wall: the nodes at the guide are contacts.
+    let entry = Entry { at: [4.0, -0.2, 0.0], ..AT };
+    let mut simulation = Simulation::new(&wire, wire.friction, &entry, 0.0, Some(wall)).unwrap();
+    let fed = |simulation: &mut Simulation, dt: f64, feed: f32, steps: u32| {
         for _ in 0..steps {
-            simulation.step(Input { feed, roll: 4.0 });
+            simulation.step_by(dt, Input { feed, roll: 0.0 });
         }
     };
-    fed(&mut simulation, 50.0, 120);
-    let touches = simulation.body().touches().count();
-    assert!(simulation.inserted() > 6.0 && touches > 2, "{} mm, {touches} touches", simulation.inserted());
-    fed(&mut simulation, -50.0, 130);
-    assert!(simulation.inserted() < 1.0, "{} mm", simulation.inserted());
-    // And steps of twice the length, in which four elements go.
-    for feed in [50.0, -50.0] {
-        (0..50).for_each(|_| _ = simulation.step_by(0.004, Input { feed, roll: 0.0 }));
-    }
+    fed(&mut simulation, 0.002, 20.0, 150);
+    let near = simulation.body().contacts.near().count();
+    assert!(simulation.inserted() > 4.0 && near > 20, "{} mm, {near} contacts", simulation.inserted());
+    fed(&mut simulation, 0.002, -50.0, 50);
+    assert!(simulation.inserted() < 1.5, "{} mm", simulation.inserted());
+    // And in steps of twice the length, in which four elements go.
+    fed(&mut simulation, 0.004, 50.0, 20);
+    fed(&mut simulation, 0.004, -50.0, 20);
     assert!(simulation.tip().is_finite());
 }
 

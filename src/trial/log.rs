@@ -15,7 +15,7 @@ use super::setup::{Input, Setup};
 /// The columns.
 const COLUMNS: &str = "step,time_s,feed_mm_s,roll_rad_s,inserted_mm,roll_rad,tip_x,tip_y,tip_z,tip_dx,tip_dy,tip_dz,\
 arc_mm,branch,off_route,target_mm,path_ratio,contacts,wall_force_n,max_wall_force_n,max_x,max_y,max_z,tip_force_n,\
-push_n,torque_n_mm,retractions,wrong_branches,step_ms,balanced,braked,waited,held,wanted_mm,fed_mm,residual_n";
+push_n,torque_n_mm,retractions,wrong_branches,step_ms,balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n";
 
 /// The oldest schema whose input can be read.
 const OLDEST: u32 = 1;
@@ -222,6 +222,7 @@ impl Row {
             self.wrong_branches.to_string(),
             fixed(self.step_ms, 4),
             self.since.counts.balanced.to_string(),
+            self.since.counts.unsettled.to_string(),
             self.since.counts.braked.to_string(),
             self.since.counts.waited.to_string(),
             self.since.counts.held.to_string(),

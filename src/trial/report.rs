@@ -1,7 +1,8 @@
 //! What a step tells of itself: of which kind it was, what was fed of what was wanted, and what it left over.
 //!
 //! A step that is balanced has found forces that hold each other. Where something snaps the solver adds drag of its own,
-//! lets forces rise by so much in a second only, or lets the guide wait: what is felt then is partly that. So the forces
+//! lets forces rise by so much in a second only, or lets the guide wait: what is felt then is partly that; and now and then
+//! its corrections end before the forces have settled. So the forces
 //! that are shown, logged and summed up are those of balanced steps, and the share of the others stands beside them.
 
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,8 @@ pub enum StepKind {
     /// Its forces are in balance.
     #[default]
     Balanced,
+    /// Nothing was braked, but its corrections ended before its forces were in balance.
+    Unsettled,
     /// The rod had to be braked: something snapped.
     Braked,
     /// It had to be braked so hard that what is held waited: nothing was fed or rolled.
@@ -47,6 +50,8 @@ pub struct StepReport {
 pub struct StepCounts {
     /// In balance.
     pub balanced: u64,
+    /// Not braked, and not in balance.
+    pub unsettled: u64,
     /// Braked.
     pub braked: u64,
     /// Braked, with the guide waiting.
@@ -60,6 +65,7 @@ impl StepCounts {
     pub fn count(&mut self, kind: StepKind) {
         *match kind {
             StepKind::Balanced => &mut self.balanced,
+            StepKind::Unsettled => &mut self.unsettled,
             StepKind::Braked => &mut self.braked,
             StepKind::Waited => &mut self.waited,
             StepKind::Held => &mut self.held,
@@ -68,7 +74,7 @@ impl StepCounts {
 
     /// All of them.
     pub fn all(&self) -> u64 {
-        self.balanced + self.braked + self.waited + self.held
+        self.balanced + self.unsettled + self.braked + self.waited + self.held
     }
 
     /// The part of them that was not in balance, 0 to 1.
@@ -81,6 +87,7 @@ impl StepCounts {
     pub fn since(&self, before: &Self) -> Self {
         Self {
             balanced: self.balanced - before.balanced,
+            unsettled: self.unsettled - before.unsettled,
             braked: self.braked - before.braked,
             waited: self.waited - before.waited,
             held: self.held - before.held,
@@ -96,10 +103,11 @@ mod tests {
     fn kinds_are_counted_apart() {
         let mut counts = StepCounts::default();
         assert_eq!(counts.unbalanced_share(), 0.0);
-        let kinds = [StepKind::Balanced, StepKind::Braked, StepKind::Waited, StepKind::Held, StepKind::Held];
+        use StepKind::{Balanced, Braked, Held, Unsettled, Waited};
+        let kinds = [Balanced, Braked, Waited, Held, Held, Unsettled, Unsettled, Balanced];
         kinds.into_iter().for_each(|kind| counts.count(kind));
-        assert_eq!(counts, StepCounts { balanced: 1, braked: 1, waited: 1, held: 2 });
-        assert_eq!((counts.all(), counts.unbalanced_share()), (5, 0.8));
+        assert_eq!(counts, StepCounts { balanced: 2, unsettled: 2, braked: 1, waited: 1, held: 2 });
+        assert_eq!((counts.all(), counts.unbalanced_share()), (8, 0.75));
         let before = counts;
         counts.count(StepKind::Waited);
         assert_eq!(counts.since(&before), StepCounts { waited: 1, ..StepCounts::default() });

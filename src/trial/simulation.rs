@@ -21,6 +21,9 @@ use super::wire::{Wire, WireError};
 const FIRST: usize = 2;
 /// The least part of an element that a cell has: what is still inside the guide hardly bends.
 const LEAST_CELL: f64 = 0.02;
+/// A step is balanced where Newton's second law is missed by less than this part of all that presses on the wall and the
+/// guide, and by less than this many N where nothing does.
+const SETTLED: (f64, f64) = (0.05, 1e-5);
 /// The largest load in N/mm; a setup has loads in f32.
 const MOST_LOAD: f32 = 0.1;
 
@@ -224,13 +227,16 @@ impl Simulation {
             self.roll += turn;
         }
         let (hold, about) = self.hold();
+        let residual_n = self.residual(hold, before_step, dt).length();
+        let pressed: f64 = self.body.contacts.pressing().map(|(_, contact)| contact.force).sum();
+        let is_settled = residual_n <= SETTLED.0 * (pressed + hold.length()) + SETTLED.1;
         self.report = StepReport {
-            kind,
+            kind: if kind == StepKind::Balanced && !is_settled { StepKind::Unsettled } else { kind },
             wanted_mm,
             fed_mm: self.inserted - before,
             wanted_rad: turn,
             rolled_rad: if waits { 0.0 } else { turn },
-            residual_n: self.residual(hold, before_step, dt).length(),
+            residual_n,
             push_n: hold.dot(self.way),
             torque_n_mm: about,
         };

@@ -54,10 +54,10 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
   assert(summary.tip_distance_mm <= 2, `${summary.tip_distance_mm} mm from the target`);
   assert.match(summary.notice, /clinical/i);
   t.diagnostic(`${Math.round(summary.steps_per_second)} steps a second in the Worker`);
-  // What a step is, however fast the machine: 2 ms, of one of four kinds.
+  // What a step is, however fast the machine: 2 ms, of one of five kinds.
   assert(Math.abs(summary.time_s - summary.steps * 0.002) < 1e-6, `${summary.time_s} s of ${summary.steps} steps`);
   const kinds = summary.step_kinds;
-  assert.equal(kinds.balanced + kinds.braked + kinds.waited + kinds.held, summary.steps);
+  assert.equal(kinds.balanced + kinds.unsettled + kinds.braked + kinds.waited + kinds.held, summary.steps);
   assert(summary.unbalanced_share < 0.5, `${summary.unbalanced_share} of the steps are not balanced`);
   const lines = files.csv.trim().split("\n").filter((line) => !line.startsWith("#"));
   assert.match(lines[0], /time_s/);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use lumen::trial::body::Body;
 use lumen::trial::report::StepKind;
-use lumen::trial::rod::{Rod, Section};
+use lumen::trial::rod::{Hessian, Rod, Section};
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
@@ -120,6 +120,32 @@ fn a_free_bar_moves_as_newton_has_it() {
     found.finish();
 }
 
+#[test]
+fn a_step_leaves_next_to_nothing_over() {
+    let mut found = Benchmark::new("settled");
+    let mut most = 0.0_f64;
+    for case in 0..37 {
+        // Without inertia, what does not hold the force at its end is left over.
+        let mut body = bar(1e-18);
+        for (i, section) in body.rod.sections.iter_mut().enumerate() {
+            section.mass = 1e-20;
+            body.rod.held[i].position = i + 2 >= NODES;
+            body.rod.held[i].angle = i + 2 >= NODES;
+        }
+        let size = EI / LENGTH / LENGTH * 2e-3 * f64::from(1 + case);
+        body.rod.forces.push((0, DVec3::new(0.1, 1.0, 0.3) * size));
+        if body.step(0.002, 0, |_| ()) != StepKind::Balanced {
+            continue;
+        }
+        let mut rod = body.rod.clone();
+        rod.assemble(f64::INFINITY, 0.0, Hessian::Safe);
+        let left = (0..NODES - 2).map(|i| rod.holding_force(i).length()).fold(0.0, f64::max);
+        most = most.max(left);
+    }
+    found.compare("largest force that a step leaves over at a node (N)", 0.0, most, Within(1e-6), NODES - 1);
+    found.finish();
+}
+
 /// Means over the way of a wire into a bent vessel, in steps of this length: of the wall's forces and the push in N, and
 /// the torque in N mm; and where its tip is at the end.
 fn way(dt: f64, wall: &Arc<Wall>) -> ([f64; 3], DVec3) {
@@ -153,7 +179,7 @@ fn the_length_of_a_step_hardly_matters() {
         let (ours, at) = way(ms / 1e3, &wall);
         found.compare(&format!("wall force in steps of {ms} ms (N)"), wall_n, ours[0], Part(0.01), 0);
         // What comes to the wall anew is held by no friction in its first step.
-        found.compare(&format!("push in steps of {ms} ms (N)"), push, ours[1], Part(0.015 * ms.max(2.0)), 0);
+        found.compare(&format!("push in steps of {ms} ms (N)"), push, ours[1], Part(0.02 * ms.max(2.0)), 0);
         found.compare(&format!("torque in steps of {ms} ms (N mm)"), torque, ours[2], Part(0.02), 0);
         found.compare(&format!("tip in steps of {ms} ms (mm)"), 0.0, at.distance(tip), Within(0.1), 0);
     }

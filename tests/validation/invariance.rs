@@ -135,7 +135,7 @@ fn forces_do_not_depend_on_the_order_of_triangles() {
     found.compare("largest distance of the tip in five other orders (mm)", 0.0, tip, Within(0.01), 0);
     for (what, off) in ["wall force", "push"].iter().zip(off) {
         let what = format!("root mean square of the difference over the mean in the worst of five orders: {what}");
-        found.compare(&what, 0.0, off, Within(0.02), 0);
+        found.compare(&what, 0.0, off, Within(0.002), 0);
     }
     found.finish();
 }

@@ -12,7 +12,7 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 26] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 35] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -47,6 +47,15 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 26] = [
     ("return", "The tip on its way in and out", ["x, mm", "y, mm"], false),
     ("balance", "Wall force while a wire is steered", ["time, s", "sum over the wall, mN"], false),
     ("refinement", "Wall force on the way into a bend", ["length fed in, mm", "sum over the wall, mN"], false),
+    ("orders", "A vessel in five other orders", ["", ""], false),
+    ("free-bar", "A free bar swings", ["time over the period", "bow, mm"], false),
+    ("settled", "A force at a tip", ["", ""], false),
+    ("step-size", "Steps of other lengths", ["", ""], false),
+    ("readout-weight", "A wire that hangs along itself", ["", ""], false),
+    ("readout-bend", "Pull and push through half a turn, as told", ["coefficient of friction", "over that at the tip"], false),
+    ("readout-snaking", "Snaking, as told", ["push over √(EI w/r)", "angle up the wall, rad"], false),
+    ("readout-whip", "Torque of a bent wire in a bent tube, as told", ["turn at the guide, degrees", "torque, N mm"], false),
+    ("readout-mouth", "Deflection as it is fed", ["length outside the guide, mm", "deflection, mm"], false),
     ("turned", "A loaded rod that is turned", ["", ""], false),
     ("vessel", "A vessel in another order, and turned", ["", ""], false),
 ];

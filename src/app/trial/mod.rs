@@ -107,7 +107,8 @@ pub struct Trial {
     told_s: f64,
     /// The wire at its entry: what a restart shows until the engine has answered.
     at_entry: Option<Frame>,
-    /// Counts up with every frame in which the wire is another than in the one before.
+    /// Counts up with every frame in which the wire is another than in the one before: a beginning has a step of the same
+    /// number.
     pictures: u64,
     /// The surface of the trial, once it is on.
     subject: Option<Subject>,
@@ -123,7 +124,7 @@ pub struct Trial {
     compared: u64,
     /// A log to be replayed once the wire is in.
     log: Option<Arc<Vec<u8>>>,
-    /// Counts up with every trial and every beginning: forces that were felt before are forgotten.
+    /// Counts up with every trial, every beginning and every step back: forces that were felt before are forgotten.
     runs: u64,
     /// The name of the surface.
     name: String,
@@ -372,8 +373,8 @@ impl Trial {
 
     fn forget(&mut self) {
         let (setup, tables, number) = (std::mem::take(&mut self.setup), std::mem::take(&mut self.tables), self.number);
-        let (name, runs) = (std::mem::take(&mut self.name), self.runs + 1);
-        *self = Self { setup, tables, number, name, runs, ..Self::default() };
+        let (name, runs, pictures) = (std::mem::take(&mut self.name), self.runs + 1, self.pictures + 1);
+        *self = Self { setup, tables, number, name, runs, pictures, ..Self::default() };
     }
 
     /// Another surface was opened: what was begun or chosen in the one before is no more.

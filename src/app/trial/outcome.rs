@@ -48,14 +48,18 @@ fn shown(ui: &mut Ui, comparison: &TrialComparison) {
     }
     let largest = comparison.deviation_mm.iter().copied().fold(0.0, f32::max);
     number(ui, "Largest deviation", &format!("{largest:.2} mm"), "Between the two tips at the same time");
-    let points: PlotPoints<'_> = comparison
-        .inserted_mm
-        .iter()
-        .zip(&comparison.deviation_mm)
-        .map(|(&inserted, &deviation)| [f64::from(inserted) / 10.0, f64::from(deviation)])
-        .collect();
-    let colour = marks::colours(ui.visuals().dark_mode)[0];
-    ui.label(RichText::new("Deviation of the tip in mm over insertion in cm").small().weak());
+    if comparison.orders[0] > 0 {
+        let noise = comparison.noise_mm.iter().copied().fold(0.0, f32::max);
+        let help = "Between the tips on the unreduced surface and on the same with its triangles in another order: what is \
+                    less than this says nothing of the reduction";
+        number(ui, "Noise", &format!("{noise:.2} mm"), help);
+    }
+    let points = |differences: &[f32]| -> PlotPoints<'_> {
+        let along = comparison.inserted_mm.iter().zip(differences);
+        along.map(|(&inserted, &apart)| [f64::from(inserted) / 10.0, f64::from(apart)]).collect()
+    };
+    let [colour, grey] = [marks::colours(ui.visuals().dark_mode)[0], ui.visuals().weak_text_color()];
+    ui.label(RichText::new("Deviation of the tip in mm over insertion in cm; grey: noise").small().weak());
     let response = Plot::new("deviation")
         .height(120.0)
         .allow_drag(false)
@@ -64,6 +68,9 @@ fn shown(ui: &mut Ui, comparison: &TrialComparison) {
         .allow_boxed_zoom(false)
         .show_x(false)
         .include_y(0.0)
-        .show(ui, |plot| plot.line(Line::new("Deviation", points).color(colour).width(1.5)));
+        .show(ui, |plot| {
+            plot.line(Line::new("Noise", points(&comparison.noise_mm)).color(grey).width(1.0));
+            plot.line(Line::new("Deviation", points(&comparison.deviation_mm)).color(colour).width(1.5));
+        });
     name(&response.response, Role::Image, "Deviation of the tip over insertion");
 }

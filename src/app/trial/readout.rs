@@ -5,7 +5,9 @@ use egui::{Align2, Color32, FontId, RichText, Role, Sense, Stroke, Ui, WidgetInf
 use super::Trial;
 use crate::app::panel::number;
 use crate::render::{Colour, viridis};
+use crate::trial::STEP;
 use crate::trial::frame::{Frame, Progress, Touch};
+use crate::trial::report::StepKind;
 
 /// The end of a bar while forces are small, in N: a floppy wire presses with less.
 const LEAST_SCALE: f64 = 0.001;
@@ -92,6 +94,32 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let speed = frame.steps_per_second;
     let steps = if speed > 0.0 { format!("{speed:.0} a second") } else { "-".to_owned() };
     number(ui, "Steps", &steps, "What this machine can do; 500 a second keep up with time");
+    number(
+        ui,
+        "Unbalanced steps",
+        &unbalanced(frame),
+        "Where something snaps, steps are braked or the guide waits, so that their forces are not in balance: forces are \
+         those of the last step that was",
+    );
+    number(ui, "Fed", &fed(frame), "What the guide fed in the last step, of what was asked for");
+}
+
+/// The share of the steps that were not balanced, and what the last one was.
+fn unbalanced(frame: &Frame) -> String {
+    let now = match frame.report.kind {
+        StepKind::Balanced => "",
+        StepKind::Unsettled => ", now not settled",
+        StepKind::Braked => ", now braked",
+        StepKind::Waited => ", now waiting",
+        StepKind::Held => ", now held",
+    };
+    format!("{:.1} %{now}", 100.0 * frame.step_kinds.unbalanced_share())
+}
+
+/// The speed of the feed in the last step, and what was asked for where that is another.
+fn fed(frame: &Frame) -> String {
+    let [fed, wanted] = [frame.report.fed_mm, frame.report.wanted_mm].map(|mm| (10.0 * mm / STEP).round() / 10.0 + 0.0);
+    if fed == wanted { format!("{fed:.1} mm/s") } else { format!("{fed:.1} of {wanted:.1} mm/s") }
 }
 
 /// The largest forces so far, in N.
@@ -217,6 +245,22 @@ mod tests {
     #[test]
     fn a_nought_has_no_sign() {
         assert_eq!([-0.0004, 0.0, -0.2, 1.2348].map(super::thousandths), ["0.000", "0.000", "-0.200", "1.235"]);
+    }
+
+    #[test]
+    fn steps_that_are_not_balanced_and_feed_that_was_not_fed_are_told() {
+        use super::{Frame, StepKind, fed, unbalanced};
+        use crate::trial::report::{StepCounts, StepReport};
+
+        let step_kinds = StepCounts { balanced: 970, braked: 20, waited: 10, ..StepCounts::default() };
+        let told = |kind, fed_mm, wanted_mm| {
+            let report = StepReport { kind, fed_mm, wanted_mm, ..StepReport::default() };
+            let frame = Frame { report, step_kinds, ..Frame::default() };
+            [unbalanced(&frame), fed(&frame)]
+        };
+        assert_eq!(told(StepKind::Balanced, 0.04, 0.04), ["3.0 %", "20.0 mm/s"]);
+        assert_eq!(told(StepKind::Waited, 0.0, -0.04), ["3.0 %, now waiting", "0.0 of -20.0 mm/s"]);
+        assert_eq!(told(StepKind::Balanced, -0.0, 0.0), ["3.0 %", "0.0 mm/s"]);
     }
 
     #[test]

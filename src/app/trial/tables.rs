@@ -232,15 +232,16 @@ impl Row {
         cells[8] = beside(Some(yes(summary.success)), printed.map(|p| yes(p.success)));
         cells[9] = format!("{:.3}", summary.max_wall_force_n);
         cells[10] = format!("{:.3}", summary.mean_wall_force_n);
+        cells[11] = format!("{:.1}", 100.0 * summary.unbalanced_share);
         if summary.success {
-            cells[11] = format!("{:.1}", summary.time_s);
+            cells[12] = format!("{:.1}", summary.time_s);
         }
         cells
     }
 }
 
 /// Heads of the columns, and what they say.
-const COLUMNS: [(&str, &str); 12] = [
+const COLUMNS: [(&str, &str); 13] = [
     ("Rate", "The part of the triangles that was removed"),
     ("Triangles", "What was left"),
     ("Initial fps", "Frames a second in the first simulated second (the paper's)"),
@@ -250,13 +251,14 @@ const COLUMNS: [(&str, &str); 12] = [
     ("Drawing, ms", "To draw one frame of 1280x800"),
     ("Steps/s", "Steps of 2 ms that this machine computes in a second"),
     ("Success", "Whether the tip arrived (the paper's)"),
-    ("Peak force, N", "The largest wall force at one place"),
+    ("Peak force, N", "The largest wall force at one place, in the steps that are balanced"),
     ("Mean force, N", "The sum of the wall forces, mean over time"),
+    ("Unbalanced, %", "Steps whose forces were not in balance; the forces are those of the others"),
     ("Time, s", "Simulated time to the target"),
 ];
 
 /// What the columns take, in points; where there is less room they scroll.
-const WIDTH: f32 = 880.0;
+const WIDTH: f32 = 960.0;
 
 /// Shows the tables; says whether they were cancelled.
 pub(super) fn show(ui: &Ui, tables: &mut Tables) -> bool {

@@ -13,6 +13,7 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Settings, Smoothing};
 use lumen::trial::course::Course;
 use lumen::trial::frame::{Frame, Progress, StationResult, Summary, Touch};
+use lumen::trial::report::{StepCounts, StepKind, StepReport};
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::wire::Wire;
 use lumen_ui_tests::told::{
@@ -315,6 +316,34 @@ fn the_bars_of_forces_grow_with_the_largest_so_far() {
     let own = Frame { step: 1, max_wall_force_n: 0.3, push_n: 0.0, ..frame() };
     tell(&mut harness, &memory, [now(FIRST + 1, own)]);
     assert!(says(&harness, "Wall force, up to 0.5 N"));
+}
+
+#[test]
+fn a_restart_shows_no_wire_of_before_and_a_step_back_no_force_of_later() {
+    let (mut harness, memory) = on(DESKTOP);
+    press(&mut harness, "Restart");
+    let shown = harness.state().trial().frame.clone().unwrap();
+    assert!(shown.nodes.is_empty() && shown.step == 0, "{shown:?}");
+    // The wire at the entry is of step 0, too, and is drawn all the same.
+    harness.run_steps(3);
+    let before = harness.state().trial_draws();
+    let entry = Frame { step: 0, time_s: 0.0, push_n: 0.0, max_wall_force_n: 0.0, ..frame() };
+    tell(&mut harness, &memory, [now(FIRST + 1, entry)]);
+    assert!(harness.state().trial_draws() > before, "the wire at the entry is drawn");
+    let touch = Touch { at: [0.0; 3], triangle: 0, force: 0.03 };
+    tell(&mut harness, &memory, [TrialEvent::Felt { id: FIRST + 1, touches: vec![touch] }]);
+    assert!(says(&harness, "Wall force, up to 0.05 N"));
+    press(&mut harness, "Step back");
+    assert!(says(&harness, "Wall force, up to 1 mN"), "what was felt since is taken back");
+}
+
+#[test]
+fn steps_that_are_not_balanced_are_told() {
+    let (mut harness, memory) = on(DESKTOP);
+    let step_kinds = StepCounts { balanced: 750, braked: 200, waited: 50, ..StepCounts::default() };
+    let report = StepReport { kind: StepKind::Waited, wanted_mm: 0.04, ..StepReport::default() };
+    tell(&mut harness, &memory, [now(FIRST, Frame { step: 501, step_kinds, report, ..frame() })]);
+    assert!(says(&harness, "25.0 %, now waiting") && says(&harness, "0.0 of 20.0 mm/s"));
 }
 
 #[test]
