@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use super::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
+use super::trial::{HAND, RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::trial::STEP;
@@ -42,6 +42,18 @@ enum JobKind {
     Compare,
 }
 
+/// The hand on the wire. Whoever holds it tells so again and again; one that is not heard of any more (its window is
+/// hidden, its page has stopped) is off.
+#[derive(Clone, Copy, PartialEq)]
+enum Hand {
+    /// None is on it.
+    Off,
+    /// It was heard of since the clock was looked at last.
+    Heard,
+    /// It is on the wire until then, in seconds by the clock.
+    Until(f64),
+}
+
 /// The trial that is shown.
 struct Shown {
     /// That of the command which began what is shown now.
@@ -52,6 +64,7 @@ struct Shown {
     /// Whether a hand, the autopilot or a log has moved the wire yet: until then it lies at its entry, and its time does
     /// not run.
     has_begun: bool,
+    hand: Hand,
     is_paused: bool,
     pace: f64,
     /// Simulated seconds that the clock has asked for and that are not done.
@@ -73,6 +86,7 @@ impl Shown {
             trial: Box::new(trial),
             felt: Felt::default(),
             has_begun: false,
+            hand: Hand::Off,
             is_paused: false,
             pace: 1.0,
             owed: 0.0,
@@ -97,6 +111,18 @@ impl Shown {
     fn hand_over(&mut self) {
         self.trial.set_autopilot(false);
         (self.is_paused, self.is_told) = (false, false);
+    }
+
+    /// Lets go of the wire where the hand was not heard of for too long. The autopilot and a log need none.
+    fn look_after_hand(&mut self, now_s: f64) {
+        match self.hand {
+            Hand::Heard => self.hand = Hand::Until(now_s + HAND),
+            Hand::Until(end) if now_s > end => {
+                self.trial.drive(Input::default());
+                self.hand = Hand::Off;
+            }
+            Hand::Off | Hand::Until(_) => {}
+        }
     }
 
     /// Whether it stands, whatever the clock says.
@@ -160,7 +186,9 @@ impl TrialEngine {
         match command {
             TrialCommand::Drive(input) => {
                 trial.drive(input);
-                shown.has_begun |= input != Input::default();
+                let is_on = input != Input::default();
+                shown.hand = if is_on { Hand::Heard } else { Hand::Off };
+                shown.has_begun |= is_on;
             }
             TrialCommand::Autopilot(on) => {
                 trial.set_autopilot(on);
@@ -249,6 +277,9 @@ impl TrialEngine {
     /// Works for a slice at `now_s` seconds by any clock; says after what time it wants to go on, `None` for not before the
     /// next command.
     pub fn advance(&mut self, now_s: f64, slice: Duration) -> Option<Duration> {
+        if let Some(shown) = &mut self.shown {
+            shown.look_after_hand(now_s);
+        }
         if !self.jobs.is_empty() {
             self.work(slice);
             if let Some(shown) = &mut self.shown {
@@ -510,6 +541,74 @@ mod tests {
         engine.handle(TrialCommand::StepBack { id: 7 });
         engine.advance(2.0, SLICE);
         assert!(matches!(events(&mut engine)[..], [TrialEvent::Frame { id: 7, .. }]));
+    }
+
+    /// Drives for so many seconds of the clock by an input that is told every so many; gives the length that is in the
+    /// vessel after each tenth of a second.
+    fn inserted(engine: &mut TrialEngine, from_s: f64, seconds: f64, told_every: Option<f64>) -> Vec<f64> {
+        let mut lengths = Vec::new();
+        let mut due = told_every;
+        for i in 0..(seconds * 100.0) as u32 {
+            let passed = f64::from(i) / 100.0;
+            if due.is_some_and(|due| passed >= due) {
+                engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+                due = due.zip(told_every).map(|(due, every)| due + every);
+            }
+            engine.advance(from_s + passed, Duration::from_millis(50));
+            if i % 10 == 9 {
+                lengths.extend(engine.shown.as_ref().map(|shown| shown.trial.simulation().inserted()));
+            }
+        }
+        lengths
+    }
+
+    #[test]
+    fn an_input_that_is_not_told_again_is_let_go() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        let told_once = inserted(&mut engine, 0.0, 3.0, None);
+        let (first, last) = (told_once[0], told_once[29]);
+        // 20 mm/s for as long as an input holds, and for the row of the log that it ends in.
+        let most = 20.0 * (HAND + 0.02);
+        assert!(first > 1.0 && last <= most + 0.5 && last >= 0.8 * most, "{last} mm of {most}");
+        assert!(told_once[10..].iter().all(|&length| (length - last).abs() < 1e-9), "{told_once:?}");
+        let told_again = inserted(&mut engine, 3.0, 2.0, Some(0.1));
+        let fed = told_again[19] - last;
+        assert!((fed - 40.0).abs() < 4.0, "{fed} mm in two seconds");
+        // By the clock, whatever the pace: the hand is as far from the simulated time as the user is.
+        engine.handle(TrialCommand::Pace(0.25));
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        let slow = inserted(&mut engine, 5.0, 3.0, None);
+        let fed = slow[29] - told_again[19];
+        assert!(fed > 0.5 * HAND * 5.0 && fed < 5.0 * (HAND + 0.1) + 1.0, "{fed} mm");
+        // A machine that slept has no hand on it when it wakes.
+        engine.handle(TrialCommand::Pace(1.0));
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        engine.advance(8.0, Duration::from_millis(50));
+        let before = inserted(&mut engine, 8.0, 0.1, None)[0];
+        let after = inserted(&mut engine, 3600.0, 2.0, None)[19];
+        assert!((after - before).abs() < 0.5, "{before} {after}");
+    }
+
+    #[test]
+    fn the_autopilot_and_a_log_need_no_hand() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+        engine.handle(TrialCommand::Autopilot(true));
+        let steered = inserted(&mut engine, 0.0, 3.0, None);
+        assert!(steered[29] > 1.5 * 20.0 * HAND && steered[29] > steered[20], "{steered:?}");
+        engine.handle(TrialCommand::Save);
+        let csv = events(&mut engine).into_iter().find_map(|event| match event {
+            TrialEvent::Saved { csv, .. } => Some(csv),
+            _ => None,
+        });
+        let csv = Arc::new(csv.unwrap().into_bytes());
+        engine.handle(TrialCommand::Replay { id: 2, csv });
+        let replayed = inserted(&mut engine, 10.0, 2.5, None);
+        assert!((replayed[20] - steered[20]).abs() < 1.0, "{} {}", replayed[20], steered[20]);
     }
 
     #[test]
