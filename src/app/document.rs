@@ -74,8 +74,13 @@ pub struct Document {
     pub shown: Option<Shown>,
     /// The newest numbers.
     pub measured: Option<Measured>,
+    /// How often a level was looked up.
+    #[cfg(test)]
+    pub lookups: u32,
     /// The level of these levels, in steps, that the engine has found for a bound on the deviation.
     found: Option<(Target, u32)>,
+    /// What the level that is shown was looked up for, as long as looking again would find the same.
+    asked: Option<Target>,
     /// Counts up whenever the opened surface, the levels, the shown level and the numbers change: what is drawn
     /// compares them with those it was drawn from.
     pub revision: Revision,
@@ -110,7 +115,10 @@ impl Document {
             entering_vertices: 0,
             shown: None,
             measured: None,
+            #[cfg(test)]
+            lookups: 0,
             found: None,
+            asked: None,
             revision: Revision { document: id, ..Revision::default() },
         }
     }
@@ -129,7 +137,7 @@ impl Document {
         self.entering_vertices = nodes_in_use(&reduced.mesh.triangles, reduced.mesh.positions.len());
         self.levels = Some((reduced.keep, reduced.mesh));
         self.revision.levels += 1;
-        self.found = None;
+        (self.found, self.asked) = (None, None);
         if let Some(measured) = &mut self.measured {
             measured.deviation.clear();
             measured.report.pinch = None;
@@ -142,7 +150,15 @@ impl Document {
     /// Shows the level that `target` asks for. Takes a millisecond or so. Which one that is for a bound on the
     /// deviation the engine has to find: until then what is shown stays, or is an estimate for new levels.
     pub fn show(&mut self, target: Target) {
+        if self.asked == Some(target) {
+            return;
+        }
         let Some((_, levels)) = &self.levels else { return };
+        self.asked = Some(target);
+        #[cfg(test)]
+        {
+            self.lookups += 1;
+        }
         match self.found {
             Some((of, steps)) if of == target => self.set_shown(levels.level_after(steps)),
             _ if target.deviation_mm().is_some() && self.shown.is_some() => {}
@@ -170,6 +186,7 @@ impl Document {
     pub fn set_measured(&mut self, measured: Measured) {
         if let Some(bound) = measured.report.bound {
             self.found = Some((measured.report.settings.target, bound.steps));
+            self.asked = None;
         }
         self.measured = Some(measured);
         self.revision.measured += 1;

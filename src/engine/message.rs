@@ -216,6 +216,13 @@ pub enum Event {
         /// Its bytes.
         bytes: Vec<u8>,
     },
+    /// A file could not be made.
+    NotWritten {
+        /// Its name.
+        name: String,
+        /// One plain sentence.
+        message: String,
+    },
     /// Something could not be done; what was there before still is.
     Failed {
         /// One plain sentence.
