@@ -26,14 +26,16 @@ async fn run(window: &Window) -> Result<(), JsValue> {
     let canvas: HtmlCanvasElement = element(&document, "lumen")?.unchecked_into();
     let twins = element(&document, "twins")?;
     let options = eframe::WebOptions { wgpu_options: graphics(window), ..Default::default() };
-    let shown = canvas.clone();
+    let (shown, ready) = (canvas.clone(), canvas.clone());
     let create: eframe::AppCreator<'static> = Box::new(move |cc| {
         crate::twins::attach(&cc.egui_ctx, &shown, &twins).map_err(|error| format!("{error:?}"))?;
         let platform = Box::new(Browser::new(&cc.egui_ctx));
         Ok(Box::new(LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), platform)))
     });
     eframe::WebRunner::new().start(canvas, options, create).await?;
-    document.document_element().ok_or("the page is empty")?.set_attribute("data-state", "ready")
+    document.document_element().ok_or("the page is empty")?.set_attribute("data-state", "ready")?;
+    // Not before it is seen: what is hidden takes no focus, and without it keys do nothing until the first click.
+    ready.focus()
 }
 
 fn element(document: &Document, id: &str) -> Result<web_sys::Element, JsValue> {

@@ -8,6 +8,7 @@ use lumen::app::trial::Offer;
 use lumen::app::{Gamepad, Platform, PlatformEvent};
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
+use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 
 use crate::files;
@@ -26,6 +27,7 @@ pub(crate) struct Browser {
 impl Browser {
     /// Starts the engine, that of the trial when it is needed; `ctx` draws again whenever there is news.
     pub(crate) fn new(ctx: &egui::Context) -> Self {
+        wake_at_gamepad(ctx);
         Self { link: WorkerLink::new(ctx.clone()), trial: WorkerLink::idle(ctx.clone()), inbox: Rc::default() }
     }
 
@@ -37,6 +39,17 @@ impl Browser {
             ctx.request_repaint();
         }
     }
+}
+
+/// Draws again when a gamepad is plugged in: until then it is not asked.
+fn wake_at_gamepad(ctx: &egui::Context) {
+    let ctx = ctx.clone();
+    let wake = Closure::<dyn Fn()>::new(move || ctx.request_repaint());
+    let window = web_sys::window();
+    // Where it cannot be heard, the next movement of the pointer finds the gamepad.
+    let _ = window.map(|w| w.add_event_listener_with_callback("gamepadconnected", wake.as_ref().unchecked_ref()));
+    // It lives as long as the page.
+    wake.forget();
 }
 
 fn chosen((name, bytes): files::Chosen) -> PlatformEvent {
