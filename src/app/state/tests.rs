@@ -501,7 +501,7 @@ fn a_surface_that_another_engine_cannot_open_again_stays_and_that_is_said() {
     line.sent.clear();
     let id = state.generation();
     state.receive(Event::OpenFailed { id, name: "z.stl".into(), message: "no memory left".into() });
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.contains("no memory left")));
+    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.contains("No memory left.")));
     state.cancel(&mut line);
     settle(&mut state, &mut line);
     assert_eq!(shown(&state), before);

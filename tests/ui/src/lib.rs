@@ -195,7 +195,7 @@ pub fn hide(harness: &mut Harness<'_, LumenApp>, times: usize) {
         ..Default::default()
     };
     for _ in 0..times {
-        ctx.run_logic(&input, |ctx| harness.state_mut().logic(ctx, &mut eframe::Frame::_new_kittest()));
+        let _ = ctx.run_logic(&input, |ctx| harness.state_mut().logic(ctx, &mut eframe::Frame::_new_kittest()));
     }
 }
 
