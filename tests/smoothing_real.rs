@@ -141,6 +141,17 @@ fn check_volume(mesh: TriMesh) -> Result<(), Failed> {
                         format!("{before} mm3 became {after}, {smoothing:?}")
                     })?;
                 }
+                // Where vessels would tear, the surface is as without.
+                (Some(false), Some(_)) => {
+                    let plain = Smoothing { preserve_volume: false, ..smoothing };
+                    let mut pipeline =
+                        Pipeline::new(mesh.clone(), Settings { smoothing: plain, ..Settings::default() });
+                    while pipeline.smoothed().is_none() {
+                        pipeline.advance(Budget::UNLIMITED)?;
+                    }
+                    let is_plain = pipeline.smoothed().is_some_and(|plain| plain.mesh == smoothed.mesh);
+                    ensure(is_plain && pass_band < 0.1, || format!("not held at {smoothing:?}"))?;
+                }
                 // Without orientation there is no volume.
                 (Some(false), None) => {}
                 (held, _) => return Err(format!("held: {held:?}, {volumes:?}, {smoothing:?}").into()),

@@ -56,7 +56,8 @@ def shape_row(program, path, name):
              (area(P, F).sum(), found["area_mm2"], ".6g"), (volume(P, F), v, ".6g"),
              (rms, rough["rms_deg"], ".3f"), (p95, rough["p95_deg"], ".3f"), (s["min_angle"], angles["min_deg"], ".3f"),
              (s["below_10_percent"], angles["below_10_percent"], ".3f"),
-             (self_intersections(P, F), found["self_intersecting_faces"], "d"),
+             # MeshLab's epsilon is 1e-6 in the square of the unit: in metres it hides what crosses.
+             (self_intersections(P * 1e5, F), found["self_intersecting_faces"], "d"),
              (inside, narrow and narrow["diameter_mm"], ".3g")]
     cell = lambda a, b, f: " / ".join("–" if x is None else format(x, f) for x in (b, a))
     print(name, flush=True)
@@ -99,7 +100,8 @@ band 0.1, 60 iterations) and reduced by 90 %. Lengths are in the file's unit, ta
 
 Triangles, area and volume (open ends capped to the middle of each): VTK and NumPy. Dihedral deviation, RMS and 95th
 percentile in degrees: trimesh. Smallest angle in degrees and share of triangles with an angle below 10: NumPy.
-Self-intersecting triangles: MeshLab. Smallest lumen: twice Open3D's distance from the place that Lumen names to the
+Self-intersecting triangles: MeshLab, of the numbers times 100,000 (its epsilon is 1e-6 in the square of the file's
+unit, by which in metres too few cross). Smallest lumen: twice Open3D's distance from the place that Lumen names to the
 nearest wall. Where the windings of a file face inwards, the other tools' volume is negative; Lumen turns them.
 
 | surface | triangles | area mm2 | volume mm3 | roughness RMS | p95 | smallest angle | < 10 degrees, % | self-intersecting | smallest lumen mm |

@@ -196,8 +196,8 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
     if report.pass_band_missed {
         remark(ui, "Too few iterations for this pass band: more are needed to smooth.");
     }
-    if report.volume_held == Some(false) {
-        remark(ui, "The volume could not be held: too little is left of the form.");
+    if let Some(warning) = report.volume_held_warning() {
+        remark(ui, &warning);
     }
 }
 

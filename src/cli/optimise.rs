@@ -215,10 +215,8 @@ impl Optimise {
         if let Some(warning) = report.volume_warning() {
             eprintln!("lumen: warning: {warning}");
         }
-        if report.volume_held == Some(false) {
-            eprintln!(
-                "lumen: warning: the volume could not be held: the surface is smoothed as without --preserve-volume"
-            );
+        if let Some(warning) = report.volume_held_warning() {
+            eprintln!("lumen: warning: {warning}");
         }
         if let Some(warning) = report.smoothing_warning() {
             eprintln!("lumen: warning: {warning}");

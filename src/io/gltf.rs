@@ -35,8 +35,8 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
         .with_decode_allow_trailing_bits(true),
 );
 
-/// Reads a GLB file; its positions come in mm.
-pub(super) fn read_binary(bytes: &[u8], unit: Unit) -> Result<RawSurface, ReadError> {
+/// Reads a GLB file; its positions come in mm, relative to `origin`.
+pub(super) fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<RawSurface, ReadError> {
     let word = |at: usize| bytes.get(at..).and_then(|rest| rest.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let cut_short = |announced: usize| ReadError::CutShort {
         format: "GLB",
@@ -66,12 +66,12 @@ pub(super) fn read_binary(bytes: &[u8], unit: Unit) -> Result<RawSurface, ReadEr
         at += 8 + chunk.len();
     }
     let json = json.ok_or_else(|| malformed("it has no JSON part"))?;
-    read_scene("GLB", json, binary, unit, bytes.len())
+    read_scene("GLB", json, binary, unit, bytes.len(), origin)
 }
 
-/// Reads a glTF text that carries its own data; its positions come in mm.
-pub(super) fn read_text(bytes: &[u8], unit: Unit) -> Result<RawSurface, ReadError> {
-    read_scene("glTF", super::text::without_mark(bytes), None, unit, bytes.len())
+/// Reads a glTF text that carries its own data; its positions come in mm, relative to `origin`.
+pub(super) fn read_text(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<RawSurface, ReadError> {
+    read_scene("glTF", super::text::without_mark(bytes), None, unit, bytes.len(), origin)
 }
 
 fn malformed(problem: impl Into<String>) -> ReadError {
@@ -85,6 +85,7 @@ fn read_scene(
     binary: Option<&[u8]>,
     unit: Unit,
     file_length: usize,
+    origin: DVec3,
 ) -> Result<RawSurface, ReadError> {
     let root: Root = deserialize::from_slice(json).map_err(|error| {
         malformed(format!("its JSON is wrong or incomplete at line {}, column {}", error.line(), error.column()))
@@ -100,7 +101,9 @@ fn read_scene(
         limit: (4 * file_length as u64).max(1 << 25),
     };
     collected.raw.in_mm = true;
-    let to_mm = DMat4::from_scale(DVec3::splat(unit.to_mm()));
+    // Those of a node's place.
+    (collected.raw.has_doubles, collected.raw.origin) = (true, origin);
+    let to_mm = DMat4::from_translation(-origin) * DMat4::from_scale(DVec3::splat(unit.to_mm()));
 
     let scene = root.scene.or((!root.scenes.is_empty()).then(|| Index::new(0)));
     let mut stack: Vec<(Index<Node>, DMat4)> = Vec::new();
@@ -406,7 +409,7 @@ mod tests {
     }
 
     fn read(text: &str) -> Result<RawSurface, ReadError> {
-        read_text(text.as_bytes(), Unit::Metre)
+        read_text(text.as_bytes(), Unit::Metre, DVec3::ZERO)
     }
 
     #[test]
@@ -453,7 +456,7 @@ mod tests {
 
     #[test]
     fn a_container_that_lies_is_refused() {
-        let problem = |bytes: &[u8]| read_binary(bytes, Unit::Metre).err().unwrap().to_string();
+        let problem = |bytes: &[u8]| read_binary(bytes, Unit::Metre, DVec3::ZERO).err().unwrap().to_string();
         assert_eq!(problem(b"glTF\x02\0\0"), "The GLB file is cut short: it announces 12 bytes and holds 7.");
         assert!(problem(b"glTF\x01\0\0\0\x0c\0\0\0").contains("uses version 1"));
         assert!(problem(b"glTF\x02\0\0\0\x00\0\0\0").contains("no JSON part"));
@@ -467,7 +470,7 @@ mod tests {
         let mesh = TriMesh { triangles: vec![[0, 1, 2]], positions };
         let normals = vec![Vec3::Z; mesh.positions.len()];
         for normals in [None, Some(&normals[..])] {
-            let raw = read_binary(&write(&mesh, normals).unwrap(), Unit::Metre).unwrap();
+            let raw = read_binary(&write(&mesh, normals).unwrap(), Unit::Metre, DVec3::ZERO).unwrap();
             assert_eq!((&raw.positions, &raw.triangles), (&mesh.positions, &mesh.triangles));
         }
     }

@@ -4,6 +4,8 @@
 //! vertices left out, numbers turned into mm, windings made to agree, inward components turned. Welding comes before
 //! the change of unit, because rounding to f32 after a multiplication can make two places one.
 
+use glam::DVec3;
+
 use super::error::ReadError;
 use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
@@ -12,7 +14,7 @@ use super::{Unit, winding};
 use crate::mesh::{Topology, TriMesh, Vec3, compacted, components, measures};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
-const FARTHEST_MM: f64 = 1e9;
+pub(super) const FARTHEST_MM: f64 = 1e9;
 
 /// Diagonals, in mm, that draw no warning.
 const USUAL_DIAGONAL_MM: std::ops::RangeInclusive<f64> = 20.0..=2000.0;
@@ -25,6 +27,10 @@ pub(super) struct RawSurface {
     pub(super) positions: Vec<Vec3>,
     /// Vertices of each triangle; all in range.
     pub(super) triangles: Vec<[u32; 3]>,
+    /// Whether the file may have more digits than f32.
+    pub(super) has_doubles: bool,
+    /// What the positions are relative to, where the file has more digits than f32 (`far`).
+    pub(super) origin: DVec3,
     /// Whether the positions are in mm already, as those of a glTF scene, whose transforms take the unit with them.
     pub(super) in_mm: bool,
     pub(super) polygons: usize,
@@ -36,7 +42,9 @@ impl RawSurface {
     /// A surface of triangles alone.
     pub(super) fn new(label: &'static str, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
         let (skipped, warnings) = (Skipped::default(), Vec::new());
-        Self { label, positions, triangles, in_mm: false, polygons: 0, skipped, warnings }
+        let origin = DVec3::ZERO;
+        let (has_doubles, in_mm) = (false, false);
+        Self { label, positions, triangles, has_doubles, origin, in_mm, polygons: 0, skipped, warnings }
     }
 
     /// A surface of polygons, whose corners must be in range.
@@ -146,6 +154,7 @@ fn assemble(raw: RawSurface, unit: Unit) -> Imported {
         area_mm2: measured.area_mm2,
         volume_mm3: measured.volume_mm3,
         bounds_mm: mesh.bounds(),
+        moved_mm: ((DVec3::ZERO - raw.origin) * scale).to_array(),
         skipped: raw.skipped,
         warnings: raw.warnings,
     };
@@ -191,6 +200,12 @@ fn warn(report: &mut ImportReport) {
     let diagonal = f64::from(report.bounds_mm.diagonal());
     if report.vertices > 0 && !USUAL_DIAGONAL_MM.contains(&diagonal) {
         sentences.push(size_warning(diagonal, report.unit));
+    }
+    if report.moved_mm != [0.0; 3] {
+        let [x, y, z] = report.moved_mm.map(length);
+        sentences.push(format!(
+            "The surface lies far from the origin of its coordinates: it was moved by ({x}, {y}, {z}) mm to keep its detail."
+        ));
     }
     let skipped = report.skipped;
     let mut tell = |n: usize, one: &str, many: &str, rest: &str| {

@@ -8,10 +8,14 @@
 //! Numbers in a file are millimetres unless [`ImportOptions::unit`] says otherwise; glTF is metres, as its
 //! specification has it. Nothing is rescaled silently: a size that no vessel has draws a warning.
 //!
+//! A surface far from the origin of its coordinates is read relative to a place within it (`far`), so that its detail
+//! is not rounded away; the report says by what it was moved.
+//!
 //! No memory is allocated because a header claims it: every count is checked against the bytes that are there.
 
 mod detect;
 mod error;
+mod far;
 mod format;
 mod gltf;
 mod import;
@@ -29,6 +33,7 @@ pub use format::{Format, Unit, UnknownUnit};
 pub use import::import_mesh;
 pub use report::{ImportReport, Imported, Skipped};
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::{TriMesh, Vec3};
@@ -53,12 +58,17 @@ pub fn read(bytes: &[u8], name: &str, options: &ImportOptions) -> Result<Importe
         Content::Glb | Content::Gltf => Unit::Metre,
         Content::Stl | Content::Ply | Content::Obj => Unit::Millimetre,
     });
-    let raw = match content {
-        Content::Stl => stl::read(bytes)?,
-        Content::Ply => ply::read(bytes)?,
-        Content::Obj => obj::read(bytes)?,
-        Content::Glb => gltf::read_binary(bytes, unit)?,
-        Content::Gltf => gltf::read_text(bytes, unit)?,
+    let relative_to = |origin: DVec3| match content {
+        Content::Stl => stl::read(bytes, origin),
+        Content::Ply => ply::read(bytes, origin),
+        Content::Obj => obj::read(bytes, origin),
+        Content::Glb => gltf::read_binary(bytes, unit, origin),
+        Content::Gltf => gltf::read_text(bytes, unit, origin),
+    };
+    let raw = relative_to(DVec3::ZERO)?;
+    let raw = match far::origin_for(&raw, unit) {
+        Some(origin) => relative_to(origin)?,
+        None => raw,
     };
     import::import(raw, unit)
 }

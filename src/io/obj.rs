@@ -7,6 +7,8 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
+use glam::DVec3;
+
 use super::error::ReadError;
 use super::import::RawSurface;
 use super::polygons::Faces;
@@ -23,8 +25,8 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
         })
 }
 
-/// Reads an OBJ file.
-pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+/// Reads an OBJ file, with positions relative to `origin`.
+pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     if !text::is_text(bytes) {
         let problem = "it should be a text and is not".to_owned();
         return Err(ReadError::Malformed { format: "OBJ", problem });
@@ -40,10 +42,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
         match words.next() {
             Some(b"v") => {
                 let mut coordinates = [0.0; 3];
-                for coordinate in &mut coordinates {
+                for (coordinate, origin) in coordinates.iter_mut().zip(origin.to_array()) {
                     let word = words.next().ok_or_else(|| syntax("a vertex needs three coordinates".to_owned()))?;
                     let broken = || syntax(format!("{} stands where a coordinate should", text::quoted(word)));
-                    *coordinate = text::number(word).ok_or_else(broken)?;
+                    *coordinate = text::coordinate(word, origin).ok_or_else(broken)?;
                 }
                 positions.push(Vec3::from(coordinates));
             }
@@ -80,6 +82,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
         return Err(ReadError::IndexOutOfRange { format: "OBJ", face, index, vertices });
     }
     let mut raw = RawSurface::of_faces("OBJ", positions, &faces);
+    (raw.has_doubles, raw.origin) = (true, origin);
     raw.skipped.lines = lines;
     raw.skipped.points = points;
     Ok(raw)
@@ -127,6 +130,10 @@ pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+        super::read(bytes, DVec3::ZERO)
+    }
 
     #[test]
     fn every_way_to_write_a_corner_is_read() {

@@ -4,6 +4,8 @@
 //! `face` and those of `tristrips` are read, and everything else is stepped over. The crate `ply-rs-bw` is not used:
 //! it wants a structure a row filled property by property, names included, which is slow at a million faces.
 
+use glam::DVec3;
+
 use super::error::ReadError;
 use super::import::RawSurface;
 use super::polygons::Faces;
@@ -93,25 +95,25 @@ struct Header {
     body_line: usize,
 }
 
-/// Reads a PLY file.
-pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+/// Reads a PLY file, with positions relative to `origin`.
+pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     let bytes = text::without_mark(bytes).trim_ascii_start();
     let header = header(bytes)?;
     let body = &bytes[header.body..];
     match header.encoding {
-        Encoding::Ascii => read_ascii(&header, body),
-        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false> { bytes: body }),
-        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true> { bytes: body }),
+        Encoding::Ascii => read_ascii(&header, body, origin),
+        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false> { bytes: body }, origin),
+        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true> { bytes: body }, origin),
     }
 }
 
 /// Reads a body of text. White space is white space to the format; but where the numbers do not come out even, a
 /// header has left out some that stand at the ends of lines (MeshLab once wrote colours so), and taking every row to
 /// be a line gets over them.
-fn read_ascii(header: &Header, body: &[u8]) -> Result<RawSurface, ReadError> {
+fn read_ascii(header: &Header, body: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     let attempt = |row_is_line| {
         let mut numbers = AsciiNumbers { words: Words::new(body, header.body_line), row_is_line, fault: None };
-        let result = read_body(header, &mut numbers);
+        let result = read_body(header, &mut numbers, origin);
         let even = result.is_ok() && numbers.words.next().is_none();
         (result, even)
     };
@@ -204,9 +206,9 @@ trait Numbers {
     /// The next number, of any type: `f64` holds them all.
     fn number(&mut self, kind: Scalar) -> Option<f64>;
 
-    /// The next number, rounded once to `f32`.
-    fn coordinate(&mut self, kind: Scalar) -> Option<f32> {
-        self.number(kind).map(|x| x as f32)
+    /// The next number relative to `origin`; where that is 0, rounded once to `f32`.
+    fn coordinate(&mut self, kind: Scalar, origin: f64) -> Option<f32> {
+        self.number(kind).map(|x| (x - origin) as f32)
     }
 
     /// What is wrong in the place where the last `None` came from, if it was not the end of the file.
@@ -229,9 +231,9 @@ struct AsciiNumbers<'a> {
 }
 
 impl AsciiNumbers<'_> {
-    fn parse<T: std::str::FromStr>(&mut self) -> Option<T> {
+    fn parse<T>(&mut self, of: impl Fn(&[u8]) -> Option<T>) -> Option<T> {
         let word = self.words.next()?;
-        let value = text::number(word);
+        let value = of(word);
         if value.is_none() {
             let problem = format!("{} stands where a number should", text::quoted(word));
             self.fault = Some(ReadError::Syntax { format: "PLY", line: self.words.line(), problem });
@@ -242,11 +244,11 @@ impl AsciiNumbers<'_> {
 
 impl Numbers for AsciiNumbers<'_> {
     fn number(&mut self, _: Scalar) -> Option<f64> {
-        self.parse()
+        self.parse(text::number)
     }
 
-    fn coordinate(&mut self, _: Scalar) -> Option<f32> {
-        self.parse()
+    fn coordinate(&mut self, _: Scalar, origin: f64) -> Option<f32> {
+        self.parse(|word| text::coordinate(word, origin))
     }
 
     fn fault(&mut self) -> Option<ReadError> {
@@ -329,7 +331,7 @@ fn meaning(element: &Element) -> Result<Meaning, ReadError> {
     })
 }
 
-fn read_body(header: &Header, numbers: &mut impl Numbers) -> Result<RawSurface, ReadError> {
+fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3) -> Result<RawSurface, ReadError> {
     let mut positions: Vec<Vec3> = Vec::new();
     let mut faces = Faces::default();
     // An index beyond this can stand for no vertex, and may be too large to be kept as one.
@@ -341,7 +343,9 @@ fn read_body(header: &Header, numbers: &mut impl Numbers) -> Result<RawSurface, 
         if element.properties.is_empty() {
             continue;
         }
-        if let Meaning::Vertices(_) = meaning {
+        row.origins = vec![0.0; element.properties.len()];
+        if let Meaning::Vertices(places) = meaning {
+            places.iter().zip(origin.to_array()).for_each(|(&place, origin)| row.origins[place] = origin);
             // Every number takes a byte at least.
             let most = numbers.remaining() / element.properties.len();
             positions.reserve(usize::try_from(element.count).unwrap_or(most).min(most));
@@ -392,15 +396,25 @@ fn read_body(header: &Header, numbers: &mut impl Numbers) -> Result<RawSurface, 
         }
     }
     let mut raw = RawSurface::of_faces(header.encoding.label(), positions, &faces);
+    (raw.has_doubles, raw.origin) = (has_doubles(header), origin);
     if header.encoding != Encoding::Ascii && numbers.remaining() > 0 {
         raw.warnings.push(format!("{} bytes after the last element left out.", numbers.remaining()));
     }
     Ok(raw)
 }
 
+/// Whether coordinates may have more digits than f32.
+fn has_doubles(header: &Header) -> bool {
+    let vertices = header.elements.iter().filter(|element| element.name == "vertex");
+    header.encoding == Encoding::Ascii
+        || vertices.flat_map(|element| &element.properties).any(|property| property.kind == Scalar::F64)
+}
+
 /// One row of an element.
 #[derive(Default)]
 struct Row {
+    /// What each property is read relative to.
+    origins: Vec<f64>,
     /// The value of each property; 0 for a list.
     scalars: Vec<f32>,
     /// The values of the one list that is wanted.
@@ -417,7 +431,7 @@ impl Row {
         self.bad_length = None;
         for (place, property) in properties.iter().enumerate() {
             let Some(length) = property.length else {
-                self.scalars.push(numbers.coordinate(property.kind)?);
+                self.scalars.push(numbers.coordinate(property.kind, self.origins[place])?);
                 continue;
             };
             self.scalars.push(0.0);
@@ -466,6 +480,10 @@ pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+        super::read(bytes, DVec3::ZERO)
+    }
 
     const SQUARE: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement camera 1\nproperty list uchar float view\n\
         element vertex 4\nproperty uchar red\nproperty double x\nproperty float y\nproperty float z\n\

@@ -57,6 +57,10 @@ pub struct ImportReport {
     pub volume_mm3: Option<f64>,
     /// The box around the surface, in mm.
     pub bounds_mm: Bounds,
+    /// By what the surface was moved, in mm: not at all unless it lies so far from the origin of the file's coordinates
+    /// that 32-bit numbers would not hold its detail, and the file has more digits than they do.
+    #[serde(default)]
+    pub moved_mm: [f64; 3],
     /// What the file holds besides the surface.
     pub skipped: Skipped,
     /// Sentences for the user about what looks odd or was mended.

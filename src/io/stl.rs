@@ -4,6 +4,8 @@
 //! the free text of a binary header with "solid", which the crate `stl_io` takes for text; that is why the format is
 //! read here. Facet normals are not used: they are often wrong, and the winding says the same.
 
+use glam::DVec3;
+
 use super::error::{ReadError, WriteError};
 use super::import::{RawSurface, check_size};
 use super::polygons::Faces;
@@ -29,9 +31,9 @@ fn binary_length(facets: u32) -> u64 {
     (HEADER + 4) as u64 + FACET as u64 * u64::from(facets)
 }
 
-/// Reads either kind.
-pub(super) fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-    if !has_binary_length(bytes) && text::is_text(bytes) { read_ascii(bytes) } else { read_binary(bytes) }
+/// Reads either kind; the text, which may have more digits than f32, with positions relative to `origin`.
+pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
+    if !has_binary_length(bytes) && text::is_text(bytes) { read_ascii(bytes, origin) } else { read_binary(bytes) }
 }
 
 fn read_binary(bytes: &[u8]) -> Result<RawSurface, ReadError> {
@@ -66,7 +68,7 @@ fn read_binary(bytes: &[u8]) -> Result<RawSurface, ReadError> {
 
 /// Reads the text form word by word: `solid`, `facet`, `outer loop`, `vertex`, in any case and with any indenting,
 /// any number of solids. Words that are none of these, such as colours, are passed over.
-fn read_ascii(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+fn read_ascii(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     let mut words = Words::new(text::without_mark(bytes), 1);
     let mut positions: Vec<Vec3> = Vec::new();
     let mut faces = Faces::default();
@@ -75,7 +77,7 @@ fn read_ascii(bytes: &[u8]) -> Result<RawSurface, ReadError> {
         let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
         if is(b"vertex") {
             faces.push_corner(positions.len() as u32);
-            positions.push(vertex(&mut words)?);
+            positions.push(vertex(&mut words, origin)?);
             in_loop = true;
         } else if is(b"endloop") || is(b"endfacet") {
             // Some writers leave out one of the two.
@@ -103,18 +105,19 @@ fn read_ascii(bytes: &[u8]) -> Result<RawSurface, ReadError> {
         return Err(ReadError::Syntax { format: ASCII, line: words.line(), problem });
     }
     let mut raw = RawSurface::of_faces(ASCII, positions, &faces);
+    (raw.has_doubles, raw.origin) = (true, origin);
     if in_solid {
         raw.warnings.push("The file may be cut short: its last solid has no end.".to_owned());
     }
     Ok(raw)
 }
 
-/// The three coordinates after the word `vertex`.
-fn vertex(words: &mut Words) -> Result<Vec3, ReadError> {
+/// The three coordinates after the word `vertex`, relative to `origin`.
+fn vertex(words: &mut Words, origin: DVec3) -> Result<Vec3, ReadError> {
     let mut coordinates = [0.0; 3];
-    for coordinate in &mut coordinates {
+    for (coordinate, origin) in coordinates.iter_mut().zip(origin.to_array()) {
         let word = words.next();
-        *coordinate = word.and_then(text::number).ok_or_else(|| ReadError::Syntax {
+        *coordinate = word.and_then(|word| text::coordinate(word, origin)).ok_or_else(|| ReadError::Syntax {
             format: ASCII,
             line: words.line(),
             problem: match word {
@@ -149,6 +152,10 @@ pub(super) fn write(mesh: &TriMesh) -> Result<Vec<u8>, WriteError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+        super::read(bytes, DVec3::ZERO)
+    }
 
     const TWO: &str = "SOLID vertex of facets\n Facet Normal 0 0 1\n outer loop\nVERTEX 0 0 0\nvertex 1 0 0\n\
         vertex 0 1e0 0\n endloop endfacet\nendsolid vertex\nsolid\nfacet normal 0 0 0 outer loop\n\

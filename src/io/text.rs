@@ -49,6 +49,11 @@ pub(super) fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
+/// The coordinate that `word` is, relative to `origin`; where that is 0, rounded once.
+pub(super) fn coordinate(word: &[u8], origin: f64) -> Option<f32> {
+    if origin == 0.0 { number(word) } else { number(word).map(|x: f64| (x - origin) as f32) }
+}
+
 /// `word` for a message: at most 20 characters, whatever bytes it has.
 pub(super) fn quoted(word: &[u8]) -> String {
     let text: String = String::from_utf8_lossy(word).chars().filter(|c| !c.is_control()).take(21).collect();

@@ -1,6 +1,7 @@
 //! Whether two triangles of a surface run into each other.
 //!
-//! The definition is that of MeshLab's "select self intersecting faces" (VCGlib), so that numbers can be compared:
+//! The definition is that of MeshLab's "select self intersecting faces" (VCGlib), so that numbers can be compared, but for
+//! its epsilon, which here goes with the triangles' size:
 //!
 //! - triangles over the same three vertices do;
 //! - triangles with a common edge never do, even folded flat onto each other;
@@ -14,8 +15,13 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
-/// Below this determinant (mm2) an edge runs along a triangle's plane; within it of a side, a crossing does not count.
+/// Within this part of a triangle's height from a side, a crossing does not count.
 const EPSILON: f64 = 1e-6;
+
+/// Below this part of the product of two of its sides' lengths, a determinant says that an edge runs along a triangle's
+/// plane. (MeshLab takes 1e-6 in the square of the file's unit, by which nothing crosses in metres, nor where triangles are
+/// slivers.)
+const ALONG: f64 = 1e-12;
 
 /// A triangle of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +75,9 @@ fn crossing([from, to]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<bool> {
     let (direction, ab, ac) = ((to - from) / length, b - a, c - a);
     let across = direction.cross(ac);
     let determinant = ab.dot(across);
-    if determinant.is_nan() || determinant.abs() <= EPSILON {
+    // False for what is no number.
+    let is_across = determinant.abs() > ALONG * ab.length() * ac.length();
+    if !is_across {
         return None;
     }
     let offset = from - a;
@@ -243,6 +251,23 @@ mod tests {
         let long = wing(Vec3::new(90.0, 90.0, 30.0), Vec3::new(90.0, 90.0, -30.0));
         for (other, crosses) in [(through, true), (away, false), (above, false), (short, true), (long, true)] {
             assert_eq!([cross(&floor, &other), cross(&other, &floor)], [crosses; 2], "{other:?}");
+        }
+    }
+
+    #[test]
+    fn the_size_of_a_surface_does_not_matter() {
+        let scaled = |face: &Face, size: f32| Face { corners: face.corners.map(|p| p * size), ..*face };
+        let floor = face(0, FLOOR);
+        let wing = |to: Vec3, and: Vec3| Face { vertices: [0, 8, 9], corners: [FLOOR[0], to, and] };
+        let through = wing(Vec3::new(1.0, 0.5, 1.0), Vec3::new(0.5, 1.0, -1.0));
+        let above = wing(Vec3::new(1.0, 0.5, 1.0), Vec3::new(0.5, 1.0, 0.2));
+        let apart = face(3, [Vec3::new(0.0, 0.0, -1.0), Vec3::new(0.1, 0.2, -1.0), Vec3::new(0.0, 0.1, 1.0)]);
+        for power in -30..=30 {
+            let size = libm::exp2f(power as f32);
+            for (other, crosses) in [(through, true), (above, false), (apart, true)] {
+                let [a, b] = [scaled(&floor, size), scaled(&other, size)];
+                assert_eq!([cross(&a, &b), cross(&b, &a)], [crosses; 2], "2^{power}: {other:?}");
+            }
         }
     }
 

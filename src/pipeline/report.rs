@@ -79,7 +79,8 @@ pub struct Report {
     /// Where the filter cuts, and which waves on this surface that means; null where smoothing was skipped.
     #[serde(default)]
     pub smoothing_response: Option<SmoothingResponse>,
-    /// Whether smoothing held the volume to 0.01 %; null where that was not asked for.
+    /// Whether smoothing held the volume to 0.01 %; null where that was not asked for. Where it did not, the surface is
+    /// smoothed as if it had not been asked for.
     #[serde(default)]
     pub volume_held: Option<bool>,
     /// Milliseconds a stage.
@@ -159,6 +160,13 @@ impl Report {
 }
 
 impl Report {
+    /// A sentence where the volume was to be held and could not be.
+    pub fn volume_held_warning(&self) -> Option<String> {
+        let sentence = "The volume could not be held, because vessels as thin as these would tear at this pass band: the \
+                        surface is smoothed as without it.";
+        (self.volume_held == Some(false)).then(|| sentence.to_owned())
+    }
+
     /// A sentence where smoothing has drawn a vessel shut.
     pub fn smoothing_warning(&self) -> Option<String> {
         let response = self.smoothing_response.as_ref()?;

@@ -215,7 +215,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
             }
             Phase::Counting => {
                 let count = components(self.mesh.positions.len(), &self.mesh.triangles).count();
-                self.guard.several = count > 1;
+                self.guard.several = count > 1 || self.rings.is_cut();
                 self.phase = Phase::Guarding;
             }
             Phase::Guarding => {
@@ -639,6 +639,42 @@ mod tests {
         // Points of a sphere make a polyhedron inside of it.
         assert!(schroeder < -1e-3, "{schroeder}");
         assert!(quadric.abs() < 1e-4, "{quadric}");
+    }
+
+    #[test]
+    fn a_stray_leaves_the_rest_as_it_would_be_without_it() {
+        let sphere = icosphere(4, 10.0, Vec3::new(3.0, 2.0, 1.0));
+        let stray = |far: f32| {
+            let positions = [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p * far + Vec3::splat(far)).to_vec();
+            joined(&[sphere.clone(), TriMesh { positions, triangles: vec![[0, 1, 2]] }])
+        };
+        let spike = |far: f32| {
+            let mut mesh = sphere.clone();
+            mesh.positions[77] *= far;
+            mesh
+        };
+        // The root mean square distance of the vertices of the sphere from it, and how many there are.
+        let off = |mesh: &TriMesh, method: Method| {
+            let levels = levels_of(mesh, method);
+            let level = levels.extract(&levels.level(Target::Triangles(500)).triangles);
+            let radii = level.positions.iter().map(|p| (p.as_dvec3() - glam::DVec3::new(3.0, 2.0, 1.0)).length());
+            let near: Vec<f64> =
+                radii.filter(|radius| *radius < 12.0).map(|radius| (radius - 10.0) * (radius - 10.0)).collect();
+            ((near.iter().sum::<f64>() / near.len() as f64).sqrt(), near.len())
+        };
+        for method in Method::ALL {
+            let (alone, _) = off(&sphere, method);
+            for far in [1e6, 1e8] {
+                for (name, mesh) in [("stray", stray(far)), ("spike", spike(far))] {
+                    let (rest, count) = off(&mesh, method);
+                    assert!(
+                        rest < 1.5 * alone + 1e-4,
+                        "{method:?}, {name} at {far}: {rest} mm off, {alone} without it"
+                    );
+                    assert!((235..=253).contains(&count), "{method:?}, {name} at {far}: {count} vertices");
+                }
+            }
+        }
     }
 
     #[test]

@@ -10,12 +10,11 @@ const BITS: u32 = 10;
 
 /// The indices of `points` along the curve; those in one cell keep their order.
 pub(super) fn curve_order(points: &[Vec3]) -> Vec<u32> {
-    let bounds = Bounds::of(points);
-    let (least, most) = (Vec3::from(bounds.min), Vec3::from(bounds.max));
-    let size = (most - least).max_element();
+    let bounds = Bounds::of_most(points);
+    let (least, size) = (Vec3::from(bounds.min), bounds.longest_side());
     let scale = if size > 0.0 { ((1 << BITS) as f32 - 0.5) / size } else { 0.0 };
     let code = |p: Vec3| {
-        // A coordinate that is no number becomes 0.
+        // A coordinate that is no number becomes 0, that of a stray the first or the last cell.
         let cell = (p - least) * scale;
         spread(cell.x as u32) | spread(cell.y as u32) << 1 | spread(cell.z as u32) << 2
     };

@@ -15,7 +15,7 @@
 use glam::{DVec3, Vec3A};
 
 use super::method::{Candidate, Judged, Method};
-use super::rings::{Rings, gather, neighbour};
+use super::rings::{Rings, SIZE, gather, neighbour};
 use super::star::Star;
 
 /// Weight of the plane that stands on a boundary edge, beside that of a triangle of the same size.
@@ -134,8 +134,11 @@ impl Method for Quadric {
                 form.add_plane(edge.cross(normal), BOUNDARY * edge.length_squared());
             }
         }
-        self.area += form.area;
-        self.vertices += 1.0;
+        // A star that reaches farther than the surface is large has a stray in it, and the area of many others.
+        if star.reach().iter().all(|corner| corner.abs().max_element() <= 2.0 * SIZE) {
+            self.area += form.area;
+            self.vertices += 1.0;
+        }
         self.forms[v as usize] = form;
     }
 

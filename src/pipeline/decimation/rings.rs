@@ -18,7 +18,7 @@ use crate::mesh::{Bounds, Topology, TriMesh};
 pub(super) const CREASE: u32 = 1 << 31;
 
 /// Size of the surface while it is being decimated: far from where f32 under- or overflows when squared twice.
-const SIZE: f32 = 1024.0;
+pub(super) const SIZE: f32 = 1024.0;
 
 /// The farthest that a stray vertex may be then: squared twice, still a number.
 const FARTHEST: f32 = (1 << 26) as f32;
@@ -189,6 +189,11 @@ impl Rings {
                 }
             }
         }
+    }
+
+    /// Whether some vertex was cut.
+    pub(super) fn is_cut(&self) -> bool {
+        !self.cut.is_empty()
     }
 
     pub(super) fn len(&self) -> usize {

@@ -11,8 +11,10 @@
 //!    `x = S x + n (loss + m rms share)`, with the root mean square of the way and a `share` that falls from 1 to 0
 //!    where smoothing moved next to nothing. The volume is a cubic polynomial in `m`; its root next to 0 is the answer.
 //!
-//! Where a vessel is drawn together to a line, its normals are noise: then those of the surface before smoothing,
-//! blurred, take their place. `m` is 1 at most; where that does not suffice the surface is left as the filter made it.
+//! Where a vessel is drawn together to a line, its normals are noise, and to follow them tears it to ribbons: then those
+//! of the surface before smoothing, blurred, take their place. `m` is 1 at most, and a hundredth of the surface at most may
+//! look the other way than before smoothing, which ribbons do. Where that cannot be had the surface is left as the filter
+//! made it.
 //! Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane.
 
 use std::sync::Arc;
@@ -31,6 +33,10 @@ const TOLERANCE: f64 = 1e-4;
 
 /// The largest `|m|`.
 const MOST: f64 = 1.0;
+
+/// The largest part of the area that may look the other way than before smoothing. Of 13 vessels at 6 settings each, those
+/// that come back whole have 0.8 % at most, stairs and folds that were smoothed out; torn ones have from 1.1 % on.
+const TORN: f64 = 0.01;
 
 /// The surface before smoothing.
 pub(super) struct Before<'a> {
@@ -146,12 +152,25 @@ impl Attempt {
             let mesh = TriMesh { positions, triangles: before.mesh.triangles.clone() };
             let missing = before.volume - measures_within(&mesh, Some(before.loops)).volume_mm3?;
             if missing.abs() <= TOLERANCE / 2.0 * before.volume.abs() {
-                return Some(mesh.positions);
+                return (turned(before.mesh, &mesh) <= TORN).then_some(mesh.positions);
             }
             target += missing;
         }
         None
     }
+}
+
+/// The part of the area of `before` whose triangles look the other way in `after`.
+fn turned(before: &TriMesh, after: &TriMesh) -> f64 {
+    let normal = |[a, b, c]: [Vec3; 3]| (b.as_dvec3() - a.as_dvec3()).cross(c.as_dvec3() - a.as_dvec3());
+    let (mut turned, mut all) = (0.0, 0.0);
+    for t in 0..before.triangles.len() {
+        let (was, is) = (normal(before.corners(t)), normal(after.corners(t)));
+        let area = was.length();
+        all += area;
+        turned += if was.dot(is) < 0.0 { area } else { 0.0 };
+    }
+    if all > 0.0 { turned / all } else { 0.0 }
 }
 
 /// The directions in which vertices may move: along their normals, on a loop in its plane.
