@@ -248,6 +248,11 @@ impl Rings {
         self.heads[v as usize].is_open
     }
 
+    /// Whether the surface has no boundary and was cut nowhere.
+    pub(super) fn is_closed(&self) -> bool {
+        self.heads.iter().all(|head| head.is_gone || !head.is_open && !head.stays)
+    }
+
     /// Whether `v` must stay: the surface was cut there.
     pub(super) fn stays(&self, v: u32) -> bool {
         self.heads[v as usize].stays
