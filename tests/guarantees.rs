@@ -11,7 +11,7 @@ use lumen::mesh::{TriMesh, Vec3};
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Method, Settings, Target};
+use lumen::pipeline::settings::{Keep, Method, Settings, Target};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -41,6 +41,10 @@ fn main() {
         trials.push(Trial::test(format!("{name}: any settings"), move || any_settings(&for_settings)));
         trials.push(Trial::test(format!("{name}: a bound is kept"), move || any_bound(&for_bounds)));
         trials.push(Trial::test(format!("{name}: nothing new crosses"), move || no_crossings(&for_crossings)));
+    }
+    for (name, mesh) in layered() {
+        let mesh = Arc::new(mesh);
+        trials.push(Trial::test(format!("{name}: nothing crosses"), move || nothing_crosses(&mesh)));
     }
     match data::data() {
         Some(folder) => trials.extend(VESSELS.map(|file| {
@@ -103,6 +107,68 @@ fn grid(along: u32, around: u32, is_ring: bool, at: impl Fn(f32, f32) -> Vec3) -
     TriMesh { positions, triangles: triangles.collect() }
 }
 
+/// Surfaces whose sheets lie upon each other and look the same way, as those of a wall and its lumen do once each piece
+/// is turned outward.
+fn layered() -> Vec<(&'static str, TriMesh)> {
+    let turn = std::f32::consts::TAU;
+    // Poles of 64 sides, and no vertex of the one above a vertex of the other.
+    let sphere = |radius: f32, shift: f32| {
+        capped(grid(48, 64, false, |u, v| {
+            let (height, angle) = ((0.02 + 0.96 * u) * turn / 2.0, (v + shift) * turn);
+            Vec3::new(height.sin() * angle.cos(), height.sin() * angle.sin(), height.cos()) * radius
+        }))
+    };
+    let tube = |radius: f32, shift: f32| {
+        grid(120, 48, false, move |u, v| {
+            let angle = (v + shift) * turn;
+            Vec3::new(radius * angle.cos(), radius * angle.sin(), 60.0 * u)
+        })
+    };
+    // Three turns, 0.3 mm from one to the next: a ring of which one seam is left out.
+    let scroll = |u: f32, v: f32| {
+        let (angle, radius) = (3.0 * u * turn, 5.0 + 0.9 * u);
+        Vec3::new(radius * angle.cos(), radius * angle.sin(), 10.0 * v)
+    };
+    vec![
+        ("two spheres 0.2 mm apart", joined(&sphere(10.0, 0.0), &sphere(9.8, 0.3 / 64.0))),
+        ("a tube in a tube 0.3 mm apart", joined(&tube(5.0, 0.0), &tube(4.7, 0.4 / 48.0))),
+        ("an open scroll of one piece", cut_along(grid(300, 24, false, scroll), 24)),
+    ]
+}
+
+/// The two rims of an open tube closed, each by a fan around its middle.
+fn capped(mut mesh: TriMesh) -> TriMesh {
+    const AROUND: u32 = 64;
+    let last = mesh.positions.len() as u32 - AROUND;
+    for first in [0, last] {
+        let middle = (0..AROUND).map(|i| mesh.positions[(first + i) as usize]).sum::<Vec3>() / AROUND as f32;
+        let centre = mesh.positions.len() as u32;
+        mesh.positions.push(middle);
+        mesh.triangles.extend((0..AROUND).map(|i| {
+            let (a, b) = (first + i, first + (i + 1) % AROUND);
+            if first == 0 { [centre, a, b] } else { [centre, b, a] }
+        }));
+    }
+    mesh
+}
+
+/// Without the triangles between the last and the first of `around` columns.
+fn cut_along(mesh: TriMesh, around: u32) -> TriMesh {
+    let is_seam = |t: &[u32; 3]| {
+        let columns = t.map(|v| v % around);
+        columns.contains(&0) && columns.contains(&(around - 1))
+    };
+    TriMesh { triangles: mesh.triangles.into_iter().filter(|t| !is_seam(t)).collect(), ..mesh }
+}
+
+fn joined(one: &TriMesh, other: &TriMesh) -> TriMesh {
+    let first = one.positions.len() as u32;
+    TriMesh {
+        positions: [&one.positions[..], &other.positions].concat(),
+        triangles: one.triangles.iter().copied().chain(other.triangles.iter().map(|t| t.map(|v| v + first))).collect(),
+    }
+}
+
 /// A runner that tries the same settings each time and keeps no files.
 fn runner(cases: u32) -> TestRunner {
     TestRunner::new(Config { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(3), ..Config::default() })
@@ -158,6 +224,29 @@ fn no_crossings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
         let (before, after) = (crossing_faces(&smoothed.mesh), crossing_faces(&reduced.mesh));
         if after > before {
             failures.push(format!("{method:?}, {} %: {after} faces cross, {before} before", f64::from(rate) / 10.0));
+        }
+    }
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("; ").into()) }
+}
+
+/// With all pieces kept and nothing smoothed, no level has faces that cross.
+fn nothing_crosses(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
+    let smoothing = Smoothing { iterations: 0, ..Smoothing::default() };
+    let settings = Settings { keep: Keep::All, smoothing, ..Settings::default() };
+    let mut pipeline = Pipeline::new(mesh.clone(), settings.clone()).without_measures();
+    let mut failures = Vec::new();
+    if crossing_faces(mesh) > 0 {
+        return Err("faces cross before anything was done".into());
+    }
+    for (method, rate) in Method::ALL.into_iter().flat_map(|method| [900, 950, 980, 990].map(|rate| (method, rate))) {
+        let mut settings = Settings { target: Target::Reduction(rate), ..settings.clone() };
+        settings.decimation.method = method;
+        pipeline.set(settings)?;
+        pipeline.finish()?;
+        let reduced = pipeline.reduced().ok_or("no result")?;
+        let (count, crossing) = (reduced.mesh.triangles.len(), crossing_faces(&reduced.mesh));
+        if crossing > 0 || reduced.level.shortfall.is_some() {
+            failures.push(format!("{method:?}, {} %: {crossing} of {count} faces cross", f64::from(rate) / 10.0));
         }
     }
     if failures.is_empty() { Ok(()) } else { Err(failures.join("; ").into()) }

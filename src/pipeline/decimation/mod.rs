@@ -15,7 +15,7 @@
 //!   below three edges (`rings.rs`);
 //! - folds no triangle over and makes no sliver; for a vertex that does not meet the strict limits they are eased, step by
 //!   step, at the price of waiting longer, down to "does not fold" (`star.rs`);
-//! - makes no triangle run into another (`guard.rs`).
+//! - makes no triangle run into another (`guard/`).
 //!
 //! The error of a step is the method's measure, no bound of the true deviation: measure that (`super::deviation`).
 
@@ -83,6 +83,9 @@ const BLOCK: usize = 32;
 /// Vertices between two looks at the clock.
 const CHUNK: usize = 64;
 
+/// Tests of the guard between two looks at the clock.
+const EFFORT: usize = 1 << 15;
+
 /// Slots that get their rings between two looks at the clock before the first vertex is met.
 const LINKED: usize = 1 << 15;
 
@@ -127,8 +130,6 @@ enum Phase {
     Numbering,
     /// Pieces are counted.
     Counting,
-    /// The guard looks at the surface for the first time.
-    Guarding,
     /// Feature edges are found and the method sees each slot; the next one.
     Meeting(u32),
     /// Each slot is judged for the first time; the next one.
@@ -215,11 +216,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
             }
             Phase::Counting => {
                 let count = components(self.mesh.positions.len(), &self.mesh.triangles).count();
-                self.guard.several = count > 1 || self.rings.is_cut();
-                self.phase = Phase::Guarding;
-            }
-            Phase::Guarding => {
-                self.guard.renew(&self.rings, &mut self.star);
+                self.guard.start(&self.rings, count == 1 && self.rings.is_closed());
                 self.phase = Phase::Meeting(0);
             }
             Phase::Meeting(_) | Phase::Judging(_) | Phase::Collapsing => {}
@@ -514,7 +511,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
         self.keys = gather(&self.keys, &kept);
         self.states = gather(&self.states, &kept);
         self.method.compact(&kept);
-        self.guard.renew(&self.rings, &mut self.star);
+        self.guard.restart(&self.rings);
     }
 
     fn result(&mut self) -> ProgressiveMesh {
@@ -535,7 +532,10 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
     fn step(&mut self) -> bool {
         let count = self.rings.len() as u32;
         match self.phase {
-            Phase::Linking | Phase::Numbering | Phase::Counting | Phase::Guarding => self.prepare(),
+            Phase::Linking | Phase::Numbering | Phase::Counting => self.prepare(),
+            _ if !self.guard.is_ready() => {
+                self.guard.advance(&self.rings, &mut self.star);
+            }
             Phase::Meeting(v) if v < count => {
                 self.meet(v);
                 self.phase = Phase::Meeting(v + 1);
@@ -561,7 +561,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
         let total = self.total.max(1) as f32;
         // Seeing and judging all vertices once takes about a tenth of the run.
         match self.phase {
-            Phase::Linking | Phase::Numbering | Phase::Counting | Phase::Guarding => 0.0,
+            Phase::Linking | Phase::Numbering | Phase::Counting => 0.0,
             Phase::Meeting(v) => 0.05 * v as f32 / total,
             Phase::Judging(v) => 0.05 + 0.05 * v as f32 / total,
             Phase::Collapsing => 0.1 + 0.9 * (1.0 - self.alive as f32 / total),
@@ -574,10 +574,15 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for Decimatio
 
     fn advance(&mut self, budget: Budget) -> Progress<ProgressiveMesh> {
         loop {
-            let steps = if self.phase < Phase::Meeting(0) { 1 } else { CHUNK };
-            for _ in 0..steps {
+            // A step may be long before the guard is ready, and among very many triangles.
+            let mut effort = 0;
+            for _ in 0..CHUNK {
                 if !self.step() {
                     return Progress::Done(self.result());
+                }
+                effort += self.guard.take_effort();
+                if effort > EFFORT || self.phase < Phase::Meeting(0) || !self.guard.is_ready() {
+                    break;
                 }
             }
             if budget.is_spent() {

@@ -191,11 +191,6 @@ impl Rings {
         }
     }
 
-    /// Whether some vertex was cut.
-    pub(super) fn is_cut(&self) -> bool {
-        !self.cut.is_empty()
-    }
-
     pub(super) fn len(&self) -> usize {
         self.heads.len()
     }
@@ -249,6 +244,11 @@ impl Rings {
     /// Whether `v` lies on the boundary: its ring has two ends.
     pub(super) fn is_open(&self, v: u32) -> bool {
         self.heads[v as usize].is_open
+    }
+
+    /// Whether the surface has no boundary and was cut nowhere.
+    pub(super) fn is_closed(&self) -> bool {
+        self.heads.iter().all(|head| head.is_gone || !head.is_open && !head.stays)
     }
 
     /// Whether `v` must stay: the surface was cut there.
