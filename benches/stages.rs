@@ -22,7 +22,7 @@ const SIZES: [usize; 6] = [10_000, 30_000, 100_000, 300_000, 1_000_000, 4_000_00
 type Measure = fn(&mut Bench) -> f64;
 
 /// The stages, and how their time is taken.
-const STAGES: [(&str, Measure); 8] = [
+const STAGES: [(&str, Measure); 9] = [
     ("connectivity", |bench| bench.anew().connectivity),
     ("topology", |bench| bench.anew().adjacency),
     ("smoothing-100", |bench| {
@@ -35,8 +35,9 @@ const STAGES: [(&str, Measure); 8] = [
             .decimation
     }),
     ("level-90", |bench| bench.another_level(Stage::Level).level),
-    ("measures", |bench| bench.anew().measures),
+    ("areas", |bench| bench.anew().areas),
     ("deviation", |bench| bench.another_level(Stage::Deviation).deviation),
+    ("measures", |bench| bench.another_level(Stage::Measures).measures),
 ];
 
 /// Sets `value` to the one of two that it is not.

@@ -11,12 +11,12 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
-use lumen::trial::body::Stepped;
-use lumen::trial::compare::TrialComparison;
+use lumen::trial::compare::{Noise, TrialComparison};
 use lumen::trial::course::{Course, TrialError};
 use lumen::trial::frame::Progress;
 use lumen::trial::log::Log;
 use lumen::trial::press::Press;
+use lumen::trial::report::StepKind;
 use lumen::trial::session::Trial;
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::simulation::Simulation;
@@ -116,7 +116,7 @@ fn the_same_trial_has_the_same_bits_and_its_log_replays_to_the_same_end() {
     // A trial differs from itself by nothing, and from that on another level by something.
     let mut again = first.on(mesh).unwrap();
     again.finish();
-    let same = TrialComparison::new(&first, &again);
+    let same = TrialComparison::new(&first, &again, &Noise::default());
     assert!(same.deviation_mm.iter().all(|&deviation| deviation == 0.0) && same.force_differences.is_empty());
     assert!(same.deviation_mm.len() > 100 && same.pinched.is_empty());
     assert!(same.verdict.contains("arrives") && same.verdict.contains("0.0 mm"), "{}", same.verdict);
@@ -207,7 +207,7 @@ fn a_load_bends_a_wire_like_a_beam() {
     while simulation.inserted() < length - 0.02 {
         simulation.step(Input { feed: 20.0, roll: 0.0 });
     }
-    (0..5000).for_each(|_| assert_ne!(simulation.step(Input::default()), Stepped::Held));
+    (0..5000).for_each(|_| assert_ne!(simulation.step(Input::default()).kind, StepKind::Held));
     // Euler and Bernoulli: w L^4 / 8 EI.
     let expected = load * simulation.inserted().powi(4) / (8.0 * ei);
     let found = simulation.tip().y;

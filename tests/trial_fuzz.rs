@@ -13,8 +13,8 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
-use lumen::trial::body::Stepped;
 use lumen::trial::course::Course;
+use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Input, Setup};
 use lumen::trial::wire::Wire;
 
@@ -61,7 +61,7 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
                 input = Input { feed: f32::NAN, roll: 1e30 };
             }
         }
-        let is_held = simulation.step(input) == Stepped::Held;
+        let is_held = simulation.step(input).kind == StepKind::Held;
         held += u64::from(is_held);
         held_on = if is_held { held_on + 1 } else { 0 };
         assert!(held_on < STUCK, "{sample} at {rate}: no way on from step {}", step + 1 - held_on);

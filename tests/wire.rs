@@ -6,7 +6,7 @@ mod tubes;
 use std::sync::Arc;
 
 use lumen::trial::audit::Audit;
-use lumen::trial::body::Stepped;
+use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
@@ -29,7 +29,7 @@ fn a_wire_follows_bends() {
         let mut simulation = Simulation::new(&wire, wire.friction, &entry, 0.0, Some(wall)).unwrap();
         let (mut steps, mut held) = (0, 0);
         while simulation.inserted() < 100.0 && steps < 10_000 {
-            held += u32::from(simulation.step(Input { feed: 20.0, roll: 3.0 }) == Stepped::Held);
+            held += u32::from(simulation.step(Input { feed: 20.0, roll: 3.0 }).kind == StepKind::Held);
             steps += 1;
             if steps % 100 == 0 {
                 let nodes: Vec<_> = simulation.nodes().collect();

@@ -1,7 +1,7 @@
 """The peers, each as a class whose `run` does its stages once and gives the milliseconds of each.
 
-VTK and fast-simplification run in this process, meshoptimizer in one of its own (native, and WebAssembly in Node),
-which stays warm from run to run. One thread each.
+VTK and fast-simplification run in this process, meshoptimizer (native, and WebAssembly in Node) and vtk.js (in Node) in
+processes of their own, which stay warm from run to run. One thread each.
 """
 import json
 import subprocess
@@ -27,10 +27,10 @@ def timed(step):
     return (time.perf_counter() - begun) * 1e3, step.GetOutput()
 
 
-def smoothing(surface, iterations):
+def smoothing(surface, iterations, pass_band=0.1):
     step = vtk.vtkWindowedSincPolyDataFilter()
     step.SetInputData(surface)
-    step.SetPassBand(0.1)
+    step.SetPassBand(pass_band)
     step.SetNumberOfIterations(iterations)
     step.SetWindowFunctionToHamming()
     return step
@@ -77,6 +77,9 @@ class Vtk:
         for rate in RATES:
             ms[f"vtk.pro{rate}"], _ = timed(decimate_pro(smoothed, rate))
             ms[f"vtk.quadric{rate}"], _ = timed(quadric(smoothed, rate))
+        # The paper's setting, which is Lumen's default.
+        ms["vtk.paper.smoothing100"], smoothed = timed(smoothing(kept, 100, 0.01))
+        ms["vtk.paper.pro90"], _ = timed(decimate_pro(smoothed, 90))
         return ms
 
 
@@ -137,6 +140,19 @@ class Meshoptimizer:
         self.ask(rates=[rate], update=update, output=str(output))
         P = np.fromfile(f"{output}.positions", "<f4").reshape(-1, 3).astype(float)
         return P, np.fromfile(f"{output}.indices", "<u4").reshape(-1, 3).astype(np.int64)
+
+
+class VtkJs:
+    """vtk.js, from the surface that another peer has stored in `folder`."""
+
+    def __init__(self, command, folder):
+        self.line, self.folder = Line(command), folder
+
+    def run(self, _):
+        answer = self.line.ask(positions=str(self.folder / "positions"), indices=str(self.folder / "indices"),
+                               iterations=ITERATIONS)
+        ms = {f"vtkjs.smoothing{n}": ms for n, ms in zip(ITERATIONS, answer["smoothing"])}
+        return ms | {"vtkjs.normals": answer["normals"]}
 
 
 def reductions(reference, native):

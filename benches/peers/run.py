@@ -16,7 +16,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 os.environ.update(RAYON_NUM_THREADS="1", OMP_NUM_THREADS="1")
-from peers import RATES, FastSimplification, Line, Meshoptimizer, Vtk, arrays, reductions, smoothing, timed  # noqa: E402
+from peers import (RATES, FastSimplification, Line, Meshoptimizer, Vtk, VtkJs, arrays, reductions, smoothing,  # noqa: E402
+                   timed)
 from quality import measured, polydata, read_ply  # noqa: E402
 
 CORES = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
@@ -72,6 +73,10 @@ class Lumen:
             if iterations != 60:
                 report, _, _ = self.optimise(file, pass_band, iterations, 90)
                 ms[f"lumen.smoothing{iterations}"] = report["stages_ms"]["smoothing"]
+            if pass_band == 0.01:
+                keep(ms, "lumen.paper", report, iterations)
+                ms["lumen.paper.deviation"] = report["stages_ms"]["deviation"]
+                ms["lumen.paper.measures"] = report["stages_ms"]["measures"]
         report, _, _ = self.optimise(file, 0.1, 60, 0)
         ms["lumen.normals"], ms["lumen.level0"] = report["stages_ms"]["normals"], report["stages_ms"]["level"]
         return ms, made
@@ -121,7 +126,7 @@ class LumenInBrowser:
 
 def times(file, contenders, runs, report):
     """Fills `report` with the times of `runs` runs in turn."""
-    lumen, browser, native, wasm = contenders
+    lumen, browser, native, *others = contenders
     surface = read_ply(file)
     pin(True)
     their = Vtk(polydata(*surface))
@@ -135,7 +140,7 @@ def times(file, contenders, runs, report):
             more, fingerprints, report["chromium"] = browser.run(file, report["lumen"])
             ms |= more
             report["wasm_fingerprints"] = fingerprints
-        for peer in [their, fast, native, wasm]:
+        for peer in [their, fast, native, *others]:
             ms |= peer.run(surface)
         for key, value in ms.items():
             found.setdefault(key, []).append(value)
@@ -215,16 +220,18 @@ def main(setup_file, report_file):
         pin(True)
         native = Meshoptimizer("meshopt", [setup["meshoptimizer"]], folder)
         wasm = Meshoptimizer("meshoptWasm", ["node", setup["meshoptimizer_wasm"], setup["peers_npm"]], folder)
+        # It runs on what the one before has stored.
+        vtkjs = VtkJs(["node", setup["vtkjs"], setup["peers_npm"]], folder)
         for surface in setup["surfaces"]:
             say(surface["name"])
             entry = dict(name=surface["name"], runs=surface["runs"], quality=[])
-            times(surface["file"], (lumen, browser, native, wasm), surface["runs"], entry)
+            times(surface["file"], (lumen, browser, native, wasm, vtkjs), surface["runs"], entry)
             report["surfaces"].append(entry)
             store(report, setup, report_file)
             pin(False)
             qualities(surface["file"], lumen, native, QUALITY[:surface["qualities"]], entry)
             store(report, setup, report_file)
-        for line in [native.line, wasm.line]:
+        for line in [native.line, wasm.line, vtkjs.line]:
             line.close()
         for file in setup["memory"]:
             report["memory"].append(memory(file, lumen, browser))

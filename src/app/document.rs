@@ -6,7 +6,7 @@ use crate::engine::{Opened, Reduced, Source};
 use crate::io::ImportReport;
 use crate::mesh::{Bounds, TriMesh};
 use crate::pipeline::connectivity::Component;
-use crate::pipeline::lumen::Pinch;
+use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Target};
@@ -49,7 +49,7 @@ pub struct Measured {
     pub generation: u64,
     /// All numbers.
     pub report: Report,
-    /// For each node, how far the vertices that it stands for are from the level, in mm; empty until it is known.
+    /// For each node of the level, the mean deviation around it, in mm; empty until it is known.
     pub deviation: Vec<f32>,
 }
 
@@ -74,8 +74,13 @@ pub struct Document {
     pub shown: Option<Shown>,
     /// The newest numbers.
     pub measured: Option<Measured>,
+    /// How often a level was looked up.
+    #[cfg(test)]
+    pub lookups: u32,
     /// The level of these levels, in steps, that the engine has found for a bound on the deviation.
     found: Option<(Target, u32)>,
+    /// What the level that is shown was looked up for, as long as looking again would find the same.
+    asked: Option<Target>,
     /// Counts up whenever the opened surface, the levels, the shown level and the numbers change: what is drawn
     /// compares them with those it was drawn from.
     pub revision: Revision,
@@ -110,7 +115,10 @@ impl Document {
             entering_vertices: 0,
             shown: None,
             measured: None,
+            #[cfg(test)]
+            lookups: 0,
             found: None,
+            asked: None,
             revision: Revision { document: id, ..Revision::default() },
         }
     }
@@ -129,7 +137,7 @@ impl Document {
         self.entering_vertices = nodes_in_use(&reduced.mesh.triangles, reduced.mesh.positions.len());
         self.levels = Some((reduced.keep, reduced.mesh));
         self.revision.levels += 1;
-        self.found = None;
+        (self.found, self.asked) = (None, None);
         if let Some(measured) = &mut self.measured {
             measured.deviation.clear();
             measured.report.pinch = None;
@@ -142,7 +150,15 @@ impl Document {
     /// Shows the level that `target` asks for. Takes a millisecond or so. Which one that is for a bound on the
     /// deviation the engine has to find: until then what is shown stays, or is an estimate for new levels.
     pub fn show(&mut self, target: Target) {
+        if self.asked == Some(target) {
+            return;
+        }
         let Some((_, levels)) = &self.levels else { return };
+        self.asked = Some(target);
+        #[cfg(test)]
+        {
+            self.lookups += 1;
+        }
         match self.found {
             Some((of, steps)) if of == target => self.set_shown(levels.level_after(steps)),
             _ if target.deviation_mm().is_some() && self.shown.is_some() => {}
@@ -170,6 +186,7 @@ impl Document {
     pub fn set_measured(&mut self, measured: Measured) {
         if let Some(bound) = measured.report.bound {
             self.found = Some((measured.report.settings.target, bound.steps));
+            self.asked = None;
         }
         self.measured = Some(measured);
         self.revision.measured += 1;
@@ -197,8 +214,7 @@ impl Document {
         }
     }
 
-    /// For each node, how far the vertices that it stands for are from the level, in mm, if it is known for the level
-    /// that is shown.
+    /// For each node of the level that is shown, the mean deviation around it in mm, if it is known.
     pub fn deviation_by_node(&self) -> Option<&[f32]> {
         let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
         let is_of_shown = measured.report.output.triangles == shown.level.triangles.len();

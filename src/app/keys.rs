@@ -1,6 +1,9 @@
-//! Keyboard short cuts. `sheets` lists them for the user.
+//! The keyboard: who has it, and short cuts. `sheets` lists them for the user.
+//!
+//! What lies on top has the keys: a sheet, an open list or menu, a field that is typed into. Only where there is none of
+//! these do they reach the views, the wire and short cuts.
 
-use egui::{Key, KeyboardShortcut, Modifiers, Ui};
+use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
 use super::bar::Action;
 use super::views::Views;
@@ -9,34 +12,84 @@ use crate::render::StandardView;
 
 const VIEW_KEYS: [Key; 6] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6];
 
-/// What the keys with Ctrl, which count while text is typed too, and F1 ask for in this frame.
-pub(super) fn with_ctrl(ui: &Ui) -> Option<Action> {
+/// Who has the keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keys {
+    /// A sheet, and the pointer too.
+    Sheet,
+    /// An open list or menu.
+    List,
+    /// A field that is typed into; short cuts with Ctrl count, but for undo, which is the field's own.
+    Field,
+    /// The views, the wire and short cuts.
+    Views,
+}
+
+impl Keys {
+    /// Who has them as a frame begins, before a control has closed its list at Escape. Of a field that is typed into
+    /// Escape has already taken the focus then: `was_typing` says whether it had it in the frame before.
+    pub(super) fn of(ctx: &Context, has_sheet: bool, was_typing: bool) -> Self {
+        if has_sheet {
+            Self::Sheet
+        } else if Popup::is_any_open(ctx) {
+            Self::List
+        } else if was_typing || ctx.text_edit_focused() {
+            Self::Field
+        } else {
+            Self::Views
+        }
+    }
+}
+
+/// Whether a key goes down in this frame. One that is held counts once, however often the keyboard repeats it.
+pub(super) fn pressed(ui: &Ui, modifiers: Modifiers, key: Key) -> bool {
+    ui.input_mut(|input| {
+        let mut goes_down = false;
+        input.events.retain(|event| match event {
+            Event::Key { key: other, pressed: true, repeat, modifiers: with, .. }
+                if *other == key && with.matches_logically(modifiers) =>
+            {
+                goes_down |= !repeat;
+                false
+            }
+            _ => true,
+        });
+        goes_down
+    })
+}
+
+/// Whether a control is on its way: until the pointer, the key that moves it or the field is let go, what it sets is one
+/// step to undo.
+pub(super) fn moves_control(ctx: &Context) -> bool {
+    let has_focus = ctx.memory(|memory| memory.focused().is_some());
+    let is_down = ctx.input(|input| input.pointer.any_down() || has_focus && !input.keys_down.is_empty());
+    is_down || ctx.text_edit_focused()
+}
+
+/// What the keys with Ctrl and F1 ask for in this frame.
+pub(super) fn with_ctrl(ui: &Ui, keys: Keys) -> Option<Action> {
     let ctrl_shift = Modifiers::COMMAND | Modifiers::SHIFT;
-    let with_ctrl = [
+    let steps = [
         (ctrl_shift, Key::Z, Action::Redo),
         (Modifiers::COMMAND, Key::Z, Action::Undo),
         (Modifiers::COMMAND, Key::Y, Action::Redo),
+    ];
+    // These go on while they are held.
+    let step = steps.into_iter().find(|&(modifiers, key, _)| {
+        keys == Keys::Views && ui.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(modifiers, key)))
+    });
+    let others = [
         (Modifiers::COMMAND, Key::O, Action::Open),
         (Modifiers::COMMAND, Key::S, Action::Save(Format::Stl)),
         (Modifiers::NONE, Key::F1, Action::Help),
     ];
-    for (modifiers, key, action) in with_ctrl {
-        if ui.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(modifiers, key))) {
-            return Some(action);
-        }
-    }
-    None
+    let found = step.or_else(|| others.into_iter().find(|&(modifiers, key, _)| pressed(ui, modifiers, key)));
+    found.map(|(.., action)| action)
 }
 
-/// What the other keys ask for in this frame, except while text is typed.
-pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action> {
-    if ui.ctx().text_edit_focused() {
-        return None;
-    }
-    if is_busy && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-        return Some(Action::Cancel);
-    }
-    let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+/// What the other keys ask for in this frame.
+pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
+    let pressed = |key| pressed(ui, Modifiers::NONE, key);
     for (key, view) in VIEW_KEYS.into_iter().zip(StandardView::ALL) {
         if pressed(key) {
             return Some(Action::View(view));
@@ -61,14 +114,4 @@ pub(super) fn action(ui: &Ui, views: &mut Views, is_busy: bool) -> Option<Action
         views.steer_by_keys(ui);
     }
     None
-}
-
-/// Whether the key that opened the sheet is pressed again.
-pub(super) fn closes_sheet(ui: &Ui) -> bool {
-    ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1))
-}
-
-/// Whether the key that shows the surface as it was opened is held, except while text is typed.
-pub(super) fn before_is_held(ui: &Ui) -> bool {
-    !ui.ctx().text_edit_focused() && ui.input(|input| input.key_down(Key::B))
 }

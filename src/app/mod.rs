@@ -31,9 +31,10 @@ mod window_texture;
 
 use std::time::Duration;
 
-use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, ScrollArea, Ui};
 
 pub use self::bar::Action;
+use self::keys::Keys;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::platform::{Gamepad, Platform, PlatformEvent, Waker};
 pub use self::sheets::Sheet;
@@ -41,7 +42,7 @@ pub use self::state::{Effect, Notice, State};
 pub use self::views::Views;
 use crate::phantom::Sample;
 use crate::pipeline::settings::Keep;
-use crate::render::{DeviceHealth, Fault};
+use crate::render::{Camera, DeviceHealth, Fault};
 
 /// Below this width in points the views stack and the panel becomes a sheet at the bottom.
 const NARROW: f32 = 720.0;
@@ -65,6 +66,8 @@ pub struct LumenApp {
     trial_view: trial::TrialView,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
+    /// Whether a field was typed into at the end of the frame before.
+    was_typing: bool,
     /// The views find a new surface when they are next shown: their shape is known by then.
     look_next: bool,
 }
@@ -88,6 +91,7 @@ impl LumenApp {
             trial_view: trial::TrialView::new(None),
             platform,
             sheet: None,
+            was_typing: false,
             look_next: false,
         };
         app.enter(ctx, render_state);
@@ -155,6 +159,11 @@ impl LumenApp {
         &self.trial
     }
 
+    /// From where the surface is looked at.
+    pub fn camera(&self) -> &Camera {
+        &self.views.camera
+    }
+
     /// How many pictures of the trial were drawn since its views were shown.
     pub fn trial_draws(&self) -> u64 {
         self.trial_view.draws()
@@ -165,6 +174,7 @@ impl LumenApp {
         self.trial_view.holds_memory()
     }
 
+    /// Hears what platform and engines have to say, deaths among it.
     fn listen(&mut self, ctx: &egui::Context) {
         while let Some(event) = self.platform.poll() {
             match event {
@@ -180,10 +190,7 @@ impl LumenApp {
             match self.state.receive(event) {
                 Some(Effect::Opened) => {
                     self.look_next = true;
-                    // A trial is in the surface that was open.
-                    if self.trial.is_open {
-                        self.trial.act(&trial::Ask::Close, None, self.platform.trial());
-                    }
+                    self.trial.leave_surface(self.platform.trial());
                 }
                 Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
                 None => {}
@@ -201,13 +208,66 @@ impl LumenApp {
             let sentence = self.trial.engine_failed(&reason, self.platform.trial());
             self.state.warn(&sentence);
         }
-        let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
-        if let Some(file) = dropped {
-            self.platform.read_dropped(file, ctx);
+    }
+
+    /// Sends on what was done and heard.
+    fn follow(&mut self, ctx: &egui::Context) {
+        self.state.follow(keys::moves_control(ctx), self.platform.link());
+        let State { document, settings, .. } = &self.state;
+        let has_level = self.state.has_level();
+        self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
+        self.trial.next_row(self.platform.trial());
+        // A gamepad tells nothing by itself.
+        let has_gamepad = self.trial.is_open && self.trial.is_in_hand() && self.platform.gamepad().is_some();
+        let is_moving = self.trial.is_open && self.trial.is_moving();
+        if has_gamepad || is_moving || self.trial.is_driven() || self.state.is_busy() || self.trial.is_busy() {
+            ctx.request_repaint_after(LISTEN);
+        }
+    }
+
+    /// Does what the keys ask for.
+    fn take_keys(&mut self, ui: &Ui, keys: Keys) {
+        if matches!(keys, Keys::Sheet | Keys::List) {
+            return;
+        }
+        let ctx = ui.ctx();
+        let mut action = keys::with_ctrl(ui, keys);
+        if keys == Keys::Views {
+            if self.trial.is_open {
+                if let Some(ask) = trial::keys(ui, &mut self.trial) {
+                    self.act_on_trial(&ask, ctx);
+                }
+            } else {
+                action = action.or_else(|| keys::action(ui, &mut self.views));
+            }
+            if keys::pressed(ui, Modifiers::NONE, Key::Escape) {
+                self.take_off(ctx);
+            }
+        }
+        if let Some(action) = action {
+            self.act(action, ctx);
+        }
+    }
+
+    /// Takes off one thing, what lies on top: the tables, picking, what is going on, the trial, the comparison. Sheets,
+    /// lists and fields do so themselves.
+    fn take_off(&mut self, ctx: &egui::Context) {
+        if self.trial.tables.is_open {
+            self.trial.tables.is_open = false;
+        } else if self.trial.pick.is_some() {
+            self.trial.pick = None;
+        } else if self.state.is_busy() {
+            self.act(Action::Cancel, ctx);
+        } else if self.trial.is_open {
+            self.act_on_trial(&trial::Ask::Close, ctx);
+        } else {
+            self.state.comparison.set_open(false);
         }
     }
 
     fn act(&mut self, action: Action, ctx: &egui::Context) {
+        // What was shown of it before is not the last.
+        ctx.request_repaint();
         let keep = self.state.settings.keep;
         let state = &mut self.state;
         match action {
@@ -248,8 +308,8 @@ impl LumenApp {
         self.trial.act(ask, self.state.document.as_ref(), self.platform.trial());
     }
 
-    fn panels(&mut self, ui: &mut Ui) -> (Option<Action>, Option<trial::Ask>) {
-        let is_narrow = ui.available_width() < NARROW;
+    /// Shows the bars and the panel, and does what is asked for there.
+    fn controls(&mut self, ui: &mut Ui, is_narrow: bool) {
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
         let mut action = None;
         Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
@@ -286,6 +346,16 @@ impl LumenApp {
                 }
             });
         });
+        if let Some(action) = action {
+            self.act(action, ui.ctx());
+        }
+        if let Some(ask) = ask {
+            self.act_on_trial(&ask, ui.ctx());
+        }
+    }
+
+    /// Shows the views, and what lies over them.
+    fn centre(&mut self, ui: &mut Ui, is_narrow: bool) {
         let keep = self.state.settings.keep;
         let mut picked = None;
         let clicked = CentralPanel::default()
@@ -322,8 +392,6 @@ impl LumenApp {
         if self.trial_view.tables(ui, &mut self.trial) {
             self.trial.cancel_tables(self.platform.trial());
         }
-        self.trial.next_row(self.platform.trial());
-        (action, ask)
     }
 }
 
@@ -337,6 +405,16 @@ fn toggled(open: Option<Sheet>, sheet: Sheet) -> Option<Sheet> {
 }
 
 impl eframe::App for LumenApp {
+    /// Before each frame, and alone while the window is minimised or its tab hidden: what is heard does not wait for
+    /// eyes, and no hand that nobody sees is on the wire.
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.listen(ctx);
+        if ctx.input(|input| input.viewport().visible() == Some(false)) {
+            self.trial.follow_hand(ctx, Keys::Views, None, self.platform.trial());
+            self.follow(ctx);
+        }
+    }
+
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         if let Some(end) = self.health.end() {
@@ -346,40 +424,28 @@ impl eframe::App for LumenApp {
             return;
         }
         self.heed_memory();
-        self.listen(&ctx);
-        let held = keys::before_is_held(ui) || self.views.before_is_held || self.views.before_is_on;
-        self.views.show_before = held;
-        let (mut by_key, mut asked) = (None, None);
-        if self.sheet.is_none() {
-            by_key = keys::with_ctrl(ui);
-            if self.trial.is_open {
-                asked = trial::keys(ui, &mut self.trial);
-            } else {
-                by_key = by_key.or_else(|| keys::action(ui, &mut self.views, self.state.is_busy()));
+        let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
+        if let Some(file) = dropped {
+            self.platform.read_dropped(file, &ctx);
+        }
+        let keys = Keys::of(&ctx, self.sheet.is_some(), self.was_typing);
+        let by_key = keys == Keys::Views && ctx.input(|input| input.key_down(Key::B));
+        self.views.show_before = by_key || self.views.before_is_held || self.views.before_is_on;
+        let is_narrow = ui.available_width() < NARROW;
+        self.controls(ui, is_narrow);
+        self.take_keys(ui, keys);
+        // Before the views: they are of this frame.
+        self.state.show_level();
+        self.centre(ui, is_narrow);
+        let gamepad = self.platform.gamepad();
+        self.trial.follow_hand(&ctx, keys, gamepad, self.platform.trial());
+        if let Some(sheet) = self.sheet {
+            let is_done = sheets::show(ui, sheet, self.trial.is_open);
+            if is_done || keys::pressed(ui, Modifiers::NONE, Key::F1) {
+                self.sheet = None;
             }
         }
-        let (by_bar, by_panel) = self.panels(ui);
-        if let Some(action) = by_key.or(by_bar) {
-            self.act(action, &ctx);
-        }
-        if let Some(ask) = asked.or(by_panel) {
-            self.act_on_trial(&ask, &ctx);
-        }
-        let gamepad = self.platform.gamepad();
-        self.trial.follow_hand(ui, gamepad, self.platform.trial());
-        if self.sheet.is_some_and(|sheet| sheets::show(ui, sheet, self.trial.is_open))
-            || self.sheet.is_some() && keys::closes_sheet(ui)
-        {
-            self.sheet = None;
-        }
-        let is_held = ctx.input(|input| input.pointer.any_down()) || ctx.egui_wants_keyboard_input();
-        self.state.follow(is_held, self.platform.link());
-        let State { document, settings, .. } = &self.state;
-        let has_level = self.state.has_level();
-        self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
-        let is_in_hand = self.trial.is_open && self.trial.is_in_hand();
-        if is_in_hand || self.state.is_busy() || self.trial.is_busy() {
-            ctx.request_repaint_after(LISTEN);
-        }
+        self.was_typing = ctx.text_edit_focused();
+        self.follow(&ctx);
     }
 }

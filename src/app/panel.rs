@@ -28,6 +28,8 @@ pub(super) fn show(
     let unit = ui.push_id("surface", |ui| surface(ui, state, views)).inner;
     ui.push_id("smooth", |ui| smooth(ui, &mut state.settings, measured(state.document.as_ref())));
     ui.push_id("reduce", |ui| reduce(ui, state));
+    // What follows, and the views, are of the level that was just asked for.
+    state.show_level();
     let ask =
         ui.push_id("trial", |ui| trial::panel(ui, trial, &state.settings.smoothing, state.document.as_ref())).inner;
     ui.push_id("result", |ui| result(ui, state));
@@ -214,7 +216,7 @@ fn reduce(ui: &mut Ui, state: &mut State) {
     let decimation = &mut state.settings.decimation;
     ui.horizontal(|ui| {
         ui.label("Method").on_hover_text(
-            "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the error, better shape.",
+            "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the mean error, better shape.",
         );
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let list = ComboBox::from_id_salt("method").selected_text(decimation.method.name());
@@ -336,9 +338,11 @@ fn rate_or_count(ui: &mut Ui, state: &mut State) {
         ui.horizontal(|ui| {
             ui.label("Triangles wanted").on_hover_text("The same as a number; drag, or click to type");
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let wanted = state.settings.target.triangles(entering);
+                // The field shows what can be typed into it: left alone, it sets nothing.
+                let most = entering.max(1);
+                let wanted = state.settings.target.triangles(entering).clamp(1, most);
                 let mut typed = wanted;
-                let field = egui::DragValue::new(&mut typed).range(1..=entering).speed(entering as f64 / 500.0);
+                let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
                 let response = ui.add(field.update_while_editing(false));
                 name(&response, Role::SpinButton, "Triangles wanted");
                 if typed != wanted {

@@ -44,8 +44,23 @@ pub struct State {
     number: u64,
     /// Whether a cancel waits for its answer, which has the settings that are in force.
     is_cancelling: bool,
+    /// What there is to ask.
+    engine: Engine,
     /// Times in a row that the engine has stopped by itself.
     failures: u32,
+    /// The names of the files that the engine makes.
+    writing: Vec<String>,
+}
+
+/// What there is to ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Engine {
+    /// An engine that has the surface which is shown, or one that is on its way in.
+    Loaded,
+    /// An engine that has nothing open.
+    Empty,
+    /// None: it has stopped too often in a row. The next thing that is asked for starts another.
+    Stopped,
 }
 
 /// A surface on its way in.
@@ -90,7 +105,9 @@ impl Default for State {
             generation: 0,
             number: 0,
             is_cancelling: false,
+            engine: Engine::Empty,
             failures: 0,
+            writing: Vec::new(),
         }
     }
 }
@@ -109,9 +126,7 @@ impl State {
 
     /// Opens a surface, of all of which the largest piece is kept.
     pub fn open(&mut self, source: Source, link: &mut dyn Link) {
-        if self.failures > PATIENCE {
-            link.restart();
-        }
+        self.wake(link);
         self.number += 1;
         let id = self.number;
         let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
@@ -146,30 +161,54 @@ impl State {
     pub fn cancel(&mut self, link: &mut dyn Link) {
         if self.opening.is_empty() {
             self.comparison.stop("Cancelled.");
-            link.send(Command::Cancel);
-            self.is_cancelling = true;
+            // Whoever has nothing open has nothing to answer.
+            if self.engine == Engine::Loaded {
+                link.send(Command::Cancel);
+                self.is_cancelling = true;
+            }
         } else {
             // Reading is one piece, which no command can stop: another engine takes up the surface that is shown.
             self.opening.clear();
-            self.reopen(link);
+            let lost = self.reopen(link);
             let kept = if self.document.is_some() { "; what was open still is" } else { "" };
-            self.tell(&format!("Opening was cancelled{kept}."));
+            self.tell(&format!("Opening was cancelled{kept}.{lost}"));
         }
         self.work = None;
     }
 
-    /// Starts another engine on the surface that is open.
-    fn reopen(&mut self, link: &mut dyn Link) {
+    /// Sees to it that there is an engine.
+    fn wake(&mut self, link: &mut dyn Link) {
+        if self.engine == Engine::Stopped {
+            link.restart();
+            self.engine = Engine::Empty;
+        }
+    }
+
+    /// Starts another engine on the surface that is open; says which files are lost by that.
+    fn reopen(&mut self, link: &mut dyn Link) -> String {
         link.restart();
+        self.engine = Engine::Empty;
         self.is_cancelling = false;
         self.comparison.forget_request();
+        self.load(link);
+        self.lost_files()
+    }
+
+    /// Gives the engine the surface that is open.
+    fn load(&mut self, link: &mut dyn Link) {
         if let Some(document) = &self.document {
             self.number += 1;
             self.generation = self.number;
             let (id, source, settings) = (self.number, document.source.clone(), self.settings.clone());
             link.send(Command::Open { id, source, settings: settings.clone() });
             self.sent = settings;
+            self.engine = Engine::Loaded;
         }
+    }
+
+    /// Forgets the files that an engine which is no more was to make; a sentence on each, after a space.
+    fn lost_files(&mut self) -> String {
+        self.writing.drain(..).map(|name| format!(" {name} was not saved: save it again.")).collect()
     }
 
     /// Asks for the shown level as a file.
@@ -183,6 +222,10 @@ impl State {
             _ => document.name.to_lowercase().replace(' ', "-"),
         };
         let name = format!("{stem}-{}.{}", mesh.triangles.len(), format.extension());
+        // An engine that has stopped too often with the surface open can still make a file.
+        self.wake(link);
+        self.notice = None;
+        self.writing.push(name.clone());
         link.send(Command::Write { name, format, mesh });
     }
 
@@ -203,6 +246,13 @@ impl State {
         }
     }
 
+    /// Shows the level that the settings ask for.
+    pub fn show_level(&mut self) {
+        if let Some(document) = &mut self.document {
+            document.show(self.settings.target);
+        }
+    }
+
     /// To be called each frame, after the controls: shows the level that the settings ask for and lets the engine
     /// know about them. While a control is held, the steps of its way are not recorded for undo. While a surface is on
     /// its way in or a cancel waits for its answer the engine is told nothing: it is then told all at once, and on
@@ -211,8 +261,15 @@ impl State {
         if !is_held {
             self.history.record(&self.settings);
         }
-        if let Some(document) = self.document.as_mut().filter(|_| self.settings.target != self.sent.target) {
-            document.show(self.settings.target);
+        self.show_level();
+        if self.engine != Engine::Loaded && self.opening.is_empty() {
+            // It is left alone until the hand is done with something that it is needed for.
+            let is_needed = self.settings != self.sent || self.comparison.is_waiting();
+            if is_held || !is_needed {
+                return;
+            }
+            self.wake(link);
+            self.load(link);
         }
         let Some(document) = self.document.as_ref().filter(|_| self.opening.is_empty() && !self.is_cancelling) else {
             return;
@@ -255,10 +312,16 @@ impl State {
         match event {
             Event::Opened(opened) => self.receive_opened(*opened),
             Event::OpenFailed { id, name, message } => {
-                if let Some(at) = self.opening.iter().position(|opening| opening.id == id) {
-                    self.opening.remove(at);
+                let at = self.opening.iter().position(|opening| opening.id == id);
+                let is_shown = self.engine == Engine::Loaded && id == self.generation;
+                if at.is_some() || is_shown {
+                    at.map(|at| self.opening.remove(at));
                     if self.opening.is_empty() {
                         self.work = None;
+                    }
+                    if is_shown {
+                        self.engine = Engine::Empty;
+                        self.comparison.stop("The surface could not be opened again.");
                     }
                     let kept = if self.document.is_some() { " What was open still is." } else { "" };
                     self.warn(&format!("{name}: {}{kept}", sentence(&message)));
@@ -306,7 +369,14 @@ impl State {
                 }
             }
             Event::Cancelled { generation, settings } => self.receive_cancelled(generation, settings),
-            Event::Written { name, bytes } => return Some(Effect::Offer { name, bytes }),
+            Event::Written { name, bytes } => {
+                self.no_longer_writes(&name);
+                return Some(Effect::Offer { name, bytes });
+            }
+            Event::NotWritten { name, message } => {
+                self.no_longer_writes(&name);
+                self.warn(&format!("{name} was not saved: {}", sentence(&message)));
+            }
             Event::Failed { message } => {
                 self.work = None;
                 self.comparison.forget_request();
@@ -316,6 +386,12 @@ impl State {
         None
     }
 
+    fn no_longer_writes(&mut self, name: &str) {
+        if let Some(at) = self.writing.iter().position(|writing| writing == name) {
+            self.writing.remove(at);
+        }
+    }
+
     /// The surface that the engine works on.
     fn worked_on(&mut self) -> Option<&mut Document> {
         let incoming = self.opening.iter_mut().filter_map(|opening| opening.document.as_mut()).next_back();
@@ -323,6 +399,7 @@ impl State {
     }
 
     fn receive_opened(&mut self, opened: crate::engine::Opened) {
+        self.engine = Engine::Loaded;
         // Others were read again by a new engine, and are shown already.
         if let Some(at) = self.opening.iter().position(|opening| opening.id == opened.id) {
             // The engine gives up what it was asked for before.
@@ -376,17 +453,29 @@ impl State {
         self.comparison.stop("The computation stopped.");
         let opening = std::mem::take(&mut self.opening).pop();
         if self.failures > PATIENCE {
+            self.engine = Engine::Stopped;
+            if self.settings != self.sent {
+                // No numbers are those of these settings, and it is not for them that it is started again.
+                self.number += 1;
+                self.generation = self.number;
+                self.sent = self.settings.clone();
+            }
+            let lost = self.lost_files();
             self.warn(&format!(
-                "The computation keeps stopping ({reason}). What is shown is still there; open a file to go on."
+                "The computation keeps stopping ({reason}).{lost} What is shown is still there and can be saved; \
+                 change a setting or open a file to try again."
             ));
             return;
         }
-        self.reopen(link);
+        let lost = self.reopen(link);
         let text = match opening {
             Some(opening) => {
-                format!("{} could not be opened: the computation stopped ({reason}).", opening.source.name())
+                format!("{} could not be opened: the computation stopped ({reason}).{lost}", opening.source.name())
             }
-            None => format!("The computation stopped ({reason}) and was started again. Nothing was lost."),
+            None => {
+                let lost = if lost.is_empty() { " Nothing was lost." } else { &lost };
+                format!("The computation stopped ({reason}) and was started again.{lost}")
+            }
         };
         self.warn(&text);
     }

@@ -282,23 +282,29 @@ impl Views {
         }
     }
 
-    /// Moves the camera by keys: arrows turn, plus and minus zoom.
+    /// Moves the camera by keys: arrows turn, plus and minus zoom, as far in a second however many frames it has.
     pub fn steer_by_keys(&mut self, ui: &Ui) {
         use egui::Key;
-        const TURN: f32 = 0.02;
-        let (mut turn, mut zoom) = (Vec2::ZERO, 1.0);
+        /// A drag over so many heights of the view, a second.
+        const TURN: f32 = 1.2;
+        /// The logarithm of what comes nearer, a second.
+        const ZOOM: f32 = 1.8;
+        /// Of a frame that took longer no more is made up for.
+        const LONGEST: f32 = 0.1;
+        let (mut turn, mut zoom) = (Vec2::ZERO, 0.0);
+        let seconds = ui.input(|input| input.stable_dt).min(LONGEST);
         ui.input(|input| {
             let held = |key| f32::from(u8::from(input.key_down(key)));
             turn.x = held(Key::ArrowRight) - held(Key::ArrowLeft);
             turn.y = held(Key::ArrowDown) - held(Key::ArrowUp);
-            zoom += 0.03 * (held(Key::Plus).max(held(Key::Equals)) - held(Key::Minus));
+            zoom = (held(Key::Plus).max(held(Key::Equals)) - held(Key::Minus)) * ZOOM * seconds;
         });
         if turn != Vec2::ZERO {
-            self.camera.orbit(turn * TURN);
+            self.camera.orbit(turn * TURN * seconds);
             ui.ctx().request_repaint();
         }
-        if zoom != 1.0 {
-            self.camera.zoom(zoom, Vec2::ZERO, self.aspect);
+        if zoom != 0.0 {
+            self.camera.zoom(zoom.exp(), Vec2::ZERO, self.aspect);
             ui.ctx().request_repaint();
         }
     }

@@ -223,6 +223,18 @@ fn print(summary: &Summary) {
             100.0 * summary.max_contact_share
         ),
     );
+    let kinds = summary.step_kinds;
+    row(
+        "balance",
+        format!(
+            "{:.1} % of the steps are not balanced ({} braked, {} waited, {} held); forces are those of the others",
+            100.0 * summary.unbalanced_share,
+            kinds.braked,
+            kinds.waited,
+            kinds.held
+        ),
+    );
+    row("feed", format!("{:.1} mm of {:.1} mm asked for, there and back", summary.fed_mm, summary.wanted_feed_mm));
     row(
         "wall force",
         format!("{:.4} N at most, {:.4} N in all on average", summary.max_wall_force_n, summary.mean_wall_force_n),

@@ -89,6 +89,7 @@ fn item(rate: u32, summary: &Summary, paper: Option<&TrialRow>) -> Item {
             beside("success", paper.map(|row| u32::from(row.success)), Some(f64::from(u8::from(summary.success)))),
             number("peak wall force", "N", 3, Some(summary.max_wall_force_n)),
             number("mean wall force", "N", 4, Some(summary.mean_wall_force_n)),
+            number("unbalanced steps", "%", 1, Some(100.0 * summary.unbalanced_share)),
             number("time to target", "s", 1, summary.success.then_some(summary.time_s)),
         ],
     }

@@ -187,8 +187,7 @@ pub enum Event {
         complete: bool,
         /// The numbers.
         report: Box<Report>,
-        /// For each node, the largest distance from the level, in mm, of the vertices that it stands for; empty until
-        /// `complete`.
+        /// For each node of the level, the mean deviation around it, in mm; empty until `complete`.
         deviation: Vec<f32>,
     },
     /// The work was stopped; these settings, and their results, are in force.
@@ -215,6 +214,13 @@ pub enum Event {
         name: String,
         /// Its bytes.
         bytes: Vec<u8>,
+    },
+    /// A file could not be made.
+    NotWritten {
+        /// Its name.
+        name: String,
+        /// One plain sentence.
+        message: String,
     },
     /// Something could not be done; what was there before still is.
     Failed {

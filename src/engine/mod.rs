@@ -169,7 +169,7 @@ impl Engine {
         let normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
         self.events.push_back(match io::write(mesh, Some(&normals), format) {
             Ok(bytes) => Event::Written { name, bytes },
-            Err(error) => Event::Failed { message: format!("{name} could not be written: {error}") },
+            Err(error) => Event::NotWritten { name, message: error.to_string() },
         });
     }
 

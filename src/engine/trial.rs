@@ -14,6 +14,9 @@ use crate::trial::setup::{Entry, Input, Setup};
 /// The app's end of the line to a trial.
 pub type TrialLink = dyn super::Link<TrialCommand, TrialEvent>;
 
+/// Seconds of the clock for which an input by hand holds.
+pub const HAND: f64 = 0.5;
+
 /// What the trial is asked to do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TrialCommand {
@@ -28,7 +31,7 @@ pub enum TrialCommand {
         /// All else.
         setup: Setup,
     },
-    /// Goes on with this input until the next.
+    /// Goes on with this input until the next, or until [`HAND`] is over and it was not told again.
     Drive(Input),
     /// Steers by itself, or no longer.
     Autopilot(bool),

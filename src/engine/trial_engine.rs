@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use super::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
+use super::trial::{HAND, RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::trial::STEP;
+use crate::trial::compare::{Noise, SHUFFLES};
 use crate::trial::course::{Course, TrialError};
-use crate::trial::felt::Felt;
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
 use crate::trial::route::RouteError;
@@ -36,10 +36,47 @@ struct Job {
     told: Instant,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
 enum JobKind {
     Measure,
-    Compare,
+    Compare(Comparing),
+}
+
+/// A comparison: the trial runs on the unreduced surface, then on the same in other orders.
+struct Comparing {
+    mesh: Arc<TriMesh>,
+    /// The run on the surface as it is, once it is over.
+    original: Option<Box<Trial>>,
+    noise: Noise,
+    /// Orders that were tried.
+    orders: u64,
+}
+
+impl Job {
+    /// The part that is done.
+    fn fraction(&self) -> f32 {
+        let steps = self.trial.simulation().steps() as f64;
+        let all = self.trial.replayed_steps().map_or(self.trial.limit_s() / STEP, |all| all as f64);
+        let part = steps / all.max(1.0);
+        match &self.kind {
+            JobKind::Measure => part as f32,
+            JobKind::Compare(comparing) => {
+                let before = comparing.orders + u64::from(comparing.original.is_some());
+                ((before as f64 + part) / (SHUFFLES + 1) as f64) as f32
+            }
+        }
+    }
+}
+
+/// The hand on the wire. Whoever holds it tells so again and again; one that is not heard of any more (its window is
+/// hidden, its page has stopped) is off.
+#[derive(Clone, Copy, PartialEq)]
+enum Hand {
+    /// None is on it.
+    Off,
+    /// It was heard of since the clock was looked at last.
+    Heard,
+    /// It is on the wire until then, in seconds by the clock.
+    Until(f64),
 }
 
 /// The trial that is shown.
@@ -47,11 +84,10 @@ struct Shown {
     /// That of the command which began what is shown now.
     id: u64,
     trial: Box<Trial>,
-    /// Of every step.
-    felt: Felt,
     /// Whether a hand, the autopilot or a log has moved the wire yet: until then it lies at its entry, and its time does
     /// not run.
     has_begun: bool,
+    hand: Hand,
     is_paused: bool,
     pace: f64,
     /// Simulated seconds that the clock has asked for and that are not done.
@@ -71,8 +107,8 @@ impl Shown {
         Self {
             id,
             trial: Box::new(trial),
-            felt: Felt::default(),
             has_begun: false,
+            hand: Hand::Off,
             is_paused: false,
             pace: 1.0,
             owed: 0.0,
@@ -97,6 +133,18 @@ impl Shown {
     fn hand_over(&mut self) {
         self.trial.set_autopilot(false);
         (self.is_paused, self.is_told) = (false, false);
+    }
+
+    /// Lets go of the wire where the hand was not heard of for too long. The autopilot and a log need none.
+    fn look_after_hand(&mut self, now_s: f64) {
+        match self.hand {
+            Hand::Heard => self.hand = Hand::Until(now_s + HAND),
+            Hand::Until(end) if now_s > end => {
+                self.trial.drive(Input::default());
+                self.hand = Hand::Off;
+            }
+            Hand::Off | Hand::Until(_) => {}
+        }
     }
 
     /// Whether it stands, whatever the clock says.
@@ -138,16 +186,22 @@ impl TrialEngine {
                     _ => self.fail(NO_TRIAL),
                 },
                 Some(mut shown) => {
-                    if let TrialCommand::Restart { id }
-                    | TrialCommand::StepBack { id }
-                    | TrialCommand::Replay { id, .. } = other
-                    {
+                    let begun = match &other {
+                        TrialCommand::Restart { id }
+                        | TrialCommand::StepBack { id }
+                        | TrialCommand::Replay { id, .. } => Some(*id),
+                        _ => None,
+                    };
+                    if let Some(id) = begun {
                         // Whether or not it can be done: the frames that follow are those after it.
                         shown.id = id;
-                        shown.felt.tell_again();
                         self.drop_comparisons();
                     }
                     self.handle_shown(other, &mut shown);
+                    if begun.is_some() {
+                        // What the wall has felt up to where the wire is now, to whoever has forgotten all.
+                        shown.trial.felt_mut().tell_again();
+                    }
                     shown.needs_frame = true;
                     self.shown = Some(shown);
                 }
@@ -160,7 +214,9 @@ impl TrialEngine {
         match command {
             TrialCommand::Drive(input) => {
                 trial.drive(input);
-                shown.has_begun |= input != Input::default();
+                let is_on = input != Input::default();
+                shown.hand = if is_on { Hand::Heard } else { Hand::Off };
+                shown.has_begun |= is_on;
             }
             TrialCommand::Autopilot(on) => {
                 trial.set_autopilot(on);
@@ -187,7 +243,11 @@ impl TrialEngine {
                     self.fail(&message);
                 }
             }
-            TrialCommand::Compare { id, mesh } => self.add_job(id, trial.on(&mesh), JobKind::Compare),
+            TrialCommand::Compare { id, mesh } => {
+                let job = trial.on(&mesh);
+                let comparing = Comparing { mesh, original: None, noise: Noise::default(), orders: 0 };
+                self.add_job(id, job, JobKind::Compare(comparing));
+            }
             TrialCommand::Start { .. }
             | TrialCommand::Measure { .. }
             | TrialCommand::Cancel { .. }
@@ -197,7 +257,7 @@ impl TrialEngine {
 
     /// Gives up comparing a trial that is no longer what it was.
     fn drop_comparisons(&mut self) {
-        self.jobs.retain(|job| job.kind != JobKind::Compare);
+        self.jobs.retain(|job| matches!(job.kind, JobKind::Measure));
     }
 
     fn fail(&mut self, message: &str) {
@@ -228,7 +288,7 @@ impl TrialEngine {
     fn add_job(&mut self, id: u64, trial: Result<Trial, TrialError>, kind: JobKind) {
         match trial {
             Ok(mut trial) => {
-                if kind == JobKind::Measure {
+                if matches!(kind, JobKind::Measure) {
                     trial.set_autopilot(true);
                 }
                 self.jobs.push_back(Job { id, trial: Box::new(trial), kind, told: Instant::now() });
@@ -249,6 +309,9 @@ impl TrialEngine {
     /// Works for a slice at `now_s` seconds by any clock; says after what time it wants to go on, `None` for not before the
     /// next command.
     pub fn advance(&mut self, now_s: f64, slice: Duration) -> Option<Duration> {
+        if let Some(shown) = &mut self.shown {
+            shown.look_after_hand(now_s);
+        }
         if !self.jobs.is_empty() {
             self.work(slice);
             if let Some(shown) = &mut self.shown {
@@ -271,7 +334,7 @@ impl TrialEngine {
         if shown.needs_frame || is_end || now_s - shown.framed >= FRAME && !shown.stands() {
             shown.framed = now_s;
             shown.needs_frame = false;
-            let touches = shown.felt.news();
+            let touches = shown.trial.felt_mut().news();
             if !touches.is_empty() {
                 self.events.push_back(TrialEvent::Felt { id: shown.id, touches });
             }
@@ -306,22 +369,47 @@ impl TrialEngine {
         if job.trial.progress() == Progress::Running {
             if job.told.elapsed().as_secs_f64() > TELL {
                 job.told = Instant::now();
-                let steps = job.trial.simulation().steps() as f64;
-                let all = job.trial.replayed_steps().map_or(job.trial.limit_s() / STEP, |all| all as f64);
-                self.events.push_back(TrialEvent::Busy { id: job.id, fraction: (steps / all.max(1.0)) as f32 });
+                self.events.push_back(TrialEvent::Busy { id: job.id, fraction: job.fraction() });
             }
             return;
         }
-        let Some(Job { id, trial, kind, .. }) = self.jobs.pop_front() else { return };
-        let event = match (kind, &self.shown) {
-            (JobKind::Measure, _) => TrialEvent::Measured { id, summary: Box::new(trial.summary()) },
-            (JobKind::Compare, Some(shown)) => {
-                let comparison = Box::new(TrialComparison::new(&shown.trial, &trial));
-                TrialEvent::Compared { id, comparison }
+        let Some(Job { id, trial, kind, told }) = self.jobs.pop_front() else { return };
+        match (kind, &self.shown) {
+            (JobKind::Measure, _) => {
+                self.events.push_back(TrialEvent::Measured { id, summary: Box::new(trial.summary()) });
             }
-            (JobKind::Compare, None) => return,
-        };
-        self.events.push_back(event);
+            (JobKind::Compare(mut comparing), Some(shown)) => {
+                if let Some(comparison) = comparing.ran(trial, &shown.trial) {
+                    self.events.push_back(TrialEvent::Compared { id, comparison: Box::new(comparison) });
+                    return;
+                }
+                match shown.trial.on_shuffled(&comparing.mesh, comparing.orders + 1) {
+                    Ok(trial) => self.jobs.push_front(Job {
+                        id,
+                        trial: Box::new(trial),
+                        kind: JobKind::Compare(comparing),
+                        told,
+                    }),
+                    Err(error) => self.refuse_for(id, &error),
+                }
+            }
+            (JobKind::Compare(_), None) => {}
+        }
+    }
+}
+
+impl Comparing {
+    /// Takes in a run that is over. Returns what comes of all of them, once none is left to be made.
+    fn ran(&mut self, trial: Box<Trial>, shown: &Trial) -> Option<TrialComparison> {
+        match &self.original {
+            None => self.original = Some(trial),
+            Some(original) => {
+                self.noise.take(original, &trial);
+                self.orders += 1;
+            }
+        }
+        let original = self.original.as_ref().filter(|_| self.orders == SHUFFLES)?;
+        Some(TrialComparison::new(shown, original, &self.noise))
     }
 }
 
@@ -335,7 +423,6 @@ fn run(shown: &mut Shown, passed: f64, slice: Duration) {
     let mut steps = 0;
     while shown.owed >= STEP && start.elapsed() < slice && shown.trial.progress() == Progress::Running {
         shown.trial.step();
-        shown.felt.take(shown.trial.touches());
         shown.owed -= STEP;
         steps += 1;
     }
@@ -510,6 +597,74 @@ mod tests {
         engine.handle(TrialCommand::StepBack { id: 7 });
         engine.advance(2.0, SLICE);
         assert!(matches!(events(&mut engine)[..], [TrialEvent::Frame { id: 7, .. }]));
+    }
+
+    /// Drives for so many seconds of the clock by an input that is told every so many; gives the length that is in the
+    /// vessel after each tenth of a second.
+    fn inserted(engine: &mut TrialEngine, from_s: f64, seconds: f64, told_every: Option<f64>) -> Vec<f64> {
+        let mut lengths = Vec::new();
+        let mut due = told_every;
+        for i in 0..(seconds * 100.0) as u32 {
+            let passed = f64::from(i) / 100.0;
+            if due.is_some_and(|due| passed >= due) {
+                engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+                due = due.zip(told_every).map(|(due, every)| due + every);
+            }
+            engine.advance(from_s + passed, Duration::from_millis(50));
+            if i % 10 == 9 {
+                lengths.extend(engine.shown.as_ref().map(|shown| shown.trial.simulation().inserted()));
+            }
+        }
+        lengths
+    }
+
+    #[test]
+    fn an_input_that_is_not_told_again_is_let_go() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        let told_once = inserted(&mut engine, 0.0, 3.0, None);
+        let (first, last) = (told_once[0], told_once[29]);
+        // 20 mm/s for as long as an input holds, and for the row of the log that it ends in.
+        let most = 20.0 * (HAND + 0.02);
+        assert!(first > 1.0 && last <= most + 0.5 && last >= 0.8 * most, "{last} mm of {most}");
+        assert!(told_once[10..].iter().all(|&length| (length - last).abs() < 1e-9), "{told_once:?}");
+        let told_again = inserted(&mut engine, 3.0, 2.0, Some(0.1));
+        let fed = told_again[19] - last;
+        assert!((fed - 40.0).abs() < 4.0, "{fed} mm in two seconds");
+        // By the clock, whatever the pace: the hand is as far from the simulated time as the user is.
+        engine.handle(TrialCommand::Pace(0.25));
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        let slow = inserted(&mut engine, 5.0, 3.0, None);
+        let fed = slow[29] - told_again[19];
+        assert!(fed > 0.5 * HAND * 5.0 && fed < 5.0 * (HAND + 0.1) + 1.0, "{fed} mm");
+        // A machine that slept has no hand on it when it wakes.
+        engine.handle(TrialCommand::Pace(1.0));
+        engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+        engine.advance(8.0, Duration::from_millis(50));
+        let before = inserted(&mut engine, 8.0, 0.1, None)[0];
+        let after = inserted(&mut engine, 3600.0, 2.0, None)[19];
+        assert!((after - before).abs() < 0.5, "{before} {after}");
+    }
+
+    #[test]
+    fn the_autopilot_and_a_log_need_no_hand() {
+        let mut engine = TrialEngine::new();
+        let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+        engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+        engine.handle(TrialCommand::Autopilot(true));
+        let steered = inserted(&mut engine, 0.0, 3.0, None);
+        assert!(steered[29] > 1.5 * 20.0 * HAND && steered[29] > steered[20], "{steered:?}");
+        engine.handle(TrialCommand::Save);
+        let csv = events(&mut engine).into_iter().find_map(|event| match event {
+            TrialEvent::Saved { csv, .. } => Some(csv),
+            _ => None,
+        });
+        let csv = Arc::new(csv.unwrap().into_bytes());
+        engine.handle(TrialCommand::Replay { id: 2, csv });
+        let replayed = inserted(&mut engine, 10.0, 2.5, None);
+        assert!((replayed[20] - steered[20]).abs() < 1.0, "{} {}", replayed[20], steered[20]);
     }
 
     #[test]

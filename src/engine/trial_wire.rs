@@ -120,11 +120,13 @@ pub fn encode_event(event: &TrialEvent) -> Encoded<'_> {
         TrialEvent::Compared { id, comparison: compared } => {
             let mut rest = compared.clone();
             (rest.inserted_mm, rest.deviation_mm, rest.tip, rest.other_tip) = Default::default();
+            rest.noise_mm = Vec::new();
             let buffers = vec![
                 cast_slice(&compared.inserted_mm),
                 cast_slice(&compared.deviation_mm),
                 cast_slice(&compared.tip),
                 cast_slice(&compared.other_tip),
+                cast_slice(&compared.noise_mm),
             ];
             (EventHeader::Compared { id: *id, comparison: rest }, buffers)
         }
@@ -157,6 +159,7 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<TrialEvent, 
             comparison.deviation_mm = array(buffers, 1)?;
             comparison.tip = array(buffers, 2)?;
             comparison.other_tip = array(buffers, 3)?;
+            comparison.noise_mm = array(buffers, 4)?;
             TrialEvent::Compared { id, comparison }
         }
         EventHeader::Busy { id, fraction } => TrialEvent::Busy { id, fraction },
@@ -176,6 +179,7 @@ mod tests {
     use crate::engine::trial::RouteShown;
     use crate::mesh::TriMesh;
     use crate::trial::frame::{Progress, Touch};
+    use crate::trial::report::{StepCounts, StepKind, StepReport};
 
     fn owned((header, buffers): Encoded<'_>) -> (String, Vec<Vec<u8>>) {
         (header, buffers.into_iter().map(<[u8]>::to_vec).collect())
@@ -214,6 +218,8 @@ mod tests {
             nodes: vec![[0.1, 0.2, 0.3]; 4],
             forces: vec![[0.0, -1.0, 0.5]; 4],
             contacts: 2,
+            report: StepReport { kind: StepKind::Waited, wanted_mm: 0.04, push_n: -0.1, ..StepReport::default() },
+            step_kinds: StepCounts { balanced: 40, held: 2, ..StepCounts::default() },
             time_s: 0.1,
             progress: Progress::Arrived,
             doing: "feeds".to_owned(),
@@ -225,6 +231,8 @@ mod tests {
             verdict: "it arrives".to_owned(),
             inserted_mm: vec![1.0, 2.0],
             deviation_mm: vec![0.0, 0.5],
+            noise_mm: vec![0.1, 0.2],
+            orders: [3, 2],
             tip: vec![[1.0; 3]; 2],
             other_tip: vec![[1.5; 3]; 2],
             force_differences: vec![([1.0; 3], 0.5)],

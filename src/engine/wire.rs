@@ -89,6 +89,7 @@ enum EventHeader {
     Compared { id: u64, index: u32, report: Box<Report> },
     NotCompared { id: u64, index: u32, message: String },
     Written { name: String },
+    NotWritten { name: String, message: String },
     Failed { message: String },
 }
 
@@ -184,6 +185,9 @@ pub fn encode_event(event: &Event) -> Encoded<'_> {
             (EventHeader::NotCompared { id: *id, index: *index, message: message.clone() }, vec![])
         }
         Event::Written { name, bytes } => (EventHeader::Written { name: name.clone() }, vec![&bytes[..]]),
+        Event::NotWritten { name, message } => {
+            (EventHeader::NotWritten { name: name.clone(), message: message.clone() }, vec![])
+        }
         Event::Failed { message } => (EventHeader::Failed { message: message.clone() }, vec![]),
     };
     (line(&header), buffers)
@@ -222,6 +226,7 @@ pub fn decode_event(header: &str, buffers: &impl Buffers) -> Result<Event, WireE
         }
         EventHeader::NotCompared { id, index, message } => Event::NotCompared { id, index, message },
         EventHeader::Written { name } => Event::Written { name, bytes: array(buffers, 0)? },
+        EventHeader::NotWritten { name, message } => Event::NotWritten { name, message },
         EventHeader::Failed { message } => Event::Failed { message },
     })
 }

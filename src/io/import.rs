@@ -292,6 +292,16 @@ mod tests {
     }
 
     #[test]
+    fn two_places_stay_two_where_the_change_of_unit_rounds_them_to_one() {
+        let near = (0..10_000).map(|i| 1.7 + i as f32 * f32::EPSILON).find(|x| x * 10.0 == x.next_up() * 10.0);
+        let [one, other] = [near.unwrap(), near.unwrap().next_up()].map(|x| Vec3::new(x, 0.0, 0.0));
+        let positions = vec![one, Vec3::Y, Vec3::Z, other, Vec3::NEG_Y, Vec3::NEG_Z];
+        let raw = RawSurface::new("soup", positions, vec![[0, 1, 2], [3, 4, 5]]);
+        let Imported { mesh, report } = import(raw, Unit::Centimetre).unwrap();
+        assert_eq!((report.vertices, report.components, mesh.positions[0]), (6, 2, mesh.positions[3]));
+    }
+
+    #[test]
     fn numbers_that_are_no_places_are_refused() {
         for bad in [f32::NAN, f32::INFINITY, -1e30] {
             let mut raw = soup(40.0);

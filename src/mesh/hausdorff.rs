@@ -369,6 +369,28 @@ mod tests {
     }
 
     #[test]
+    fn what_rounding_leaves_undecided_is_not_within() {
+        // A gap whose middle lies half-way between two coordinates of f32: the middle is farther from both sides than the
+        // bound, no place that f32 has is.
+        let (edge, step) = (1024.0f32, 1.0 / 8192.0f32);
+        let [left, right] = [edge, edge + 201.0 * step];
+        let sides = |x: f32, far: f32| [Vec3::new(x, -9.0, 0.0), Vec3::new(x, 9.0, 0.0), Vec3::new(far, 0.0, 0.0)];
+        let gap = TriMesh {
+            positions: [sides(left, 1000.0), sides(right, 1048.0)].concat(),
+            triangles: vec![[0, 1, 2], [3, 4, 5]],
+        };
+        let [low, high] = [left - step, right + step];
+        let across = TriMesh {
+            positions: vec![Vec3::new(low, 0.0, 0.0), Vec3::new(high, 0.0, 0.0), Vec3::new(high, step, 0.0)],
+            triangles: vec![[0, 1, 2]],
+        };
+        let half = f64::from(right - left) / 2.0;
+        let found = beyond(&across, &gap, half * 0.999).0;
+        assert!(found.is_some_and(|found| found.distance <= half), "{found:?}");
+        assert_eq!(beyond(&across, &gap, half * 1.0001).0, None);
+    }
+
+    #[test]
     fn everything_is_beyond_a_surface_of_nothing() {
         let found = beyond(&square(1, 1.0, 0.0), &TriMesh::default(), 1e9).0;
         assert_eq!(found.map(|found| found.distance), Some(f64::INFINITY));

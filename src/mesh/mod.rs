@@ -21,6 +21,7 @@ mod roughness;
 mod self_intersections;
 #[cfg(test)]
 pub(crate) mod shapes;
+mod shuffle;
 mod split_boxes;
 mod topology;
 
@@ -45,6 +46,7 @@ pub use roughness::{Roughness, roughness};
 pub(crate) use roughness::{bends, summarise_bends};
 pub(crate) use self_intersections::distinct;
 pub use self_intersections::self_intersections;
+pub use shuffle::shuffled;
 pub use topology::{EdgeCounts, EdgeUse, Topology};
 
 /// A triangle surface. Triangles wind counter-clockwise seen from outside.

@@ -9,6 +9,11 @@
 //! there comes from a hash of `i` (SplitMix64: Steele, Lea and Flood, "Fast splittable pseudorandom number generators",
 //! 2014). A sample is thus known from its number alone, and the result depends on neither slices nor threads: all cores
 //! measure samples, and of equal distances the first counts.
+//!
+//! The same samples make a map over the second surface ([`DeviationTask::with_map`]): each counts at the corners of the
+//! triangle that it lies on or is nearest to, by its place there, and a vertex has the mean of what counts at it. So the
+//! mean over the map is the mean that is reported, and its range is that of the percentile: a map of the farthest point
+//! around each vertex would be of another kind than the numbers beside it.
 
 use std::mem;
 use std::ops::Deref;
@@ -31,6 +36,8 @@ pub const INTERACTIVE_SAMPLES: usize = 50_000;
 const QUERIES: usize = 256;
 /// Units of lighter work between two looks at the clock.
 const UNITS: usize = 8192;
+/// A vertex of the map at which less than so many samples count has its neighbours' as well.
+const FEW: f64 = 4.0;
 
 /// Two-sided distance between two surfaces, in mm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,8 +59,9 @@ pub struct Deviation {
 pub struct Comparison {
     /// The summary.
     pub deviation: Deviation,
-    /// Distance of each vertex of the first surface from the second, in mm; 0 for a vertex no triangle uses.
-    pub per_vertex: Vec<f32>,
+    /// For each vertex of the second surface, the mean distance of the samples around it, in mm; 0 for a vertex no
+    /// triangle uses. Empty unless a map was asked for.
+    pub map: Vec<f32>,
 }
 
 /// The deviation between `a` and `b` by `samples` samples of each (at least one); `None` where one of them has no area.
@@ -75,9 +83,13 @@ pub struct DeviationTask<M> {
     next: usize,
     build: IndexBuild,
     index_was_given: bool,
-    per_vertex: Vec<f32>,
     distances: Vec<f32>,
     farthest: Farthest,
+    wants_map: bool,
+    /// For each vertex of the second surface, the weights that count there, and the distances times their weights.
+    sums: Vec<[f64; 2]>,
+    /// Below this weight a vertex of the map takes its neighbours' sums.
+    least_weight: f64,
     result: Option<Comparison>,
 }
 
@@ -101,11 +113,13 @@ enum Stage {
     Vertices(usize),
     /// This side's samples to the other.
     Samples(usize),
+    /// The map, where it was asked for.
+    Map,
     Summary,
 }
 
-/// The vertices of the second surface come last: they only count where they are farther than all before.
-const STAGES: [Stage; 9] = [
+/// Vertices count where they are farther than all before.
+const STAGES: [Stage; 10] = [
     Stage::Areas(0),
     Stage::Areas(1),
     Stage::Index(1),
@@ -114,11 +128,12 @@ const STAGES: [Stage; 9] = [
     Stage::Index(0),
     Stage::Samples(1),
     Stage::Vertices(1),
+    Stage::Map,
     Stage::Summary,
 ];
 
 impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
-    /// A comparison of `a`, whose vertices are measured one by one, with `b`, by `samples` samples of each (at least one).
+    /// A comparison of `a` with `b` by `samples` samples of each (at least one).
     pub fn new(a: M, b: M, samples: usize) -> Self {
         Self {
             samples: samples.max(1),
@@ -127,11 +142,20 @@ impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
             next: 0,
             build: IndexBuild::new(),
             index_was_given: false,
-            per_vertex: Vec::new(),
             distances: Vec::new(),
             farthest: Farthest::default(),
+            wants_map: false,
+            sums: Vec::new(),
+            least_weight: FEW,
             result: None,
         }
+    }
+
+    /// Makes a map of the distances over `b` as well.
+    #[must_use]
+    pub fn with_map(mut self) -> Self {
+        self.wants_map = true;
+        self
     }
 
     /// Uses an index of `a` that is there already: for many levels compared with one input.
@@ -170,6 +194,8 @@ impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
             Stage::Areas(side) | Stage::Index(side) => self.sides[side].mesh.triangles.len(),
             Stage::Vertices(side) => self.sides[side].mesh.positions.len(),
             Stage::Samples(_) | Stage::Summary => self.samples,
+            Stage::Map if self.wants_map => self.sides[1].mesh.triangles.len(),
+            Stage::Map => 0,
         }
     }
 
@@ -179,9 +205,9 @@ impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
             Stage::Areas(_) => 10,
             Stage::Index(0) if self.index_was_given => 0,
             Stage::Index(_) => 250,
-            Stage::Vertices(0) | Stage::Samples(_) => 700,
+            Stage::Samples(_) => 700,
             Stage::Vertices(_) => 200,
-            Stage::Summary => 20,
+            Stage::Map | Stage::Summary => 20,
         };
         1 + each * self.length(stage)
     }
@@ -213,9 +239,12 @@ impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
                 self.next = end;
                 end == length
             }
+            Stage::Map => !self.wants_map || self.spread(),
             Stage::Summary => {
                 let deviation = summary(&mut self.distances, &self.farthest);
-                self.result = Some(Comparison { deviation, per_vertex: mem::take(&mut self.per_vertex) });
+                let mean = |[weight, sum]: [f64; 2]| if weight > 0.0 { (sum / weight) as f32 } else { 0.0 };
+                let map = mem::take(&mut self.sums).into_iter().map(mean).collect();
+                self.result = Some(Comparison { deviation, map });
                 true
             }
         };
@@ -233,37 +262,70 @@ impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
             let mut queries = Queries::new(other, side);
             let piece = first + piece.start..first + piece.end;
             for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
-                if side == 0 {
-                    let distance = if used { queries.measure(p) } else { 0.0 };
-                    queries.distances.push(distance);
-                } else if used && !other.is_within(p, sofar) {
+                if used && !other.is_within(p, sofar) {
                     queries.measure(p);
                 }
             }
             queries
         });
-        for Queries { distances, farthest, .. } in pieces {
-            self.farthest.take(farthest);
-            self.per_vertex.extend(distances);
-        }
+        pieces.into_iter().for_each(|queries| self.farthest.take(queries.farthest));
     }
 
     fn measure_samples(&mut self, side: usize, end: usize) {
         let Some(other) = &self.sides[1 - side].index else { return };
         let sampler = Sampler { side: &self.sides[side], count: self.samples, stream: side as u64 };
-        let first = self.next;
+        let (first, wants_map) = (self.next, self.wants_map);
         let pieces = parallel::map_ranges(end - first, QUERIES, |piece| {
             let mut queries = Queries::new(other, side);
-            for p in sampler.points(first + piece.start, first + piece.end) {
-                let distance = queries.measure(p);
+            for sample in sampler.samples(first + piece.start, first + piece.end) {
+                let found = queries.measure(sample.point);
+                let distance = found.map_or(0.0, |found| found.distance);
                 queries.distances.push(distance);
+                if wants_map {
+                    let foot = found.map(|found| (found.triangle, found.barycentric));
+                    queries.places.push(if side == 0 { foot } else { Some((sample.triangle, sample.weights)) });
+                }
             }
             queries
         });
-        for Queries { distances, farthest, .. } in pieces {
+        if wants_map && self.sums.is_empty() {
+            self.sums = vec![[0.0; 2]; self.sides[1].mesh.positions.len()];
+        }
+        for Queries { distances, places, farthest, .. } in pieces {
             self.farthest.take(farthest);
+            for (place, &distance) in places.into_iter().zip(&distances) {
+                let Some((triangle, weights)) = place else { continue };
+                let corners = self.sides[1].mesh.triangles[triangle as usize];
+                for (v, weight) in corners.into_iter().zip(weights.map(f64::from)) {
+                    let [weights, sum] = &mut self.sums[v as usize];
+                    *weights += weight;
+                    *sum += weight * f64::from(distance);
+                }
+            }
             self.distances.extend(distances);
         }
+    }
+
+    /// Gives the vertices of the map at which few samples count their neighbours' as well, and round by round those at
+    /// which none counts; whether that was the last round.
+    fn spread(&mut self) -> bool {
+        let is_poor = |[weight, _]: [f64; 2], least: f64| weight < least || weight == 0.0;
+        let before = self.sums.clone();
+        let mut has_gained = false;
+        for &corners in &self.sides[1].mesh.triangles {
+            let sums = corners.map(|v| before[v as usize]);
+            for (i, v) in corners.into_iter().enumerate() {
+                if is_poor(sums[i], self.least_weight) {
+                    let [of_one, of_other] = [sums[(i + 1) % 3], sums[(i + 2) % 3]];
+                    let own = &mut self.sums[v as usize];
+                    *own = [own[0] + of_one[0] + of_other[0], own[1] + of_one[1] + of_other[1]];
+                    has_gained |= own[0] > 0.0;
+                }
+            }
+        }
+        self.least_weight = 0.0;
+        let is_empty = |corners: &[u32; 3]| corners.iter().any(|&v| self.sums[v as usize][0] == 0.0);
+        !has_gained || !self.sides[1].mesh.triangles.iter().any(is_empty)
     }
 }
 
@@ -297,25 +359,28 @@ struct Queries<'a> {
     side: usize,
     last: Option<Nearest>,
     distances: Vec<f32>,
+    /// For the map: the triangle of the second surface at which each distance counts, and where in it.
+    places: Vec<Option<(u32, [f32; 3])>>,
     farthest: Farthest,
 }
 
 impl<'a> Queries<'a> {
     fn new(surface: &'a SurfaceIndex, side: usize) -> Self {
-        Self { surface, side, last: None, distances: Vec::with_capacity(QUERIES), farthest: Farthest::default() }
+        let (distances, places) = (Vec::with_capacity(QUERIES), Vec::new());
+        Self { surface, side, last: None, distances, places, farthest: Farthest::default() }
     }
 
-    /// Distance of `p` from the surface; 0 for a point that is not finite.
-    fn measure(&mut self, p: Vec3) -> f32 {
+    /// The point of the surface that is nearest to `p`; none to a point that is not finite.
+    fn measure(&mut self, p: Vec3) -> Option<Nearest> {
         let found = match &self.last {
             Some(last) => self.surface.nearest_from(p, last),
             None => self.surface.nearest(p),
         };
         self.last = found.or(self.last);
-        let Some(Nearest { distance, point, .. }) = found else { return 0.0 };
+        let Nearest { distance, point, .. } = found?;
         let points = if self.side == 0 { [p, point] } else { [point, p] };
         self.farthest.take(Farthest { distance, points });
-        distance
+        found
     }
 }
 
@@ -369,6 +434,14 @@ impl<M: Deref<Target = TriMesh>> Side<M> {
     }
 }
 
+/// A point of a surface.
+struct Sample {
+    point: Vec3,
+    triangle: u32,
+    /// Of the triangle's corners at the point.
+    weights: [f32; 3],
+}
+
 /// `count` points spread evenly over a surface.
 struct Sampler<'a, M> {
     side: &'a Side<M>,
@@ -378,7 +451,7 @@ struct Sampler<'a, M> {
 
 impl<M: Deref<Target = TriMesh>> Sampler<'_, M> {
     /// Points `from..to`.
-    fn points(&self, from: usize, to: usize) -> impl Iterator<Item = Vec3> {
+    fn samples(&self, from: usize, to: usize) -> impl Iterator<Item = Sample> {
         let areas = &self.side.areas;
         let total = areas.last().copied().unwrap_or(0.0);
         let target = move |i: usize| (i as f64 + unit(self.stream, i, 0)) / self.count as f64 * total;
@@ -389,10 +462,13 @@ impl<M: Deref<Target = TriMesh>> Sampler<'_, M> {
             while t + 1 < areas.len() && areas[t] <= target {
                 t += 1;
             }
-            let [a, b, c] = self.side.mesh.corners(t.min(areas.len() - 1)).map(Vec3::as_dvec3);
+            let triangle = t.min(areas.len() - 1);
+            let [a, b, c] = self.side.mesh.corners(triangle).map(Vec3::as_dvec3);
             // The square root makes the density even (Osada, Funkhouser, Chazelle and Dobkin 2002, section 3.2).
             let (root, along) = (unit(self.stream, i, 1).sqrt(), unit(self.stream, i, 2));
-            (a * (1.0 - root) + b * (root * (1.0 - along)) + c * (root * along)).as_vec3()
+            let weights = [1.0 - root, root * (1.0 - along), root * along];
+            let point = (a * weights[0] + b * weights[1] + c * weights[2]).as_vec3();
+            Sample { point, triangle: triangle as u32, weights: weights.map(|weight| weight as f32) }
         })
     }
 }
@@ -447,10 +523,9 @@ mod tests {
     #[test]
     fn a_surface_does_not_deviate_from_itself() {
         let sphere = icosphere(4, 20.0, Vec3::new(100.0, 50.0, -30.0));
-        let found = DeviationTask::new(&sphere, &sphere, SAMPLES).finish().unwrap();
-        assert!(found.per_vertex.iter().all(|&distance| distance == 0.0));
+        let found = deviation(&sphere, &sphere, SAMPLES).unwrap();
         // A sample is rounded to f32, by at most 4e-6 mm a coordinate here.
-        assert!(found.deviation.max < 1e-5, "{found:?}");
+        assert!(found.max < 1e-5, "{found:?}");
     }
 
     #[test]
@@ -480,6 +555,21 @@ mod tests {
     }
 
     #[test]
+    fn what_one_surface_lacks_counts_once_whichever_comes_first() {
+        // Half of a square of 10 mm is missing: the whole is 0 to 5 mm from it there, it is nowhere from the whole. Over
+        // the samples of both: mean 5/8, mean square 25/12, and one in twenty farther than 4 mm.
+        let (whole, mut half) = (square(16, 10.0, 0.0), square(16, 10.0, 0.0));
+        half.triangles.retain(|t| t.iter().all(|&v| whole.positions[v as usize].x <= 5.0));
+        let expected = [5.0 / 8.0, (25.0f64 / 12.0).sqrt(), 4.0, 5.0];
+        for (a, b) in [(&whole, &half), (&half, &whole)] {
+            let found = deviation(a, b, SAMPLES).unwrap();
+            for (value, expected) in [found.mean, found.rms, found.p95, found.max].into_iter().zip(expected) {
+                assert!((value - expected).abs() < 0.01, "{found:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_tip_between_the_samples_counts_for_the_maximum_from_either_side() {
         let flat = square(10, 10.0, 0.0);
         let mut tipped = flat.clone();
@@ -492,9 +582,34 @@ mod tests {
             let expected = if std::ptr::eq(a, &tipped) { [tip, foot] } else { [foot, tip] };
             assert_eq!(found.deviation.max_at_mm, expected);
         }
-        let found = DeviationTask::new(&tipped, &flat, 10).finish().unwrap();
-        let expected: Vec<f32> = tipped.positions.iter().map(|p| p.z).collect();
-        assert_eq!(found.per_vertex, expected);
+    }
+
+    #[test]
+    fn the_map_is_the_mean_around_each_vertex_and_over_all_the_mean_that_is_reported() {
+        // A floor below two storeys of one ceiling, with a ramp from the one to the other.
+        let floor = square(20, 10.0, 0.0);
+        let mut steps = floor.clone();
+        steps.positions.iter_mut().for_each(|p| p.z = 0.5 + ((p.x - 3.0) * 0.375).clamp(0.0, 1.5));
+        let found = DeviationTask::new(&floor, &steps, SAMPLES).with_map().finish().unwrap();
+        for (p, &near) in steps.positions.iter().zip(&found.map) {
+            let expected = if p.x < 2.0 { 0.5 } else { 2.0 };
+            assert!((2.0..8.5).contains(&p.x) || (near - expected).abs() < 1e-4, "{p}: {near}");
+        }
+        let share = |t: &[u32; 3]| {
+            let area = triangle_area(t.map(|v| steps.positions[v as usize]));
+            let values: f64 = t.iter().map(|&v| f64::from(found.map[v as usize])).sum();
+            [area, area * values / 3.0]
+        };
+        let [area, sum] = steps.triangles.iter().map(share).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        assert!((sum / area / found.deviation.mean - 1.0).abs() < 0.05, "{} of {:?}", sum / area, found.deviation);
+    }
+
+    #[test]
+    fn a_map_of_few_samples_has_no_holes_and_none_is_made_unless_asked() {
+        let (low, high) = (square(40, 10.0, 0.0), square(40, 10.0, 3.0));
+        let found = DeviationTask::new(&low, &high, 5).with_map().finish().unwrap();
+        assert!(found.map.iter().all(|&near| (near - 3.0).abs() < 1e-5), "{:?}", found.map);
+        assert!(DeviationTask::new(&low, &high, 5).finish().unwrap().map.is_empty());
     }
 
     #[test]
@@ -503,8 +618,8 @@ mod tests {
         let mut littered = flat.clone();
         littered.positions.extend([Vec3::splat(50.0), Vec3::splat(f32::NAN)]);
         for (a, b) in [(&littered, &flat), (&flat, &littered)] {
-            let found = DeviationTask::new(a, b, 100).finish().unwrap();
-            assert_eq!((found.deviation.max, found.per_vertex.len()), (0.0, a.positions.len()));
+            let found = DeviationTask::new(a, b, 100).with_map().finish().unwrap();
+            assert_eq!((found.deviation.max, found.map), (0.0, vec![0.0; b.positions.len()]));
         }
     }
 
@@ -520,8 +635,8 @@ mod tests {
     #[test]
     fn slices_and_a_given_index_change_nothing() {
         let (a, b) = (Arc::new(icosphere(3, 10.0, Vec3::ZERO)), Arc::new(icosphere(4, 10.5, Vec3::X)));
-        let whole = DeviationTask::new(a.clone(), b.clone(), 5000).finish().unwrap();
-        let mut task = DeviationTask::new(a.clone(), b.clone(), 5000);
+        let whole = DeviationTask::new(a.clone(), b.clone(), 5000).with_map().finish().unwrap();
+        let mut task = DeviationTask::new(a.clone(), b.clone(), 5000).with_map();
         let mut fraction = 0.0;
         let sliced = loop {
             match task.advance(Budget::new(Duration::ZERO)) {
@@ -534,13 +649,14 @@ mod tests {
         };
         let index = task.index_of_a().unwrap().clone();
         assert_eq!(sliced, whole);
-        assert_eq!(DeviationTask::new(a, b, 5000).with_index_of_a(index).finish().unwrap(), whole);
+        assert_eq!(DeviationTask::new(a, b, 5000).with_map().with_index_of_a(index).finish().unwrap(), whole);
     }
 
     #[test]
     fn the_number_of_threads_changes_nothing() {
         let (a, b) = (icosphere(4, 10.0, Vec3::ZERO), icosphere(3, 10.2, Vec3::new(0.3, 0.2, 0.1)));
-        let all = |threads| parallel::with_threads(threads, || DeviationTask::new(&a, &b, 5000).finish().unwrap());
+        let all =
+            |threads| parallel::with_threads(threads, || DeviationTask::new(&a, &b, 5000).with_map().finish().unwrap());
         let alone = all(1);
         assert_eq!([all(2), all(7)], [alone.clone(), alone]);
     }
@@ -552,7 +668,8 @@ mod tests {
         let mesh = TriMesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]] };
         let mut side = Side { mesh: &mesh, index: None, areas: Vec::new(), used: Vec::new() };
         side.add_areas(0, 3);
-        let points: Vec<Vec3> = Sampler { side: &side, count: 8200, stream: 1 }.points(0, 8200).collect();
+        let sampler = Sampler { side: &side, count: 8200, stream: 1 };
+        let points: Vec<Vec3> = sampler.samples(0, 8200).map(|sample| sample.point).collect();
         let large = points.iter().filter(|p| p.y < 0.0).count();
         let small = points.iter().filter(|p| p.x > 0.0).count();
         assert!((8099..=8101).contains(&large) && (9..=11).contains(&small), "{large}, {small}");

@@ -177,6 +177,32 @@ mod tests {
     }
 
     #[test]
+    fn the_windows_have_their_published_values() {
+        // Where the cosines are round numbers: at 0, pi/3, pi/2, 2 pi/3 and pi. Harris, "On the use of windows for
+        // harmonic analysis" (1978); Nuttall, "Some windows with very good sidelobe behavior" (1981), the four terms with a
+        // continuous first derivative.
+        let published = [
+            (Window::Hamming, [1.0, 0.77, 0.54, 0.31, 0.08]),
+            (Window::Hanning, [1.0, 0.75, 0.5, 0.25, 0.0]),
+            (Window::Blackman, [1.0, 0.63, 0.34, 0.13, 0.0]),
+            (Window::Nuttall, [1.0, 0.514_746, 0.211_536, 0.052_558, 0.0]),
+        ];
+        for (window, values) in published {
+            for (part, value) in [0.0, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0].into_iter().zip(values) {
+                let found = weight(window, part * PI);
+                assert!((found - value).abs() < 1e-12, "{window:?} at {part} pi: {found}, not {value}");
+            }
+            // A pass band of 2 ends at a right angle: without the window c_1 = 2/pi. Of one iteration the window's
+            // place is pi/2, of two pi/3.
+            for (iterations, value) in [(1, values[2]), (2, values[1])] {
+                let settings = Smoothing { window, pass_band: 2.0, iterations, ..Smoothing::default() };
+                let c = Filter::with_sigma(&settings, 0.0).coefficients;
+                assert!((c[0] - 0.5).abs() < 1e-12 && (c[1] * PI / 2.0 - value).abs() < 1e-12, "{window:?}: {c:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_filter_that_lets_nearly_everything_through_says_so() {
         for (iterations, pass_band, keeps) in [(1, 0.1, false), (3, 0.1, false), (6, 0.1, true), (100, 0.01, true)] {
             let filter = Filter::new(&Smoothing { pass_band, iterations, ..Smoothing::default() });

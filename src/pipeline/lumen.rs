@@ -9,19 +9,12 @@
 //! Where the nearest wall is an open end, which side is inside cannot be told; there the distance alone counts.
 
 use std::collections::HashSet;
-use std::ops::Deref;
-use std::sync::Arc;
-use std::task::Poll;
 
 use serde::{Deserialize, Serialize};
 
 use super::narrowest::{CLEAR, ball_centre, is_inside, ring_median};
-use super::progressive::ProgressiveMesh;
 use super::response::edge_length;
-use super::settings::{Target, reduction_percent};
-use super::shape::ShapeTask;
-use super::task::{Budget, Progress, Task};
-use crate::mesh::{IndexBuild, InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
+use crate::mesh::{InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
 use crate::parallel;
 
 /// The part of the clearance below which a vessel counts as pinched.
@@ -35,8 +28,6 @@ const AGREE: f32 = 1.4;
 pub(super) const SHUT: f64 = 0.25;
 /// Samples that are measured in one piece.
 const PIECE: usize = 64;
-/// Triangles that are indexed between two looks at the clock.
-const UNITS: usize = 8192;
 
 /// A point in the middle of a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,29 +51,6 @@ pub struct Narrowing {
     pub diameter_after_mm: f64,
     /// Places where less than half is left.
     pub pinched_places: usize,
-}
-
-/// The first reduction at which a vessel is pinched.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Pinch {
-    /// From this reduction rate on, in percent.
-    pub from_percent: f64,
-    /// Triangles of that level.
-    pub triangles: usize,
-    /// The middle of the vessel there, in mm.
-    pub at_mm: [f32; 3],
-    /// Diameter there before, in mm.
-    pub diameter_before_mm: f64,
-    /// Diameter there at that level, in mm; 0 where the vessel is gone.
-    pub diameter_after_mm: f64,
-}
-
-impl std::fmt::Display for Pinch {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { from_percent, at_mm: [x, y, z], diameter_before_mm: before, diameter_after_mm: after, .. } = *self;
-        let fate = if after > 0.0 { "pinched" } else { "lost" };
-        write!(f, "A vessel of {before:.1} mm is {fate} at ({x:.1}, {y:.1}, {z:.1}) from {from_percent:.1} % on")
-    }
 }
 
 /// Samples of the vessels of `mesh`, from its inner balls; `index` is of this surface, in whatever numbering.
@@ -124,7 +92,7 @@ fn cell(centre: Vec3, radius: f32) -> (i32, [i32; 3]) {
 }
 
 /// For each of a range of samples the clearance on another surface, in mm: 0 outside of it.
-fn clearances(samples: &[Sample], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Vec<f32> {
+pub(super) fn clearances(samples: &[Sample], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Vec<f32> {
     let sides = Sides::new(mesh, topology);
     let clearance = |sample: &Sample| {
         let Some(nearest) = index.nearest(sample.at) else { return 0.0 };
@@ -150,7 +118,7 @@ pub fn narrowing(samples: &[Sample], mesh: &TriMesh, topology: &Topology, index:
 }
 
 /// The sample with the least part of its clearance left, and that part; of several, the widest.
-fn worst(samples: &[Sample], clearances: &[f32]) -> Option<(usize, f32)> {
+pub(super) fn worst(samples: &[Sample], clearances: &[f32]) -> Option<(usize, f32)> {
     let ratios = samples.iter().zip(clearances).map(|(sample, left)| left / sample.clearance).enumerate();
     ratios.reduce(|least, next| {
         let wider = samples[next.0].clearance > samples[least.0].clearance;
@@ -184,107 +152,11 @@ fn places(mut pinched: Vec<Sample>) -> usize {
     (0..group.len()).filter(|&i| group[i] == i).count()
 }
 
-/// The first reduction rate, to a tenth of a percent, at which a vessel is pinched or lost; `None` where there is none
-/// up to the coarsest level, or no vessel to begin with.
-pub fn first_pinch(progressive: &ProgressiveMesh) -> Option<Pinch> {
-    let finest = progressive.finest();
-    let topology = Topology::new(finest.positions.len(), &finest.triangles);
-    let mut task = ShapeTask::radii_only(&finest, &topology);
-    let index = loop {
-        if let Progress::Done(measured) = task.advance(Budget::UNLIMITED) {
-            break task.index().map(|index| samples(&finest, &topology, &measured.balls, index));
-        }
-    };
-    PinchTask::new(progressive, index?.into()).finish()
-}
-
-/// The search for the first pinch, in slices; `P` is any pointer to a progressive mesh.
-///
-/// Levels of half, a quarter, ... of the triangles are looked at until one is pinched, then the rates between that and
-/// the one before are halved. Together these cost about as much as two looks at the finest level. A pinch that a
-/// coarser level undoes again is found only if one of the levels looked at has it.
-#[derive(Debug)]
-pub struct PinchTask<P> {
-    progressive: P,
-    samples: Arc<[Sample]>,
-    /// No vessel is pinched at this rate, in tenths of a percent.
-    sound: u32,
-    /// One is at this rate, if it is known.
-    pinched: Option<(u32, Pinch)>,
-    build: IndexBuild,
-    level: Option<(u32, TriMesh)>,
-    looks: u32,
-}
-
-impl<P: Deref<Target = ProgressiveMesh>> PinchTask<P> {
-    /// Of all levels, by samples of the finest.
-    pub fn new(progressive: P, samples: Arc<[Sample]>) -> Self {
-        Self { progressive, samples, sound: 0, pinched: None, build: IndexBuild::new(), level: None, looks: 0 }
-    }
-
-    /// The rate to look at next.
-    fn next_rate(&self) -> Option<u32> {
-        match &self.pinched {
-            Some((pinched, _)) => (pinched - self.sound > 1).then(|| u32::midpoint(self.sound, *pinched)),
-            None => {
-                let rate = Target::MAX_PER_MILLE.min((1000 + self.sound).div_ceil(2));
-                (rate > self.sound).then_some(rate)
-            }
-        }
-    }
-
-    fn look(&mut self, rate: u32, mesh: &TriMesh, index: &SurfaceIndex) {
-        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let clearances = clearances(&self.samples, mesh, &topology, index);
-        let found = worst(&self.samples, &clearances).filter(|(_, ratio)| *ratio < PINCHED);
-        self.looks += 1;
-        let Some((i, _)) = found else {
-            self.sound = rate;
-            return;
-        };
-        let pinch = Pinch {
-            from_percent: reduction_percent(1000, 1000 - rate as usize),
-            triangles: mesh.triangles.len(),
-            at_mm: self.samples[i].at.to_array(),
-            diameter_before_mm: 2.0 * f64::from(self.samples[i].clearance),
-            diameter_after_mm: 2.0 * f64::from(clearances[i]),
-        };
-        self.pinched = Some((rate, pinch));
-    }
-}
-
-impl<P: Deref<Target = ProgressiveMesh>> Task for PinchTask<P> {
-    type Output = Option<Pinch>;
-
-    /// The clock is read every millisecond or so; taking a level and measuring the samples on it are one piece each,
-    /// of up to 20 ns a triangle and 2 microseconds a sample.
-    fn advance(&mut self, budget: Budget) -> Progress<Option<Pinch>> {
-        while let Some(rate) = self.next_rate().filter(|_| !self.samples.is_empty()) {
-            let (_, mesh) = self.level.get_or_insert_with(|| {
-                let level = self.progressive.level(Target::Reduction(rate));
-                (rate, self.progressive.extract(&level.triangles))
-            });
-            if let Poll::Ready(index) = self.build.advance(&mesh.positions, &mesh.triangles, UNITS)
-                && let Some((rate, mesh)) = self.level.take()
-            {
-                self.look(rate, &mesh, &index);
-            }
-            if budget.is_spent() {
-                // About twenty looks, each cheaper than the one before.
-                return Progress::Working(1.0 - libm::exp2f(-0.5 * self.looks as f32));
-            }
-        }
-        Progress::Done(self.pinched.take().map(|(_, pinch)| pinch))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::inner_radii;
     use crate::mesh::shapes::{icosphere, tube};
-    use crate::pipeline::run::Pipeline;
-    use crate::pipeline::settings::{Settings, Smoothing};
 
     fn indexed(mesh: &TriMesh) -> (Topology, SurfaceIndex) {
         (Topology::new(mesh.positions.len(), &mesh.triangles), SurfaceIndex::new(&mesh.positions, &mesh.triangles))
@@ -355,51 +227,5 @@ mod tests {
         assert_eq!((found.ratio, found.diameter_after_mm, found.pinched_places), (0.0, 0.0, 1));
         assert!(Vec3::from(found.at_mm).distance(Vec3::X * 30.0) < 0.1, "{found:?}");
         assert!((found.diameter_before_mm - 2.0).abs() < 0.1, "{found:?}");
-    }
-
-    /// All levels of a surface as it is.
-    fn levels(mesh: TriMesh) -> Arc<ProgressiveMesh> {
-        let smoothing = Smoothing { iterations: 0, ..Smoothing::default() };
-        let mut pipeline = Pipeline::new(Arc::new(mesh), Settings { smoothing, ..Settings::default() });
-        while pipeline.progressive().is_none() {
-            pipeline.advance(Budget::UNLIMITED).unwrap();
-        }
-        pipeline.progressive().unwrap().clone()
-    }
-
-    #[test]
-    fn at_the_first_pinch_a_vessel_is_narrow_and_at_a_tenth_of_a_percent_less_none_is() {
-        let progressive = levels(waisted(0.75));
-        let pinch = first_pinch(&progressive).expect("at 99.9 % no more than ten triangles are left");
-        let rate = (pinch.from_percent * 10.0).round() as u32;
-        assert!(rate >= 950, "{pinch:?}");
-        let at = |rate: u32| {
-            let level = progressive.extract(&progressive.level(Target::Reduction(rate)).triangles);
-            (level.triangles.len(), narrowing_of(&progressive.finest(), &level).unwrap())
-        };
-        let ((before, sound), (count, pinched)) = (at(rate - 1), at(rate));
-        assert!(sound.pinched_places == 0 && pinched.pinched_places > 0 && before > count, "{sound:?} {pinched:?}");
-        assert_eq!((pinch.triangles, pinch.at_mm), (count, pinched.at_mm));
-        assert_eq!(pinch.diameter_after_mm, pinched.diameter_after_mm);
-        assert!(pinch.to_string().starts_with("A vessel of 1.5 mm is "), "{pinch}");
-    }
-
-    #[test]
-    fn slices_and_threads_change_nothing_and_nothing_has_no_pinch() {
-        let progressive = levels(tube(24, 60, 20.0, |_| 0.75));
-        let whole = first_pinch(&progressive);
-        let finest = progressive.finest();
-        let mut task = PinchTask::new(&*progressive, samples_of(&finest).into());
-        let sliced = loop {
-            match task.advance(Budget::new(std::time::Duration::ZERO)) {
-                Progress::Working(fraction) => assert!((0.0..=1.0).contains(&fraction)),
-                Progress::Done(found) => break found,
-            }
-        };
-        assert_eq!(sliced, whole);
-        for threads in [1, 2, 7] {
-            assert_eq!(parallel::with_threads(threads, || first_pinch(&progressive)), whole);
-        }
-        assert_eq!(first_pinch(&ProgressiveMesh::default()), None);
     }
 }

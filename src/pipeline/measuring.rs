@@ -5,7 +5,8 @@
 
 use std::sync::Arc;
 
-use super::lumen::{Narrowing, Pinch, PinchTask, Sample, narrowing, samples};
+use super::lumen::{Narrowing, Sample, narrowing, samples};
+use super::pinch::{Pinch, PinchTask};
 use super::progressive::ProgressiveMesh;
 use super::shape::{Measured, Shape, ShapeTask};
 use super::task::{Budget, Progress, Task};

@@ -13,6 +13,7 @@ pub mod measuring;
 pub mod narrowest;
 pub mod normals;
 pub mod paper;
+pub mod pinch;
 pub mod progressive;
 pub mod report;
 pub mod response;

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
-use super::lumen::{Narrowing, Pinch, SHUT};
+use super::lumen::{Narrowing, SHUT};
+use super::pinch::Pinch;
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
 use super::results::StageTimes;

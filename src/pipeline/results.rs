@@ -143,8 +143,8 @@ pub struct Deviations {
     pub from_smoothed: Option<Comparison>,
     /// From the surface as it was opened.
     pub from_original: Option<Comparison>,
-    /// For each node of the level, the largest distance from the level, in mm, of the vertices that it stands for; 0
-    /// for other nodes. (The nodes themselves lie on the smoothed surface.)
+    /// For each node of the level, the mean deviation from the smoothed surface around it, in mm, by the samples of
+    /// which `from_smoothed` gives the numbers; 0 for other nodes.
     pub by_node: Vec<f32>,
 }
 

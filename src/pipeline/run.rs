@@ -449,7 +449,8 @@ impl Pipeline {
                     }
                 };
                 let [of_smoothed, of_original] = &self.now.indices;
-                let (from_smoothed, from_original) = (task(finest, of_smoothed), task(&kept.mesh, of_original));
+                let (from_smoothed, from_original) =
+                    (task(finest, of_smoothed).with_map(), task(&kept.mesh, of_original));
                 Running::Deviation(Box::new(DeviationRun { from_smoothed, from_original, first: None }))
             }
         })
@@ -530,15 +531,14 @@ impl Pipeline {
         None
     }
 
-    /// The distances of the finest nodes from the level, gathered at the nodes of the level.
+    /// The map of the deviation over the level, at the nodes of the progressive mesh.
     fn by_node(&self, found: Option<&Comparison>) -> Vec<f32> {
         let (Some(progressive), Some(reduced)) = (&self.now.progressive, &self.now.reduced) else { return Vec::new() };
-        let mut by_node = vec![0.0f32; progressive.positions.len()];
-        let heirs = progressive.heirs(reduced.level.steps);
-        for (&heir, &distance) in heirs.iter().zip(found.map_or(&[][..], |found| &found.per_vertex)) {
-            by_node[heir as usize] = by_node[heir as usize].max(distance);
-        }
-        by_node
+        let mut is_used = vec![false; progressive.positions.len()];
+        reduced.level.triangles.as_flattened().iter().for_each(|&node| is_used[node as usize] = true);
+        // The level's own vertices are the nodes in use, in their order.
+        let mut map = found.map_or(&[][..], |found| &found.map).iter();
+        is_used.into_iter().map(|used| if used { map.next().copied().unwrap_or(0.0) } else { 0.0 }).collect()
     }
 
     /// The surface as it was opened.
@@ -664,14 +664,31 @@ mod tests {
     }
 
     #[test]
-    fn what_nodes_stand_for_lies_within_the_largest_deviation() {
-        let pipeline = finished();
-        let found = pipeline.deviations().unwrap();
-        let (most, deviation) =
-            (found.by_node.iter().copied().fold(0.0, f32::max), found.from_smoothed.as_ref().unwrap());
-        assert!(most > 0.0 && f64::from(most) <= deviation.deviation.max);
-        let gone = found.by_node.iter().filter(|&&distance| distance == 0.0).count();
-        assert!(gone >= found.by_node.len() - pipeline.reduced().unwrap().mesh.positions.len());
+    fn colours_are_of_the_numbers_beside_them() {
+        for method in crate::pipeline::settings::Method::ALL {
+            let mut pipeline = finished();
+            let decimation = crate::pipeline::settings::Decimation { method, ..Default::default() };
+            pipeline.set(Settings { decimation, ..Settings::default() }).unwrap();
+            pipeline.finish().unwrap();
+            let (found, reduced) = (pipeline.deviations().unwrap(), pipeline.reduced().unwrap());
+            let deviation = found.from_smoothed.as_ref().unwrap().deviation;
+            let positions = &pipeline.progressive().unwrap().positions;
+            // Over the triangles of the level: their area, how much of it has the last colour, the sum of the colours.
+            let [mut area, mut last, mut sum] = [0.0; 3];
+            for corners in &reduced.level.triangles {
+                let size = crate::mesh::triangle_area(corners.map(|v| positions[v as usize]));
+                let values = corners.map(|v| f64::from(found.by_node[v as usize]));
+                area += size;
+                sum += size * values.iter().sum::<f64>() / 3.0;
+                last += size * values.iter().filter(|&&value| value >= deviation.p95).count() as f64 / 3.0;
+            }
+            assert!(last / area < 0.06, "{method:?}: {:.1} % have the last colour", 100.0 * last / area);
+            assert!((sum / area / deviation.mean - 1.0).abs() < 0.1, "{method:?}: {} of {deviation:?}", sum / area);
+            let most = found.by_node.iter().copied().fold(0.0, f32::max);
+            assert!(f64::from(most) > deviation.mean && f64::from(most) <= deviation.max);
+            let used = found.by_node.iter().filter(|&&distance| distance > 0.0).count();
+            assert_eq!(used, reduced.mesh.positions.len());
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::contact::Contacts;
 use super::descent::{Descent, Springs, descend};
+use super::report::StepKind;
 use super::rod::{Hessian, Rod};
 use super::wall::Wall;
 
@@ -33,23 +34,10 @@ const HARDER: f64 = 4.0;
 const ATTEMPTS: usize = 12;
 /// The brake above which what is held waits: else it would be torn away from what cannot follow.
 const PATIENCE: f64 = 1e-5;
-/// Moves of less than this in a step are stillness, in mm.
-const STILL: f64 = 0.005;
-/// What a contact's force can rise by while the rod is braked, in N: the rest is what the brake does.
-const BRAKED_RISE: f64 = 0.005;
-
-/// What came of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stepped {
-    /// All is well.
-    Done,
-    /// The rod had to be braked: something snapped.
-    Braked,
-    /// It had to be braked so hard that what is held waited.
-    Waited,
-    /// There was no way: the rod is where it was.
-    Held,
-}
+/// Slower than this is stillness, in mm/s.
+const STILL: f64 = 2.5;
+/// What a contact's force can rise by while the rod is braked, in N/s: the rest is what the brake does.
+const BRAKED_RISE: f64 = 2.5;
 
 /// A rod, its contacts, and the wall.
 #[derive(Clone, Debug)]
@@ -67,8 +55,10 @@ pub struct Body {
     brake: f64,
     /// Whether nothing moved much in the last step: then waiting has no end, and what is held goes on.
     is_still: bool,
-    /// Whether there was no way in the last step.
+    /// Whether there was no way in the last step: in the next what is held waits.
     is_stuck: bool,
+    /// Whether all forces were let go of since: friction is then found in a second round only.
+    has_let_go: bool,
 }
 
 impl Body {
@@ -83,6 +73,7 @@ impl Body {
             brake: 0.0,
             is_still: false,
             is_stuck: false,
+            has_let_go: false,
         }
     }
 
@@ -101,20 +92,16 @@ impl Body {
 
     /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is held where it
     /// should be at the end of the step; while something snaps it may have to wait where it is.
-    pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
-        let friction = self.contacts.friction;
-        if self.is_stuck {
-            // There was no way: what friction and forces have wound up comes loose.
-            self.contacts.friction = [0.0; 2];
-        }
+    pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> StepKind {
+        // What has gone back into the guide touches nothing.
+        self.contacts.keep(count);
         self.contacts.begin();
-        let stepped = self.attempts(dt, count, prepare);
-        self.contacts.friction = friction;
-        self.is_stuck = stepped == Stepped::Held && !self.is_stuck;
-        stepped
+        let kind = self.attempts(dt, count, prepare);
+        self.is_stuck = kind == StepKind::Held && !self.is_stuck;
+        kind
     }
 
-    fn attempts(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> Stepped {
+    fn attempts(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> StepKind {
         let mut brake = self.brake / HARDER;
         if brake < BRAKE {
             brake = 0.0;
@@ -127,14 +114,15 @@ impl Body {
             self.rod.refresh();
             if self.try_step(dt, count, brake) {
                 let moved = (0..self.rod.len()).map(|i| self.rod.positions[i].distance(self.rod.start(i)));
-                self.is_still = moved.fold(0.0, f64::max) < STILL;
-                self.contacts.finish(&self.rod, if brake > 0.0 { BRAKED_RISE } else { f64::INFINITY });
+                self.is_still = moved.fold(0.0, f64::max) < STILL * dt;
+                self.contacts.finish(&self.rod, if brake > 0.0 { BRAKED_RISE * dt } else { f64::INFINITY });
                 self.rod.finish(dt);
                 self.brake = brake;
+                self.has_let_go = false;
                 return match brake {
-                    _ if waits => Stepped::Waited,
-                    0.0 => Stepped::Done,
-                    _ => Stepped::Braked,
+                    _ if waits => StepKind::Waited,
+                    0.0 => StepKind::Balanced,
+                    _ => StepKind::Braked,
                 };
             }
             brake = (brake * HARDER).max(BRAKE);
@@ -143,8 +131,12 @@ impl Body {
             self.look(count);
         }
         self.brake = 0.0;
-        self.contacts.forget();
-        Stepped::Held
+        if self.is_stuck {
+            // Not even waiting helps: what forces and friction have wound up comes loose.
+            self.contacts.forget();
+            self.has_let_go = true;
+        }
+        StepKind::Held
     }
 
     fn try_step(&mut self, dt: f64, count: usize, brake: f64) -> bool {
@@ -159,7 +151,7 @@ impl Body {
         if brake == 0.0 {
             self.predict(dt, count);
         }
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             self.contacts.set_grip();
             let (mut moved, mut potential) = (f64::INFINITY, None);
             for _ in 0..CORRECTIONS {
@@ -177,10 +169,11 @@ impl Body {
             }
             self.contacts.balance(&self.rod);
             self.look(count);
-            if moved < ALMOST && self.depth <= DEPTH * radius {
+            let is_deep = self.depth > DEPTH * radius;
+            if moved < ALMOST && !is_deep && (round > 0 || !self.has_let_go) {
                 return true;
             }
-            if moved < ALMOST {
+            if moved < ALMOST && is_deep {
                 // It rests too deep: the forces that it needs are more than the corrections may find at once.
                 self.contacts.raise();
             }
@@ -235,13 +228,93 @@ impl Body {
 
     /// Sum over the wall of normal forces, in N, and the largest.
     pub fn pressure(&self) -> (f64, f64) {
-        self.contacts
-            .pressing()
-            .fold((0.0, 0.0), |(sum, most), (_, contact)| (sum + contact.force, contact.force.max(most)))
+        self.touches().fold((0.0, 0.0), |(sum, most), (_, _, _, force)| (sum + force, force.max(most)))
     }
 
-    /// Where the wire touches: node, place, force.
+    /// Where the wire touches the vessel: node, place, triangle, force. The fans over its open ends hold the wire, but are
+    /// no wall.
     pub fn touches(&self) -> impl Iterator<Item = (usize, DVec3, u32, f64)> {
-        self.contacts.pressing().map(|(node, contact)| (node, contact.point, contact.triangle, contact.force))
+        let is_vessel = |triangle| self.wall.as_ref().is_none_or(|wall| wall.is_vessel(triangle));
+        self.contacts
+            .pressing()
+            .filter(move |(_, contact)| is_vessel(contact.triangle))
+            .map(|(node, contact)| (node, contact.point, contact.triangle, contact.force))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{TriMesh, Vec3};
+    use crate::trial::rod::{Held, Section};
+
+    const DT: f64 = 0.002;
+    const RADIUS: f64 = 0.178;
+
+    /// A box of 40 x 4 x 4 mm around the origin, to be touched from inside.
+    fn room() -> Arc<Wall> {
+        let at = |i: u32| {
+            let side = |bit: u32, half: f32| if i & bit > 0 { half } else { -half };
+            Vec3::new(side(1, 20.0), side(2, 2.0), side(4, 2.0))
+        };
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Arc::new(Wall::new(Arc::new(TriMesh { positions: (0..8).map(at).collect(), triangles })))
+    }
+
+    /// A piece of wire along x, 12 nodes from -11 mm on, at this height.
+    fn piece(y: f64) -> Rod {
+        let section =
+            Section { length: 2.0, cell: 2.0, ei: 40.0, gj: 30.0, ea: 2000.0, mass: 1e-9, drag: 1e-7, rest: [0.0; 2] };
+        Rod::new((0..12).map(|i| DVec3::new(2.0 * f64::from(i) - 11.0, y, 0.0)).collect(), vec![section; 12], DVec3::Y)
+    }
+
+    #[test]
+    fn nothing_goes_through_a_wall_however_fast_it_is() {
+        for speed in [100.0, 2000.0, 20_000.0] {
+            let mut body = Body::new(piece(0.0), RADIUS, [0.06, 0.04], Some(room()));
+            let way = DVec3::new(0.1, -1.0, 0.3).normalize();
+            body.rod.velocities.fill(way * speed);
+            body.look(11);
+            let mut went = 0.0_f64;
+            for step in 0..100 {
+                let kind = body.step(DT, 11, |_| ());
+                for (i, p) in body.rod.positions.iter().enumerate() {
+                    let is_inside = p.y.abs() < 2.0 && p.z.abs() < 2.0 && p.x.abs() < 20.0;
+                    assert!(is_inside, "node {i} at {p} after step {step}, {kind:?}, at {speed} mm/s");
+                }
+                went = went.max(-body.rod.positions[5].y);
+            }
+            // It comes to the wall, and is stopped there.
+            assert!(went > 1.0, "{went} mm at {speed} mm/s");
+        }
+    }
+
+    #[test]
+    fn what_sticks_goes_on_sticking_after_a_step_without_a_way() {
+        // 0.5 N on the floor, and four fifths of what friction can hold along it.
+        let (weight, pull) = (0.5, 0.8 * 0.06 * 0.5);
+        let mut rod = piece(-2.0 + RADIUS);
+        rod.held[0] = Held { position: false, angle: true };
+        rod.forces.extend((0..11).map(|i| (i, DVec3::new(pull, -weight, 0.0) / 11.0)));
+        let mut body = Body::new(rod, RADIUS, [0.06, 0.04], Some(room()));
+        body.look(11);
+        // The pull comes once it lies.
+        let pulled =
+            std::mem::replace(&mut body.rod.forces, (0..11).map(|i| (i, DVec3::NEG_Y * weight / 11.0)).collect());
+        (0..50).for_each(|_| assert_ne!(body.step(DT, 11, |_| ()), StepKind::Held));
+        body.rod.forces = pulled;
+        (0..200).for_each(|_| assert_ne!(body.step(DT, 11, |_| ()), StepKind::Held));
+        for times in 1..=3 {
+            let there = body.rod.positions[5];
+            for time in 0..times {
+                let kind = body.step(DT, 11, |rod| rod.turn_to(0, f64::NAN));
+                // No number has no way; after it what is held waits once.
+                assert_eq!(kind == StepKind::Held, time % 2 == 0, "{kind:?}");
+            }
+            (0..20).for_each(|_| assert_ne!(body.step(DT, 11, |_| ()), StepKind::Held));
+            let slid = body.rod.positions[5].distance(there);
+            assert!(slid < 1e-3, "{slid} mm after {times} steps without a way");
+        }
     }
 }

@@ -1,4 +1,9 @@
 //! What reduction does to the wire: one input on two surfaces, compared step by step.
+//!
+//! A wire in a vessel is chaotic: what buckles to this side or that, or passes an edge on this triangle or that, goes on
+//! from there on another way. So two runs differ even where the surface is one and the same and only its triangles come in
+//! another order. That is the noise below which a difference says nothing about reduction: it is measured by running the
+//! unreduced surface against itself, [`SHUFFLES`] times in other orders ([`shuffled`]), and stands in the verdict.
 
 use std::sync::Arc;
 
@@ -8,10 +13,9 @@ use web_time::Instant;
 
 use super::course::{Course, TrialError};
 use super::frame::Summary;
-use super::log::Row;
 use super::session::Trial;
 use super::wall::Wall;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, shuffled};
 use crate::pipeline::results::fingerprint;
 use crate::pipeline::settings::reduction_percent;
 use crate::pipeline::task::milliseconds;
@@ -22,6 +26,8 @@ const PART: f64 = 5.0;
 const LEAST: f32 = 1e-3;
 /// Places where forces differ most that are told.
 const PLACES: usize = 5;
+/// Times that the unreduced surface is run against itself.
+pub const SHUFFLES: u64 = 3;
 /// A lumen is pinched where this part of its width, or less, is left.
 const PINCHED: f64 = 0.5;
 
@@ -34,11 +40,17 @@ pub struct TrialComparison {
     pub inserted_mm: Vec<f32>,
     /// Distance between the two tips, in mm.
     pub deviation_mm: Vec<f32>,
+    /// The largest distance at each sample between the tip on the unreduced surface and on the same in another order, in
+    /// mm; empty where that was not tried.
+    pub noise_mm: Vec<f32>,
+    /// How many other orders were tried, and on how many of them the wire arrived.
+    pub orders: [usize; 2],
     /// The way of the tip on the level that is shown.
     pub tip: Vec<[f32; 3]>,
     /// The way of the tip on the other surface.
     pub other_tip: Vec<[f32; 3]>,
-    /// Places where the wall's forces differ most: where, and by how much in N.
+    /// Places where the wall's largest forces differ most, and by more than from order to order: where, and by how much in
+    /// N. They are those of all balanced steps.
     pub force_differences: Vec<([f32; 3], f32)>,
     /// Places along the route where the lumen is pinched, if there are any.
     pub pinched: Vec<[f32; 3]>,
@@ -75,17 +87,58 @@ impl Trial {
     }
 }
 
+impl Trial {
+    /// The same trial on a surface in the order that `seed` decides; see [`Self::on`].
+    ///
+    /// # Errors
+    /// When the wire does not fit there.
+    pub fn on_shuffled(&self, mesh: &TriMesh, seed: u64) -> Result<Self, TrialError> {
+        self.on(&Arc::new(shuffled(mesh, seed)))
+    }
+}
+
+/// How far a trial differs from itself where only the order of triangles is another.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Noise {
+    /// The largest distance of the tip at each sample, in mm.
+    deviation_mm: Vec<f32>,
+    /// The largest difference of the largest force in each part of the route, in N.
+    peaks: Vec<f32>,
+    /// How many orders were tried, and on how many the wire arrived.
+    orders: [usize; 2],
+}
+
+impl Noise {
+    /// Takes in a run of `original` in another order.
+    pub fn take(&mut self, original: &Trial, other: &Trial) {
+        let grow = |all: &mut Vec<f32>, found: Vec<f32>| {
+            all.resize(all.len().max(found.len()), 0.0);
+            all.iter_mut().zip(found).for_each(|(most, here)| *most = most.max(here));
+        };
+        grow(&mut self.deviation_mm, deviations(original, other));
+        let peaks = [original, other].map(peaks);
+        grow(&mut self.peaks, peaks[0].iter().zip(&peaks[1]).map(|(a, b)| (a - b).abs()).collect());
+        self.orders[0] += 1;
+        self.orders[1] += usize::from(other.summary().success);
+    }
+}
+
+/// The distance of the two tips at each sample, in mm.
+fn deviations(one: &Trial, other: &Trial) -> Vec<f32> {
+    one.log().rows.iter().zip(&other.log().rows).map(|(a, b)| a.tip.distance(b.tip) as f32).collect()
+}
+
 impl TrialComparison {
-    /// Of a trial on the reduced surface with the same input on the original.
-    pub fn new(reduced: &Trial, original: &Trial) -> Self {
+    /// Of a trial on the reduced surface with the same input on the original, and what that differs from itself by.
+    pub fn new(reduced: &Trial, original: &Trial, noise: &Noise) -> Self {
         let plain = |p: DVec3| p.as_vec3().to_array();
         let rows = [&reduced.log().rows, &original.log().rows];
-        let pairs = || rows[0].iter().zip(rows[1].iter());
         let route = &original.course().route;
-        let peaks = rows.map(|rows| peaks(rows, original));
+        let peaks = [reduced, original].map(peaks);
+        let least = |part: usize| noise.peaks.get(part).map_or(LEAST, |noise| noise.max(LEAST));
         let mut forces: Vec<([f32; 3], f32)> = (peaks[0].iter().zip(&peaks[1]).enumerate())
-            .map(|(part, (a, b))| (plain(route.at((part as f64 + 0.5) * PART).at), (a - b) as f32))
-            .filter(|(_, difference)| difference.abs() > LEAST)
+            .filter(|(part, (a, b))| (*a - *b).abs() > least(*part))
+            .map(|(part, (a, b))| (plain(route.at((part as f64 + 0.5) * PART).at), a - b))
             .collect();
         forces.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         forces.truncate(PLACES);
@@ -99,12 +152,15 @@ impl TrialComparison {
         let pinched = route.points.iter().zip(&widths).filter(|(_, width)| is_pinched(width));
         let least = |which: usize| 2.0 * widths.iter().map(|width| width[which]).fold(f64::INFINITY, f64::min);
         let summaries = [reduced.summary(), original.summary()];
-        let deviation_mm: Vec<f32> = pairs().map(|(a, b)| a.tip.distance(b.tip) as f32).collect();
-        let most = deviation_mm.iter().copied().fold(0.0, f32::max);
+        let deviation_mm = deviations(reduced, original);
+        let mut noise_mm = noise.deviation_mm.clone();
+        noise_mm.resize(if noise.orders[0] > 0 { deviation_mm.len() } else { 0 }, 0.0);
         Self {
-            verdict: verdict(&summaries, most),
-            inserted_mm: pairs().map(|(_, b)| b.inserted_mm as f32).collect(),
+            verdict: verdict(&summaries, [&deviation_mm, &noise_mm].map(|all| largest(all)), noise.orders),
+            inserted_mm: rows[0].iter().zip(rows[1]).map(|(_, b)| b.inserted_mm as f32).collect(),
             deviation_mm,
+            noise_mm,
+            orders: noise.orders,
             tip: rows[0].iter().map(|row| plain(row.tip)).collect(),
             other_tip: rows[1].iter().map(|row| plain(row.tip)).collect(),
             force_differences: forces,
@@ -116,22 +172,42 @@ impl TrialComparison {
     }
 }
 
-/// The largest force in each part of the route.
-fn peaks(rows: &[Row], trial: &Trial) -> Vec<f64> {
+fn largest(all: &[f32]) -> f32 {
+    all.iter().copied().fold(0.0, f32::max)
+}
+
+/// The largest force in each part of the route, in N.
+fn peaks(trial: &Trial) -> Vec<f32> {
     let route = &trial.course().route;
-    let mut peaks = vec![0.0f64; (route.length_mm / PART) as usize + 1];
-    for row in rows.iter().filter(|row| row.max_wall_force_n > 0.0) {
-        let part = (route.locate(row.max_at).arc_mm / PART) as usize;
+    let mut peaks = vec![0.0f32; (route.length_mm / PART) as usize + 1];
+    for touch in trial.felt().peaks() {
+        let part = (route.locate(DVec3::from(touch.at.map(f64::from))).arc_mm / PART) as usize;
         if let Some(peak) = peaks.get_mut(part) {
-            *peak = peak.max(row.max_wall_force_n);
+            *peak = peak.max(touch.force);
         }
     }
     peaks
 }
 
-fn verdict([reduced, original]: &[Summary; 2], most: f32) -> String {
+/// What is to be said, with the largest deviation and the largest noise in mm, and the orders that were tried.
+fn verdict([reduced, original]: &[Summary; 2], [most, noise]: [f32; 2], [orders, arrived]: [usize; 2]) -> String {
     let gone = reduction_percent(original.triangles, reduced.triangles);
-    let path = format!("its tip path differs by {most:.1} mm at most");
+    let mut path = format!("its tip path differs by {most:.1} mm at most");
+    if orders > 0 {
+        let relation = if most > noise { "while" } else { "no more than noise, as" };
+        path += &format!(
+            ", {relation} the unreduced surface differs from itself by up to {noise:.1} mm with its triangles in another order"
+        );
+    }
+    let all = orders + 1;
+    let arrives = arrived + usize::from(original.success);
+    if (1..all).contains(&arrives) {
+        let here = if reduced.success { "arrives" } else { "does not arrive" };
+        return format!(
+            "At {gone:.0} % this wire {here}, but whether it does is chance: on the unreduced surface it arrives with {arrives} of \
+             {all} orders of the triangles; {path}."
+        );
+    }
     match (reduced.success, original.success) {
         (true, true) => format!("At {gone:.0} % this wire arrives; {path}."),
         (false, false) => format!("This wire arrives on neither surface under this input; at {gone:.0} % {path}."),
@@ -141,5 +217,35 @@ fn verdict([reduced, original]: &[Summary; 2], most: f32) -> String {
         (false, true) => {
             format!("At {gone:.0} % this wire does not arrive, and on the unreduced surface it does; {path}.")
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(arrive: [bool; 2], differ: [f32; 2], orders: [usize; 2]) -> String {
+        let summary = |success, triangles| Summary { success, triangles, ..Summary::default() };
+        verdict(&[summary(arrive[0], 100), summary(arrive[1], 1000)], differ, orders)
+    }
+
+    #[test]
+    fn a_difference_is_said_against_what_chance_does() {
+        let text = said([true, true], [1.3, 0.9], [3, 3]);
+        assert!(text.starts_with("At 90 % this wire arrives; its tip path differs by 1.3 mm at most, while"), "{text}");
+        assert!(text.contains("differs from itself by up to 0.9 mm"), "{text}");
+        let text = said([true, true], [0.4, 0.9], [3, 3]);
+        assert!(text.contains("0.4 mm at most, no more than noise, as"), "{text}");
+        // An arrival that another order flips says nothing.
+        for (arrive, orders) in [([false, true], [3, 1]), ([true, false], [3, 2]), ([false, false], [3, 1])] {
+            let text = said(arrive, [1.0, 0.5], orders);
+            assert!(text.contains("is chance"), "{text}");
+        }
+        assert!(said([false, true], [1.0, 0.5], [3, 1]).contains("with 2 of 4 orders"));
+        assert!(
+            said([false, true], [1.0, 0.5], [3, 3]).contains("does not arrive, and on the unreduced surface it does")
+        );
+        assert!(said([false, false], [1.0, 0.5], [3, 0]).starts_with("This wire arrives on neither"));
+        assert!(!said([true, true], [1.0, 0.0], [0, 0]).contains("itself"), "what was not tried is not said");
     }
 }

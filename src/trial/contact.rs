@@ -259,6 +259,22 @@ impl Contacts {
         deepest
     }
 
+    /// Lets go of the contacts of all but the first `count` nodes and the edges between them.
+    pub fn keep(&mut self, count: usize) {
+        if count < self.nodes.len() {
+            self.clearances.truncate(count);
+            self.nodes.truncate(count);
+            self.edges.truncate(count.saturating_sub(1));
+            self.insides.truncate(count.saturating_sub(1));
+            self.list();
+        }
+    }
+
+    /// What the wall does to the rod in all, in N.
+    pub fn total(&self) -> DVec3 {
+        self.near().map(|(_, contact)| contact.normal * contact.force + contact.friction).sum()
+    }
+
     /// Measures the gaps of a node. Returns a distance from the wall that it has at least, in mm.
     fn look_at_node(&mut self, p: DVec3, i: usize, wall: &Wall) -> f64 {
         let (radius, known) = (self.radius, &mut self.clearances[i]);

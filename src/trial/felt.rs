@@ -1,4 +1,4 @@
-//! The largest force that each place of the wall has felt, by every step.
+//! The largest force that each place of the wall has felt, by every step that was balanced.
 //!
 //! Frames come less often than steps, and where drawing is slow or the window is hidden most of them are never looked
 //! at: a force of a tenth of a second would be in the summary and nowhere on the vessel. So what a place feels more than
@@ -31,6 +31,12 @@ impl Felt {
                 self.news.insert(place, touch);
             }
         }
+    }
+
+    /// The largest force of each place, in the order of places.
+    pub fn peaks(&self) -> Vec<Touch> {
+        let places: BTreeMap<_, _> = self.peaks.iter().collect();
+        places.into_values().copied().collect()
     }
 
     /// Tells all of it anew, as to someone who has heard nothing.

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
 use super::press::Press;
+use super::report::{StepCounts, StepReport};
 use super::setup::Entry;
 
 /// A place where the wire lies against the wall.
@@ -26,7 +27,7 @@ pub enum Progress {
     Running,
     /// The tip is within 2 mm of the target's cross-section, in the right branch.
     Arrived,
-    /// The time is over: 3 times what the way takes at the autopilot's feed, and 30 s.
+    /// The autopilot's time is over: 3 times what the way takes at its feed, and 30 s. A hand has all the time.
     TimedOut,
     /// The autopilot has tried all it knows.
     GaveUp,
@@ -43,8 +44,12 @@ pub struct Frame {
     pub time_s: f64,
     /// The wire outside the guide, from its tip to the mouth of the guide, in mm.
     pub nodes: Vec<[f32; 3]>,
-    /// What the wall does to each node, in N.
+    /// What the wall does to each node in the last step, in N.
     pub forces: Vec<[f32; 3]>,
+    /// What came of the last step. The forces below are those of the last one that was balanced.
+    pub report: StepReport,
+    /// Steps so far, by kind.
+    pub step_kinds: StepCounts,
     /// Places where it presses against the vessel.
     pub contacts: usize,
     /// Direction of the tip, of length 1.
@@ -55,7 +60,7 @@ pub struct Frame {
     pub inserted_mm: f64,
     /// Roll at the guide, in radians.
     pub roll: f64,
-    /// Speed of the feed now, in mm/s.
+    /// Speed of the feed that the input asks for now, in mm/s.
     pub feed: f32,
     /// What it takes to hold the wire at the guide against its way in, in N: positive when it pushes back.
     pub push_n: f64,
@@ -174,11 +179,21 @@ pub struct Summary {
     pub wrong_branches: u32,
     /// Times the wire turned back on itself.
     pub loops: u32,
+    /// Steps by kind. The forces below are of those that were balanced.
+    pub step_kinds: StepCounts,
+    /// The part of the steps that was not balanced.
+    pub unbalanced_share: f64,
+    /// The way that the input asked the feed to go, there and back, in mm.
+    pub wanted_feed_mm: f64,
+    /// What of it was fed: the rest was asked for while the guide waited, held back or was at an end of the wire.
+    pub fed_mm: f64,
+    /// By how much Newton's second law was missed at most in a balanced step, in N.
+    pub max_residual_n: f64,
     /// Largest normal force at one place of the wall, in N.
     pub max_wall_force_n: f64,
     /// Mean over time of the sum of normal forces, in N.
     pub mean_wall_force_n: f64,
-    /// Integral over time of that sum, in N s.
+    /// Integral over time of that sum, in N s; while a step is not balanced, that of the last one which was counts.
     pub wall_impulse_n_s: f64,
     /// Largest and mean force within 5 mm of the tip, in N.
     pub max_tip_force_n: f64,

@@ -9,15 +9,18 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::STEP;
-use super::meter::SCHEMA;
+use super::meter::{SCHEMA, SinceRow};
 use super::setup::{Input, Setup};
 
 /// The columns.
 const COLUMNS: &str = "step,time_s,feed_mm_s,roll_rad_s,inserted_mm,roll_rad,tip_x,tip_y,tip_z,tip_dx,tip_dy,tip_dz,\
 arc_mm,branch,off_route,target_mm,path_ratio,contacts,wall_force_n,max_wall_force_n,max_x,max_y,max_z,tip_force_n,\
-push_n,torque_n_mm,retractions,wrong_branches,step_ms";
+push_n,torque_n_mm,retractions,wrong_branches,step_ms,balanced,braked,waited,held,wanted_mm,fed_mm,residual_n";
 
-/// A moment.
+/// The oldest schema whose input can be read.
+const OLDEST: u32 = 1;
+
+/// A moment. Forces are those of the last balanced step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     /// Steps since the start.
@@ -46,7 +49,7 @@ pub struct Row {
     pub contacts: usize,
     /// Sum of normal forces in N.
     pub wall_force_n: f64,
-    /// The largest, in N, and where.
+    /// The largest at one place since the last row, in N, and where.
     pub max_wall_force_n: f64,
     /// In mm.
     pub max_at: DVec3,
@@ -62,6 +65,8 @@ pub struct Row {
     pub wrong_branches: u32,
     /// Mean milliseconds of the steps since the last row.
     pub step_ms: f64,
+    /// What the steps since the last row came to.
+    pub since: SinceRow,
 }
 
 /// All rows of a trial.
@@ -80,7 +85,7 @@ pub enum LogError {
     #[error("this is no log of a Lumen trial: its first line is not \"# lumen trial log\"")]
     NoLog,
     /// From another version.
-    #[error("the log has schema {found}; this version reads schema {SCHEMA}")]
+    #[error("the log has schema {found}; this version reads schemas {OLDEST} to {SCHEMA}")]
     Schema {
         /// The number that stands there.
         found: String,
@@ -149,7 +154,7 @@ impl Log {
         let mut lines = text.lines().enumerate();
         let head = lines.next().and_then(|(_, line)| line.strip_prefix("# lumen trial log, schema "));
         let schema = head.ok_or(LogError::NoLog)?.trim();
-        if schema != SCHEMA.to_string() {
+        if !schema.parse().is_ok_and(|schema: u32| (OLDEST..=SCHEMA).contains(&schema)) {
             return Err(LogError::Schema { found: schema.to_owned() });
         }
         let (mut setup, mut surface, mut inputs) = (None, String::new(), Vec::<(u64, Input)>::new());
@@ -216,6 +221,13 @@ impl Row {
             self.retractions.to_string(),
             self.wrong_branches.to_string(),
             fixed(self.step_ms, 4),
+            self.since.counts.balanced.to_string(),
+            self.since.counts.braked.to_string(),
+            self.since.counts.waited.to_string(),
+            self.since.counts.held.to_string(),
+            fixed(self.since.wanted_mm, 4),
+            fixed(self.since.fed_mm, 4),
+            fixed(self.since.residual_n, 6),
         ];
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", fields.join(","));

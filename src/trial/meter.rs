@@ -3,28 +3,96 @@
 use glam::DVec3;
 
 use super::STEP;
-use super::body::Stepped;
 use super::frame::{Progress, StationResult, StepTimes, Summary};
+use super::report::{StepCounts, StepKind, StepReport};
 use super::route::Route;
 use super::session::Trial;
 use super::simulation::Simulation;
 
 /// Version of the fields of [`Summary`] and of the columns of the log.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 /// Steps in a second of simulated time.
-const SECOND: usize = 500;
+const SECOND: usize = (1.0 / STEP + 0.5) as usize;
 /// Steps in 1/60 s of simulated time.
 const FRAME_STEPS: f64 = 1.0 / 60.0 / STEP;
 
-/// Running sums and maxima.
+/// What is at the tip, in mm from it.
+const TIP: f64 = 5.0;
+
+/// The forces of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Forces {
+    /// At the guide: in N, and in N mm.
+    pub push_n: f64,
+    /// About the way in.
+    pub torque_n_mm: f64,
+    /// Places where it presses against the vessel.
+    pub contacts: usize,
+    /// Sum over the wall of the normal forces, in N.
+    pub wall_force_n: f64,
+    /// The largest at one place, in N, and where.
+    pub max_wall_force_n: f64,
+    /// In mm.
+    pub max_at: DVec3,
+    /// The part within 5 mm of the tip, in N.
+    pub tip_force_n: f64,
+}
+
+impl Forces {
+    fn of(simulation: &Simulation) -> Self {
+        let [push_n, torque_n_mm] = simulation.push_and_torque();
+        let (mut forces, grid) = (Self { push_n, torque_n_mm, ..Self::default() }, simulation.grid());
+        for (node, at, _, force) in simulation.body().touches() {
+            forces.contacts += 1;
+            forces.wall_force_n += force;
+            if force > forces.max_wall_force_n {
+                (forces.max_wall_force_n, forces.max_at) = (force, at);
+            }
+            if grid[node] <= TIP {
+                forces.tip_force_n += force;
+            }
+        }
+        forces
+    }
+}
+
+/// What the steps since the last row of the log came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SinceRow {
+    /// Their kinds.
+    pub counts: StepCounts,
+    /// What was to be fed, and what was, in mm.
+    pub wanted_mm: f64,
+    /// In mm.
+    pub fed_mm: f64,
+    /// The largest residual, in N.
+    pub residual_n: f64,
+    /// The largest force at one place of the wall in a balanced step, in N, and where.
+    pub max_wall_force_n: f64,
+    /// In mm.
+    pub max_at: DVec3,
+}
+
+/// Running sums and maxima: of forces, by the steps that were balanced alone.
 #[derive(Clone, Debug)]
 pub struct Meter {
     /// Milliseconds of each step.
     step_ms: Vec<f32>,
     stations: Vec<(f64, Option<usize>)>,
+    /// Steps so far, by kind.
+    pub counts: StepCounts,
+    /// The forces of the last balanced step.
+    pub forces: Forces,
+    /// What there was since the last row of the log.
+    pub since_row: SinceRow,
+    /// Sums over balanced steps.
     wall_force_sum: f64,
     tip_force_sum: f64,
-    looks: u64,
+    /// The sum over all steps of what the last balanced one had.
+    wall_force_held_sum: f64,
+    wanted_mm: f64,
+    fed_mm: f64,
+    max_residual_n: f64,
     max_wall_force_n: f64,
     max_tip_force_n: f64,
     max_push_n: f64,
@@ -36,16 +104,12 @@ pub struct Meter {
     tip: Option<DVec3>,
     /// Length of the tip's way in mm.
     pub path_mm: f64,
-    /// Force within 5 mm of the tip, at the last look.
-    pub tip_force_n: f64,
     /// Times withdrawn.
     pub retractions: u32,
     /// Times in a branch off the route.
     pub wrong_branches: u32,
     /// Times turned back on itself.
     pub loops: u32,
-    /// Steps in which the wire could not move.
-    pub held: u64,
 }
 
 impl Meter {
@@ -53,9 +117,15 @@ impl Meter {
         Self {
             step_ms: Vec::new(),
             stations: route.stations.iter().map(|&arc| (arc, None)).collect(),
+            counts: StepCounts::default(),
+            forces: Forces::default(),
+            since_row: SinceRow::default(),
             wall_force_sum: 0.0,
             tip_force_sum: 0.0,
-            looks: 0,
+            wall_force_held_sum: 0.0,
+            wanted_mm: 0.0,
+            fed_mm: 0.0,
+            max_residual_n: 0.0,
             max_wall_force_n: 0.0,
             max_tip_force_n: 0.0,
             max_push_n: 0.0,
@@ -66,47 +136,54 @@ impl Meter {
             max_contact_share: 0.0,
             tip: None,
             path_mm: 0.0,
-            tip_force_n: 0.0,
             retractions: 0,
             wrong_branches: 0,
             loops: 0,
-            held: 0,
         }
     }
 
-    pub(super) fn stepped(&mut self, ms: f64, stepped: Stepped, simulation: &Simulation) {
+    pub(super) fn stepped(&mut self, ms: f64, report: &StepReport, simulation: &Simulation) {
         self.step_ms.push(ms as f32);
-        self.held += u64::from(stepped == Stepped::Held);
-        let body = simulation.body();
-        let (sum, most) = body.pressure();
-        self.wall_force_sum += sum;
-        self.max_wall_force_n = self.max_wall_force_n.max(most);
-        self.max_depth = self.max_depth.max(body.depth);
-        let [push, torque] = simulation.push_and_torque();
-        self.max_push_n = self.max_push_n.max(push);
-        self.max_torque_n_mm = self.max_torque_n_mm.max(torque.abs());
+        self.counts.count(report.kind);
+        self.wanted_mm += report.wanted_mm.abs();
+        self.fed_mm += report.fed_mm.abs();
+        self.max_depth = self.max_depth.max(simulation.body().depth);
+        let row = &mut self.since_row;
+        row.counts.count(report.kind);
+        row.wanted_mm += report.wanted_mm;
+        row.fed_mm += report.fed_mm;
+        row.residual_n = row.residual_n.max(report.residual_n);
+        if report.kind == StepKind::Balanced {
+            let forces = Forces::of(simulation);
+            if forces.max_wall_force_n > row.max_wall_force_n {
+                (row.max_wall_force_n, row.max_at) = (forces.max_wall_force_n, forces.max_at);
+            }
+            self.wall_force_sum += forces.wall_force_n;
+            self.tip_force_sum += forces.tip_force_n;
+            self.max_residual_n = self.max_residual_n.max(report.residual_n);
+            self.max_wall_force_n = self.max_wall_force_n.max(forces.max_wall_force_n);
+            self.max_tip_force_n = self.max_tip_force_n.max(forces.tip_force_n);
+            self.max_push_n = self.max_push_n.max(forces.push_n);
+            self.max_torque_n_mm = self.max_torque_n_mm.max(forces.torque_n_mm.abs());
+            self.forces = forces;
+        }
+        self.wall_force_held_sum += self.forces.wall_force_n;
     }
 
-    pub(super) fn looked(&mut self, simulation: &Simulation, arc: f64, tip_mm: f64) {
+    pub(super) fn looked(&mut self, simulation: &Simulation, arc: f64) {
         let step = self.step_ms.len();
         for (at, passed) in &mut self.stations {
             if arc >= *at && passed.is_none() {
                 *passed = Some(step);
             }
         }
-        let body = simulation.body();
-        let near = |node: usize| simulation.grid()[node] <= tip_mm;
-        self.tip_force_n = body.touches().filter(|touch| near(touch.0)).map(|touch| touch.3).sum();
-        self.max_tip_force_n = self.max_tip_force_n.max(self.tip_force_n);
-        self.tip_force_sum += self.tip_force_n;
-        self.looks += 1;
         let tip = simulation.tip();
         self.path_mm += self.tip.map_or(0.0, |before| before.distance(tip));
         self.tip = Some(tip);
         self.max_inserted = self.max_inserted.max(simulation.inserted());
         let nodes = simulation.count();
         self.max_nodes = self.max_nodes.max(nodes);
-        let mut touching: Vec<usize> = body.touches().map(|touch| touch.0).collect();
+        let mut touching: Vec<usize> = simulation.body().touches().map(|touch| touch.0).collect();
         touching.dedup();
         touching.sort_unstable();
         touching.dedup();
@@ -166,7 +243,7 @@ impl Trial {
                 Progress::Running => format!("not over yet: the tip is {tip_distance_mm:.1} mm from the target"),
                 Progress::Arrived => format!("the tip arrived after {time_s:.1} s"),
                 Progress::TimedOut => format!(
-                    "the time of {:.0} s was over with the tip {tip_distance_mm:.1} mm from the target",
+                    "the autopilot's time of {:.0} s was over with the tip {tip_distance_mm:.1} mm from the target",
                     self.limit_s()
                 ),
                 Progress::Over => {
@@ -204,12 +281,17 @@ impl Trial {
             wrong_branches: meter.wrong_branches,
             loops: meter.loops,
             max_wall_force_n: meter.max_wall_force_n,
-            mean_wall_force_n: per(meter.wall_force_sum, steps),
-            wall_impulse_n_s: meter.wall_force_sum * STEP,
+            mean_wall_force_n: per(meter.wall_force_sum, meter.counts.balanced),
+            wall_impulse_n_s: meter.wall_force_held_sum * STEP,
             max_tip_force_n: meter.max_tip_force_n,
-            mean_tip_force_n: per(meter.tip_force_sum, meter.looks),
+            mean_tip_force_n: per(meter.tip_force_sum, meter.counts.balanced),
             max_push_n: meter.max_push_n,
             max_torque_n_mm: meter.max_torque_n_mm,
+            step_kinds: meter.counts,
+            unbalanced_share: meter.counts.unbalanced_share(),
+            wanted_feed_mm: meter.wanted_mm,
+            fed_mm: meter.fed_mm,
+            max_residual_n: meter.max_residual_n,
             max_penetration_mm: meter.max_depth.max(0.0),
             max_inserted_mm: meter.max_inserted,
             max_nodes: meter.max_nodes,

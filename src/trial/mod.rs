@@ -21,6 +21,7 @@ pub mod frame;
 pub mod log;
 pub mod meter;
 pub mod press;
+pub mod report;
 pub mod rod;
 pub mod route;
 pub mod session;

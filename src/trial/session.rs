@@ -6,27 +6,27 @@ use glam::DVec3;
 use web_time::Instant;
 
 use super::STEP;
-use super::autopilot::{Autopilot, FEED, Seen};
+use super::autopilot::{Autopilot, DECISION, FEED, Seen};
 use super::course::{Course, TrialError};
+use super::felt::Felt;
 use super::frame::{Frame, Progress, Touch};
 use super::log::{Log, Row};
-use super::meter::Meter;
+use super::meter::{Meter, SinceRow};
 use super::press::outward;
+use super::report::StepKind;
 use super::route::Located;
 use super::setup::{Input, Setup};
 use super::simulation::Simulation;
 use crate::pipeline::task::milliseconds;
 
 /// Steps between two rows of the log, and between two decisions.
-pub const ROW_STEPS: u64 = 10;
+pub const ROW_STEPS: u64 = (DECISION / STEP + 0.5) as u64;
 /// Steps between two places that can be gone back to: a second.
-const MARK_STEPS: u64 = 500;
+const MARK_STEPS: u64 = (1.0 / STEP + 0.5) as u64;
 /// Places that can be gone back to.
 const MARKS: usize = 60;
 /// The tip has arrived within this of the target's cross-section, in mm.
 const ARRIVED: f64 = 2.0;
-/// What is at the tip, in mm from it.
-const TIP: f64 = 5.0;
 /// Cosine between the shaft's way and the route's below which the wire has turned back.
 const BACK: f64 = -0.3;
 
@@ -42,6 +42,10 @@ struct State {
     is_looped: bool,
     progress: Progress,
     meter: Meter,
+    /// Steps that the autopilot has steered.
+    steered: u64,
+    /// What the wall has felt, by every balanced step up to here.
+    felt: Felt,
     rows: usize,
 }
 
@@ -80,6 +84,8 @@ impl Trial {
             is_looped: false,
             progress: Progress::Running,
             meter: Meter::new(&course.route),
+            steered: 0,
+            felt: Felt::default(),
             rows: 0,
         };
         let log = Log::new(setup.clone(), course.fingerprint);
@@ -145,7 +151,7 @@ impl Trial {
         self.state.progress
     }
 
-    /// Simulated seconds after which it is over.
+    /// Simulated seconds after which the autopilot has lost; a hand, or a log, takes the time that it takes.
     pub fn limit_s(&self) -> f64 {
         self.limit_s
     }
@@ -175,8 +181,13 @@ impl Trial {
         }
         let start = Instant::now();
         self.press();
-        let stepped = self.state.simulation.step(self.state.input);
-        self.state.meter.stepped(milliseconds(start), stepped, &self.state.simulation);
+        let state = &mut self.state;
+        let report = state.simulation.step(state.input);
+        state.meter.stepped(milliseconds(start), &report, &state.simulation);
+        if report.kind == StepKind::Balanced {
+            state.felt.take(touches(&state.simulation));
+        }
+        state.steered += u64::from(self.is_steered);
         let steps = self.state.simulation.steps();
         if steps.is_multiple_of(ROW_STEPS) {
             self.look();
@@ -248,6 +259,7 @@ impl Trial {
         }
         let row = self.row();
         self.log.rows.push(row);
+        self.state.meter.since_row = SinceRow::default();
     }
 
     fn seen(&self) -> Seen {
@@ -301,11 +313,11 @@ impl Trial {
         state.is_looped = shaft.dot(route.at(on.arc_mm).direction) < BACK && state.simulation.inserted() > 15.0;
         state.meter.wrong_branches += u32::from(state.is_off && !was_off);
         state.meter.loops += u32::from(state.is_looped && !was_looped);
-        state.meter.looked(&state.simulation, state.arc, TIP);
+        state.meter.looked(&state.simulation, state.arc);
         if state.progress == Progress::Running {
             if !state.is_off && route.distance_to_target(tip) <= ARRIVED {
                 state.progress = Progress::Arrived;
-            } else if state.simulation.steps() as f64 * STEP > self.limit_s {
+            } else if state.steered as f64 * STEP > self.limit_s {
                 state.progress = Progress::TimedOut;
             }
         }
@@ -314,10 +326,7 @@ impl Trial {
     fn row(&self) -> Row {
         let state = &self.state;
         let simulation = &state.simulation;
-        let body = simulation.body();
-        let [push_n, torque_n_mm] = simulation.push_and_torque();
-        let (wall_force_n, max_wall_force_n) = body.pressure();
-        let worst = body.touches().max_by(|a, b| a.3.total_cmp(&b.3));
+        let (forces, since) = (state.meter.forces, state.meter.since_row);
         Row {
             step: simulation.steps(),
             input: state.input,
@@ -330,27 +339,28 @@ impl Trial {
             is_off: state.is_off,
             target_mm: self.course.route.distance_to_target(simulation.tip()),
             path_ratio: state.meter.path_mm / self.course.route.length_mm,
-            contacts: body.touches().count(),
-            wall_force_n,
-            max_wall_force_n,
-            max_at: worst.map_or(simulation.tip(), |worst| worst.1),
-            tip_force_n: state.meter.tip_force_n,
-            push_n,
-            torque_n_mm,
+            contacts: forces.contacts,
+            wall_force_n: forces.wall_force_n,
+            max_wall_force_n: since.max_wall_force_n,
+            max_at: if since.max_wall_force_n > 0.0 { since.max_at } else { simulation.tip() },
+            tip_force_n: forces.tip_force_n,
+            push_n: forces.push_n,
+            torque_n_mm: forces.torque_n_mm,
             retractions: state.meter.retractions,
             wrong_branches: state.meter.wrong_branches,
             step_ms: state.meter.last_ms(ROW_STEPS as usize),
+            since,
         }
     }
 
-    /// Where the wire presses against the vessel now.
-    pub fn touches(&self) -> impl Iterator<Item = Touch> {
-        let is_vessel = |touch: &(usize, DVec3, u32, f64)| self.course.wall.is_vessel(touch.2);
-        let plain = |(_, at, triangle, force): (usize, DVec3, u32, f64)| {
-            let at = at.as_vec3().to_array();
-            Touch { at, triangle, force: force as f32 }
-        };
-        self.state.simulation.body().touches().filter(is_vessel).map(plain)
+    /// What the wall has felt so far.
+    pub fn felt(&self) -> &Felt {
+        &self.state.felt
+    }
+
+    /// The same, to be told.
+    pub fn felt_mut(&mut self) -> &mut Felt {
+        &mut self.state.felt
     }
 
     /// The wire and all that is told of it now; what depends on the clock is filled in by the caller.
@@ -359,25 +369,26 @@ impl Trial {
         let simulation = &state.simulation;
         let body = simulation.body();
         let plain = |v: DVec3| v.as_vec3().to_array();
-        let (wall_force_n, max_wall_force_n) = body.pressure();
-        let [push_n, torque_n_mm] = simulation.push_and_torque();
+        let forces = state.meter.forces;
         let [direction, side] = self.tip_side();
         Frame {
             step: simulation.steps(),
             time_s: simulation.steps() as f64 * STEP,
             nodes: simulation.nodes().map(plain).collect(),
             forces: body.contacts.forces(simulation.count()).into_iter().chain([DVec3::ZERO]).map(plain).collect(),
-            contacts: self.touches().count(),
+            report: simulation.report(),
+            step_kinds: state.meter.counts,
+            contacts: forces.contacts,
             tip_direction: plain(direction),
             tip_side: plain(side.reject_from(direction).normalize_or(side)),
             inserted_mm: simulation.inserted(),
             roll: simulation.roll(),
             feed: state.input.feed,
-            push_n,
-            torque_n_mm,
-            wall_force_n,
-            max_wall_force_n,
-            tip_force_n: state.meter.tip_force_n,
+            push_n: forces.push_n,
+            torque_n_mm: forces.torque_n_mm,
+            wall_force_n: forces.wall_force_n,
+            max_wall_force_n: forces.max_wall_force_n,
+            tip_force_n: forces.tip_force_n,
             arc_mm: state.arc,
             target_mm: self.course.route.distance_to_target(simulation.tip()),
             branch: state.located.map_or(0, |located| located.branch),
@@ -389,4 +400,12 @@ impl Trial {
             is_behind: false,
         }
     }
+}
+
+/// Where the wire presses against the vessel now.
+fn touches(simulation: &Simulation) -> impl Iterator<Item = Touch> {
+    simulation.body().touches().map(|(_, at, triangle, force)| {
+        let at = at.as_vec3().to_array();
+        Touch { at, triangle, force: force as f32 }
+    })
 }

@@ -10,7 +10,8 @@ use glam::{DQuat, DVec3};
 use thiserror::Error;
 
 use super::STEP;
-use super::body::{Body, Stepped};
+use super::body::Body;
+use super::report::{StepKind, StepReport};
 use super::rod::{Held, Rod, Section};
 use super::setup::{Entry, Input};
 use super::wall::Wall;
@@ -56,6 +57,11 @@ pub(super) fn check_load(n_per_mm: f64) -> Result<(), PlacementError> {
     if is_possible { Ok(()) } else { Err(PlacementError::Load(n_per_mm as f32)) }
 }
 
+/// Of the first `count` nodes, in N s.
+fn momentum(rod: &Rod, count: usize) -> DVec3 {
+    (0..count).map(|i| rod.velocities[i] * rod.sections[i].mass).sum()
+}
+
 /// A wire on its way.
 #[derive(Clone, Debug)]
 pub struct Simulation {
@@ -72,9 +78,8 @@ pub struct Simulation {
     inserted: f64,
     roll: f64,
     steps: u64,
-    /// What the guide feels.
-    push: f64,
-    torque: f64,
+    /// What came of the last step.
+    report: StepReport,
     most_push: f64,
 }
 
@@ -128,8 +133,7 @@ impl Simulation {
             inserted,
             roll,
             steps: 0,
-            push: 0.0,
-            torque: 0.0,
+            report: StepReport::default(),
             // More than a hand gives without noticing: 20 times the load under which a floppy tip buckles.
             most_push: if wire.diameter_mm < 0.6 { 3.0 } else { 10.0 },
         };
@@ -151,7 +155,7 @@ impl Simulation {
 
     /// Puts these loads on each mm at the nodes from the tip, in N, beside the load that is everywhere, from the next
     /// step on.
-    pub(super) fn set_loads(&mut self, loads: Vec<DVec3>) {
+    pub fn set_loads(&mut self, loads: Vec<DVec3>) {
         self.loads = loads;
     }
 
@@ -182,18 +186,23 @@ impl Simulation {
         }
     }
 
-    /// A step of [`STEP`] seconds. Returns whether the wire did what it was told.
-    pub fn step(&mut self, input: Input) -> Stepped {
+    /// A step of [`STEP`] seconds.
+    pub fn step(&mut self, input: Input) -> StepReport {
+        self.step_by(STEP, input)
+    }
+
+    /// A step of so many seconds: a trial's are all of [`STEP`], and what it finds hardly depends on that.
+    pub fn step_by(&mut self, dt: f64, input: Input) -> StepReport {
         let input = input.limited();
-        let held_back = self.is_held_back() && f64::from(input.feed) * self.push > 0.0;
-        let feed = if held_back { 0.0 } else { f64::from(input.feed) * STEP };
+        let (wanted_mm, turn) = (f64::from(input.feed) * dt, f64::from(input.roll) * dt);
+        let is_held_back = self.is_held_back() && wanted_mm * self.report.push_n > 0.0;
+        let feed = if is_held_back { 0.0 } else { wanted_mm };
         let least = f64::midpoint(self.grid[FIRST], self.grid[FIRST + 1]);
         let most = self.grid[self.grid.len() - 4];
         let before = self.inserted;
         self.inserted = (before + feed).clamp(least, most);
         self.renumber();
         self.place();
-        let turn = f64::from(input.roll) * STEP;
         let (first, inserted) = (self.outside(), self.inserted);
         let (mouth, way, grid) = (self.mouth, self.way, &self.grid);
         let prepare = |rod: &mut Rod| {
@@ -203,22 +212,35 @@ impl Simulation {
             // Tangents look back to the guide.
             (first..rod.len()).for_each(|i| rod.turn_to(i, if i == first { -turn } else { 0.0 }));
         };
-        let stepped = self.body.step(STEP, first, prepare);
+        let before_step = momentum(&self.body.rod, first);
+        let kind = self.body.step(dt, first, prepare);
         self.steps += 1;
-        if matches!(stepped, Stepped::Held | Stepped::Waited) {
+        let waits = matches!(kind, StepKind::Held | StepKind::Waited);
+        if waits {
             self.inserted = before;
             self.renumber();
             self.place();
         } else {
             self.roll += turn;
         }
-        self.feel();
-        stepped
+        let (hold, about) = self.hold();
+        self.report = StepReport {
+            kind,
+            wanted_mm,
+            fed_mm: self.inserted - before,
+            wanted_rad: turn,
+            rolled_rad: if waits { 0.0 } else { turn },
+            residual_n: self.residual(hold, before_step, dt).length(),
+            push_n: hold.dot(self.way),
+            torque_n_mm: about,
+        };
+        self.report
     }
 
     /// Adds the nodes that come out of the guide, and takes off those that went back.
     fn renumber(&mut self) {
         let rod = &mut self.body.rod;
+        let before = rod.len();
         while self.grid[rod.len() - 2] < self.inserted {
             let i = rod.len();
             let director = rod.director(i - 2);
@@ -229,19 +251,26 @@ impl Simulation {
         }
         // A node that was inside had its cell cut.
         let count = rod.len();
-        for i in count.saturating_sub(6)..count {
-            rod.sections[i] = self.sections[i];
-        }
+        let first = before.min(count).saturating_sub(6);
+        rod.sections[first..].copy_from_slice(&self.sections[first..count]);
     }
 
-    /// What the guide holds the wire with, now that it is where it is.
-    fn feel(&mut self) {
+    /// What the guide holds the wire with, now that it is where it is: a force in N, and a moment about the way in, in
+    /// N mm.
+    fn hold(&mut self) -> (DVec3, f64) {
         let first = self.outside();
         let rod = &mut self.body.rod;
         rod.assemble_from(first.saturating_sub(2));
-        let force: DVec3 = (first..rod.len()).map(|i| rod.holding_force(i)).sum();
-        self.push = force.dot(self.way);
-        self.torque = -rod.holding_moment(first);
+        ((first..rod.len()).map(|i| rod.holding_force(i)).sum(), -rod.holding_moment(first))
+    }
+
+    /// What is left over of all forces on the wire outside the guide, in N, with what the guide holds it with and the
+    /// momentum that it had before a step of `dt` seconds.
+    fn residual(&self, hold: DVec3, before: DVec3, dt: f64) -> DVec3 {
+        let (rod, first) = (&self.body.rod, self.outside());
+        let loads: DVec3 = rod.forces.iter().map(|&(_, force)| force).sum();
+        let drag: DVec3 = (0..first).map(|i| rod.velocities[i] * rod.sections[i].drag).sum();
+        hold + self.body.contacts.total() + loads - drag - (momentum(rod, first) - before) / dt
     }
 
     /// The rod and its contacts.
@@ -284,14 +313,19 @@ impl Simulation {
         self.steps
     }
 
-    /// What it takes at the guide to hold the wire against its way in, in N, and about it, in N mm.
+    /// What came of the last step.
+    pub fn report(&self) -> StepReport {
+        self.report
+    }
+
+    /// What it took in the last step to hold the wire at the guide against its way in, in N, and about it, in N mm.
     pub fn push_and_torque(&self) -> [f64; 2] {
-        [self.push, self.torque]
+        [self.report.push_n, self.report.torque_n_mm]
     }
 
     /// Whether the guide holds the wire back: more force would be needed than a hand gives.
     pub fn is_held_back(&self) -> bool {
-        self.push.abs() > self.most_push
+        self.report.push_n.abs() > self.most_push
     }
 
     /// Material places of the nodes, in mm from the tip.

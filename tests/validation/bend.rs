@@ -11,7 +11,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use lumen::trial::body::Stepped;
+use lumen::trial::report::StepKind;
 use lumen::trial::rod::{Hessian, Section};
 
 use crate::benchmark::Benchmark;
@@ -47,7 +47,7 @@ fn push(mu: f64, ei: f64, straight: f64) -> f64 {
         let ends = [(0, tip), (1, tip), (count - 2, back * 0.002), (count - 1, back * 0.002)];
         let ends = ends.map(|(i, way)| (i, body.rod.positions[i] + way));
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
-        assert_ne!(stepped, Stepped::Held);
+        assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble(f64::INFINITY, 0.0, Hessian::Safe);
         gives = -(rod.holding_force(0) + rod.holding_force(1)).dot(out);
@@ -96,7 +96,7 @@ fn roll(mu: f64, sides: usize) -> f64 {
     let mut torques = Vec::new();
     for i in 0..1200 {
         let stepped = body.step(STEP, count - 2, |rod| rod.turn_to(count - 2, -0.002));
-        assert_ne!(stepped, Stepped::Held);
+        assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
         if i >= 800 {

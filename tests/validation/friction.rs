@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use lumen::mesh::TriMesh;
-use lumen::trial::body::{Body, Stepped};
+use lumen::trial::body::Body;
+use lumen::trial::report::StepKind;
 use lumen::trial::rod::{Held, Rod, Section};
 use lumen::trial::wall::Wall;
 
@@ -62,7 +63,7 @@ fn capstan(mu: f64, step: f64) -> f64 {
     for i in 0..1000 {
         let ends = [count - 2, count - 1].map(|i| (i, body.rod.positions[i] + way));
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
-        assert_ne!(stepped, Stepped::Held);
+        assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
         let pull = (count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().dot(path[count - 1].1);
@@ -114,7 +115,7 @@ fn block() -> Body {
     let mut body = Body::new(rod, RADIUS, MU, Some(Arc::new(Wall::open(Arc::new(floor())))));
     body.look(NODES);
     for _ in 0..50 {
-        assert_ne!(body.step(STEP, NODES, |_| ()), Stepped::Held);
+        assert_ne!(body.step(STEP, NODES, |_| ()), StepKind::Held);
     }
     body
 }
@@ -126,7 +127,7 @@ fn pushed(body: &mut Body, force: f64, steps: usize) -> f64 {
     body.rod.forces.truncate(NODES);
     body.rod.forces.extend((0..NODES).map(|i| (i, DVec3::X * (force / NODES as f64))));
     for _ in 0..steps {
-        assert_ne!(body.step(STEP, NODES, |_| ()), Stepped::Held);
+        assert_ne!(body.step(STEP, NODES, |_| ()), StepKind::Held);
     }
     body.rod.positions[NODES / 2].x - before
 }
@@ -160,7 +161,7 @@ fn what_sticks_stays_and_what_slides_is_held_back() {
             way = -way;
             loops += 1;
         }
-        assert_ne!(body.step(STEP, NODES, |rod| rod.positions[0] = start + DVec3::X * at), Stepped::Held);
+        assert_ne!(body.step(STEP, NODES, |rod| rod.positions[0] = start + DVec3::X * at), StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(0);
         let force = rod.holding_force(0).x;

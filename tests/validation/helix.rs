@@ -13,7 +13,7 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use lumen::trial::body::Stepped;
+use lumen::trial::report::StepKind;
 use lumen::trial::rod::Section;
 
 use crate::benchmark::Benchmark;
@@ -62,7 +62,7 @@ fn helix(load: f64) -> [f64; 2] {
     body.rod.forces.push((0, DVec3::X * load));
     let (mut angle, mut force, mut times) = (0.0, 0.0, 0.0);
     for i in 0..STEPS {
-        assert_ne!(body.step(STEP, count - 2, |_| ()), Stepped::Held);
+        assert_ne!(body.step(STEP, count - 2, |_| ()), StepKind::Held);
         // The ends bend away from the helix, by less and less over half a turn.
         if i >= STEPS / 2 {
             let [from, to] = [80, 160];

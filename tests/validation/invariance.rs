@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use lumen::mesh::TriMesh;
-use lumen::trial::body::Stepped;
+use lumen::trial::report::StepKind;
 use lumen::trial::rod::Rod;
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
@@ -63,7 +63,7 @@ fn fed(simulation: &mut Simulation, to: f64, feed: f32, roll: f32) -> Vec<DVec3>
     let mut tips = Vec::new();
     // While something snaps the guide waits.
     while (to - simulation.inserted()) / way > 0.5 && tips.len() < 100_000 {
-        assert_ne!(simulation.step(Input { feed, roll }), Stepped::Held);
+        assert_ne!(simulation.step(Input { feed, roll }).kind, StepKind::Held);
         tips.push(simulation.tip());
     }
     tips
@@ -102,6 +102,40 @@ fn neither_the_order_of_triangles_nor_the_way_it_all_lies_matters() {
         let apart = plain.iter().zip(&other).map(|(p, &q)| p.distance(back * q));
         let what = format!("largest distance of the tip on the way into a vessel that is {name} (mm)");
         found.compare(&what, 0.0, apart.fold(0.0, f64::max), Within(0.01), 0);
+    }
+    found.finish();
+}
+
+/// Feeds and rolls as above; tip, wall force and push of each step, in mm and N.
+fn felt(mut simulation: Simulation) -> Vec<(DVec3, [f64; 2])> {
+    let mut all = Vec::new();
+    while simulation.inserted() < 60.0 && all.len() < 10_000 {
+        let report = simulation.step(Input { feed: 20.0, roll: 1.0 });
+        all.push((simulation.tip(), [simulation.body().pressure().0, report.push_n]));
+    }
+    all
+}
+
+#[test]
+fn forces_do_not_depend_on_the_order_of_triangles() {
+    let mut found = Benchmark::new("orders");
+    let plain = felt(entered());
+    let mean = |k: usize| plain.iter().map(|step| step.1[k].abs()).sum::<f64>() / plain.len() as f64;
+    let (mut tip, mut off) = (0.0_f64, [0.0_f64; 2]);
+    for seed in 1..=5 {
+        let other = felt(entered_in(lumen::mesh::shuffled(&vessel(), seed), DQuat::IDENTITY));
+        assert_eq!(plain.len(), other.len());
+        let apart = plain.iter().zip(&other).map(|(a, b)| a.0.distance(b.0));
+        tip = tip.max(apart.fold(0.0, f64::max));
+        for k in 0..2 {
+            let squares = plain.iter().zip(&other).map(|(a, b)| (a.1[k] - b.1[k]).powi(2)).sum::<f64>();
+            off[k] = off[k].max((squares / plain.len() as f64).sqrt() / mean(k));
+        }
+    }
+    found.compare("largest distance of the tip in five other orders (mm)", 0.0, tip, Within(0.01), 0);
+    for (what, off) in ["wall force", "push"].iter().zip(off) {
+        let what = format!("root mean square of the difference over the mean in the worst of five orders: {what}");
+        found.compare(&what, 0.0, off, Within(0.02), 0);
     }
     found.finish();
 }

@@ -144,7 +144,7 @@ fn curvatures(number: f64) -> [f64; 2] {
 
 /// The base's angle at which a shape with this tip angle stands: `GJ phi'' = EI own tube sin phi`, without torque at the
 /// tip, over a length at which the number of the whip is `number`.
-fn base_angle(number: f64, tip: f64) -> f64 {
+pub(crate) fn base_angle(number: f64, tip: f64) -> f64 {
     const STEPS: usize = 400;
     let h = number / STEPS as f64;
     let (mut angle, mut rate) = (tip, 0.0f64);

@@ -4,11 +4,12 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use lumen::trial::body::{Body, Stepped};
+use lumen::trial::body::Body;
+use lumen::trial::report::StepKind;
 use lumen::trial::rod::Section;
 
 use crate::benchmark::Benchmark;
-use crate::benchmark::Tolerance::{Band, Part};
+use crate::benchmark::Tolerance::{Missed, Part};
 use crate::friction::{RADIUS, STEP, TUBE, threaded};
 use crate::tubes::{curve, tube};
 
@@ -20,10 +21,10 @@ const EI: f64 = 1.0;
 /// By how much the load of a snake grows with the square of the angle to which it goes up the wall, over √(EI w/r): of the
 /// energies of `angle sin(k s)` on a cylinder, bending `EI r² (θ''² + θ'⁴) / 2` and weight `w r (1 - cos θ)`, to the
 /// fourth order, at the wave of the onset, `k⁴ = w / (EI r)`.
-const GROWTH: f64 = 1.375;
+pub(crate) const GROWTH: f64 = 1.375;
 
 /// A little to the side, never the same, so that every way of buckling is begun.
-fn uneven(i: usize) -> f64 {
+pub(crate) fn uneven(i: usize) -> f64 {
     let mut state = i as u32 ^ 0x9e37_79b9;
     for _ in 0..3 {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -48,7 +49,7 @@ fn a_pushed_wire_snakes_in_its_tube() {
     for i in 0..2000 {
         let ends = [count - 2, count - 1].map(|i| (i, body.rod.positions[i] + DVec3::NEG_X * 0.00125));
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
-        assert_ne!(stepped, Stepped::Held);
+        assert_ne!(stepped, StepKind::Held);
         if i % 40 != 39 {
             continue;
         }
@@ -104,7 +105,7 @@ fn a_snake_goes_over_into_a_helix() {
     for i in 0..1500 {
         let ends = [count - 2, count - 1].map(|i| (i, body.rod.positions[i] + DVec3::NEG_X * 0.006));
         let stepped = body.step(STEP, count - 2, |rod| ends.iter().for_each(|&(i, p)| rod.positions[i] = p));
-        assert_ne!(stepped, Stepped::Held);
+        assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
         let push = -(count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().x / unit;
@@ -121,9 +122,11 @@ fn a_snake_goes_over_into_a_helix() {
         }
     }
     assert!(round(&body) > PI, "no helix");
-    // From here on a helix is the lighter, and above twice of it a snake cannot be (Wicks, Wardle and Pafitis 2008).
+    // From here on a helix is the lighter, and above twice of it a snake cannot be (Wicks, Wardle and Pafitis 2008). The
+    // band of the notes (`guidewire.md`) goes from there to what was tried; this wire winds later, and is said to.
     let least = 8f64.sqrt();
-    found.compare("load at which it winds over √(EI w/r)", 1.3 * least, onset, Band(2.83, 5.66), 192);
+    let missed = Missed { least: 2.83, most: 3.66, found: [3.66, 4.1] };
+    found.compare("load at which it winds over √(EI w/r)", 1.3 * least, onset, missed, 192);
     found.mark("helix is the lighter", least, 1.0);
     found.mark("Wu and Juvkam-Wold", 1.3 * least, 1.0);
     found.mark("no snake can be", 2.0 * least, 1.0);

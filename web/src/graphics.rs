@@ -76,7 +76,12 @@ impl Stage {
         let mut why = JsValue::from_str("this browser has neither WebGPU nor WebGL2");
         for backend in self.kinds() {
             match self.start_with(backend).await {
-                Ok(()) => return self.set_state("ready"),
+                Ok(()) => {
+                    self.set_state("ready")?;
+                    // Not before it is seen: what is hidden takes no focus, and without it keys do nothing until the
+                    // first click.
+                    return self.element("lumen")?.unchecked_into::<HtmlElement>().focus();
+                }
                 Err(error) => {
                     console::warn_2(&format!("{backend:?} could not be started:").into(), &error);
                     why = error;

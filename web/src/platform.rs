@@ -8,6 +8,7 @@ use lumen::app::trial::Offer;
 use lumen::app::{Gamepad, Platform, PlatformEvent, Waker};
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
+use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 
 use crate::files;
@@ -28,6 +29,7 @@ impl Browser {
     /// Starts the engine, that of the trial when it is needed; `ctx` draws again whenever there is news.
     pub(crate) fn new(ctx: &egui::Context) -> Self {
         let waker = Waker::new(ctx);
+        wake_at_gamepad(waker.clone());
         let (link, trial) = (WorkerLink::new(waker.clone()), WorkerLink::idle(waker.clone()));
         Self { link, trial, inbox: Rc::default(), waker }
     }
@@ -40,6 +42,16 @@ impl Browser {
             waker.wake();
         }
     }
+}
+
+/// Draws again when a gamepad is plugged in: until then it is not asked.
+fn wake_at_gamepad(waker: Waker) {
+    let wake = Closure::<dyn Fn()>::new(move || waker.wake());
+    let window = web_sys::window();
+    // Where it cannot be heard, the next movement of the pointer finds the gamepad.
+    let _ = window.map(|w| w.add_event_listener_with_callback("gamepadconnected", wake.as_ref().unchecked_ref()));
+    // It lives as long as the page.
+    wake.forget();
 }
 
 fn chosen((name, bytes): files::Chosen) -> PlatformEvent {

@@ -1,7 +1,9 @@
 //! `cargo xtask build`: the browser app as a folder of static files.
 //!
-//! Trunk builds the program and lays out the folder, wasm-opt makes the module smaller and faster, and the page is
-//! stamped (`page`). The build fails if a first visit would have to download more than 4 MB, gzip-compressed.
+//! wasm-bindgen makes the glue between module and page, wasm-opt makes the module smaller and faster, the files of `www`
+//! are put beside them and the page is stamped (`page`). `trunk build` lays out the same folder for those who have Trunk,
+//! less wasm-opt and the stamp; here it would be minutes of compiling for a copy. The build fails if a first visit would
+//! have to download more than 4 MB, gzip-compressed.
 
 use std::hash::{DefaultHasher, Hasher as _};
 use std::io::Write as _;
@@ -11,6 +13,7 @@ use std::process::Command;
 use anyhow::{Context as _, Result, bail};
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use wasm_bindgen_cli_support::Bindgen;
 
 use crate::step::{cargo, root, run, step, target};
 use crate::{page, tools};
@@ -35,10 +38,8 @@ const WASM_FEATURES: [&str; 7] = [
 pub(crate) fn build() -> Result<PathBuf> {
     let dist = root().join("dist");
     tools::wasm_target()?;
-    let bin = tools::wasm_tools()?;
     let npm = tools::npm()?;
     step("Compile the browser app", || {
-        // The same call as Trunk's, so that cargo alone decides what has to be compiled again.
         run(cargo().args(["build", "--quiet", "--release", "--target=wasm32-unknown-unknown", "--package=lumen-web"]))
     })?;
 
@@ -46,9 +47,12 @@ pub(crate) fn build() -> Result<PathBuf> {
     let stamp = inputs()?;
     let unchanged = dist.join("index.html").is_file() && std::fs::read_to_string(&stamp_file).is_ok_and(|s| s == stamp);
     if !unchanged {
-        step("Lay out dist/ with Trunk", || trunk(&bin))?;
-        step("Optimise the module with wasm-opt", || optimise(&npm, &dist.join(MODULE)))?;
-        page::stamp(&dist, &dist.join(MODULE))?;
+        // What is there stays until all of the new is.
+        let made = target().join("dist");
+        step("Lay out dist/ with wasm-bindgen", || lay_out(&made))?;
+        step("Optimise the module with wasm-opt", || optimise(&npm, &made.join(MODULE)))?;
+        page::stamp(&made, &made.join(MODULE))?;
+        replace(&made, &dist)?;
     }
     report_sizes(&dist)?;
     std::fs::write(&stamp_file, stamp).context("the stamp cannot be written")?;
@@ -59,14 +63,36 @@ fn dist_stamp() -> PathBuf {
     target().join("dist.stamp")
 }
 
-fn trunk(bin: &Path) -> Result<()> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths(std::iter::once(bin.to_owned()).chain(std::env::split_paths(&path)))?;
-    // Some machines set NO_COLOR to 1, which this Trunk takes for a malformed option.
-    run(Command::new(bin.join("trunk"))
-        .args(["build", "--release", "--log=warn"])
-        .env("PATH", path)
-        .env_remove("NO_COLOR"))
+/// The compiled program, before wasm-bindgen.
+fn program() -> PathBuf {
+    target().join("wasm32-unknown-unknown/release/lumen-web.wasm")
+}
+
+/// Makes the folder `made` of module, glue and the files of `www`.
+fn lay_out(made: &Path) -> Result<()> {
+    if made.exists() {
+        std::fs::remove_dir_all(made).with_context(|| format!("{} cannot be removed", made.display()))?;
+    }
+    std::fs::create_dir_all(made)?;
+    Bindgen::new().input_path(program()).web(true)?.typescript(false).generate(made)?;
+    for file in files_below(&root().join("www"))? {
+        let name = file.file_name().context("a file of www has no name")?;
+        std::fs::copy(&file, made.join(name)).with_context(|| format!("{} cannot be copied", file.display()))?;
+    }
+    Ok(())
+}
+
+/// Puts the folder `made` in the place of `dist`, by copies: the target directory may lie on another disk.
+fn replace(made: &Path, dist: &Path) -> Result<()> {
+    if dist.exists() {
+        std::fs::remove_dir_all(dist).with_context(|| format!("{} cannot be removed", dist.display()))?;
+    }
+    std::fs::create_dir_all(dist)?;
+    for file in files_below(made)? {
+        let name = file.file_name().context("a file of dist has no name")?;
+        std::fs::copy(&file, dist.join(name)).with_context(|| format!("{} cannot be copied", file.display()))?;
+    }
+    Ok(())
 }
 
 /// Optimises for speed: the pipeline runs in here.
@@ -126,9 +152,8 @@ fn files_below(folder: &Path) -> Result<Vec<PathBuf>> {
 /// A hash of all that goes into `dist/`.
 fn inputs() -> Result<String> {
     let mut files = files_below(&root().join("www"))?;
-    files.push(root().join("Trunk.toml"));
     files.push(root().join("xtask/npm/package-lock.json"));
-    files.push(target().join("wasm32-unknown-unknown/release/lumen-web.wasm"));
+    files.push(program());
     files.push(std::env::current_exe()?);
     files.sort();
     let mut hasher = DefaultHasher::new();

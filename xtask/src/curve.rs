@@ -11,15 +11,16 @@ use crate::document;
 use crate::step::{root, target};
 
 /// What is drawn, in the order of the method, with its colour.
-const STAGES: [(&str, &str); 8] = [
+const STAGES: [(&str, &str); 9] = [
     ("connectivity", "#4477aa"),
     ("topology", "#66ccee"),
     ("smoothing-100", "#228833"),
     ("normals", "#ccbb44"),
     ("decimation", "#ee6677"),
     ("level-90", "#aa3377"),
-    ("measures", "#999999"),
+    ("areas", "#999999"),
     ("deviation", "#555555"),
+    ("measures", "#222222"),
 ];
 
 /// Milliseconds by triangles.

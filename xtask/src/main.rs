@@ -1,5 +1,5 @@
 //! Developer commands: `cargo xtask serve | build | test | peers | curve | bench-trial | fuzz-trial |
-//! validation`.
+//! fuzz-surfaces | validation`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -58,6 +58,15 @@ enum Command {
         #[arg(long, default_value_t = 1_000_000)]
         steps: u64,
     },
+    /// Reduce surfaces that are no manifolds and look that every promise is kept.
+    FuzzSurfaces {
+        /// How many.
+        #[arg(long, default_value_t = 100_000)]
+        count: u32,
+        /// Another seed makes other surfaces.
+        #[arg(long, default_value_t = 1)]
+        seed: u32,
+    },
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
     /// Run the wire's analytic benchmarks, draw them and write docs/validation.md.
@@ -71,7 +80,8 @@ fn main() -> ExitCode {
         Command::Test { only } => test::test(&only),
         Command::Peers(options) => peers::peers(&options),
         Command::BenchTrial => bench_trial::bench_trial(),
-        Command::FuzzTrial { steps } => fuzz::fuzz(steps),
+        Command::FuzzTrial { steps } => fuzz::trial(steps),
+        Command::FuzzSurfaces { count, seed } => fuzz::surfaces(count, seed),
         Command::Curve => curve::curve(),
         Command::Validation => validation::validation(),
     };

@@ -26,7 +26,7 @@ pub(crate) fn stamp(dist: &Path, module: &Path) -> Result<()> {
         "    <meta name=\"lumen-module-bytes\" content=\"{}\">\n    <meta name=\"lumen-version\" content=\"{version}\">\n  </head>",
         bytes.len()
     );
-    // Trunk leaves its own links, or blanks where they were.
+    // The links that tell Trunk what to do tell a browser nothing.
     let lines = page.lines().filter(|line| !line.trim().is_empty() && !line.contains("data-trunk"));
     let page = lines
         .collect::<Vec<_>>()

@@ -1,17 +1,14 @@
 //! What has to be there and how it is got: each function finds a tool or installs it.
 //!
-//! Trunk and wasm-bindgen are built once into `target/tools`, wasm-opt and playwright-core come from npm into
-//! `target/npm` (their versions are in `xtask/npm`), the browser and a display for it from apt.
+//! wasm-opt and playwright-core come from npm into `target/npm` (their versions are in `xtask/npm`), the browser and a
+//! display for it from apt. wasm-bindgen is a library of xtask's own, of the version that Cargo.lock has for the app.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::step::{cargo, on_path, output, root, run, step, target};
-
-/// Newer ones need a newer Rust than rust-toolchain.toml names.
-const TRUNK: &str = "0.21.14";
+use crate::step::{on_path, output, root, run, step, target};
 
 /// The wasm target of the toolchain in use.
 pub(crate) fn wasm_target() -> Result<()> {
@@ -27,36 +24,6 @@ pub(crate) fn wasm_target() -> Result<()> {
              -Z build-std=std,panic_abort --target wasm32-unknown-unknown, with -C linker=rust-lld",
         )
     })
-}
-
-/// The folder with `trunk` and `wasm-bindgen`.
-pub(crate) fn wasm_tools() -> Result<PathBuf> {
-    let tools = target().join("tools");
-    let bin = tools.join("bin");
-    let bindgen = locked_version("wasm-bindgen")?;
-    if !is_version(&bin.join("trunk"), TRUNK) {
-        step(&format!("Install Trunk {TRUNK} (some minutes, once)"), || {
-            // Without --locked one of its dependencies does not compile.
-            let version = format!("trunk@{TRUNK}");
-            run(cargo().args(["install", "--quiet", "--locked", "--root"]).arg(&tools).arg(version))
-        })?;
-    }
-    if !is_version(&bin.join("wasm-bindgen"), &bindgen) {
-        step(&format!("Install wasm-bindgen {bindgen} (a minute or two, once)"), || {
-            let version = format!("wasm-bindgen-cli@{bindgen}");
-            run(cargo().args(["install", "--quiet", "--root"]).arg(&tools).arg(version))
-        })?;
-    }
-    Ok(bin)
-}
-
-fn is_version(program: &Path, version: &str) -> bool {
-    output(Command::new(program).arg("--version")).is_some_and(|line| line.split_whitespace().nth(1) == Some(version))
-}
-
-/// The version of a package in Cargo.lock.
-fn locked_version(package: &str) -> Result<String> {
-    locked("Cargo.lock", package)
 }
 
 /// The version of a package in a lock file of the checkout.

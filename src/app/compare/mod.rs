@@ -132,6 +132,11 @@ impl Comparison {
         self.request.1.iter().any(Option::is_some)
     }
 
+    /// Whether there is something that the engine has to be asked, or was.
+    pub(super) fn is_waiting(&self) -> bool {
+        self.is_open && self.cells.iter().any(|cell| cell.outcome == Outcome::Waiting)
+    }
+
     /// Gives up what has no result yet, for this reason.
     pub(super) fn stop(&mut self, reason: &str) {
         self.forget_request();

@@ -3,11 +3,12 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::State;
+use super::{Effect, State};
+use crate::app::compare::Outcome;
 use crate::engine::{Command, Engine, Event, Link};
 use crate::io::Format;
 use crate::phantom::{self, Sample};
-use crate::pipeline::lumen::Pinch;
+use crate::pipeline::pinch::Pinch;
 use crate::pipeline::settings::{Keep, Target};
 
 /// A line on which commands lie until the next slice.
@@ -16,6 +17,8 @@ struct Line {
     engine: Engine,
     sent: VecDeque<Command>,
     restarts: u32,
+    /// The engine has stopped: nothing is heard by it or of it until another is started.
+    is_dead: bool,
 }
 
 impl Line {
@@ -26,6 +29,10 @@ impl Line {
     }
 
     fn slice(&mut self) -> bool {
+        if self.is_dead {
+            self.sent.clear();
+            return false;
+        }
         self.deliver();
         self.engine.advance(Duration::from_millis(8))
     }
@@ -44,6 +51,7 @@ impl Link for Line {
         self.engine = Engine::new();
         self.sent.clear();
         self.restarts += 1;
+        self.is_dead = false;
     }
 
     fn failure(&mut self) -> Option<String> {
@@ -51,22 +59,41 @@ impl Link for Line {
     }
 }
 
-fn hear(state: &mut State, line: &mut Line) {
+/// Hears what there is; gives the names of the files that came.
+fn hear(state: &mut State, line: &mut Line) -> Vec<String> {
+    let mut files = Vec::new();
     while let Some(event) = line.poll() {
-        state.receive(event);
+        if let Some(Effect::Offer { name, .. }) = state.receive(event) {
+            files.push(name);
+        }
     }
+    files
 }
 
-fn settle(state: &mut State, line: &mut Line) {
+/// Goes on until nothing more happens; gives the names of the files that came.
+fn settle(state: &mut State, line: &mut Line) -> Vec<String> {
+    let mut files = Vec::new();
     for _ in 0..20000 {
         let more = line.slice();
-        hear(state, line);
+        files.extend(hear(state, line));
         state.follow(false, line);
         if !more && line.sent.is_empty() {
-            return;
+            return files;
         }
     }
     panic!("no end");
+}
+
+/// The engine stops by itself.
+fn die(state: &mut State, line: &mut Line) {
+    line.is_dead = true;
+    state.engine_failed("x", line);
+}
+
+/// The engine stops for the third time in a row: it is left alone.
+fn die_for_good(state: &mut State, line: &mut Line) {
+    (0..3).for_each(|_| die(state, line));
+    assert!(line.is_dead);
 }
 
 fn stl(triangles: usize) -> Vec<u8> {
@@ -358,4 +385,143 @@ fn new_levels_have_no_colours_and_no_pinched_vessel_of_older_ones() {
     }
     settle(&mut state, &mut line);
     assert!(state.has_level() && state.document.as_ref().unwrap().deviation_by_node().is_some());
+}
+
+#[test]
+fn after_the_third_death_what_is_shown_can_still_be_saved() {
+    let (mut state, mut line) = start();
+    die_for_good(&mut state, &mut line);
+    state.save(Format::Stl, &mut line);
+    let name = format!("z-{}.stl", shown(&state));
+    assert_eq!(settle(&mut state, &mut line), [name]);
+    // The one that wrote it has nothing open.
+    state.settings.smoothing.iterations = 20;
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    agrees(&state);
+}
+
+#[test]
+fn after_the_third_death_another_surface_and_a_file_that_is_under_way_both_come() {
+    let (mut state, mut line) = start();
+    die_for_good(&mut state, &mut line);
+    state.save(Format::Ply, &mut line);
+    state.open_file("b.stl".into(), stl(12_000), &mut line);
+    assert_eq!(settle(&mut state, &mut line).len(), 1);
+    assert_eq!(state.document.as_ref().unwrap().name, "b.stl");
+    agrees(&state);
+}
+
+#[test]
+fn a_file_that_dies_with_the_engine_is_said_not_to_be_saved() {
+    let (mut state, mut line) = start();
+    let name = format!("z-{}.stl", shown(&state));
+    let says = |state: &State, what: &str| {
+        let notice = state.notice.as_ref().unwrap();
+        assert!(notice.text.contains(&format!("{name} was not saved")) && notice.text.contains(what), "{notice:?}");
+    };
+    state.save(Format::Stl, &mut line);
+    die(&mut state, &mut line);
+    says(&state, "(x)");
+    assert_eq!(settle(&mut state, &mut line), [""; 0]);
+    state.save(Format::Stl, &mut line);
+    state.open_file("b.stl".into(), stl(12_000), &mut line);
+    state.cancel(&mut line);
+    says(&state, "cancelled");
+    die_for_good(&mut state, &mut line);
+    state.save(Format::Stl, &mut line);
+    die(&mut state, &mut line);
+    says(&state, "keeps stopping");
+    settle(&mut state, &mut line);
+    state.save(Format::Stl, &mut line);
+    assert_eq!(settle(&mut state, &mut line).len(), 1);
+    assert!(state.notice.as_ref().is_none_or(|notice| !notice.text.contains("not saved")), "{:?}", state.notice);
+}
+
+#[test]
+fn after_the_third_death_a_comparison_is_tried_again_by_another_engine() {
+    let (mut state, mut line) = start();
+    state.toggle_comparison();
+    state.follow(false, &mut line);
+    line.slice();
+    die_for_good(&mut state, &mut line);
+    settle(&mut state, &mut line);
+    assert!(line.is_dead, "it is left alone until something is asked for");
+    assert!(state.comparison.cells().iter().all(|cell| matches!(cell.outcome, Outcome::Failed(_))));
+    let again = state.comparison.cells()[1].id;
+    state.comparison.retry(again);
+    settle(&mut state, &mut line);
+    assert!(matches!(state.comparison.cells()[1].outcome, Outcome::Done(_)));
+    assert!(!state.is_busy() && !state.comparison.is_busy());
+}
+
+#[test]
+fn a_comparison_that_stops_the_engine_again_is_not_in_progress_for_ever() {
+    let (mut state, mut line) = start();
+    state.toggle_comparison();
+    state.follow(false, &mut line);
+    die_for_good(&mut state, &mut line);
+    let again = state.comparison.cells()[0].id;
+    state.comparison.retry(again);
+    state.follow(false, &mut line);
+    state.follow(false, &mut line);
+    die(&mut state, &mut line);
+    settle(&mut state, &mut line);
+    assert!(line.is_dead && !state.is_busy() && !state.comparison.is_busy());
+    assert!(matches!(state.comparison.cells()[0].outcome, Outcome::Failed(_)));
+    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error));
+}
+
+#[test]
+fn a_cancel_that_nobody_can_answer_holds_nothing_up() {
+    let (mut state, mut line) = start();
+    die_for_good(&mut state, &mut line);
+    state.cancel(&mut line);
+    settle(&mut state, &mut line);
+    state.settings.smoothing.iterations = 20;
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    agrees(&state);
+    // One that was on its way when the engine stopped.
+    state.settings.smoothing.iterations = 10;
+    state.follow(false, &mut line);
+    state.cancel(&mut line);
+    die_for_good(&mut state, &mut line);
+    state.settings.smoothing.iterations = 30;
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    agrees(&state);
+}
+
+#[test]
+fn a_surface_that_another_engine_cannot_open_again_stays_and_that_is_said() {
+    let (mut state, mut line) = start();
+    let before = shown(&state);
+    die(&mut state, &mut line);
+    line.sent.clear();
+    let id = state.generation();
+    state.receive(Event::OpenFailed { id, name: "z.stl".into(), message: "no memory left".into() });
+    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.contains("no memory left")));
+    state.cancel(&mut line);
+    settle(&mut state, &mut line);
+    assert_eq!(shown(&state), before);
+    state.settings.smoothing.iterations = 20;
+    state.follow(false, &mut line);
+    settle(&mut state, &mut line);
+    agrees(&state);
+}
+
+#[test]
+fn a_level_is_looked_up_once_while_a_file_is_read() {
+    let (mut state, mut line) = start();
+    state.open_file("b.stl".into(), stl(12_000), &mut line);
+    state.settings.target = Target::Reduction(500);
+    let before = state.document.as_ref().unwrap().lookups;
+    (0..20).for_each(|_| state.follow(false, &mut line));
+    assert_eq!(state.document.as_ref().unwrap().lookups, before + 1);
+    state.settings.target = Target::Reduction(600);
+    (0..20).for_each(|_| state.follow(false, &mut line));
+    assert_eq!(state.document.as_ref().unwrap().lookups, before + 2);
+    settle(&mut state, &mut line);
+    agrees(&state);
 }

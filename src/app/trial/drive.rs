@@ -1,7 +1,8 @@
 //! The operator's hand: keys, the pads on the screen and a gamepad, as feed and roll.
 
-use egui::{Event, Id, Key, Pos2, Rect, Sense, Stroke, TouchPhase, Ui, WidgetInfo, pos2, vec2};
+use egui::{Context, Event, Id, Key, Pos2, Rect, Sense, Stroke, TouchPhase, Ui, WidgetInfo, pos2, vec2};
 
+use crate::app::keys::Keys;
 use crate::app::platform::Gamepad;
 use crate::trial::setup::Input;
 
@@ -26,17 +27,21 @@ pub(super) struct Drive {
     roll: f32,
     /// Fingers on the pads: egui has one pointer, and two pads may be held at once.
     fingers: Vec<(u64, Pad)>,
+    /// Whether the pointer was let go while it was down: it counts again when it is pressed anew.
+    is_let_go: bool,
 }
 
 impl Drive {
-    /// What the hand does now. Without the window's attention it rests.
-    pub(super) fn input(&self, ui: &Ui, gamepad: Option<Gamepad>) -> Input {
-        let ctx = ui.ctx();
-        if !ctx.input(|input| input.focused) {
+    /// What the hand does now. It rests while the window is hidden or without attention, and under a sheet; keys rest
+    /// while others have them.
+    pub(super) fn input(&mut self, ctx: &Context, keys: Keys, gamepad: Option<Gamepad>) -> Input {
+        let is_seen = ctx.input(|input| input.raw.focused && input.viewport().visible() != Some(false));
+        if !is_seen || keys == Keys::Sheet {
+            self.let_go();
             return Input::default();
         }
         let (mut feed, mut roll) = (0.0, 0.0);
-        if !ctx.text_edit_focused() {
+        if keys == Keys::Views {
             // Arrows belong to a control that has the focus.
             let is_free = ctx.memory(|memory| memory.focused().is_none());
             let (ahead, aside, fast) = ctx.input(|input| {
@@ -62,6 +67,11 @@ impl Drive {
         Input { feed, roll }.limited()
     }
 
+    /// Takes the hand off the pads: that it comes off while nobody looks is not heard.
+    fn let_go(&mut self) {
+        *self = Self { is_let_go: true, ..Self::default() };
+    }
+
     /// Shows both pads, side by side.
     pub(super) fn pads(&mut self, ui: &mut Ui) {
         let gap = ui.spacing().item_spacing.x;
@@ -69,6 +79,7 @@ impl Drive {
         let (left, right) = rect.split_left_right_at_fraction(0.5);
         let left = left.with_max_x(left.right() - gap / 2.0);
         let right = right.with_min_x(right.left() + gap / 2.0);
+        self.is_let_go &= !ui.input(|input| input.pointer.any_pressed());
         self.listen(ui, &[(Pad::Feed, left), (Pad::Roll, right)]);
         self.pad(ui, Pad::Feed, left);
         self.pad(ui, Pad::Roll, right);
@@ -115,7 +126,8 @@ impl Drive {
         };
         let response = ui.interact(rect, Id::unique(("pad", label)), Sense::drag());
         if !self.fingers.iter().any(|(_, held)| *held == pad) {
-            let at = response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on());
+            let is_held = response.is_pointer_button_down_on() && !self.is_let_go;
+            let at = response.interact_pointer_pos().filter(|_| is_held);
             *self.value(pad) = at.map_or(0.0, |at| pushed(rect, at));
         }
         let value = *self.value(pad);

@@ -28,9 +28,10 @@ pub(super) use self::panel::{keys, show as panel};
 pub use self::tables::Tables;
 pub(super) use self::view::TrialView;
 use super::document::{Document, Revision};
+use super::keys::Keys;
 use super::platform::Gamepad;
 use crate::engine::Source;
-use crate::engine::trial::{TrialCommand, TrialComparison, TrialEvent, TrialLink, TrialReady};
+use crate::engine::trial::{HAND, TrialCommand, TrialComparison, TrialEvent, TrialLink, TrialReady};
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
@@ -101,8 +102,13 @@ pub struct Trial {
     /// The largest forces since then.
     peaks: readout::Largest,
     drive: drive::Drive,
-    /// The input that the engine has.
+    /// The input that the engine has, and when it was told, by the window's clock.
     driven: Input,
+    told_s: f64,
+    /// The wire at its entry: what a restart shows until the engine has answered.
+    at_entry: Option<Frame>,
+    /// Counts up with every frame in which the wire is another than in the one before.
+    pictures: u64,
     /// The surface of the trial, once it is on.
     subject: Option<Subject>,
     /// The numbers and the surfaces of those that are on their way in, in order.
@@ -135,7 +141,7 @@ impl Trial {
         self.stage == Stage::On && !(self.is_paused || is_over || self.summary.is_some())
     }
 
-    /// Whether frames come by themselves: at its entry the wire waits for the first input.
+    /// Whether frames come by themselves: at its entry the wire waits for the first input, and asks for none.
     pub fn is_moving(&self) -> bool {
         self.is_in_hand() && self.frame.as_ref().is_some_and(|frame| frame.step > 0)
     }
@@ -211,6 +217,7 @@ impl Trial {
                     // What is on its way in begins at its entry.
                     let id = self.next_begun();
                     self.begin_again();
+                    self.show(self.at_entry.clone());
                     link.send(TrialCommand::Restart { id });
                 }
             }
@@ -227,6 +234,8 @@ impl Trial {
                 self.is_paused = true;
                 self.summary = None;
                 self.comparing = None;
+                // What was felt up to there is told again.
+                self.forget_felt();
                 link.send(TrialCommand::StepBack { id: self.next_begun() });
             }
             Ask::Save => link.send(TrialCommand::Save),
@@ -276,11 +285,6 @@ impl Trial {
         self.awaits = None;
         self.number += 1;
         let (id, mesh) = (self.number, Arc::new(mesh));
-        let is_other = self.name != document.name;
-        if is_other && self.ready.is_some() {
-            // Places in one vessel are nowhere in another.
-            (self.setup.entry, self.setup.target) = (None, None);
-        }
         document.name.clone_into(&mut self.name);
         let (sample, setup) = (sample_of(document), self.setup.clone());
         self.sent = Some(setup.clone());
@@ -308,6 +312,8 @@ impl Trial {
             _ if self.stage == Stage::On => {
                 let id = self.next_begun();
                 self.begin_again();
+                // The log's wire may enter a little otherwise.
+                self.show(None);
                 link.send(TrialCommand::Replay { id, csv });
             }
             _ => {
@@ -326,15 +332,27 @@ impl Trial {
 
     fn begin_again(&mut self) {
         (self.summary, self.comparison, self.comparing) = (None, None, None);
-        if let Some(frame) = &mut self.frame {
-            (frame.progress, frame.step, frame.time_s) = (Progress::Running, 0, 0.0);
-        }
-        self.felt.clear();
-        self.runs += 1;
-        self.peaks = readout::Largest::default();
+        self.forget_felt();
         self.carm.reset();
         (self.autopilot, self.is_paused) = (false, false);
         self.driven = Input::default();
+    }
+
+    /// Nothing was felt yet.
+    fn forget_felt(&mut self) {
+        self.felt.clear();
+        self.runs += 1;
+        self.peaks = readout::Largest::default();
+    }
+
+    /// Shows the wire as it is in `frame`.
+    fn show(&mut self, frame: Option<Frame>) {
+        let is_same = match (&self.frame, &frame) {
+            (Some(before), Some(frame)) => (before.step, &before.nodes) == (frame.step, &frame.nodes),
+            (before, frame) => before.is_none() && frame.is_none(),
+        };
+        self.pictures += u64::from(!is_same);
+        self.frame = frame;
     }
 
     fn set_autopilot(&mut self, on: bool, link: &mut TrialLink) {
@@ -358,17 +376,46 @@ impl Trial {
         *self = Self { setup, tables, number, name, runs, ..Self::default() };
     }
 
-    /// Sends what the hand does, where it has changed. A hand on the wire takes it from the autopilot.
-    pub fn follow_hand(&mut self, ui: &egui::Ui, gamepad: Option<Gamepad>, link: &mut TrialLink) {
-        let input = if self.stage == Stage::On { self.drive.input(ui, gamepad) } else { Input::default() };
-        if input == self.driven {
-            return;
+    /// Another surface was opened: what was begun or chosen in the one before is no more.
+    pub(super) fn leave_surface(&mut self, link: &mut TrialLink) {
+        self.cancel_tables(link);
+        if self.is_open {
+            link.send(TrialCommand::Stop);
         }
-        if self.autopilot && input != Input::default() {
+        self.forget();
+        self.tables = Tables::default();
+        // Places in one vessel are nowhere in another.
+        (self.setup.entry, self.setup.target) = (None, None);
+    }
+
+    /// Sends what the hand does where it has changed, and again and again while it is on the wire: the engine lets go of
+    /// what it does not hear of any more. A hand on the wire takes it from the autopilot.
+    pub(super) fn follow_hand(
+        &mut self,
+        ctx: &egui::Context,
+        keys: Keys,
+        gamepad: Option<Gamepad>,
+        link: &mut TrialLink,
+    ) {
+        let hand = self.drive.input(ctx, keys, gamepad);
+        let input = if self.stage == Stage::On { hand } else { Input::default() };
+        let is_on = input != Input::default();
+        let now_s = ctx.input(|input| input.time);
+        if input == self.driven {
+            let is_due = now_s - self.told_s >= HAND / 5.0;
+            if !is_on || self.autopilot || !is_due {
+                return;
+            }
+        } else if self.autopilot && is_on {
             self.set_autopilot(false, link);
         }
-        self.driven = input;
+        (self.driven, self.told_s) = (input, now_s);
         link.send(TrialCommand::Drive(input));
+    }
+
+    /// Whether the hand is on the wire: then the engine has to be told of it.
+    pub(super) fn is_driven(&self) -> bool {
+        self.driven != Input::default()
     }
 
     /// Shows the pads for a finger or the mouse.
@@ -424,7 +471,10 @@ impl Trial {
             TrialEvent::Preparing { .. } | TrialEvent::Ready(_) | TrialEvent::Refused { .. } => {}
             TrialEvent::Frame { id, frame } if id == self.begun => {
                 self.peaks.take(&frame);
-                self.frame = Some(*frame);
+                if self.at_entry.is_none() && frame.step == 0 {
+                    self.at_entry = Some((*frame).clone());
+                }
+                self.show(Some(*frame));
             }
             TrialEvent::Felt { id, touches } if id == self.begun => {
                 self.peaks.feel(&touches);
@@ -475,7 +525,8 @@ impl Trial {
         self.subject = self.coming.drain(..=at).next_back().map(|(_, subject)| subject);
         self.begun = self.begun.max(ready.id);
         self.begin_again();
-        self.frame = None;
+        self.at_entry = None;
+        self.show(None);
         let way: Vec<Vec3> = ready.route.points.iter().map(|&p| p.into()).collect();
         self.carm.centre(&crate::mesh::Bounds::of(&way));
         // The numbers of the wire that was proposed are shown.

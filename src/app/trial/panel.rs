@@ -7,6 +7,7 @@ use super::setup::row;
 use super::{AWAITS, Ask, Stage, Trial, carm, outcome, setup};
 use crate::app::control::progress;
 use crate::app::document::Document;
+use crate::app::keys::pressed;
 use crate::app::panel::step;
 use crate::pipeline::settings::Smoothing;
 
@@ -178,12 +179,9 @@ fn log(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
     ask
 }
 
-/// What the keys ask for while a trial is shown. While text is typed they ask for nothing.
+/// What the keys ask for while a trial is shown.
 pub(in crate::app) fn keys(ui: &Ui, trial: &mut Trial) -> Option<Ask> {
-    if ui.ctx().text_edit_focused() {
-        return None;
-    }
-    let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let pressed = |key| pressed(ui, Modifiers::NONE, key);
     let now = ui.input(|input| input.time);
     for (key, (_, lao, cran)) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4].into_iter().zip(carm::PRESETS) {
         if pressed(key) {
@@ -204,7 +202,6 @@ pub(in crate::app) fn keys(ui: &Ui, trial: &mut Trial) -> Option<Ask> {
         (Key::Z, is_on, Ask::StepBack),
         (Key::M, is_on, Ask::Slow),
         (Key::G, is_on, Ask::Autopilot),
-        (Key::Escape, !trial.tables.is_open, Ask::Close),
     ];
     asks.into_iter().find(|(key, allowed, _)| *allowed && pressed(*key)).map(|(.., ask)| ask)
 }

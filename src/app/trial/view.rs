@@ -38,31 +38,31 @@ pub(in crate::app) struct TrialView {
     run: u64,
     /// How many of what the wall has felt they have in them.
     felt: usize,
-    /// The step that the wire is shown at.
-    step: Option<u64>,
+    /// The picture of the wire that they have.
+    picture: Option<u64>,
     /// What the last fluoroscopy was taken from.
     held: Option<Held>,
 }
 
-/// A fluoroscopy: from where, how, and at which step of the trial.
+/// A fluoroscopy: from where, how, and of which picture of the wire.
 #[derive(Clone, Copy, PartialEq)]
 struct Held {
     camera: Camera,
     exposure: Exposure,
-    step: u64,
+    picture: u64,
 }
 
 impl TrialView {
     /// Views on the window's device; without one (in some tests) they say so.
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
         let device = device.cloned();
-        Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: 0, step: None, held: None }
+        Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: 0, picture: None, held: None }
     }
 
     /// Gives back the memory of the device.
     pub(in crate::app) fn let_go(&mut self) {
         (self.scene, self.failure) = (None, None);
-        (self.felt, self.step, self.held) = (0, None, None);
+        (self.felt, self.picture, self.held) = (0, None, None);
     }
 
     /// Takes another device, on which nothing of the views stands yet.
@@ -147,7 +147,7 @@ impl TrialView {
         self.failure = None;
         let Some((mesh, ready)) = trial.mesh().zip(trial.ready.as_ref()) else { return };
         match scene.take(mesh, &ready.route) {
-            Ok(true) => (self.felt, self.step) = (0, None),
+            Ok(true) => (self.felt, self.picture) = (0, None),
             Ok(false) => {}
             Err(error) => {
                 self.failure = Some(format!("The trial cannot be drawn: {error}."));
@@ -155,17 +155,18 @@ impl TrialView {
             }
         }
         if std::mem::replace(&mut self.run, trial.runs) != trial.runs {
-            (self.felt, self.step, self.held) = (0, None, None);
+            (self.felt, self.picture, self.held) = (0, None, None);
             if let Some(peaks) = scene.peaks() {
                 peaks.clear();
             }
         }
-        let Some(frame) = &trial.frame else { return };
-        if self.step != Some(frame.step) || self.felt < trial.felt.len() {
+        if self.picture != Some(trial.pictures) || self.felt < trial.felt.len() {
             scene.feel(&trial.felt[self.felt.min(trial.felt.len())..]);
             self.felt = trial.felt.len();
-            match scene.set_wire(&frame.nodes, radius(trial)) {
-                Ok(()) => self.step = Some(frame.step),
+            // Without a frame there is no wire to be seen.
+            let nodes = trial.frame.as_ref().map_or(&[][..], |frame| &frame.nodes);
+            match scene.set_wire(nodes, radius(trial)) {
+                Ok(()) => self.picture = Some(trial.pictures),
                 Err(error) => self.failure = Some(format!("The wire cannot be drawn: {error}.")),
             }
         }
@@ -253,7 +254,7 @@ impl TrialView {
         let now = ui.input(|input| input.time);
         let radius = radius(trial);
         let bounds = trial.mesh().map_or(Bounds::EMPTY, |mesh| mesh.bounds());
-        let Trial { carm, frame, ready, .. } = trial;
+        let Trial { carm, frame, ready, pictures, .. } = trial;
         let (scene, frame, ready) = (self.scene.as_mut()?, frame.as_ref()?, ready.as_ref()?);
         carm.count(frame.time_s);
         let exposure = Exposure {
@@ -262,7 +263,7 @@ impl TrialView {
             flow: FLOW / (ready.route.length_mm as f32).max(1.0),
             roadmap: carm.roadmap,
         };
-        let mut new = Held { camera: carm.camera(bounds), exposure, step: frame.step };
+        let mut new = Held { camera: carm.camera(bounds), exposure, picture: *pictures };
         let is_news = self.held != Some(new);
         let is_due = is_news && carm.pulses_at(now);
         let (texture, is_other_size) = scene.picture(pixels(ui, rect));

@@ -20,6 +20,9 @@ pub(super) const CREASE: u32 = 1 << 31;
 /// Size of the surface while it is being decimated: far from where f32 under- or overflows when squared twice.
 const SIZE: f32 = 1024.0;
 
+/// The farthest that a stray vertex may be then: squared twice, still a number.
+const FARTHEST: f32 = (1 << 26) as f32;
+
 /// Where a ring stands in the store.
 #[derive(Clone, Copy, Debug, Default)]
 struct Head {
@@ -33,7 +36,7 @@ struct Head {
 
 /// A triangle surface as rings.
 pub(super) struct Rings {
-    /// Positions relative to the middle of the surface, in a unit that makes its size about [`SIZE`].
+    /// Positions relative to the middle of the surface, in a unit that makes its size about [`SIZE`], strays not counted.
     pub(super) positions: Vec<Vec3A>,
     /// That unit in mm, a power of two.
     pub(super) unit: f32,
@@ -56,14 +59,9 @@ pub(super) struct Rings {
     fan: Fan,
 }
 
-/// The longest side of a box; unlike its diagonal it needs no squares.
-fn longest_side(bounds: &Bounds) -> f32 {
-    (Vec3::from(bounds.max) - Vec3::from(bounds.min)).max_element()
-}
-
-/// The power of two that makes a size of `size` about [`SIZE`].
-fn unit_of(size: f32) -> f32 {
-    let ratio = size / SIZE;
+/// The power of two that makes the size of `most` about [`SIZE`], and that of all no more than [`FARTHEST`].
+fn unit_of(most: &Bounds, all: &Bounds) -> f32 {
+    let ratio = (most.longest_side() / SIZE).max(all.longest_side() / FARTHEST);
     // Without the digits after the leading one; 1 where that is no number to divide by.
     if ratio.is_normal() { f32::from_bits(ratio.to_bits() & 0x7f80_0000) } else { 1.0 }
 }
@@ -76,8 +74,8 @@ pub(super) fn neighbour(entry: u32) -> u32 {
 impl Rings {
     /// The slots of `mesh`, as yet without rings.
     pub(super) fn new(mesh: &TriMesh) -> Self {
-        let bounds = mesh.bounds();
-        let (centre, unit) = (bounds.centre(), unit_of(longest_side(&bounds)));
+        let most = Bounds::of_most(&mesh.positions);
+        let (centre, unit) = (most.centre(), unit_of(&most, &mesh.bounds()));
         let nodes = curve_order(&mesh.positions);
         let mut slots = vec![0; nodes.len()];
         for (slot, &v) in nodes.iter().enumerate() {
@@ -426,9 +424,82 @@ impl Rings {
         self.cut.iter_mut().for_each(|(_, slot)| *slot = new[*slot as usize]);
         kept
     }
+
+    /// Checks every promise of the structure; for tests.
+    #[cfg(test)]
+    pub(super) fn assert_well_formed(&self) {
+        let slots = (0..self.len() as u32).filter(|&v| !self.is_gone(v));
+        for v in slots {
+            let ring: Vec<u32> = self.around(v).iter().map(|&entry| neighbour(entry)).collect();
+            assert!(ring.iter().all(|&n| !self.is_gone(n) && n != v));
+            if !self.stays(v) {
+                let least = if self.is_open(v) { 2 } else { 3 };
+                assert!(ring.len() >= least, "{} around {v}", ring.len());
+                let mut distinct = ring.clone();
+                distinct.sort_unstable();
+                distinct.dedup();
+                assert_eq!(distinct.len(), ring.len(), "each neighbour of {v} stands in its ring once");
+            }
+            for [a, b] in self.pairs(v) {
+                assert!(self.pairs(a).any(|pair| pair == [b, v]), "{a} knows its triangle with {b} and {v}");
+                assert!(self.pairs(b).any(|pair| pair == [v, a]), "{b} knows its triangle with {v} and {a}");
+            }
+        }
+    }
 }
 
 /// The values of the slots in `kept`.
 pub(super) fn gather<T: Copy>(values: &[T], kept: &[u32]) -> Vec<T> {
     kept.iter().map(|&v| values[v as usize]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn linked(vertices: usize, triangles: Vec<[u32; 3]>) -> Rings {
+        let positions = (0..vertices).map(|v| Vec3::new(v as f32, (v * v % 7) as f32, (v % 3) as f32)).collect();
+        let mesh = TriMesh { positions, triangles };
+        let mut rings = Rings::new(&mesh);
+        assert!(rings.link(&mesh, &Topology::new(vertices, &mesh.triangles), vertices));
+        rings.assert_well_formed();
+        rings
+    }
+
+    /// The four faces of a tetrahedron.
+    fn tetrahedron([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 4] {
+        [[a, c, b], [a, b, d], [b, c, d], [c, a, d]]
+    }
+
+    #[test]
+    fn both_ends_of_an_edge_that_two_closed_pieces_share_are_cut() {
+        let rings = linked(6, [tetrahedron([0, 1, 2, 3]), tetrahedron([0, 1, 4, 5])].concat());
+        let parts = |node: u32| (0..rings.len() as u32).filter(|&v| rings.nodes[v as usize] == node).count();
+        assert_eq!([0, 1, 2, 3, 4, 5].map(parts), [2, 2, 1, 1, 1, 1]);
+        let stays = (0..rings.len() as u32).filter(|&v| rings.stays(v)).count();
+        assert_eq!(stays, 4);
+    }
+
+    #[test]
+    fn triangles_back_to_back_alone_or_on_a_piece_are_told_from_discs() {
+        linked(3, vec![[0, 1, 2], [2, 1, 0]]);
+        // On an edge, on a triangle, and twice on one.
+        linked(5, [&tetrahedron([0, 1, 2, 3])[..], &[[0, 1, 4], [4, 1, 0]]].concat());
+        linked(4, [&tetrahedron([0, 1, 2, 3])[..], &[[0, 1, 2]]].concat());
+        linked(4, [&tetrahedron([0, 1, 2, 3])[..], &[[0, 1, 2], [0, 2, 1]]].concat());
+    }
+
+    #[test]
+    fn a_stray_leaves_the_others_their_size_and_is_itself_a_number() {
+        for far in [1e6, 1e9] {
+            let mut positions: Vec<Vec3> =
+                (0..100).map(|i| Vec3::new(i as f32, (i % 9) as f32, (i % 5) as f32)).collect();
+            positions.push(Vec3::splat(far));
+            let rings = Rings::new(&TriMesh { positions, triangles: Vec::new() });
+            let most = rings.positions.iter().filter(|p| p.abs().max_element() < 2.0 * SIZE).count();
+            assert_eq!(most, 100);
+            let longest = rings.positions.iter().map(|p| p.length_squared()).fold(0.0, f32::max);
+            assert!((longest * longest).is_finite());
+        }
+    }
 }

@@ -1,13 +1,17 @@
-//! The app on a platform of plain memory: the engine runs within the test, files are lists of bytes.
+//! The app on a platform of plain memory: the engine runs within the test, files are lists of bytes. [`told`] is what a
+//! trial is told to say, [`hide`] the window that is hidden.
+
+pub mod told;
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::Duration;
 
+use eframe::App as _;
 use egui_kittest::Harness;
 use lumen::app::trial::Offer;
-use lumen::app::{LastingApp, LumenApp, Platform, PlatformEvent, State};
+use lumen::app::{Gamepad, LastingApp, LumenApp, Platform, PlatformEvent, State};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
 use lumen::render::Fault;
@@ -39,6 +43,8 @@ pub struct Memory {
     pub trial_events: VecDeque<TrialEvent>,
     /// Why the trial stops at the next look, if it does.
     pub trial_failure: Option<String>,
+    /// The gamepad that is plugged in.
+    pub gamepad: Option<Gamepad>,
     /// Lets a trial run too, by a clock that goes on by 1/60 s a frame.
     pub trial_runs: bool,
 }
@@ -132,6 +138,10 @@ impl Platform for MemoryPlatform {
         self.memory.borrow_mut().windows += 1;
     }
 
+    fn gamepad(&self) -> Option<Gamepad> {
+        self.memory.borrow().gamepad
+    }
+
     fn choose_file(&mut self, _: &egui::Context) {
         self.memory.borrow_mut().asked += 1;
     }
@@ -162,10 +172,17 @@ impl Platform for MemoryPlatform {
 
 /// The app in a window of `size` points that is not there, drawn by a real (software) graphics device.
 pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    // What egui_kittest takes by default.
+    app_at(size, 0.25)
+}
+
+/// The same, with so many seconds between two frames.
+pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
     let harness = Harness::builder()
         .with_size(size)
         .with_max_steps(4000)
+        .with_step_dt(step_dt)
         .wgpu()
         .build_eframe(move |cc| LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), Box::new(platform)));
     (harness, memory)
@@ -240,6 +257,21 @@ fn is_settled(state: &State) -> bool {
             .is_some_and(|measured| !measured.deviation.is_empty() && measured.generation == state.generation())
     });
     is_measured && !state.is_busy()
+}
+
+/// Lets the app look after itself `times` times as eframe does while the window is minimised or its tab hidden: no
+/// frame is drawn, `App::logic` runs alone, and of the input it sees only that the window is hidden.
+pub fn hide(harness: &mut Harness<'_, LumenApp>, times: usize) {
+    let ctx = harness.ctx.clone();
+    let hidden = egui::ViewportInfo { occluded: Some(true), minimized: Some(false), ..Default::default() };
+    let input = egui::RawInput {
+        viewports: [(egui::ViewportId::ROOT, hidden)].into_iter().collect(),
+        focused: false,
+        ..Default::default()
+    };
+    for _ in 0..times {
+        ctx.run_logic(&input, |ctx| harness.state_mut().logic(ctx, &mut eframe::Frame::_new_kittest()));
+    }
 }
 
 /// Steps until the engine has nothing more to do.

@@ -66,6 +66,48 @@ fn the_reduction_slider_shows_another_level_in_the_same_frame() {
 }
 
 #[test]
+fn the_picture_follows_the_slider_in_the_same_frame() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    memory.borrow_mut().runs = false;
+    let slider = harness.get_by_role_and_label(Role::Slider, "Reduction").rect();
+    let at = |part: f32| egui::pos2(slider.left() + slider.width() * part, slider.center().y);
+    let view = harness.get_by_role_and_label(Role::Image, "Wireframe view").rect().shrink(2.0);
+    let picture = |harness: &mut Harness<'_, LumenApp>| {
+        let [left, top] = [view.left() as u32, view.top() as u32];
+        let whole = harness.render().unwrap();
+        // Below the writing.
+        let part = (top + 60..view.bottom() as u32).flat_map(|y| (left..view.right() as u32).map(move |x| (x, y)));
+        part.map(|(x, y)| whole.get_pixel(x, y).0).collect::<Vec<_>>()
+    };
+    harness.drag_at(at(0.9));
+    harness.run_steps(3);
+    let before = picture(&mut harness);
+    harness.hover_at(at(0.5));
+    harness.step();
+    let after = picture(&mut harness);
+    harness.run_steps(3);
+    assert!(before != after && after == picture(&mut harness));
+}
+
+#[test]
+fn a_surface_of_one_triangle_leaves_the_settings_for_the_next() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let bytes = b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec();
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "one.obj".to_owned(), bytes });
+    harness.run_steps(20);
+    assert_eq!(harness.state().state().document.as_ref().unwrap().name, "one.obj");
+    assert_eq!(harness.state().state().settings.target, Target::default());
+    harness.get_by_role_and_label(Role::Button, "Sample").click();
+    harness.run_steps(3);
+    harness.get_by_label_contains("orta").click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert!((7_429..=7_430).contains(&shown(&harness)), "Table II at 90 %: {}", shown(&harness));
+}
+
+#[test]
 fn a_typed_rate_and_a_typed_count_are_met() {
     let mut harness = open();
     type_into(&mut harness, "Reduction value", "99");

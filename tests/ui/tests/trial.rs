@@ -1,16 +1,13 @@
 //! The trial, used as a user uses it: by buttons and keys. The engine is told what to say: what it computes is tested
 //! elsewhere.
 
-use std::cell::RefCell;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use egui::Key;
 use egui::accesskit::Role;
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use lumen::app::LumenApp;
-use lumen::engine::trial::{RouteShown, TrialCommand, TrialComparison, TrialEvent, TrialReady};
+use lumen::app::{Gamepad, PlatformEvent};
+use lumen::engine::trial::{TrialCommand, TrialComparison, TrialEvent};
 use lumen::io::import_mesh;
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Settings, Smoothing};
@@ -18,141 +15,11 @@ use lumen::trial::course::Course;
 use lumen::trial::frame::{Frame, Progress, StationResult, Summary, Touch};
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::wire::Wire;
-use lumen_ui_tests::{Memory, app, settle};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
-const PHONE: [f32; 2] = [390.0, 844.0];
-
-type App = Harness<'static, LumenApp>;
-
-/// Presses a button, wherever in the panel it is.
-fn press(harness: &mut App, button: &str) {
-    harness.get_by_role_and_label(Role::Button, button).scroll_to_me();
-    harness.run_steps(12);
-    harness.get_by_role_and_label(Role::Button, button).click();
-    harness.run_steps(3);
-}
-
-/// Opens the coronary sample by the bar.
-fn open_coronary(harness: &mut App) {
-    press(harness, "Sample");
-    harness.get_by_label_contains("oronary").click();
-    harness.run_steps(3);
-    settle(harness);
-}
-
-/// Starts a trial by the bar.
-fn start(harness: &mut App) {
-    if harness.query_by_role_and_label(Role::Button, "Menu").is_some() {
-        press(harness, "Menu");
-    }
-    press(harness, "Trial");
-}
-
-/// Opens a list.
-fn choose(harness: &mut App, list: &str) {
-    harness.get_by_role_and_label(Role::ComboBox, list).scroll_to_me();
-    harness.run_steps(12);
-    harness.get_by_role_and_label(Role::ComboBox, list).click();
-    harness.run_steps(3);
-}
-
-/// What the trial was asked since it was last asked for.
-fn asked(memory: &Rc<RefCell<Memory>>) -> Vec<TrialCommand> {
-    std::mem::take(&mut memory.borrow_mut().asked_of_trial)
-}
-
-fn tell(harness: &mut App, memory: &Rc<RefCell<Memory>>, events: impl IntoIterator<Item = TrialEvent>) {
-    memory.borrow_mut().trial_events.extend(events);
-    harness.run_steps(3);
-}
-
-/// Steps until it is so.
-fn wait(harness: &mut App, is_so: impl Fn(&App) -> bool) {
-    for _ in 0..4000 {
-        if is_so(harness) {
-            return;
-        }
-        harness.step();
-    }
-    panic!("it does not come to be");
-}
-
-fn says(harness: &App, text: &str) -> bool {
-    harness.query_all_by_label_contains(text).next().is_some()
-}
-
-/// A way through the middle of the sample.
-fn ready(id: u64) -> TrialEvent {
-    let points: Vec<[f32; 3]> = (0..100).map(|i| [0.0, 0.0, i as f32]).collect();
-    let entry = Entry { at: points[0], direction: [0.0, 0.0, 1.0] };
-    let setup = Setup { entry: Some(entry), target: points.last().copied(), ..Setup::default() };
-    let route = RouteShown {
-        radii: vec![8.0; points.len()],
-        stations: vec![points[20], points[40]],
-        length_mm: 99.0,
-        points,
-        ..RouteShown::default()
-    };
-    let targets = vec![("Right renal".to_owned(), [1.0, 2.0, 3.0])];
-    TrialEvent::Ready(Box::new(TrialReady { id, setup, route, entries: vec![entry], targets, ..TrialReady::default() }))
-}
-
-/// The number of the first trial of an app.
-const FIRST: u64 = 1;
-
-fn now(id: u64, frame: Frame) -> TrialEvent {
-    TrialEvent::Frame { id, frame: Box::new(frame) }
-}
-
-fn ended(id: u64, summary: Summary) -> TrialEvent {
-    TrialEvent::Ended { id, summary: Box::new(summary) }
-}
-
-fn frame() -> Frame {
-    Frame {
-        step: 500,
-        time_s: 75.0,
-        nodes: (0..30).map(|i| [0.0, 0.0, 30.0 - i as f32]).collect(),
-        forces: vec![[0.0; 3]; 30],
-        tip_direction: [0.0, 0.0, 1.0],
-        tip_side: [1.0, 0.0, 0.0],
-        inserted_mm: 123.4,
-        max_wall_force_n: 0.35,
-        push_n: -0.2,
-        target_mm: 42.0,
-        steps_per_second: 812.0,
-        ..Frame::default()
-    }
-}
-
-fn refused(id: u64, message: &str, is_too_thin: bool) -> TrialEvent {
-    TrialEvent::Refused { id, message: message.to_owned(), is_too_thin }
-}
-
-fn id_of_start(commands: &[TrialCommand]) -> u64 {
-    match commands.iter().rev().find(|command| matches!(command, TrialCommand::Start { .. })) {
-        Some(TrialCommand::Start { id, .. }) => *id,
-        _ => panic!("no start among {} commands", commands.len()),
-    }
-}
-
-/// Chooses another target, to which a trial starts.
-fn retarget(harness: &mut App) {
-    choose(harness, "Target");
-    harness.get_by_label("Right renal").click();
-    harness.run_steps(3);
-}
-
-/// The app with a trial on.
-fn on(size: [f32; 2]) -> (App, Rc<RefCell<Memory>>) {
-    let (mut harness, memory) = app(size);
-    settle(&mut harness);
-    start(&mut harness);
-    assert_eq!(id_of_start(&asked(&memory)), FIRST);
-    tell(&mut harness, &memory, [ready(FIRST), now(FIRST, frame())]);
-    (harness, memory)
-}
+use lumen_ui_tests::told::{
+    App, DESKTOP, FIRST, PHONE, asked, at_entry, choose, ended, frame, id_of_start, now, on, open_coronary, press,
+    ready, refused, retarget, says, start, tell, wait,
+};
+use lumen_ui_tests::{app, settle};
 
 #[test]
 fn the_trial_starts_with_the_level_that_is_shown_and_its_views_take_the_place_of_the_others() {
@@ -195,7 +62,9 @@ fn keys_drive_while_they_are_held_and_nothing_does_when_all_are_let_go() {
     ] {
         harness.key_down(key);
         harness.run_steps(3);
-        assert_eq!(asked(&memory), [drive(feed, roll)], "{key:?}, told once");
+        let mut commands = asked(&memory);
+        commands.dedup();
+        assert_eq!(commands, [drive(feed, roll)], "{key:?}");
         harness.key_up(key);
         harness.run_steps(3);
         assert_eq!(asked(&memory), [drive(0.0, 0.0)], "{key:?}");
@@ -639,12 +508,12 @@ fn the_log_is_saved_and_a_chosen_one_is_replayed() {
     );
     assert_eq!((&offered[0].1[..], &offered[1].1[..]), (csv.as_bytes(), json.as_bytes()));
     let message = "run.csv and run.json were saved in logs.".to_owned();
-    memory.borrow_mut().events.push_back(lumen::app::PlatformEvent::Saved { message: message.clone() });
+    memory.borrow_mut().events.push_back(PlatformEvent::Saved { message: message.clone() });
     harness.run_steps(3);
     assert!(says(&harness, &message));
     press(&mut harness, "Open log...");
     assert_eq!(memory.borrow().asked, 1);
-    let chosen = lumen::app::PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
+    let chosen = PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
     memory.borrow_mut().events.push_back(chosen);
     harness.run_steps(3);
     let commands = asked(&memory);
@@ -661,7 +530,7 @@ fn a_log_of_another_way_begins_a_trial_with_its_own_wire_and_way() {
     (0..20).for_each(|_| run.step());
     let csv = run.log().csv(20).unwrap();
     let (mut harness, memory) = on(DESKTOP);
-    let chosen = lumen::app::PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
+    let chosen = PlatformEvent::Chosen { name: "log.csv".to_owned(), bytes: csv.clone().into_bytes() };
     press(&mut harness, "Open log...");
     memory.borrow_mut().events.push_back(chosen);
     harness.run_steps(3);
@@ -697,6 +566,97 @@ fn a_phone_has_all_controls_and_stacks_the_views() {
     let view = |name| harness.get_by_role_and_label(Role::Image, name).rect();
     assert!(view("Trial view").bottom() <= view("Fluoroscopy view").top());
     assert!(harness.query_by_role_and_label(Role::ComboBox, "Wire").is_some());
+}
+
+/// The part of the window in which a view is, below its writing.
+fn picture(harness: &mut App, view: &str) -> Vec<[u8; 4]> {
+    let rect = harness.get_by_role_and_label(Role::Image, view).rect().shrink(2.0);
+    let whole = harness.render().unwrap();
+    let rows = rect.top() as u32 + 90..rect.bottom() as u32 - 30;
+    rows.flat_map(|y| (rect.left() as u32..rect.right() as u32).map(move |x| (x, y)))
+        .map(|(x, y)| whole.get_pixel(x, y).0)
+        .collect()
+}
+
+#[test]
+fn a_restart_shows_the_wire_at_its_entry_at_once_and_then_what_is_told() {
+    let (mut harness, memory) = on(DESKTOP);
+    let away = picture(&mut harness, "Trial view");
+    tell(&mut harness, &memory, [now(FIRST, at_entry())]);
+    let entry = picture(&mut harness, "Trial view");
+    assert_ne!(entry, away);
+    tell(&mut harness, &memory, [now(FIRST, frame())]);
+    assert_eq!(picture(&mut harness, "Trial view"), away);
+    harness.key_down(Key::R);
+    // The frame in which it is pressed, and the one after.
+    harness.step();
+    harness.step();
+    assert_eq!(picture(&mut harness, "Trial view"), entry, "not the wire of the run before");
+    assert!(says(&harness, "0.0 cm") && !says(&harness, "12.3 cm"));
+    // The same step, and a wire that lies otherwise.
+    let told = Frame { nodes: frame().nodes, ..at_entry() };
+    tell(&mut harness, &memory, [now(FIRST + 1, told)]);
+    assert_eq!(picture(&mut harness, "Trial view"), away, "what is told is shown");
+}
+
+#[test]
+fn a_step_back_forgets_what_the_wall_has_felt_since() {
+    let (mut harness, memory) = on(DESKTOP);
+    let felt = |id, force| TrialEvent::Felt { id, touches: vec![Touch { at: [0.0; 3], triangle: 0, force }] };
+    let before = picture(&mut harness, "Trial view");
+    tell(&mut harness, &memory, [felt(FIRST, 0.9), now(FIRST, Frame { step: 900, ..frame() })]);
+    assert_ne!(picture(&mut harness, "Trial view"), before);
+    harness.key_press(Key::Z);
+    harness.run_steps(3);
+    // All that was felt up to there is told again: nothing.
+    tell(&mut harness, &memory, [now(FIRST + 1, frame())]);
+    assert_eq!(picture(&mut harness, "Trial view"), before);
+    assert!(says(&harness, "Wall force, up to 0.5 N"), "that of the frame, 0.35 N");
+}
+
+#[test]
+fn a_wire_at_its_entry_asks_for_no_frames() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    start(&mut harness);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [ready(id), now(id, at_entry())]);
+    harness.hover_at(egui::pos2(640.0, 20.0));
+    harness.run_steps(30);
+    let delay = |harness: &App| harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+    assert_eq!(delay(&harness), std::time::Duration::MAX);
+    memory.borrow_mut().gamepad = Some(Gamepad::default());
+    harness.run_steps(2);
+    assert!(delay(&harness) <= std::time::Duration::from_millis(100), "a gamepad tells nothing by itself");
+    memory.borrow_mut().gamepad = Some(Gamepad { feed: 1.0, ..Gamepad::default() });
+    harness.run_steps(2);
+    assert!(matches!(asked(&memory)[..], [TrialCommand::Drive(Input { feed: 15.0, .. }), ..]));
+}
+
+#[test]
+fn another_surface_closes_the_tables_and_forgets_the_places_of_the_last() {
+    let (mut harness, memory) = on(DESKTOP);
+    retarget(&mut harness);
+    let id = id_of_start(&asked(&memory));
+    tell(&mut harness, &memory, [ready(id), now(id, at_entry())]);
+    press(&mut harness, "Tables III and IV");
+    let Some(TrialCommand::Measure { id, .. }) = asked(&memory).pop() else { panic!("nothing was asked") };
+    harness.key_press(Key::Escape);
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    press(&mut harness, "Tables III and IV");
+    assert!(says(&harness, "Initial fps"));
+    asked(&memory);
+    let bytes = lumen::io::write(&generate(Sample::Aorta, 4000).unwrap(), None, lumen::io::Format::Stl).unwrap();
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "b.stl".to_owned(), bytes });
+    settle(&mut harness);
+    assert_eq!(harness.state().state().document.as_ref().unwrap().name, "b.stl");
+    assert!(!says(&harness, "Initial fps") && asked(&memory).contains(&TrialCommand::Cancel { id }));
+    assert!(!harness.state().trial().is_busy());
+    start(&mut harness);
+    let commands = asked(&memory);
+    let Some(TrialCommand::Start { setup, .. }) = commands.last() else { panic!("{commands:?}") };
+    assert_eq!((setup.entry, setup.target), (None, None), "places in one vessel are nowhere in another");
 }
 
 /// Leaves pictures to look at in the target folder's `tmp`.

@@ -59,7 +59,7 @@ pub(crate) fn peers(options: &Options) -> Result<()> {
 
 /// Builds what is to be run, makes the surfaces, and says where all of it is.
 fn prepare(options: &Options, folder: &Path) -> Result<serde_json::Value> {
-    let npm = tools::npm_packages("benches/peers", "peers/npm", "Install meshoptimizer from npm")?;
+    let npm = tools::npm_packages("benches/peers", "peers/npm", "Install meshoptimizer and vtk.js from npm")?;
     let native = native_meshoptimizer(folder)?;
     let lumen = native_lumen(folder)?;
     let surfaces = surfaces(options, folder, &lumen)?;
@@ -77,6 +77,7 @@ fn prepare(options: &Options, folder: &Path) -> Result<serde_json::Value> {
         "Rust": rust.split(' ').nth(1),
         "Node": node.trim_start_matches('v'),
         "meshoptimizer (npm)": version_in(&npm.join("node_modules/meshoptimizer/package.json"))?,
+        "vtk.js": version_in(&npm.join("node_modules/@kitware/vtk.js/package.json"))?,
         "meshoptimizer (native, crate meshopt)": tools::locked("benches/peers/native/Cargo.lock", "meshopt")?,
     });
     Ok(json!({
@@ -87,6 +88,7 @@ fn prepare(options: &Options, folder: &Path) -> Result<serde_json::Value> {
         "environment": environment,
         "meshoptimizer": native,
         "meshoptimizer_wasm": root().join("benches/peers/meshoptimizer.mjs"),
+        "vtkjs": root().join("benches/peers/vtkjs.mjs"),
         "peers_npm": npm,
         "versions": versions,
     }))

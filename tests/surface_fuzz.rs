@@ -1,0 +1,94 @@
+//! Surfaces that are no manifolds, a thousand of them under any settings: every promise of decimation holds there too.
+//! `LUMEN_FUZZ_SURFACES` asks for more (`cargo xtask fuzz-surfaces`: a hundred thousand), `LUMEN_FUZZ_SEED` for others. What
+//! fails is told with the fewest faults that make it fail.
+
+use std::sync::Arc;
+
+use lumen::io::import_mesh;
+use lumen::mesh::TriMesh;
+use lumen::pipeline::deviation::deviation;
+use lumen::pipeline::run::Pipeline;
+use lumen::pipeline::settings::{Keep, Settings, Target};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed, TestRunner};
+
+#[path = "common/crossings.rs"]
+mod crossings;
+#[path = "common/promises.rs"]
+mod promises;
+#[path = "common/shape.rs"]
+mod shape;
+#[path = "common/tangles.rs"]
+mod tangles;
+
+use crossings::crossing_faces;
+use promises::{check, settings};
+use tangles::tangles;
+
+/// Most faults of a surface.
+const FAULTS: usize = 12;
+
+fn number(name: &str, default: u32) -> u32 {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+/// One part of so many surfaces, each with settings, all pieces kept or the largest.
+fn try_all(part: u32, of: u32, promise: impl Fn(Arc<TriMesh>, Settings) -> Result<(), String>) {
+    let rng_seed = RngSeed::Fixed(u64::from(number("LUMEN_FUZZ_SEED", 14)) << 8 | u64::from(part));
+    let cases = number("LUMEN_FUZZ_SURFACES", 1000) / of;
+    let mut runner = TestRunner::new(Config { cases, failure_persistence: None, rng_seed, ..Config::default() });
+    let keep = prop::sample::select(vec![Keep::All, Keep::Largest]);
+    let tried = runner.run(&(tangles(FAULTS), settings(), keep), |(tangle, settings, keep)| {
+        let imported = import_mesh(tangle.mesh(), "tangle");
+        if imported.mesh.triangles.is_empty() {
+            return Ok(());
+        }
+        promise(Arc::new(imported.mesh), Settings { keep, ..settings }).map_err(TestCaseError::fail)
+    });
+    if let Err(error) = tried {
+        panic!("{error}");
+    }
+}
+
+#[test]
+fn any_level_keeps_count_and_topology() {
+    try_all(0, 2, |mesh, settings| check(&mut Pipeline::new(mesh, settings).with_samples(1)));
+}
+
+#[test]
+fn no_face_crosses_another_that_did_not() {
+    try_all(1, 4, |mesh, settings| {
+        let mut pipeline = Pipeline::new(mesh, settings.clone()).with_samples(1);
+        for rate in [0, 500, 990] {
+            pipeline
+                .set(Settings { target: Target::Reduction(rate), ..settings.clone() })
+                .map_err(|e| e.to_string())?;
+            pipeline.finish().map_err(|error| error.to_string())?;
+            let (Some(smoothed), Some(reduced)) = (pipeline.smoothed(), pipeline.reduced()) else {
+                return Err("no result".to_owned());
+            };
+            let [before, after] = [&smoothed.mesh, &reduced.mesh].map(|mesh| crossing_faces(mesh));
+            if after > before {
+                return Err(format!("{rate}: {after} faces cross, {before} before"));
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn a_bound_on_the_deviation_is_kept() {
+    try_all(2, 4, |mesh, settings| {
+        let bound = 0.3f64;
+        let settings = Settings { target: Target::Deviation((bound * 1e3) as u32), ..settings };
+        let mut pipeline = Pipeline::new(mesh, settings).with_samples(1);
+        pipeline.finish().map_err(|error| error.to_string())?;
+        let (Some(smoothed), Some(reduced)) = (pipeline.smoothed(), pipeline.reduced()) else {
+            return Err("no result".to_owned());
+        };
+        match deviation(&smoothed.mesh, &reduced.mesh, 2000) {
+            Some(measured) if measured.max > bound + 1e-5 => Err(format!("{} mm, {bound} allowed", measured.max)),
+            _ => Ok(()),
+        }
+    });
+}
