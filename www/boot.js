@@ -114,9 +114,15 @@ async function copyDetails() {
 document.getElementById("failed-reload").addEventListener("click", () => location.reload());
 document.getElementById("failed-copy").addEventListener("click", copyDetails);
 
-// The program reports a panic as an error of that name, and ends in a trap. Other errors do not end it.
+// The program reports a panic as an error of that name, and ends in a trap. Any other exception that has passed through
+// it leaves it standing still: what it had in hand is never put down. Errors beside it do not end it.
+const ends = (error) =>
+  error?.name === "Panic" || error instanceof WebAssembly.RuntimeError || /\.wasm\b|wasm-function/.test(error?.stack ?? "");
 addEventListener("error", ({ error, message }) => {
-  if (error?.name === "Panic" || error instanceof WebAssembly.RuntimeError) showFailed(error.stack ?? message);
+  if (ends(error)) showFailed(error.stack ?? message);
+});
+addEventListener("unhandledrejection", ({ reason }) => {
+  if (ends(reason)) showFailed(reason.stack ?? String(reason));
 });
 
 // A drop beside the canvas must not make the browser leave the page for the file.

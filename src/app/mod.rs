@@ -5,7 +5,8 @@
 //! - `panel`, `bar`, `sheets`, `keys`: the controls; `control` is a row of the panel, `icon` its icons, `theme` the look.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - [`trial`]: the guidewire trial.
-//! - `views`: the two 3-D views; `scene` what stands in GPU memory, `overlay` what is written over them.
+//! - `views`: the two 3-D views; `scene` what stands in GPU memory, `window_texture` what of it the window shows,
+//!   `overlay` what is written over them. [`LastingApp`]: the app outlives the graphics device.
 
 mod bar;
 pub mod compare;
@@ -14,6 +15,7 @@ pub mod document;
 pub mod history;
 mod icon;
 mod keys;
+mod lasting;
 mod numbers;
 mod overlay;
 mod panel;
@@ -25,6 +27,7 @@ mod state;
 mod theme;
 pub mod trial;
 mod views;
+mod window_texture;
 
 use std::time::Duration;
 
@@ -32,13 +35,14 @@ use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, ScrollArea, Ui};
 
 pub use self::bar::Action;
 use self::keys::Keys;
-pub use self::platform::{Gamepad, Platform, PlatformEvent};
+pub use self::lasting::{LastingApp, OnEnd, Restarts};
+pub use self::platform::{Gamepad, Platform, PlatformEvent, Waker};
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State};
 pub use self::views::Views;
 use crate::phantom::Sample;
 use crate::pipeline::settings::Keep;
-use crate::render::Camera;
+use crate::render::{Camera, DeviceHealth, Fault};
 
 /// Below this width in points the views stack and the panel becomes a sheet at the bottom.
 const NARROW: f32 = 720.0;
@@ -46,8 +50,15 @@ const NARROW: f32 = 720.0;
 /// How often the engine is listened to while it works and nothing else moves.
 const LISTEN: Duration = Duration::from_millis(16);
 
+/// Said where the surface is not drawn because an allocation on the graphics device failed.
+const NO_MEMORY: &str = "The graphics memory is full, so this surface cannot be drawn; it is still open and can be reduced further or saved.";
+
 /// The app.
 pub struct LumenApp {
+    /// The window that it is in.
+    ctx: egui::Context,
+    /// What is known of its device.
+    health: DeviceHealth,
     state: State,
     views: Views,
     compare: compare::CompareView,
@@ -68,19 +79,73 @@ impl LumenApp {
         render_state: Option<&egui_wgpu::RenderState>,
         mut platform: Box<dyn Platform>,
     ) -> Self {
-        theme::apply(ctx);
         let mut state = State::default();
         state.open_sample(Sample::Aorta, platform.link());
-        Self {
+        let mut app = Self {
+            ctx: ctx.clone(),
+            health: DeviceHealth::default(),
             state,
-            views: Views::new(render_state),
-            compare: compare::CompareView::new(render_state),
+            views: Views::new(None),
+            compare: compare::CompareView::new(None),
             trial: trial::Trial::new(),
-            trial_view: trial::TrialView::new(render_state),
+            trial_view: trial::TrialView::new(None),
             platform,
             sheet: None,
             was_typing: false,
             look_next: false,
+        };
+        app.enter(ctx, render_state);
+        app
+    }
+
+    /// Goes on in another window, with another device: what is open, the settings, their history, the camera, the trial
+    /// and how the controls stand stay as they are, and what was on the old device is made again.
+    pub fn resume(&mut self, ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>) {
+        let memory = self.ctx.memory(Clone::clone);
+        ctx.memory_mut(|now| *now = memory);
+        self.platform.enter(ctx);
+        self.trial.restart_clock();
+        self.enter(ctx, render_state);
+        self.state.tell("The graphics were interrupted and have been started again. Nothing was lost.");
+    }
+
+    fn enter(&mut self, ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>) {
+        theme::apply(ctx);
+        self.ctx = ctx.clone();
+        self.health = render_state.map_or_else(DeviceHealth::default, |state| {
+            let ctx = ctx.clone();
+            DeviceHealth::watch(&state.device, move || ctx.request_repaint())
+        });
+        ctx.add_plugin(lasting::PaintGuard(self.health.clone()));
+        self.views.set_device(render_state);
+        self.compare = compare::CompareView::new(render_state);
+        self.trial_view.set_device(render_state);
+    }
+
+    /// Lets go of the device and of all that stands on it, before it is replaced.
+    pub fn leave(&mut self) {
+        self.views.set_device(None);
+        self.compare = compare::CompareView::new(None);
+        self.trial_view.set_device(None);
+    }
+
+    /// Why the device has to be replaced, if it has to be.
+    pub fn device_end(&self) -> Option<Fault> {
+        self.health.end()
+    }
+
+    /// What is known of the device, for whoever hears of its end before it does.
+    pub fn device_health(&self) -> &DeviceHealth {
+        &self.health
+    }
+
+    /// Gives up what is on a device whose memory is full, and says so. It is tried again with what is shown next.
+    fn heed_memory(&mut self) {
+        if self.health.take_full() {
+            self.views.refuse(self.state.document.as_ref().map(|document| document.revision));
+            self.compare.refuse();
+            self.trial_view.refuse();
+            self.state.warn(NO_MEMORY);
         }
     }
 
@@ -355,6 +420,13 @@ impl eframe::App for LumenApp {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        if let Some(end) = self.health.end() {
+            // Nothing can be drawn any more, and calls to the device may panic. A call that was refused is a mistake in
+            // here, which tests should not pass over.
+            debug_assert!(!matches!(end, Fault::Refused(_)), "{end}");
+            return;
+        }
+        self.heed_memory();
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {
             // The unit was chosen for a file of the dialog.

@@ -1,5 +1,7 @@
 //! What the app needs of the machine it runs on; the desktop and the browser each have one.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use super::trial::Offer;
 use crate::engine::Link;
 use crate::engine::trial::TrialLink;
@@ -18,6 +20,9 @@ pub trait Platform {
         None
     }
 
+    /// The app goes on in another window: whatever has news wakes this one from now on.
+    fn enter(&mut self, ctx: &egui::Context);
+
     /// Lets the user choose a file to open. Called while a click or key press is handled, as browsers demand.
     fn choose_file(&mut self, ctx: &egui::Context);
 
@@ -33,6 +38,29 @@ pub trait Platform {
 
     /// What has happened since.
     fn poll(&mut self) -> Option<PlatformEvent>;
+}
+
+/// What wakes the window that the app is in, from any thread; clones wake the same.
+#[derive(Clone)]
+pub struct Waker(Arc<Mutex<egui::Context>>);
+
+impl Waker {
+    /// Wakes the window of `ctx`.
+    pub fn new(ctx: &egui::Context) -> Self {
+        Self(Arc::new(Mutex::new(ctx.clone())))
+    }
+
+    /// Wakes the window of `ctx` from now on, and at once: what has come meanwhile woke another.
+    pub fn enter(&self, ctx: &egui::Context) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
+        ctx.request_repaint();
+    }
+
+    /// Lets the window draw again.
+    pub fn wake(&self) {
+        let ctx = self.0.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        ctx.request_repaint();
+    }
 }
 
 /// The state of a gamepad.

@@ -1,17 +1,15 @@
 //! What is in GPU memory, kept in step with the document: the level, the surface as it was opened, the pieces that
 //! are left out, and the two views' targets.
 
-use std::sync::Arc;
-
 use egui::TextureId;
-use egui::mutex::RwLock;
 
 use super::document::{Document, Revision};
+use super::window_texture::WindowTarget;
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
 use crate::pipeline::settings::Keep;
 use crate::render::{
-    Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError, ViewTarget, unique_edges,
+    Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError, unique_edges,
 };
 
 /// The two views, side by side.
@@ -38,7 +36,6 @@ pub(super) struct Picture {
 pub(super) struct Scene {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    window: Arc<RwLock<egui_wgpu::Renderer>>,
     renderer: Renderer,
     level: GpuSurface,
     before: GpuSurface,
@@ -53,8 +50,7 @@ pub(super) struct Scene {
 }
 
 struct View {
-    target: ViewTarget,
-    texture: TextureId,
+    shown: WindowTarget,
     drawn: Option<(Picture, Revision, Keep)>,
 }
 
@@ -66,18 +62,12 @@ impl Scene {
     pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
         let (device, queue) = (state.device.clone(), state.queue.clone());
         let surface = || GpuSurface::new(&device, &queue, &[]);
-        let view = || {
-            let target = ViewTarget::new(&device, 1, 1);
-            let texture =
-                state.renderer.write().register_native_texture(&device, target.view(), wgpu::FilterMode::Linear);
-            View { target, texture, drawn: None }
-        };
+        let view = || View { shown: WindowTarget::new(&device, &state.renderer), drawn: None };
         Ok(Self {
             renderer: Renderer::new(&device, &queue),
             level: surface()?,
             before: surface()?,
             left_out: surface()?,
-            window: state.renderer.clone(),
             revision: Revision::default(),
             has_scalars: false,
             before_of: None,
@@ -171,18 +161,9 @@ impl Scene {
         let view = &mut self.views[index];
         let drawn = (picture.clone(), self.revision, keep);
         if view.drawn.as_ref() == Some(&drawn) {
-            return Ok(view.texture);
+            return Ok(view.shown.id());
         }
-        let [width, height] = picture.size;
-        if view.target.resize(&self.device, width, height) {
-            let filter = wgpu::FilterMode::Linear;
-            self.window.write().update_egui_texture_from_wgpu_texture(
-                &self.device,
-                view.target.view(),
-                filter,
-                view.texture,
-            );
-        }
+        view.shown.resize(&self.device, picture.size);
         let main = if picture.before { &self.before } else { &self.level };
         let mut drawables = vec![Drawable { surface: main, look: picture.look, tint: None }];
         if picture.left_out {
@@ -190,10 +171,10 @@ impl Scene {
         }
         let style = Style { map: picture.style.map.filter(|_| self.has_scalars && !picture.before), ..picture.style };
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("view") });
-        self.renderer.draw(&self.device, &mut encoder, &view.target, &picture.camera, &drawables, &style);
+        self.renderer.draw(&self.device, &mut encoder, view.shown.target(), &picture.camera, &drawables, &style);
         self.queue.submit([encoder.finish()]);
         view.drawn = Some(drawn);
-        Ok(view.texture)
+        Ok(view.shown.id())
     }
 
     /// Whether the level has scalars for a colour map.

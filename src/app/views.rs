@@ -4,7 +4,7 @@ use egui::{Color32, PointerButton, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
 use glam::Vec2;
 
 use super::control::name;
-use super::document::Document;
+use super::document::{Document, Revision};
 use super::overlay;
 use super::scene::{Picture, Scene, deviation_map};
 use super::theme;
@@ -32,6 +32,9 @@ pub struct Views {
     scene: Option<Scene>,
     /// Why there is nothing to see.
     failure: Option<String>,
+    /// What the device had no memory for: it is not tried again.
+    refused: Option<Revision>,
+    device: Option<egui_wgpu::RenderState>,
     aspect: f32,
     /// The camera as it was last fitted, while the user has not moved it.
     fitted: Option<Camera>,
@@ -42,13 +45,7 @@ pub struct Views {
 impl Views {
     /// Views on the window's device; without one (in some tests) they stay empty and say so.
     pub fn new(render_state: Option<&egui_wgpu::RenderState>) -> Self {
-        let scene = render_state.map(Scene::new).transpose();
-        let (scene, failure) = match scene {
-            Ok(Some(scene)) => (Some(scene), None),
-            Ok(None) => (None, Some("There is no graphics device to draw with.".to_owned())),
-            Err(error) => (None, Some(format!("The views cannot be drawn: {error}."))),
-        };
-        Self {
+        let mut views = Self {
             camera: Camera::default(),
             show_left_out: false,
             flat: false,
@@ -57,12 +54,49 @@ impl Views {
             before_is_held: false,
             before_is_on: false,
             show_before: false,
-            scene,
-            failure,
+            scene: None,
+            failure: None,
+            refused: None,
+            device: None,
             aspect: 1.0,
             fitted: None,
             frames_per_second: None,
+        };
+        views.set_device(render_state);
+        views
+    }
+
+    /// Takes another device, on which nothing of the views stands yet.
+    pub fn set_device(&mut self, render_state: Option<&egui_wgpu::RenderState>) {
+        self.device = render_state.cloned();
+        // Textures of the old one are let go before any of the new are made.
+        self.scene = None;
+        self.failure = self.device.is_none().then(|| "There is no graphics device to draw with.".to_owned());
+        self.prepare();
+    }
+
+    fn prepare(&mut self) {
+        if let (None, None, Some(device)) = (&self.scene, self.refused, &self.device) {
+            match Scene::new(device) {
+                Ok(scene) => self.scene = Some(scene),
+                Err(error) => self.failure = Some(format!("The views cannot be drawn: {error}.")),
+            }
         }
+    }
+
+    /// Gives up what stands on the device, whose memory is full, until another surface or another level is shown.
+    pub(super) fn refuse(&mut self, shown: Option<Revision>) {
+        self.scene = None;
+        self.refused = shown;
+        self.failure = Some(super::NO_MEMORY.to_owned());
+    }
+
+    /// Tries again what the device had no memory for, once there is something else to show.
+    fn retry(&mut self, document: Option<&Document>) {
+        let of = |revision: Revision| (revision.document, revision.opened, revision.levels, revision.shown);
+        let shown = document.map(|document| of(document.revision));
+        self.refused.take_if(|refused| shown != Some(of(*refused)));
+        self.prepare();
     }
 
     /// Brings the whole of the kept pieces into view.
@@ -110,6 +144,7 @@ impl Views {
     pub fn show(&mut self, ui: &mut Ui, document: Option<&Document>, keep: Keep, is_narrow: bool) -> Option<u32> {
         let moves = ui.input(|input| input.pointer.any_down() || input.smooth_scroll_delta() != egui::Vec2::ZERO);
         self.measure_rate(ui, moves);
+        self.retry(document);
         if self.scene.is_some() {
             // What fails is tried again.
             self.failure = None;

@@ -9,24 +9,24 @@ use std::thread;
 
 use rfd::FileDialog;
 
-use crate::app::PlatformEvent;
 use crate::app::trial::Offer;
+use crate::app::{PlatformEvent, Waker};
 
 /// Extensions that can be opened: those of surfaces, and that of a trial's log.
 const EXTENSIONS: [&str; 6] = ["stl", "ply", "obj", "glb", "gltf", "csv"];
 
 /// Lets the user choose a file and reads it.
-pub(super) fn choose(events: Sender<PlatformEvent>, ctx: egui::Context) {
+pub(super) fn choose(events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
         if let Some(path) = FileDialog::new().add_filter("Surfaces and logs", &EXTENSIONS).pick_file() {
-            send(&events, &ctx, load(&path));
+            send(&events, &waker, load(&path));
         }
     });
 }
 
 /// Reads a file.
-pub(super) fn read(path: PathBuf, events: Sender<PlatformEvent>, ctx: egui::Context) {
-    thread::spawn(move || send(&events, &ctx, load(&path)));
+pub(super) fn read(path: PathBuf, events: Sender<PlatformEvent>, waker: Waker) {
+    thread::spawn(move || send(&events, &waker, load(&path)));
 }
 
 fn load(path: &Path) -> PlatformEvent {
@@ -38,12 +38,12 @@ fn load(path: &Path) -> PlatformEvent {
 }
 
 /// Lets the user choose where to and writes a file there.
-pub(super) fn save(name: String, bytes: Vec<u8>, events: Sender<PlatformEvent>, ctx: egui::Context) {
+pub(super) fn save(name: String, bytes: Vec<u8>, events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
         let Some(path) = FileDialog::new().set_file_name(&name).save_file() else { return };
         send(
             &events,
-            &ctx,
+            &waker,
             match fs::write(&path, bytes) {
                 Ok(()) => PlatformEvent::Saved { message: format!("{} was saved.", path.display()) },
                 Err(error) => {
@@ -55,10 +55,10 @@ pub(super) fn save(name: String, bytes: Vec<u8>, events: Sender<PlatformEvent>, 
 }
 
 /// Lets the user choose where the first file goes, and writes both there.
-pub(super) fn save_pair(pair: [Offer; 2], events: Sender<PlatformEvent>, ctx: egui::Context) {
+pub(super) fn save_pair(pair: [Offer; 2], events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
         if let Some(path) = FileDialog::new().set_file_name(&pair[0].name).save_file() {
-            send(&events, &ctx, write_pair(path, &pair));
+            send(&events, &waker, write_pair(path, &pair));
         }
     });
 }
@@ -108,10 +108,10 @@ fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
-fn send(events: &Sender<PlatformEvent>, ctx: &egui::Context, event: PlatformEvent) {
+fn send(events: &Sender<PlatformEvent>, waker: &Waker, event: PlatformEvent) {
     // The window may have been closed meanwhile; then nobody needs to know.
     if events.send(event).is_ok() {
-        ctx.request_repaint();
+        waker.wake();
     }
 }
 

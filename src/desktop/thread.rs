@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Instant;
 
+use crate::app::Waker;
 use crate::engine::{Link, Machine};
 
 /// Passing events are dropped while so many others are not heard.
@@ -14,7 +15,7 @@ const UNHEARD: usize = 30;
 
 /// The line to an engine on a thread of its own.
 pub(super) struct ThreadLink<M: Machine> {
-    ctx: egui::Context,
+    waker: Waker,
     commands: Sender<M::Command>,
     events: Receiver<Result<M::Event, String>>,
     unheard: Arc<AtomicUsize>,
@@ -22,11 +23,11 @@ pub(super) struct ThreadLink<M: Machine> {
 }
 
 impl<M: Machine> ThreadLink<M> {
-    /// Starts an engine that wakes `ctx` when it has something to say.
-    pub(super) fn new(ctx: egui::Context) -> Self {
+    /// Starts an engine that wakes the window when it has something to say.
+    pub(super) fn new(waker: Waker) -> Self {
         let unheard = Arc::default();
-        let (commands, events) = start::<M>(ctx.clone(), Arc::clone(&unheard));
-        Self { ctx, commands, events, unheard, failure: None }
+        let (commands, events) = start::<M>(waker.clone(), Arc::clone(&unheard));
+        Self { waker, commands, events, unheard, failure: None }
     }
 }
 
@@ -54,7 +55,7 @@ impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
     fn restart(&mut self) {
         // The old thread ends when it next looks for a command, and its events go nowhere.
         self.unheard = Arc::default();
-        (self.commands, self.events) = start::<M>(self.ctx.clone(), Arc::clone(&self.unheard));
+        (self.commands, self.events) = start::<M>(self.waker.clone(), Arc::clone(&self.unheard));
         self.failure = None;
     }
 
@@ -65,17 +66,17 @@ impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
 
 type Ends<M> = (Sender<<M as Machine>::Command>, Receiver<Result<<M as Machine>::Event, String>>);
 
-fn start<M: Machine>(ctx: egui::Context, unheard: Arc<AtomicUsize>) -> Ends<M> {
+fn start<M: Machine>(waker: Waker, unheard: Arc<AtomicUsize>) -> Ends<M> {
     let (commands, inbox) = channel();
     let (outbox, events) = channel();
     thread::spawn(move || {
-        let run = catch_unwind(AssertUnwindSafe(|| work::<M>(&inbox, &outbox, &unheard, &ctx)));
+        let run = catch_unwind(AssertUnwindSafe(|| work::<M>(&inbox, &outbox, &unheard, &waker)));
         if let Err(panic) = run {
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let reason = text.or_else(|| panic.downcast_ref::<String>().cloned());
             // Without a window nobody listens any more.
             let _ = outbox.send(Err(reason.unwrap_or_else(|| "for an unknown reason".to_owned())));
-            ctx.request_repaint();
+            waker.wake();
         }
     });
     (commands, events)
@@ -86,7 +87,7 @@ fn work<M: Machine>(
     inbox: &Receiver<M::Command>,
     outbox: &Sender<Result<M::Event, String>>,
     unheard: &AtomicUsize,
-    ctx: &egui::Context,
+    waker: &Waker,
 ) {
     let mut machine = M::default();
     let since = Instant::now();
@@ -117,7 +118,7 @@ fn work<M: Machine>(
             has_told = true;
         }
         if has_told {
-            ctx.request_repaint();
+            waker.wake();
         }
     }
 }
@@ -178,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_machine_that_keeps_pace_hears_commands_in_between_and_piles_nothing_up() {
-        let mut link = ThreadLink::<Clock>::new(egui::Context::default());
+        let mut link = ThreadLink::<Clock>::new(Waker::new(&egui::Context::default()));
         link.send("start");
         thread::sleep(Duration::from_millis(300));
         link.send("stop");
@@ -190,7 +191,7 @@ mod tests {
 
     #[test]
     fn a_machine_that_panics_is_told_of_and_another_takes_its_place() {
-        let mut link = ThreadLink::<Clock>::new(egui::Context::default());
+        let mut link = ThreadLink::<Clock>::new(Waker::new(&egui::Context::default()));
         link.send("panic");
         let reason = wait(|| {
             let _ = link.poll();

@@ -31,6 +31,12 @@ pub enum WireError {
         /// Bytes of an element.
         element: usize,
     },
+    /// There is no memory for a buffer.
+    #[error("there is no memory left for its {bytes} bytes")]
+    Memory {
+        /// Its length.
+        bytes: usize,
+    },
     /// A buffer that should be text is not UTF-8.
     #[error("buffer {index} of the message is no text")]
     Text {
@@ -243,7 +249,9 @@ pub(super) fn array<T: Pod + Zeroable>(buffers: &impl Buffers, index: usize) -> 
     let bytes = buffers.len(index);
     match bytes {
         Some(length) if length.is_multiple_of(element) => {
-            let mut values = vec![T::zeroed(); length / element];
+            let mut values = Vec::new();
+            values.try_reserve_exact(length / element).map_err(|_| WireError::Memory { bytes: length })?;
+            values.resize(length / element, T::zeroed());
             buffers.copy(index, cast_slice_mut(&mut values));
             Ok(values)
         }
@@ -259,6 +267,26 @@ mod tests {
 
     fn owned((header, buffers): Encoded<'_>) -> (String, Vec<Vec<u8>>) {
         (header, buffers.into_iter().map(<[u8]>::to_vec).collect())
+    }
+
+    /// A buffer of any length that takes no memory.
+    struct Claim(usize);
+
+    impl Buffers for Claim {
+        fn len(&self, _: usize) -> Option<usize> {
+            Some(self.0)
+        }
+
+        fn copy(&self, _: usize, _: &mut [u8]) {
+            unreachable!("there is no memory to copy into");
+        }
+    }
+
+    #[test]
+    fn a_buffer_that_no_memory_can_hold_is_an_error() {
+        let bytes = isize::MAX as usize / 8 * 4;
+        let read = array::<u32>(&Claim(bytes), 0);
+        assert!(matches!(read, Err(WireError::Memory { bytes: claimed }) if claimed == bytes), "{read:?}");
     }
 
     #[test]

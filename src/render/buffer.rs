@@ -66,6 +66,20 @@ impl GrowingBuffer {
     }
 }
 
+/// A buffer of uniforms that is written once.
+///
+/// It is not mapped at creation: on a device that is lost, or without memory, that would panic.
+pub(super) fn uniforms(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, bytes: &[u8]) -> wgpu::Buffer {
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes.len() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    queue.write_buffer(&buffer, 0, bytes);
+    buffer
+}
+
 /// The size of a buffer of `capacity` bytes after it has grown to hold `needed`.
 fn grown(capacity: u64, needed: u64) -> u64 {
     needed.max(capacity + capacity / 2).next_multiple_of(GRANULE)

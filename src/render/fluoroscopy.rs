@@ -7,11 +7,10 @@
 //! fewer before each other and a vessel of 500 mm or less in depth.
 
 use bytemuck::{Pod, Zeroable};
-use wgpu::util::DeviceExt;
 
 use super::scene::{PipelineParts, SceneBindings, SceneLayout, scene_shader};
 use super::wire::{SHADOW, Wire};
-use super::{GpuSurface, GpuWire, ViewTarget};
+use super::{GpuSurface, GpuWire, ViewTarget, buffer};
 
 /// Attenuation of the contrast in 1/mm.
 const CONTRAST: f32 = 0.06;
@@ -104,6 +103,7 @@ impl FluoroscopyTarget {
 /// Draws fluoroscopies.
 #[derive(Debug)]
 pub(super) struct Fluoroscopy {
+    queue: wgpu::Queue,
     format: ThicknessFormat,
     far: wgpu::RenderPipeline,
     near: wgpu::RenderPipeline,
@@ -136,6 +136,7 @@ impl Fluoroscopy {
         };
         let exposure = exposure_layout(device);
         Self {
+            queue: layout.queue.clone(),
             format,
             far: wall("thickness, far walls", far, wgpu::Face::Front, wgpu::BlendOperation::Add),
             near: wall("thickness, near walls", near, wgpu::Face::Back, wgpu::BlendOperation::ReverseSubtract),
@@ -228,11 +229,7 @@ impl Fluoroscopy {
             contrast: [exposure.contrast_s.unwrap_or(-1.0), exposure.flow.max(1e-3), CONTRAST, roadmap],
             picture: [exposure.pulse as f32, NOISE, width, height],
         };
-        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("exposure"),
-            contents: bytemuck::bytes_of(&uniforms),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let buffer = buffer::uniforms(device, &self.queue, "exposure", bytemuck::bytes_of(&uniforms));
         let texture =
             |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
         device.create_bind_group(&wgpu::BindGroupDescriptor {

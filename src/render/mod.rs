@@ -8,6 +8,7 @@
 //!   [`Renderer::draw`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`].
 //! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel (`glass`, `wire`), from its tip, and as a
 //!   fluoroscope sees it (`fluoroscopy`, `thickness`). A [`GpuWire`] is written anew every frame.
+//! - [`DeviceHealth`] hears what goes wrong with a device; [`device_descriptor`] says what is asked of one.
 //! - [`pick`] finds the triangle under a [`Ray`] of the camera, on the CPU.
 //!
 //! It runs on WebGPU, on WebGL2 (no storage buffers, no compute, no wide lines, no polygon mode) and on Vulkan, Metal
@@ -26,8 +27,10 @@ mod camera;
 mod colour;
 mod colour_map;
 mod edges;
+mod fault;
 mod fluoroscopy;
 mod glass;
+mod limits;
 mod pick;
 mod picture;
 mod renderer;
@@ -44,7 +47,9 @@ pub use camera::{Camera, StandardView};
 pub use colour::{Colour, contrast};
 pub use colour_map::{ColourMap, VIRIDIS, viridis};
 pub use edges::unique_edges;
+pub use fault::{DeviceHealth, Fault};
 pub use fluoroscopy::{Exposure, FluoroscopyTarget, ThicknessFormat};
+pub use limits::device_descriptor;
 pub use pick::{Hit, Ray, pick};
 pub use picture::{Picture, PictureError};
 pub use renderer::{Drawable, Look, Renderer};

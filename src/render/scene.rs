@@ -5,6 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Mat4;
 use wgpu::util::DeviceExt;
 
+use super::buffer::uniforms;
 use super::{Camera, Colour, Drawable, Look, Style, VIRIDIS, ViewTarget};
 
 /// Distance of two sets of uniforms in a buffer: the largest alignment that any device asks for.
@@ -52,6 +53,7 @@ struct DrawnUniforms {
 /// Layouts that all pipelines share, and the colour map.
 #[derive(Debug)]
 pub(super) struct SceneLayout {
+    pub(super) queue: wgpu::Queue,
     scene: wgpu::BindGroupLayout,
     drawn: wgpu::BindGroupLayout,
     pipeline: wgpu::PipelineLayout,
@@ -111,7 +113,7 @@ impl<'a> PipelineParts<'a> {
 
 impl SceneLayout {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let uniforms = |size: usize, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
+        let entry = |size: usize, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
             binding: 0,
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
@@ -134,14 +136,14 @@ impl SceneLayout {
         let layout = |label, entries: &[_]| {
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
         };
-        let scene = layout("scene", &[uniforms(size_of::<SceneUniforms>(), false), map]);
-        let drawn = layout("drawn", &[uniforms(size_of::<DrawnUniforms>(), true)]);
+        let scene = layout("scene", &[entry(size_of::<SceneUniforms>(), false), map]);
+        let drawn = layout("drawn", &[entry(size_of::<DrawnUniforms>(), true)]);
         let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("scene"),
             bind_group_layouts: &[Some(&scene), Some(&drawn)],
             immediate_size: 0,
         });
-        Self { scene, drawn, pipeline, map: map_texture(device, queue) }
+        Self { queue: queue.clone(), scene, drawn, pipeline, map: map_texture(device, queue) }
     }
 
     /// A pipeline over these layouts, into a [`ViewTarget`]; its module is made by `scene_shader!`.
@@ -213,11 +215,7 @@ impl SceneLayout {
         for (slot, drawable) in bytes[drawn_at as usize..].chunks_exact_mut(STRIDE as usize).zip(drawables) {
             slot[..size_of::<DrawnUniforms>()].copy_from_slice(bytemuck::bytes_of(&drawn_uniforms(drawable, style)));
         }
-        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("scene"),
-            contents: &bytes,
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let buffer = uniforms(device, &self.queue, "scene", &bytes);
         let part = |offset, size: usize| {
             wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &buffer,

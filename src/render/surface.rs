@@ -12,7 +12,11 @@ use super::buffer::GrowingBuffer;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SurfaceError {
     /// A buffer would be larger than the device allows.
-    #[error("{what} would take {bytes} bytes of GPU memory in one piece; this device allows {limit}")]
+    #[error(
+        "its {what} need {:.1} MB of graphics memory in one piece, and this machine gives {:.1} MB; reduce it further",
+        *.bytes as f64 / 1e6,
+        *.limit as f64 / 1e6
+    )]
     TooLarge {
         /// Which buffer.
         what: &'static str,

@@ -22,6 +22,9 @@ export const program = process.env.LUMEN_PROGRAM ?? `${checkout}target/debug/lum
 /** How long the app may take to draw its first frame: there is no graphics card here. */
 const START_MS = 60_000;
 
+/** WebGPU on the processor: Chromium brings SwiftShader as a Vulkan driver. */
+export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
+
 /** A browser that draws without a graphics card and talks to nobody by itself. */
 export function launch(more = []) {
   return chromium.launch({
@@ -76,6 +79,10 @@ export async function started(page) {
   const state = await page.evaluate(() => document.documentElement.dataset.state);
   assert.equal(state, "ready", await page.evaluate(() => document.body.innerText));
 }
+
+/** What the canvas draws with: it has a context of one kind, and asking for another gives null. */
+export const contextKind = (page) =>
+  page.evaluate(() => ["webgpu", "webgl2"].find((kind) => document.getElementById("lumen").getContext(kind) !== null));
 
 /** The twin of a control; `name` is a text or a pattern. */
 export function twin(page, role, name) {

@@ -53,6 +53,7 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
   assert.equal(summary.success, true);
   assert(summary.tip_distance_mm <= 2, `${summary.tip_distance_mm} mm from the target`);
   assert.match(summary.notice, /clinical/i);
+  // How fast is for the benches (benches/trial.mjs) to say.
   t.diagnostic(`${Math.round(summary.steps_per_second)} steps a second in the Worker`);
   // What a step is, however fast the machine: 2 ms, of one of five kinds.
   assert(Math.abs(summary.time_s - summary.steps * 0.002) < 1e-6, `${summary.time_s} s of ${summary.steps} steps`);

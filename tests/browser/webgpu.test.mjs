@@ -3,25 +3,18 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { settled, silhouette, views } from "./app.mjs";
-import { launch, openApp } from "./browser.mjs";
-
-/** WebGPU on the processor: Chromium brings SwiftShader as a Vulkan driver. */
-const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
+import { WEBGPU, contextKind, eventually, frames, launch, openApp, picture, press, texts, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch(WEBGPU)));
 after(() => browser.close());
-
-/** The canvas has a context of one kind; asking for another gives null. */
-const kind = (page) =>
-  page.evaluate(() => ["webgpu", "webgl2"].find((kind) => document.getElementById("lumen").getContext(kind) !== null));
 
 test("the app draws with WebGPU where there is one, and with WebGL2 when it is asked to", async (t) => {
   const drawn = {};
   for (const [query, expected] of [["", "webgpu"], ["?renderer=webgl", "webgl2"]]) {
     const { page, wrong } = await openApp(t, browser, { query });
     await settled(page);
-    assert.equal(await kind(page), expected);
+    assert.equal(await contextKind(page), expected);
     drawn[expected] = await silhouette(page, views.shaded(page));
     assert.deepEqual(wrong, []);
     await page.close();
@@ -29,4 +22,59 @@ test("the app draws with WebGPU where there is one, and with WebGL2 when it is a
   t.diagnostic(`pixels of the silhouette: ${JSON.stringify(drawn)}`);
   assert(drawn.webgpu > 10_000, "there is something to see");
   assert(Math.abs(drawn.webgpu - drawn.webgl2) <= 0.01 * drawn.webgl2, "both draw the same");
+});
+
+/** Pixels of a picture that are not as the ones at its left edge. */
+async function drawn(page, control) {
+  const { width, height, data } = await picture(page, control);
+  let count = 0;
+  for (let y = 8; y < height - 8; y++) {
+    const ground = (y * width + 8) * 4;
+    for (let x = 8; x < width - 8; x++) {
+      const at = (y * width + x) * 4;
+      if (Math.abs(data[at] - data[ground]) + Math.abs(data[at + 2] - data[ground + 2]) > 48) count++;
+    }
+  }
+  return count;
+}
+
+test("with WebGPU settings are compared", async (t) => {
+  const { page, wrong } = await openApp(t, browser);
+  assert.equal(await contextKind(page), "webgpu");
+  await settled(page);
+  await press(page, "button", "Compare");
+  await eventually(
+    async () => ({ all: await texts(page), busy: await twin(page, "button", "Cancel").count() }),
+    ({ all, busy }) => !busy && all.filter((text) => text === "From original").length === 3,
+    { timeout: 180_000, what: "the numbers of three cells" },
+  );
+  await page.mouse.move(2, 2);
+  await frames(page, 3);
+  const cells = twin(page, "radio", /^Reduction/);
+  assert.equal(await cells.count(), 3);
+  for (let i = 0; i < 3; i++) assert((await drawn(page, cells.nth(i))) > 1000, `cell ${i} is empty`);
+  assert.deepEqual(wrong, []);
+});
+
+test("with WebGPU a wire is steered, and all three views show it", async (t) => {
+  const { page, wrong } = await openApp(t, browser);
+  assert.equal(await contextKind(page), "webgpu");
+  await settled(page);
+  await press(page, "button", "Trial");
+  const inserted = async () => {
+    const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
+    return text ? Number(text.split(" ")[0]) : null;
+  };
+  const start = await eventually(inserted, (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  await page.keyboard.down("w");
+  await eventually(inserted, (cm) => cm >= start + 2, { what: "two centimetres of wire" });
+  await page.keyboard.up("w");
+  await page.mouse.move(2, 2);
+  await frames(page, 10);
+  for (const view of ["Trial view", "Fluoroscopy view", "Tip view"]) {
+    const pixels = await drawn(page, twin(page, "img", view));
+    t.diagnostic(`${view}: ${pixels} pixels`);
+    assert(pixels > 500, `${view} is empty`);
+  }
+  assert.deepEqual(wrong, []);
 });

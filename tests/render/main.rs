@@ -3,6 +3,7 @@
 
 #![cfg(feature = "gui")]
 
+mod device;
 mod shapes;
 mod stage;
 mod trial;

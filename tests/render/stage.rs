@@ -21,11 +21,16 @@ pub(crate) fn stage() -> &'static Stage {
     STAGE.get_or_init(|| pollster::block_on(open()))
 }
 
-async fn open() -> Stage {
+/// What there is to draw on.
+pub(crate) async fn adapter() -> wgpu::Adapter {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-    let adapter = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await.unwrap_or_else(|error| {
+    instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await.unwrap_or_else(|error| {
         panic!("these tests draw and need a GPU or a software one (Debian: mesa-vulkan-drivers): {error}")
-    });
+    })
+}
+
+async fn open() -> Stage {
+    let adapter = adapter().await;
     println!("drawing on {:?}", adapter.get_info());
     let required_limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
     let descriptor = wgpu::DeviceDescriptor { required_limits, ..Default::default() };

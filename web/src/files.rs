@@ -2,10 +2,12 @@
 
 use std::cell::RefCell;
 
-use js_sys::{Array, Uint8Array};
+use js_sys::Array;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, Document, File, HtmlAnchorElement, HtmlInputElement, Url, Window};
+
+use crate::bytes;
 
 /// A file the user has chosen: its name and its bytes, or one sentence on why it could not be read.
 pub(crate) type Chosen = (String, Result<Vec<u8>, String>);
@@ -75,19 +77,29 @@ pub(crate) async fn read(file: &File) -> Result<Vec<u8>, String> {
     }
     let lost = |_| format!("The browser could not read {name}; it may have been moved or changed since it was chosen.");
     let length = file.size() as usize;
-    let mut bytes = Vec::with_capacity(length);
+    let full = |_| format!("{name} has {:.0} MB, for which this browser has no memory left.", file.size() / 1e6);
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(length).map_err(|_| full(JsValue::NULL))?;
     while bytes.len() < length {
         let begin = bytes.len();
         let end = length.min(begin + PIECE);
         let piece = file.slice_with_f64_and_f64(begin as f64, end as f64).map_err(lost)?;
-        let piece = Uint8Array::new(&JsFuture::from(piece.array_buffer()).await.map_err(lost)?);
-        bytes.resize(begin + piece.length() as usize, 0);
-        piece.copy_to(&mut bytes[begin..]);
-        if bytes.len() != end {
+        let piece = JsFuture::from(piece.array_buffer())
+            .await
+            .map_err(|why| if is_memory(&why) { full(why) } else { lost(why) })?;
+        let piece = bytes::view(&piece).map_err(full)?;
+        if begin + piece.length() as usize != end {
             return Err(lost(JsValue::NULL));
         }
+        bytes.resize(end, 0);
+        piece.copy_to(&mut bytes[begin..]);
     }
     Ok(bytes)
+}
+
+/// Whether a browser says with this that it has no memory.
+fn is_memory(why: &JsValue) -> bool {
+    why.is_instance_of::<js_sys::RangeError>()
 }
 
 /// Gives the user `bytes` as a download called `name`.
@@ -99,7 +111,7 @@ pub(crate) fn save(name: &str, bytes: &[u8]) -> Result<(), JsValue> {
     let (window, document) = page()?;
     let options = BlobPropertyBag::new();
     options.set_type("application/octet-stream");
-    let parts = Array::of1(&Uint8Array::from(bytes));
+    let parts = Array::of1(&bytes::copied(bytes)?.into());
     let blob = Blob::new_with_u8_array_sequence_and_options(&parts, &options)?;
     let address = Url::create_object_url_with_blob(&blob)?;
     let link: HtmlAnchorElement = document.create_element("a")?.unchecked_into();

@@ -144,7 +144,7 @@ impl<M: Sent> Worker<M> {
     fn tell(&self) -> Result<(), JsValue> {
         let mut machine = self.machine.borrow_mut();
         while let Some(event) = machine.poll() {
-            let (values, transfer) = pack(&M::encode_event(&event));
+            let (values, transfer) = pack(&M::encode_event(&event))?;
             self.scope.post_message_with_transfer(&values, &transfer)?;
         }
         Ok(())

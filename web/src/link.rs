@@ -2,6 +2,7 @@
 
 use std::marker::PhantomData;
 
+use lumen::app::Waker;
 use lumen::engine::Link;
 use wasm_bindgen::{JsCast as _, JsValue};
 
@@ -11,22 +12,22 @@ use crate::worker::{Heard, WorkerLine};
 /// A line to an engine of its own.
 pub(crate) struct WorkerLink<M> {
     line: Option<WorkerLine>,
-    ctx: egui::Context,
+    waker: Waker,
     failure: Option<String>,
     engine: PhantomData<M>,
 }
 
 impl<M: Sent> WorkerLink<M> {
-    /// Starts an engine; `ctx` draws again whenever it has something to say.
-    pub(crate) fn new(ctx: egui::Context) -> Self {
-        let mut link = Self::idle(ctx);
+    /// Starts an engine; the window draws again whenever it has something to say.
+    pub(crate) fn new(waker: Waker) -> Self {
+        let mut link = Self::idle(waker);
         link.restart();
         link
     }
 
     /// A line without an engine: the first command starts one.
-    pub(crate) fn idle(ctx: egui::Context) -> Self {
-        Self { line: None, ctx, failure: None, engine: PhantomData }
+    pub(crate) fn idle(waker: Waker) -> Self {
+        Self { line: None, waker, failure: None, engine: PhantomData }
     }
 
     /// The first failure is the cause; what follows from it says less.
@@ -62,9 +63,8 @@ impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
         let started = match &mut self.line {
             Some(line) => line.restart(),
             None => {
-                let ctx = self.ctx.clone();
-                WorkerLine::start(M::JOB, M::is_passing_header, move || ctx.request_repaint())
-                    .map(|line| self.line = Some(line))
+                let waker = self.waker.clone();
+                WorkerLine::start(M::JOB, M::is_passing_header, move || waker.wake()).map(|line| self.line = Some(line))
             }
         };
         if let Err(error) = started {

@@ -1,17 +1,22 @@
 //! Lumen in a browser: what the page gives the app.
 //!
-//! - [`page`]: starts the app on the canvas, with WebGPU or WebGL2, and tells the page how it goes.
+//! - [`page`]: starts the app and tells the page how it goes; [`graphics`]: WebGPU or WebGL2 on the canvas, started again
+//!   where it is lost.
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
 //! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads.
 //! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker; [`link`]: that line as the app's
-//!   line to the engine.
+//!   line to the engine; [`bytes`]: copies that may fail.
 //!
 //! The page itself is in `www/`; `cargo xtask build` puts both together.
 
 #[cfg(target_arch = "wasm32")]
+mod bytes;
+#[cfg(target_arch = "wasm32")]
 mod files;
 #[cfg(target_arch = "wasm32")]
 mod gamepad;
+#[cfg(target_arch = "wasm32")]
+mod graphics;
 #[cfg(target_arch = "wasm32")]
 mod job;
 #[cfg(target_arch = "wasm32")]

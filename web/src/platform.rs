@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 use lumen::app::trial::Offer;
-use lumen::app::{Gamepad, Platform, PlatformEvent};
+use lumen::app::{Gamepad, Platform, PlatformEvent, Waker};
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
 use wasm_bindgen::prelude::*;
@@ -22,29 +22,31 @@ pub(crate) struct Browser {
     link: WorkerLink<Engine>,
     trial: WorkerLink<TrialEngine>,
     inbox: Rc<RefCell<VecDeque<PlatformEvent>>>,
+    waker: Waker,
 }
 
 impl Browser {
     /// Starts the engine, that of the trial when it is needed; `ctx` draws again whenever there is news.
     pub(crate) fn new(ctx: &egui::Context) -> Self {
-        wake_at_gamepad(ctx);
-        Self { link: WorkerLink::new(ctx.clone()), trial: WorkerLink::idle(ctx.clone()), inbox: Rc::default() }
+        let waker = Waker::new(ctx);
+        wake_at_gamepad(waker.clone());
+        let (link, trial) = (WorkerLink::new(waker.clone()), WorkerLink::idle(waker.clone()));
+        Self { link, trial, inbox: Rc::default(), waker }
     }
 
     /// Where news is put, from wherever it comes.
-    fn news(&self, ctx: &egui::Context) -> impl Fn(PlatformEvent) + Clone + 'static {
-        let (inbox, ctx) = (Rc::clone(&self.inbox), ctx.clone());
+    fn news(&self) -> impl Fn(PlatformEvent) + Clone + 'static {
+        let (inbox, waker) = (Rc::clone(&self.inbox), self.waker.clone());
         move |event| {
             inbox.borrow_mut().push_back(event);
-            ctx.request_repaint();
+            waker.wake();
         }
     }
 }
 
 /// Draws again when a gamepad is plugged in: until then it is not asked.
-fn wake_at_gamepad(ctx: &egui::Context) {
-    let ctx = ctx.clone();
-    let wake = Closure::<dyn Fn()>::new(move || ctx.request_repaint());
+fn wake_at_gamepad(waker: Waker) {
+    let wake = Closure::<dyn Fn()>::new(move || waker.wake());
     let window = web_sys::window();
     // Where it cannot be heard, the next movement of the pointer finds the gamepad.
     let _ = window.map(|w| w.add_event_listener_with_callback("gamepadconnected", wake.as_ref().unchecked_ref()));
@@ -61,8 +63,9 @@ fn chosen((name, bytes): files::Chosen) -> PlatformEvent {
 
 /// Makes a download, or says why not.
 fn save(name: &str, bytes: &[u8]) -> Result<(), String> {
-    files::save(name, bytes)
-        .map_err(|_| format!("The browser has no memory left for the {:.0} MB of {name}.", bytes.len() as f64 / 1e6))
+    files::save(name, bytes).map_err(|_| {
+        format!("{name} was not saved: the browser has no memory left for {:.1} MB.", bytes.len() as f64 / 1e6)
+    })
 }
 
 impl Platform for Browser {
@@ -74,20 +77,24 @@ impl Platform for Browser {
         &mut self.trial
     }
 
+    fn enter(&mut self, ctx: &egui::Context) {
+        self.waker.enter(ctx);
+    }
+
     fn gamepad(&self) -> Option<Gamepad> {
         crate::gamepad::read()
     }
 
-    fn choose_file(&mut self, ctx: &egui::Context) {
-        let news = self.news(ctx);
+    fn choose_file(&mut self, _: &egui::Context) {
+        let news = self.news();
         let tell = news.clone();
         if files::open(ACCEPT, move |file| tell(chosen(file))).is_err() {
             news(PlatformEvent::Failed { message: "The browser opened no file dialog.".to_owned() });
         }
     }
 
-    fn read_dropped(&mut self, file: egui::DroppedFileHandle, ctx: &egui::Context) {
-        let news = self.news(ctx);
+    fn read_dropped(&mut self, file: egui::DroppedFileHandle, _: &egui::Context) {
+        let news = self.news();
         spawn_local(async move {
             let event = match file.web_file() {
                 Some(file) => chosen((file.name(), files::read(file).await)),
@@ -97,21 +104,21 @@ impl Platform for Browser {
         });
     }
 
-    fn offer_file(&mut self, name: &str, bytes: Vec<u8>, ctx: &egui::Context) {
+    fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {
         let event = match save(name, &bytes) {
             Ok(()) => PlatformEvent::Saved { message: format!("{name} was saved.") },
             Err(message) => PlatformEvent::Failed { message },
         };
-        self.news(ctx)(event);
+        self.news()(event);
     }
 
-    fn offer_pair(&mut self, [first, second]: [Offer; 2], ctx: &egui::Context) {
+    fn offer_pair(&mut self, [first, second]: [Offer; 2], _: &egui::Context) {
         let saved = save(&first.name, &first.bytes).and_then(|()| save(&second.name, &second.bytes));
         let event = match saved {
             Ok(()) => PlatformEvent::Saved { message: format!("{} and {} were saved.", first.name, second.name) },
             Err(message) => PlatformEvent::Failed { message },
         };
-        self.news(ctx)(event);
+        self.news()(event);
     }
 
     fn poll(&mut self) -> Option<PlatformEvent> {

@@ -16,16 +16,22 @@ use lumen::engine::wire::{Buffers, Encoded};
 use wasm_bindgen::prelude::*;
 use web_sys::{ErrorEvent, MessageEvent, Worker, WorkerOptions, WorkerType};
 
+use crate::bytes;
+
 /// A message as a script value, and the list of what is to be transferred rather than copied again.
-pub(crate) fn pack((header, buffers): &Encoded<'_>) -> (Array, Array) {
+///
+/// # Errors
+///
+/// When the browser has no memory left for the copies.
+pub(crate) fn pack((header, buffers): &Encoded<'_>) -> Result<(Array, Array), JsValue> {
     let values = Array::of1(&JsValue::from_str(header));
     let transfer = Array::new();
     for buffer in buffers {
-        let buffer = Uint8Array::from(*buffer).buffer();
+        let buffer = bytes::copied(buffer)?.buffer();
         values.push(&buffer);
         transfer.push(&buffer);
     }
-    (values, transfer)
+    Ok((values, transfer))
 }
 
 /// A message that has arrived; its buffers are still outside this instance's memory.
@@ -41,7 +47,7 @@ impl Received {
     pub(crate) fn unpack(value: &JsValue) -> Option<Self> {
         let values: &Array = value.dyn_ref()?;
         let header = values.get(0).as_string()?;
-        let buffers = values.iter().skip(1).map(|buffer| Uint8Array::new(&buffer)).collect();
+        let buffers = values.iter().skip(1).map(|buffer| bytes::view(&buffer).ok()).collect::<Option<_>>()?;
         Some(Self { header, buffers })
     }
 }
@@ -96,7 +102,7 @@ impl WorkerLine {
     ///
     /// What the browser answers when there is no memory left for the copies.
     pub(crate) fn send(&self, message: &Encoded<'_>) -> Result<(), JsValue> {
-        let (values, transfer) = pack(message);
+        let (values, transfer) = pack(message)?;
         self.worker.post_message_with_transfer(&values, &transfer)
     }
 

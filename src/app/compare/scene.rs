@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use egui::TextureId;
-use egui::mutex::RwLock;
 
 use crate::app::scene::upload;
+use crate::app::window_texture::{WindowRenderer, WindowTarget};
 use crate::mesh::TriMesh;
-use crate::render::{Camera, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError, ViewTarget};
+use crate::render::{Camera, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError};
 
 /// How a picture is taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,15 +26,14 @@ pub(super) struct Shot {
 pub(super) struct CompareScene {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    window: Arc<RwLock<egui_wgpu::Renderer>>,
+    window: WindowRenderer,
     renderer: Renderer,
     surfaces: Vec<(Arc<TriMesh>, GpuSurface)>,
     pictures: Vec<PictureSlot>,
 }
 
 struct PictureSlot {
-    target: ViewTarget,
-    texture: TextureId,
+    shown: WindowTarget,
     drawn: Option<(Arc<TriMesh>, Shot)>,
 }
 
@@ -61,28 +60,21 @@ impl CompareScene {
     /// When the surface does not fit into the memory that the device allows.
     pub(super) fn draw(&mut self, index: usize, mesh: &Arc<TriMesh>, shot: &Shot) -> Result<TextureId, SurfaceError> {
         while self.pictures.len() <= index {
-            let target = ViewTarget::new(&self.device, 1, 1);
-            let filter = wgpu::FilterMode::Linear;
-            let texture = self.window.write().register_native_texture(&self.device, target.view(), filter);
-            self.pictures.push(PictureSlot { target, texture, drawn: None });
+            self.pictures.push(PictureSlot { shown: WindowTarget::new(&self.device, &self.window), drawn: None });
         }
         let surface = self.surface(mesh)?;
         let slot = &mut self.pictures[index];
         if slot.drawn.as_ref().is_some_and(|(drawn, of)| Arc::ptr_eq(drawn, mesh) && of == shot) {
-            return Ok(slot.texture);
+            return Ok(slot.shown.id());
         }
-        if slot.target.resize(&self.device, shot.size[0], shot.size[1]) {
-            let filter = wgpu::FilterMode::Linear;
-            let view = slot.target.view();
-            self.window.write().update_egui_texture_from_wgpu_texture(&self.device, view, filter, slot.texture);
-        }
+        slot.shown.resize(&self.device, shot.size);
         let surface = &self.surfaces[surface].1;
         let drawables: Vec<_> = shot.looks.iter().map(|&look| Drawable { surface, look, tint: None }).collect();
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("cell") });
-        self.renderer.draw(&self.device, &mut encoder, &slot.target, &shot.camera, &drawables, &shot.style);
+        self.renderer.draw(&self.device, &mut encoder, slot.shown.target(), &shot.camera, &drawables, &shot.style);
         self.queue.submit([encoder.finish()]);
         slot.drawn = Some((mesh.clone(), shot.clone()));
-        Ok(slot.texture)
+        Ok(slot.shown.id())
     }
 
     /// The place of `mesh` among the surfaces; it is uploaded the first time.
@@ -94,15 +86,5 @@ impl CompareScene {
         upload(&self.device, &self.queue, &mut surface, mesh)?;
         self.surfaces.push((mesh.clone(), surface));
         Ok(self.surfaces.len() - 1)
-    }
-}
-
-impl Drop for CompareScene {
-    /// The window has pictures of its own for these.
-    fn drop(&mut self) {
-        let mut window = self.window.write();
-        for slot in &self.pictures {
-            window.free_texture(&slot.texture);
-        }
     }
 }

@@ -6,6 +6,7 @@ use egui::{UiBuilder, WidgetInfo, pos2, vec2};
 use super::cell::{self, Arrangement, Manner};
 use super::scene::CompareScene;
 use super::{Cell, Comparison, MOST, Outcome, words};
+use crate::app::NO_MEMORY;
 use crate::app::control::name;
 use crate::app::document::Document;
 use crate::app::icon::{self, Icon};
@@ -25,6 +26,8 @@ pub(in crate::app) struct CompareView {
     device: Option<egui_wgpu::RenderState>,
     /// Made when the view is first shown.
     scene: Option<CompareScene>,
+    /// Whether the device had no memory for it.
+    is_refused: bool,
     /// Whether the pointer was over a picture, where the wheel zooms; elsewhere it scrolls.
     over_picture: bool,
 }
@@ -39,12 +42,17 @@ enum Deed {
 impl CompareView {
     /// A view on the window's device; without one (in some tests) it says so.
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
-        Self { device: device.cloned(), scene: None, over_picture: false }
+        Self { device: device.cloned(), scene: None, is_refused: false, over_picture: false }
     }
 
     /// Lets go of GPU memory, for while the view is not shown.
     pub(in crate::app) fn let_go(&mut self) {
-        self.scene = None;
+        (self.scene, self.is_refused) = (None, false);
+    }
+
+    /// Gives up what stands on the device, whose memory is full, until the view is shown anew.
+    pub(in crate::app) fn refuse(&mut self) {
+        self.is_refused = self.scene.take().is_some();
     }
 
     /// Shows the comparison in what is left of `ui`; a cell that is clicked becomes `settings`.
@@ -57,7 +65,7 @@ impl CompareView {
         document: Option<&Document>,
         is_narrow: bool,
     ) {
-        if let (None, Some(device)) = (&self.scene, &self.device) {
+        if let (None, false, Some(device)) = (&self.scene, self.is_refused, &self.device) {
             self.scene = Some(CompareScene::new(device));
         }
         let made = comparison.cells().iter().filter_map(|cell| match &cell.outcome {
@@ -174,6 +182,7 @@ impl CompareView {
                     failure = Some(format!("The surface cannot be drawn: {error}."));
                 }
             }
+            (Outcome::Done(_), None) if self.is_refused => failure = Some(NO_MEMORY.to_owned()),
             (Outcome::Done(_), None) => failure = Some("There is no graphics device to draw with.".to_owned()),
             (Outcome::Waiting | Outcome::Failed(_), _) => {
                 ui.painter().rect_filled(above, 0.0, ui.visuals().faint_bg_color);

@@ -127,6 +127,11 @@ impl CArm {
         is_due
     }
 
+    /// The window's clock begins anew: a pulse is due, and contrast given by the old one is gone.
+    pub(super) fn restart_clock(&mut self) {
+        (self.given, self.last) = (None, f64::NEG_INFINITY);
+    }
+
     /// Seconds until the next pulse.
     pub(super) fn until_pulse(&self, now: f64) -> f64 {
         (self.last + 1.0 / f64::from(self.rate) - now).max(0.0)
@@ -192,6 +197,15 @@ mod tests {
         let (near, far) = (shown(&arm, Vec3::new(50.0, 100.0, 0.0)).0, shown(&arm, Vec3::new(50.0, -100.0, 0.0)).0);
         let expected = (SOURCE + 100.0) / (SOURCE - 100.0);
         assert!((near / far - expected).abs() < 1e-3, "{near} {far}");
+    }
+
+    #[test]
+    fn pulses_go_on_where_the_clock_begins_anew() {
+        let mut arm = CArm::default();
+        assert!(arm.pulses_at(500.0));
+        arm.give_contrast(500.0);
+        arm.restart_clock();
+        assert!(arm.pulses_at(0.1) && arm.contrast_s(0.1).is_none());
     }
 
     #[test]

@@ -557,6 +557,11 @@ impl Trial {
         }
     }
 
+    /// Hears that the window's clock begins anew.
+    pub(super) fn restart_clock(&mut self) {
+        self.carm.restart_clock();
+    }
+
     /// Hears that the engine has stopped by itself; what is open stands.
     pub fn engine_failed(&mut self, reason: &str, link: &mut TrialLink) -> String {
         link.restart();

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
 use egui::TextureId;
-use egui::mutex::RwLock;
 use web_time::Instant;
 
 use super::peaks::Peaks;
+use crate::app::window_texture::{WindowTarget, WindowTexture};
 use crate::engine::trial::RouteShown;
 use crate::mesh::{Topology, TriMesh, Vec3, boundary_loops};
 use crate::pipeline::normals::{Weighting, vertex_normals};
@@ -26,7 +26,6 @@ const TIMED_SIZE: [u32; 2] = [1280, 800];
 pub(super) struct TrialScene {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    window: Arc<RwLock<egui_wgpu::Renderer>>,
     renderer: TrialRenderer,
     vessel: GpuSurface,
     body: GpuSurface,
@@ -37,7 +36,7 @@ pub(super) struct TrialScene {
     of: Option<(Arc<TriMesh>, Peaks)>,
     uploaded: u64,
     views: [View; 2],
-    picture: (FluoroscopyTarget, TextureId),
+    picture: (FluoroscopyTarget, WindowTexture),
     /// The camera that the thickness is of.
     measured: Option<Camera>,
     /// Counts up whenever vessel, forces or wire change.
@@ -47,8 +46,7 @@ pub(super) struct TrialScene {
 }
 
 struct View {
-    target: ViewTarget,
-    texture: TextureId,
+    shown: WindowTarget,
     drawn: Option<Drawn>,
 }
 
@@ -69,23 +67,15 @@ impl TrialScene {
     pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
         let (device, queue) = (state.device.clone(), state.queue.clone());
         let renderer = TrialRenderer::new(&device, &queue, ThicknessFormat::of(&state.adapter));
-        let register = |view: &wgpu::TextureView| {
-            state.renderer.write().register_native_texture(&device, view, wgpu::FilterMode::Linear)
-        };
-        let view = || {
-            let target = ViewTarget::new(&device, 1, 1);
-            let texture = register(target.view());
-            View { target, texture, drawn: None }
-        };
+        let view = || View { shown: WindowTarget::new(&device, &state.renderer), drawn: None };
         let views = [view(), view()];
         let target = renderer.fluoroscopy_target(&device, [1, 1]);
-        let texture = register(target.view());
+        let texture = WindowTexture::new(&device, &state.renderer, target.view());
         Ok(Self {
             vessel: GpuSurface::new(&device, &queue, &[])?,
             body: GpuSurface::new(&device, &queue, &[])?,
             wire: GpuWire::default(),
             seen: GpuWire::default(),
-            window: state.renderer.clone(),
             renderer,
             of: None,
             uploaded: 0,
@@ -158,40 +148,37 @@ impl TrialScene {
     /// Draws the wire in the vessel, if it would look other than it does, and gives the texture that it is in.
     pub(super) fn vessel(&mut self, camera: &Camera, size: [u32; 2], style: &Style) -> TextureId {
         let is_other = self.is_other(0, camera, size, style);
-        let View { target, texture, .. } = &self.views[0];
+        let shown = &self.views[0].shown;
         if !is_other {
-            return *texture;
+            return shown.id();
         }
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("trial") });
-        self.renderer.draw(&self.device, &mut encoder, target, camera, (&self.vessel, &self.wire), style);
+        self.renderer.draw(&self.device, &mut encoder, shown.target(), camera, (&self.vessel, &self.wire), style);
         self.queue.submit([encoder.finish()]);
-        *texture
+        shown.id()
     }
 
     /// Draws what the tip sees, if that is other than it was, and gives the texture that it is in.
     pub(super) fn tip(&mut self, camera: &Camera, size: [u32; 2], style: &Style) -> TextureId {
         let is_other = self.is_other(1, camera, size, style);
-        let View { target, texture, .. } = &self.views[1];
+        let shown = &self.views[1].shown;
         if !is_other {
-            return *texture;
+            return shown.id();
         }
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("tip") });
-        self.renderer.draw_inside(&self.device, &mut encoder, target, camera, &self.vessel, style);
+        self.renderer.draw_inside(&self.device, &mut encoder, shown.target(), camera, &self.vessel, style);
         self.queue.submit([encoder.finish()]);
-        *texture
+        shown.id()
     }
 
     /// Whether view `index` has to be drawn; it has the size for it then.
     fn is_other(&mut self, index: usize, camera: &Camera, size: [u32; 2], style: &Style) -> bool {
-        let View { target, texture, drawn } = &mut self.views[index];
+        let View { shown, drawn } = &mut self.views[index];
         let new = Drawn { camera: *camera, size, style: *style, changes: self.changes };
         if drawn.replace(new) == Some(new) {
             return false;
         }
-        if target.resize(&self.device, size[0], size[1]) {
-            let (filter, view) = (wgpu::FilterMode::Linear, target.view());
-            self.window.write().update_egui_texture_from_wgpu_texture(&self.device, view, filter, *texture);
-        }
+        shown.resize(&self.device, size);
         self.draws += 1;
         true
     }
@@ -203,11 +190,10 @@ impl TrialScene {
         let is_other = target.size() != size.map(|side| side.clamp(1, largest));
         if is_other {
             *target = self.renderer.fluoroscopy_target(&self.device, size);
-            let (filter, view) = (wgpu::FilterMode::Linear, target.view());
-            self.window.write().update_egui_texture_from_wgpu_texture(&self.device, view, filter, *texture);
+            texture.replace(&self.device, target.view());
             self.measured = None;
         }
-        (*texture, is_other)
+        (texture.id(), is_other)
     }
 
     /// Takes a fluoroscopy: of the wire at these nodes, or without any as it was seen last.
@@ -256,17 +242,6 @@ impl TrialScene {
             let _ = sender.send(since.elapsed().as_secs_f64() * 1000.0 / f64::from(TIMED));
         });
         Ok(receiver)
-    }
-}
-
-impl Drop for TrialScene {
-    /// The window has pictures of its own for these.
-    fn drop(&mut self) {
-        let mut window = self.window.write();
-        let [vessel, tip] = &self.views;
-        for texture in [vessel.texture, tip.texture, self.picture.1] {
-            window.free_texture(&texture);
-        }
     }
 }
 

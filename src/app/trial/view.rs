@@ -8,6 +8,7 @@ use glam::{Mat3, Quat};
 use super::readout::{is_small, plate};
 use super::scene::TrialScene;
 use super::{AWAITS, Stage, Trial, marks, tables};
+use crate::app::NO_MEMORY;
 use crate::app::control::name;
 use crate::app::document::Document;
 use crate::app::overlay::{self, Legend, NOT_CLINICAL};
@@ -62,6 +63,20 @@ impl TrialView {
     pub(in crate::app) fn let_go(&mut self) {
         (self.scene, self.failure) = (None, None);
         (self.felt, self.picture, self.held) = (0, None, None);
+    }
+
+    /// Takes another device, on which nothing of the views stands yet.
+    pub(in crate::app) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
+        self.let_go();
+        self.device = device.cloned();
+    }
+
+    /// Gives up what stands on the device, whose memory is full, until the views are shown anew.
+    pub(in crate::app) fn refuse(&mut self) {
+        if self.scene.is_some() {
+            self.let_go();
+            self.failure = Some(NO_MEMORY.to_owned());
+        }
     }
 
     /// Whether something stands in the memory of the device.

@@ -11,9 +11,10 @@ use std::time::Duration;
 use eframe::App as _;
 use egui_kittest::Harness;
 use lumen::app::trial::Offer;
-use lumen::app::{Gamepad, LumenApp, Platform, PlatformEvent};
+use lumen::app::{Gamepad, LastingApp, LumenApp, Platform, PlatformEvent, State};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
+use lumen::render::Fault;
 
 /// What the test sees of the platform.
 #[derive(Default)]
@@ -30,6 +31,8 @@ pub struct Memory {
     pub engine_failure: Option<String>,
     /// Engines that were started.
     pub engines: usize,
+    /// Windows that the app went on in.
+    pub windows: usize,
     /// Lets the engine work when it is listened to.
     pub runs: bool,
     /// How long it works in each frame.
@@ -131,6 +134,10 @@ impl Platform for MemoryPlatform {
         &mut self.trial
     }
 
+    fn enter(&mut self, _: &egui::Context) {
+        self.memory.borrow_mut().windows += 1;
+    }
+
     fn gamepad(&self) -> Option<Gamepad> {
         self.memory.borrow().gamepad
     }
@@ -171,10 +178,7 @@ pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) 
 
 /// The same, with so many seconds between two frames.
 pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
-    let memory =
-        Rc::new(RefCell::new(Memory { runs: true, slice: Duration::from_millis(50), engines: 1, ..Memory::default() }));
-    let trial = MemoryTrial { engine: TrialEngine::new(), now_s: 0.0, has_advanced: false, memory: memory.clone() };
-    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, trial, memory: memory.clone() };
+    let (platform, memory) = platform();
     let harness = Harness::builder()
         .with_size(size)
         .with_max_steps(4000)
@@ -182,6 +186,77 @@ pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<R
         .wgpu()
         .build_eframe(move |cc| LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), Box::new(platform)));
     (harness, memory)
+}
+
+fn platform() -> (MemoryPlatform, Rc<RefCell<Memory>>) {
+    let memory =
+        Rc::new(RefCell::new(Memory { runs: true, slice: Duration::from_millis(50), engines: 1, ..Memory::default() }));
+    let trial = MemoryTrial { engine: TrialEngine::new(), now_s: 0.0, has_advanced: false, memory: memory.clone() };
+    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, trial, memory: memory.clone() };
+    (platform, memory)
+}
+
+/// A window that is not there with a device of its own, and in it the app that is given or a new one, which outlives it.
+pub struct LastingWindow {
+    /// The window.
+    pub harness: Harness<'static, LastingApp>,
+    /// Its device.
+    pub device: egui_wgpu::wgpu::Device,
+    /// Why the device has to be replaced, once it has to be.
+    pub end: Rc<RefCell<Option<Fault>>>,
+}
+
+impl LastingWindow {
+    /// A window of `size` points.
+    ///
+    /// # Panics
+    /// Where there is no graphics device.
+    pub fn new(size: [f32; 2], kept: Option<LastingApp>) -> Self {
+        let end: Rc<RefCell<Option<Fault>>> = Rc::default();
+        let device: Rc<RefCell<Option<egui_wgpu::wgpu::Device>>> = Rc::default();
+        let (noted, found) = (end.clone(), device.clone());
+        let harness = Harness::builder().with_size(size).with_max_steps(4000).wgpu().build_eframe(move |cc| {
+            let state = cc.wgpu_render_state.as_ref();
+            found.replace(state.map(|state| state.device.clone()));
+            let app = match kept {
+                Some(app) => {
+                    app.resume(&cc.egui_ctx, state);
+                    app
+                }
+                None => LastingApp::new(LumenApp::new(&cc.egui_ctx, state, Box::new(platform().0))),
+            };
+            app.ending_by(Rc::new(move |_, fault| {
+                noted.borrow_mut().get_or_insert(fault);
+            }))
+        });
+        let device = device.take().expect("a window with a device");
+        Self { harness, device, end }
+    }
+
+    /// Steps until the engine has nothing more to do.
+    ///
+    /// # Panics
+    /// When that takes too long.
+    pub fn settle(&mut self) {
+        for _ in 0..2000 {
+            self.harness.step();
+            if self.harness.state().look(|app| is_settled(app.state())) {
+                self.harness.run_steps(2);
+                return;
+            }
+        }
+        panic!("the engine does not come to an end");
+    }
+}
+
+fn is_settled(state: &State) -> bool {
+    let is_measured = state.document.as_ref().is_some_and(|document| {
+        document
+            .measured
+            .as_ref()
+            .is_some_and(|measured| !measured.deviation.is_empty() && measured.generation == state.generation())
+    });
+    is_measured && !state.is_busy()
 }
 
 /// Lets the app look after itself `times` times as eframe does while the window is minimised or its tab hidden: no
@@ -206,14 +281,7 @@ pub fn hide(harness: &mut Harness<'_, LumenApp>, times: usize) {
 pub fn settle(harness: &mut Harness<'_, LumenApp>) {
     for _ in 0..2000 {
         harness.step();
-        let state = harness.state().state();
-        let is_measured = state.document.as_ref().is_some_and(|document| {
-            document
-                .measured
-                .as_ref()
-                .is_some_and(|measured| !measured.deviation.is_empty() && measured.generation == state.generation())
-        });
-        if is_measured && !state.is_busy() {
+        if is_settled(harness.state().state()) {
             harness.run_steps(2);
             return;
         }

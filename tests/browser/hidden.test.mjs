@@ -1,0 +1,79 @@
+// A page that nobody sees: what is held when it is hidden is not held on behind it.
+//
+// A browser without a window shows every page, so the page is told that it is hidden in the way in which it would find
+// out: `document.hidden`, an event, no frames, timers once a second.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { settled } from "./app.mjs";
+import { eventually, frames, launch, openApp, press, started, texts, twin } from "./browser.mjs";
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+/** Runs in the page before the app: `hide()` and `show()`. */
+function hideable() {
+  const [frame, cancel, timer] = [window.requestAnimationFrame, window.cancelAnimationFrame, window.setTimeout];
+  let [isHidden, last] = [false, 0];
+  const waiting = new Map();
+  Object.defineProperty(document, "hidden", { get: () => isHidden });
+  Object.defineProperty(document, "visibilityState", { get: () => (isHidden ? "hidden" : "visible") });
+  window.requestAnimationFrame = (work) => {
+    if (!isHidden) return frame.call(window, work);
+    waiting.set(--last, work);
+    return last;
+  };
+  window.cancelAnimationFrame = (id) => (waiting.delete(id) ? undefined : cancel.call(window, id));
+  window.setTimeout = (work, ms, ...rest) => timer.call(window, work, isHidden ? Math.max(ms ?? 0, 1000) : ms, ...rest);
+  const turn = (hidden) => {
+    isHidden = hidden;
+    document.dispatchEvent(new Event("visibilitychange", { bubbles: true }));
+    if (hidden) window.dispatchEvent(new FocusEvent("blur"));
+    else for (const [id, work] of waiting) waiting.delete(id) && frame.call(window, work);
+  };
+  window.hide = () => turn(true);
+  window.show = () => turn(false);
+}
+
+const hideablePage = { before: (page) => page.addInitScript(hideable) };
+
+const inserted = async (page) => {
+  const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
+  return text ? Number(text.split(" ")[0]) : null;
+};
+
+test("the wire stops where the page is hidden with a key held", async (t) => {
+  const { page } = await openApp(t, browser, hideablePage);
+  await settled(page);
+  await press(page, "button", "Trial");
+  const start = await eventually(() => inserted(page), (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  await page.keyboard.down("w");
+  const moving = await eventually(() => inserted(page), (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await page.evaluate(() => window.hide());
+  await new Promise((later) => setTimeout(later, 5000));
+  await page.keyboard.up("w");
+  await new Promise((later) => setTimeout(later, 1500));
+  await page.evaluate(() => window.show());
+  await frames(page, 30);
+  const now = await inserted(page);
+  t.diagnostic(`${(10 * (now - moving)).toFixed(0)} mm were fed while the page was hidden`);
+  // At 15 mm/s: what was under way, and no more than a second of it.
+  assert(now - moving <= 1.5, `from ${moving} cm to ${now} cm while nobody saw it`);
+});
+
+test("work that ends while the page is hidden is there when it is shown", async (t) => {
+  const { page, wrong } = await openApp(t, browser, hideablePage);
+  await settled(page);
+  const iterations = twin(page, "slider", "Iterations");
+  await iterations.evaluate((twin) => twin.focus());
+  await eventually(() => page.locator("#lumen").getAttribute("aria-activedescendant"), (id) => id !== null);
+  await page.keyboard.press("ArrowRight");
+  await frames(page, 3);
+  await page.evaluate(() => window.hide());
+  await new Promise((later) => setTimeout(later, 4000));
+  await page.evaluate(() => window.show());
+  await started(page);
+  await settled(page);
+  assert.deepEqual(wrong, []);
+});

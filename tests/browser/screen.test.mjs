@@ -1,0 +1,129 @@
+// The window changes: its size, the pixels a point has. And the finger in place of the mouse.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { REDUCTION, settled, shownTriangles, silhouette, views } from "./app.mjs";
+import { eventually, frames, launch, openApp, press, texts, twin, value } from "./browser.mjs";
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+
+/** Size of the canvas in CSS pixels and in its own. */
+const sizes = (page) =>
+  page.evaluate(() => {
+    const canvas = document.getElementById("lumen");
+    const { width, height } = canvas.getBoundingClientRect();
+    return { css: [width, height], own: [canvas.width, canvas.height] };
+  });
+
+/** Every control lies within the window. */
+async function controlsAreWithin(page, [width, height]) {
+  for (const name of ["Open...", "Save"]) {
+    const box = await twin(page, "button", name).boundingBox();
+    assert(box.x >= 0 && box.y >= 0 && box.x + box.width <= width && box.y + box.height <= height, `${name}: ${JSON.stringify(box)}`);
+  }
+}
+
+test("the picture follows the window's size and the pixels of a point", async (t) => {
+  const { page, wrong } = await openApp(t, browser);
+  await settled(page);
+  const device = await page.context().newCDPSession(page);
+  for (const [width, height, deviceScaleFactor] of [[1280, 800, 1], [900, 600, 1], [900, 600, 2], [1024, 700, 1.5], [480, 800, 1], [1280, 800, 1]]) {
+    await device.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor, mobile: false });
+    const wanted = [Math.round(width * deviceScaleFactor), Math.round(height * deviceScaleFactor)];
+    await eventually(() => sizes(page), ({ css, own }) => css[0] === width && own[0] === wanted[0] && own[1] === wanted[1], {
+      what: `a canvas of ${wanted} pixels`,
+    });
+    await frames(page, 5);
+    await controlsAreWithin(page, [width, height]);
+    const view = await views.shaded(page).boundingBox();
+    const pixels = await silhouette(page, views.shaded(page));
+    const part = pixels / (view.width * view.height * (deviceScaleFactor >= 1 ? deviceScaleFactor ** 2 : 1));
+    t.diagnostic(`${width} x ${height} at ${deviceScaleFactor}: the vessel covers ${(100 * part).toFixed(1)} % of its view`);
+    assert(part > 0.02 && part < 0.7, `the vessel covers ${part} of its view`);
+  }
+  assert.deepEqual(wrong, []);
+});
+
+/** Touches at these points, as { x, y, id }, for one event. */
+const touch = (session, type, points) =>
+  session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(({ x, y, id = 0 }) => ({ x, y, id, radiusX: 5, radiusY: 5, force: 1 })) });
+
+const middle = ({ x, y, width, height }) => ({ x: x + width / 2, y: y + height / 2 });
+
+test("a finger moves the slider, turns the view, and two of them zoom", async (t) => {
+  const { page, wrong } = await openApp(t, browser, { context: PHONE });
+  const shown = shownTriangles(await settled(page));
+  const session = await page.context().newCDPSession(page);
+
+  const slider = twin(page, "slider", REDUCTION);
+  const rate = await value(slider);
+  const box = await slider.boundingBox();
+  const at = (part) => [{ x: box.x + box.width * part, y: box.y + box.height / 2 }];
+  await touch(session, "touchStart", at(0.8));
+  for (const part of [0.7, 0.6, 0.5]) {
+    await touch(session, "touchMove", at(part));
+    await frames(page, 2);
+  }
+  await touch(session, "touchEnd", []);
+  await eventually(() => value(slider), (now) => now < rate, { what: "the slider" });
+  assert.notEqual(shownTriangles(await settled(page)), shown, "another level is shown");
+
+  const view = middle(await views.shaded(page).boundingBox());
+  const pixels = () => silhouette(page, views.shaded(page));
+  const before = await pixels();
+  const pair = (gap) => [{ x: view.x - gap, y: view.y, id: 0 }, { x: view.x + gap, y: view.y, id: 1 }];
+  await touch(session, "touchStart", pair(80));
+  for (let gap = 80; gap >= 40; gap -= 5) {
+    await touch(session, "touchMove", pair(gap));
+    await frames(page, 2);
+  }
+  await touch(session, "touchEnd", []);
+  await frames(page, 5);
+  const small = await pixels();
+  assert(small < 0.6 * before, `two fingers drawn together: ${small} pixels of ${before}`);
+
+  const turned = await page.screenshot({ clip: await views.shaded(page).boundingBox() });
+  await touch(session, "touchStart", [view]);
+  for (let x = 0; x <= 60; x += 10) {
+    await touch(session, "touchMove", [{ x: view.x + x, y: view.y }]);
+    await frames(page, 2);
+  }
+  await touch(session, "touchEnd", []);
+  await frames(page, 5);
+  assert.notDeepEqual(await page.screenshot({ clip: await views.shaded(page).boundingBox() }), turned, "one finger turns");
+  assert.deepEqual(wrong, []);
+});
+
+test("a finger on the pad feeds the wire for as long as it is there", async (t) => {
+  const { page, wrong } = await openApp(t, browser, { context: PHONE });
+  await settled(page);
+  const session = await page.context().newCDPSession(page);
+  await press(page, "button", "Trial");
+  const inserted = async () => {
+    const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
+    return text ? Number(text.split(" ")[0]) : null;
+  };
+  const start = await eventually(inserted, (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const pad = await twin(page, "slider", "Feed pad").boundingBox();
+  const held = [{ x: pad.x + pad.width * 0.8, y: pad.y + pad.height / 2 }];
+  await touch(session, "touchStart", held);
+  await eventually(inserted, (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await touch(session, "touchEnd", []);
+  let last = -1;
+  await eventually(
+    async () => {
+      const now = await inserted();
+      const rests = now === last;
+      last = now;
+      if (rests) await new Promise((later) => setTimeout(later, 1000));
+      return rests && (await inserted()) === now;
+    },
+    (rests) => rests,
+    { what: "the wire at rest" },
+  );
+  assert.deepEqual(wrong, []);
+});

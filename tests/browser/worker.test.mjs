@@ -1,0 +1,79 @@
+// A Worker dies in the middle of its work, by a panic of the program in it: the page says so, another takes its place,
+// and what was open is opened again from the bytes that the page has kept.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { REDUCTION, openFile, save, settled, shownTriangles, stlTriangles } from "./app.mjs";
+import { dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+/** Lets the program in a Worker panic at its next look at the clock: there is none any more. */
+const breakClock = (worker) =>
+  worker.evaluate(() => Object.defineProperty(self, "performance", { value: undefined, configurable: true }));
+
+const says = (page, pattern) =>
+  eventually(() => texts(page), (all) => all.some((text) => pattern.test(text)), { what: `a sentence like ${pattern}` });
+
+/** One step of a slider by the keyboard, which sets the engine to work. */
+async function nudge(page) {
+  const iterations = twin(page, "slider", "Iterations");
+  await iterations.evaluate((twin) => twin.focus());
+  await eventually(() => page.locator("#lumen").getAttribute("aria-activedescendant"), (id) => id !== null);
+  await page.keyboard.press("ArrowRight");
+}
+
+/** A square of 2 n^2 triangles, as OBJ. */
+function sheet(n) {
+  const lines = [];
+  for (let i = 0; i <= n; i++) for (let j = 0; j <= n; j++) lines.push(`v ${i * 3} ${j * 3} ${Math.sin(i / 2) * Math.cos(j / 2)}`);
+  for (let i = 0; i < n; i++) {
+    for (let j = 0; j < n; j++) {
+      const at = i * (n + 1) + j + 1;
+      lines.push(`f ${at} ${at + n + 1} ${at + 1}`, `f ${at + 1} ${at + n + 1} ${at + n + 2}`);
+    }
+  }
+  return Buffer.from(lines.join("\n"));
+}
+
+test("the engine dies three times, and what was open is never lost", { timeout: 300_000 }, async (t) => {
+  const { page } = await openApp(t, browser);
+  await settled(page);
+  await openFile(page, { name: "sheet.obj", buffer: sheet(40) });
+  await eventually(() => texts(page), (all) => all.some((text) => / of 3,200$/.test(text)), { what: "the sheet" });
+  await settled(page);
+  await dragTo(page, REDUCTION, 50);
+  const shown = shownTriangles(await settled(page));
+  for (let death = 1; death <= 2; death++) {
+    await breakClock(page.workers()[0]);
+    await nudge(page);
+    await says(page, /^The computation stopped \(.+\) and was started again\. Nothing was lost\.$/);
+    const all = await settled(page);
+    assert.equal(shownTriangles(all), shown, `after death ${death}`);
+    assert(all.some((text) => /sheet\.obj/.test(text)) || (await twin(page, "img", /shaded/i).count()) > 0);
+    assert.equal(page.workers().length, 1, "one Worker, no more");
+  }
+  const { bytes } = await save(page, "STL");
+  assert.equal(stlTriangles(bytes), shown, "the new engine saves what is shown");
+});
+
+test("the trial's engine dies: the surface stays, and a new trial starts", { timeout: 300_000 }, async (t) => {
+  const { page } = await openApp(t, browser);
+  const shown = shownTriangles(await settled(page));
+  await press(page, "button", "Trial");
+  const inserted = () => texts(page).then((all) => all.find((text) => /^[\d.]+ cm$/.test(text)) ?? null);
+  await eventually(inserted, (text) => text !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const [, trial] = page.workers();
+  await breakClock(trial);
+  // It looks at the clock when it prepares another way.
+  await press(page, "button", "Restart");
+  await page.keyboard.down("w");
+  await says(page, /^The trial stopped \(.+\)\. The surface is still open; start again\.$/);
+  await page.keyboard.up("w");
+  await press(page, "button", "Trial");
+  assert.equal(shownTriangles(await settled(page)), shown);
+  await press(page, "button", "Trial");
+  await eventually(inserted, (text) => text !== null, { timeout: 60_000, what: "the wire at the entry, again" });
+});
