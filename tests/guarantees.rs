@@ -11,7 +11,7 @@ use lumen::mesh::{TriMesh, Vec3};
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Keep, Method, Settings, Target};
+use lumen::pipeline::settings::{Keep, Method, Settings, Smoothing, Target};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
