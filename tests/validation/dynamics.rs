@@ -102,16 +102,16 @@ fn a_free_bar_moves_as_newton_has_it() {
     }
     let dt = exact / 2000.0;
     let (mut crossings, mut last) = (Vec::new(), 0.0_f64);
-    for step in 0..5000 {
+    for step in 0..5000_u32 {
         body.step(dt, 0, |_| ());
         let ends = f64::midpoint(body.rod.positions[0].y, body.rod.positions[NODES - 1].y);
         let bow = ends - body.rod.positions[NODES / 2].y;
         if last < 0.0 && bow >= 0.0 || last > 0.0 && bow <= 0.0 {
-            crossings.push((step as f64 + last / (last - bow)) * dt);
+            crossings.push((f64::from(step) + last / (last - bow)) * dt);
         }
         last = bow;
         if step % 40 == 0 {
-            found.point("ours", step as f64 * dt / exact, bow);
+            found.point("ours", f64::from(step) * dt / exact, bow);
         }
     }
     let halves = crossings.len() - 1;

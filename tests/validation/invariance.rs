@@ -127,9 +127,9 @@ fn forces_do_not_depend_on_the_order_of_triangles() {
         assert_eq!(plain.len(), other.len());
         let apart = plain.iter().zip(&other).map(|(a, b)| a.0.distance(b.0));
         tip = tip.max(apart.fold(0.0, f64::max));
-        for k in 0..2 {
+        for (k, off) in off.iter_mut().enumerate() {
             let squares = plain.iter().zip(&other).map(|(a, b)| (a.1[k] - b.1[k]).powi(2)).sum::<f64>();
-            off[k] = off[k].max((squares / plain.len() as f64).sqrt() / mean(k));
+            *off = off.max((squares / plain.len() as f64).sqrt() / mean(k));
         }
     }
     found.compare("largest distance of the tip in five other orders (mm)", 0.0, tip, Within(0.01), 0);
