@@ -343,8 +343,8 @@ mod tests {
                 "Its vessels are 1.196 mm wide on average, which is unusual: the numbers of the file may be in cm (12.0 mm)."
             ]
         );
-        assert!(warnings(1e-3, Unit::Millimetre)[0].ends_with("its numbers may be in m (240 mm)."));
-        assert!(warnings(1.0, Unit::Centimetre)[0].ends_with("its numbers may be in mm (240 mm)."));
+        assert!(warnings(1e-3, Unit::Millimetre)[0].ends_with("its numbers may be in m (241 mm)."));
+        assert!(warnings(1.0, Unit::Centimetre)[0].ends_with("its numbers may be in mm (241 mm)."));
         for (part, unit) in [(1.0, Unit::Millimetre), (0.1, Unit::Centimetre), (1e-3, Unit::Metre)] {
             assert!(warnings(part, unit).is_empty(), "{:?}", warnings(part, unit));
         }
