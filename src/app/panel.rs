@@ -214,7 +214,7 @@ fn reduce(ui: &mut Ui, state: &mut State) {
     let decimation = &mut state.settings.decimation;
     ui.horizontal(|ui| {
         ui.label("Method").on_hover_text(
-            "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the error, better shape.",
+            "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the mean deviation, better shape.",
         );
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let list = ComboBox::from_id_salt("method").selected_text(decimation.method.name());

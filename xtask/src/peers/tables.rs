@@ -317,6 +317,7 @@ fn held(row: &Reduced, rows: &[Reduced]) -> String {
         }
         ("Lumen quadric", _, Some(vtk)) => {
             check(row.mean <= vtk.mean, "mean");
+            check(row.max <= vtk.max, "max");
             check(row.volume_percent.abs() <= vtk.volume_percent.abs(), "volume");
             check(row.rate != 90 || row.slivers_percent <= 1.2, "angles");
         }
