@@ -180,6 +180,11 @@ impl Document {
         let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
         let is_of_these = measured.report.after_connectivity.triangles == levels.triangles.len();
         let pinch = measured.report.pinch.as_ref().filter(|_| is_of_these)?;
+        // A coarser level may open a vessel again: where the level itself is measured, that counts.
+        let is_of_shown = measured.report.output.triangles == shown.level.triangles.len();
+        if is_of_shown && measured.report.narrowing.is_some_and(|found| found.pinched_places == 0) {
+            return None;
+        }
         (shown.level.triangles.len() <= pinch.triangles).then_some(pinch)
     }
 

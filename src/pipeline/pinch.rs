@@ -41,7 +41,7 @@ const RATES: usize = Target::MAX_PER_MILLE as usize + 1;
 /// The first reduction at which a vessel is pinched.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pinch {
-    /// From this reduction rate on, in percent.
+    /// The first reduction rate at which it is, in percent.
     pub from_percent: f64,
     /// Triangles of that level.
     pub triangles: usize,
@@ -57,7 +57,7 @@ impl std::fmt::Display for Pinch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { from_percent, at_mm: [x, y, z], diameter_before_mm: before, diameter_after_mm: after, .. } = *self;
         let fate = if after > 0.0 { "pinched" } else { "lost" };
-        write!(f, "A vessel of {before:.1} mm is {fate} at ({x:.1}, {y:.1}, {z:.1}) from {from_percent:.1} % on")
+        write!(f, "A vessel of {before:.1} mm is {fate} at ({x:.1}, {y:.1}, {z:.1}), first at {from_percent:.1} %")
     }
 }
 
