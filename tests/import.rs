@@ -176,8 +176,9 @@ fn facts_of(report: &ImportReport) -> Facts {
         degenerate: report.degenerate_triangles,
         duplicate: report.duplicate_triangles,
         flips: report.winding_flips,
-        // GLB files of the collection are in mm though glTF is metres: `scale_to_mm` brings back what stands there.
-        size: [side(0), side(1), side(2)],
+        // GLB files of the collection are in mm though glTF is metres: `scale_to_mm` brings back what stands there. And y
+        // is up in them, z in Lumen.
+        size: if report.format == "GLB" { [side(0), side(2), side(1)] } else { [side(0), side(1), side(2)] },
     }
 }
 

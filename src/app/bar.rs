@@ -7,7 +7,7 @@ use super::icon::{self, Icon};
 use super::state::State;
 use super::views::Views;
 use crate::digits::grouped;
-use crate::io::Format;
+use crate::io::{Axes, Format, Unit};
 use crate::phantom::Sample;
 
 /// What the user asked for in a bar or by a key.
@@ -15,6 +15,8 @@ use crate::phantom::Sample;
 pub enum Action {
     /// Choose a file to open.
     Open,
+    /// Choose a file to open whose numbers are in this unit.
+    OpenIn(Unit),
     /// Open a sample.
     Sample(Sample),
     /// Save the shown level.
@@ -58,6 +60,12 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool,
             ui.button("Open...").on_hover_text("STL, PLY, OBJ, GLB, glTF (Ctrl+O); or drop a file").clicked(),
             Action::Open,
         );
+        let open_in = ui.menu_button("Open in", |ui| {
+            for unit in Unit::ALL {
+                ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
+            }
+        });
+        open_in.response.on_hover_text("Open a file whose numbers are in another unit than mm (glTF: m)");
         ui.menu_button("Sample", |ui| {
             for sample in Sample::ALL {
                 ask(ui.button(sample.label()).clicked(), Action::Sample(sample));
@@ -68,8 +76,10 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool,
             ui.menu_button("Save", |ui| {
                 for format in Format::ALL {
                     let text = format!("{}...", format.label());
-                    ask(ui.button(text).clicked(), Action::Save(format));
+                    let unit = format!("Lengths in {}", format.unit());
+                    ask(ui.button(text).on_hover_text(unit).clicked(), Action::Save(format));
                 }
+                ui.label(RichText::new("Lengths in mm; in m for glTF").small().weak());
             });
         });
         if is_narrow {
@@ -90,7 +100,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool,
             );
             let help = "Steer a guidewire through the level that is shown";
             ask(trial(ui, state, in_trial).on_hover_text(help).clicked(), Action::Trial);
-            ui.menu_button("View", |ui| view_menu(ui, views, &mut ask));
+            ui.menu_button("View", |ui| view_menu(ui, state, views, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ask(ui.button("About").clicked(), Action::About);
                 ask(ui.button("Help").on_hover_text("Keys and gestures (F1)").clicked(), Action::Help);
@@ -117,17 +127,19 @@ fn before_button(ui: &mut Ui, views: &mut Views) {
     views.before_is_held = response.is_pointer_button_down_on();
 }
 
-fn view_menu(ui: &mut Ui, views: &mut Views, ask: &mut impl FnMut(bool, Action)) {
+fn view_menu(ui: &mut Ui, state: &State, views: &mut Views, ask: &mut impl FnMut(bool, Action)) {
     ask(ui.button("Fit").clicked(), Action::Fit);
     ui.separator();
+    // The sides are those of LPS: of other axes they are sides of the surface alone.
+    let is_lps = state.document.as_ref().is_some_and(|document| document.import.axes == Axes::Lps);
     for view in crate::render::StandardView::ALL {
-        ask(ui.button(format!("{view:?}")).clicked(), Action::View(view));
+        ask(ui.button(view.label(is_lps)).clicked(), Action::View(view));
     }
     ui.separator();
     ui.checkbox(&mut views.flat, "Flat triangles").on_hover_text("Each triangle with its own normal");
     ui.checkbox(&mut views.see_through, "See-through wireframe").on_hover_text("Shows hidden lines, faintly");
     ui.checkbox(&mut views.show_deviation, "Colour by deviation")
-        .on_hover_text("Distance from the smoothed surface, in mm");
+        .on_hover_text("Mean distance between this and the smoothed surface around each vertex, both ways, in mm");
 }
 
 fn more(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool, ask: &mut impl FnMut(bool, Action)) {
@@ -136,7 +148,7 @@ fn more(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool, ask: &mut
     ui.checkbox(&mut views.before_is_on, "Show before");
     ask(compare(ui, state, in_trial).clicked(), Action::Compare);
     ask(trial(ui, state, in_trial).clicked(), Action::Trial);
-    ui.menu_button("View", |ui| view_menu(ui, views, ask));
+    ui.menu_button("View", |ui| view_menu(ui, state, views, ask));
     ask(ui.button("Theme").clicked(), Action::Theme);
     ask(ui.button("Help").clicked(), Action::Help);
     ask(ui.button("About").clicked(), Action::About);

@@ -137,6 +137,8 @@ impl LumenApp {
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {
+            // The unit was chosen for a file of the dialog.
+            self.state.next_unit = None;
             self.platform.read_dropped(file, ctx);
         }
     }
@@ -145,7 +147,10 @@ impl LumenApp {
         let keep = self.state.settings.keep;
         let state = &mut self.state;
         match action {
-            Action::Open => self.platform.choose_file(ctx),
+            Action::Open | Action::OpenIn(_) => {
+                state.next_unit = if let Action::OpenIn(unit) = action { Some(unit) } else { None };
+                self.platform.choose_file(ctx);
+            }
             Action::Sample(sample) => state.open_sample(sample, self.platform.link()),
             Action::Save(format) => state.save(format, self.platform.link()),
             Action::Undo => state.undo(),

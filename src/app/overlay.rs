@@ -3,6 +3,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
+use crate::io::Axes;
 use crate::mesh::Vec3;
 use crate::render::{Camera, ColourMap, viridis};
 
@@ -14,6 +15,8 @@ pub(super) struct Writing<'a> {
     pub name: Option<&'a str>,
     /// From where the view looks.
     pub camera: &'a Camera,
+    /// Which way the patient lies, as far as that is known.
+    pub axes: Axes,
     /// The colours in use.
     pub legend: Option<Legend>,
 }
@@ -29,6 +32,8 @@ pub(super) struct Legend {
     pub unit: &'static str,
     /// Digits after the point.
     pub decimals: usize,
+    /// Whether the last colour is that of larger values too.
+    pub is_open: bool,
 }
 
 const MARGIN: f32 = 12.0;
@@ -47,7 +52,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
         let galley = painter.layout(name.to_owned(), small.clone(), weak, inner.width() * 0.6);
         painter.galley(inner.left_top() + vec2(0.0, 20.0), galley, weak);
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
-        orientation(&painter, inner, writing.camera, text);
+        orientation(&painter, inner, writing.camera, writing.axes, text);
     }
     painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, small, weak);
     if let Some(colours) = &writing.legend {
@@ -55,11 +60,11 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     }
 }
 
-/// Draws a scale bar and the patient's axes over a picture, and nothing else.
-pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera) {
+/// Draws a scale bar and the axes over a picture, and nothing else.
+pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera, axes: Axes) {
     let (painter, inner, text) = (ui.painter_at(rect), rect.shrink(MARGIN), ui.visuals().text_color());
     scale_bar(&painter, inner, rect.height(), camera, text);
-    orientation(&painter, inner, camera, text);
+    orientation(&painter, inner, camera, axes, text);
 }
 
 /// A ring around a place, and what there is to say of it.
@@ -115,11 +120,11 @@ fn round_length(mm: f32) -> f32 {
     step * power
 }
 
-/// The patient's axes, turned as the view is: left, posterior, head (the axes of DICOM).
-fn orientation(painter: &Painter, inner: Rect, camera: &Camera, colour: Color32) {
+/// The axes, turned as the view is: the patient's sides where they are known, else X, Y and Z.
+fn orientation(painter: &Painter, inner: Rect, camera: &Camera, axes: Axes, colour: Color32) {
     const SIZE: f32 = 24.0;
     let middle = pos2(inner.right() - SIZE - 8.0, inner.top() + SIZE + 8.0);
-    let mut axes: Vec<_> = camera.axes().into_iter().zip(["L", "P", "H"]).collect();
+    let mut axes: Vec<_> = camera.axes().into_iter().zip(axes.letters()).collect();
     axes.sort_by(|(a, _), (b, _)| a.z.total_cmp(&b.z));
     for (axis, letter) in axes {
         let end = middle + vec2(axis.x, -axis.y) * SIZE;
@@ -146,12 +151,13 @@ fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
     }
     let (low, high) = legend.map.range_mm;
     let font = FontId::proportional(12.0);
-    for (y, value) in [(bar.bottom(), low), (bar.top(), high)] {
+    let more = if legend.is_open { " and more" } else { "" };
+    for (y, value, more) in [(bar.bottom(), low, ""), (bar.top(), high, more)] {
         let at = pos2(bar.left() - 6.0, y);
         painter.text(
             at,
             Align2::RIGHT_CENTER,
-            format!("{value:.*} {}", legend.decimals, legend.unit),
+            format!("{value:.*} {}{more}", legend.decimals, legend.unit),
             font.clone(),
             colour,
         );

@@ -37,6 +37,8 @@ pub struct State {
     pub work: Option<(Work, f32)>,
     /// The last thing that the user should know.
     pub notice: Option<Notice>,
+    /// The unit that was chosen for the next file, if one was.
+    pub next_unit: Option<Unit>,
     /// The settings that the engine has, and their number.
     sent: Settings,
     generation: u64,
@@ -87,6 +89,7 @@ impl Default for State {
             opening: Vec::new(),
             work: None,
             notice: None,
+            next_unit: None,
             generation: 0,
             number: 0,
             is_cancelling: false,
@@ -98,7 +101,7 @@ impl Default for State {
 impl State {
     /// Opens the file `name`. What is open stays until the new surface is there.
     pub fn open_file(&mut self, name: String, bytes: Vec<u8>, link: &mut dyn Link) {
-        let options = ImportOptions::default();
+        let options = ImportOptions { unit: self.next_unit.take() };
         self.open(Source::File { name, bytes: Arc::new(bytes), options }, link);
     }
 

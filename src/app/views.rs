@@ -188,11 +188,13 @@ impl Views {
                 title: if self.show_before { "As opened" } else { title.trim_end_matches(" view") },
                 name: document.map(|document| document.name.as_str()),
                 camera: &self.camera,
+                axes: document.map(|document| document.import.axes).unwrap_or_default(),
                 legend: style.map.filter(|_| has_scalars).map(|map| overlay::Legend {
                     map,
-                    title: "Deviation",
+                    title: "Deviation, mean around",
                     unit: "mm",
                     decimals: 3,
+                    is_open: true,
                 }),
             },
         );

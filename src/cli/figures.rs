@@ -43,7 +43,7 @@ impl Figures {
         let studio = Studio::open()?;
         let imported = source::read(&self.file, self.unit)?;
         std::fs::create_dir_all(&self.output).with_context(|| format!("cannot make {}", self.output.display()))?;
-        let name = shown_name(&self.file);
+        let (name, axes) = (shown_name(&self.file), imported.report.axes);
         let settings = Settings { keep: Keep::Largest, ..Settings::default() };
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         let figures = [
@@ -64,7 +64,7 @@ impl Figures {
         for (file, title, settings, arrangement) in figures {
             let cells =
                 settings.into_iter().map(|settings| self.make(&mut pipeline, settings)).collect::<Result<Vec<_>>>()?;
-            let picture = studio.draw(&Figure { title, name: &name, cells: &cells, arrangement }, self.width)?;
+            let picture = studio.draw(&Figure { title, name: &name, axes, cells: &cells, arrangement }, self.width)?;
             let path = self.output.join(file);
             write_whole(&path, &encode(&picture)?)?;
             row(&format!("{} x {} pixels", picture.width, picture.height), path.display());

@@ -208,7 +208,8 @@ impl Optimise {
         row("smoothing", format!("{:.1} ms", ms.smoothing));
         row("decimation, all rates", format!("{:.1} ms", ms.decimation));
         row("level and normals", format!("{:.1} ms", ms.level + ms.normals));
-        row("written to", self.output.display());
+        let unit = output_format(&self.output).unit();
+        row("written to", format!("{}, in {unit}", self.output.display()));
         if let Some(shortfall) = &report.shortfall {
             eprintln!("lumen: warning: {shortfall}");
         }

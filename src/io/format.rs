@@ -44,6 +44,11 @@ impl Format {
         }
     }
 
+    /// The unit of length of what Lumen writes in it: millimetres, but for glTF, which has metres.
+    pub fn unit(self) -> Unit {
+        if self == Self::Glb { Unit::Metre } else { Unit::Millimetre }
+    }
+
     /// What people call it.
     pub fn label(self) -> &'static str {
         match self {

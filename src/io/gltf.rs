@@ -6,6 +6,9 @@
 //! A node's numbers are decimal in the file and f32 in that structure; they are taken back to the decimal they stood
 //! for before being multiplied in f64. So 0.001 times 1000 is exactly 1, and a surface that Lumen wrote, in mm under
 //! a node scale of 0.001, reads back to the same bits.
+//!
+//! By the specification (3.4) y is up, and the front of what is shown looks along z. Lumen has z up, as patients' axes do,
+//! and the front towards -y: what is read is turned by a right angle about x, what is written is turned back.
 
 use std::borrow::Cow;
 
@@ -16,7 +19,7 @@ use ::gltf::json::{Accessor, Index, Node, Root, deserialize};
 use base64::Engine as _;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::Unit;
 use super::error::{ReadError, WriteError};
@@ -100,7 +103,7 @@ fn read_scene(
         limit: (4 * file_length as u64).max(1 << 25),
     };
     collected.raw.in_mm = true;
-    let to_mm = DMat4::from_scale(DVec3::splat(unit.to_mm()));
+    let to_mm = upright() * DMat4::from_scale(DVec3::splat(unit.to_mm()));
 
     let scene = root.scene.or((!root.scenes.is_empty()).then(|| Index::new(0)));
     let mut stack: Vec<(Index<Node>, DMat4)> = Vec::new();
@@ -134,6 +137,16 @@ fn read_scene(
         stack.extend(node.children.iter().flatten().rev().map(|&child| (child, to_world)));
     }
     Ok(collected.raw)
+}
+
+/// From a scene with y up and its front towards z to one with z up and its front towards -y.
+fn upright() -> DMat4 {
+    DMat4::from_mat3(DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y))
+}
+
+/// The same back, exactly.
+fn y_up([x, y, z]: [f32; 3]) -> [f32; 3] {
+    [x, z, -y]
 }
 
 /// A node's place in its parent.
@@ -334,13 +347,15 @@ impl Items<'_> {
     }
 }
 
-/// A GLB file of one mesh, in mm under a node scale of 0.001.
+/// A GLB file of one mesh, with y up, in mm under a node scale of 0.001.
 pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result<Vec<u8>, WriteError> {
     let (vertices, corners) = (mesh.positions.len(), 3 * mesh.triangles.len());
     let (vector_bytes, index_bytes) = (12 * vertices as u64, 4 * corners as u64);
     let index_start = vector_bytes * if normals.is_some() { 2 } else { 1 };
     let binary_bytes = index_start + index_bytes;
     let bounds = mesh.bounds();
+    let (one, other) = (y_up(bounds.min), y_up(bounds.max));
+    let corner = |of: fn(f32, f32) -> f32| -> [f32; 3] { std::array::from_fn(|i| of(one[i], other[i])) };
     let list = |[x, y, z]: [f32; 3]| format!("[{x},{y},{z}]");
     let normal_attribute = if normals.is_some() { ",\"NORMAL\":2" } else { "" };
     let normal_accessor = normals.map_or(String::new(), |_| {
@@ -359,8 +374,8 @@ pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result<Vec<u8>,
          \"bufferViews\":[{{\"buffer\":0,\"byteLength\":{vector_bytes},\"target\":34962}},\
          {{\"buffer\":0,\"byteOffset\":{index_start},\"byteLength\":{index_bytes},\"target\":34963}}{normal_view}],\
          \"buffers\":[{{\"byteLength\":{binary_bytes}}}]}}",
-        list(bounds.min),
-        list(bounds.max),
+        list(corner(f32::min)),
+        list(corner(f32::max)),
     );
     // Chunks are multiples of four bytes; the binary one is by nature.
     json.push_str(&"   "[..(4 - json.len() % 4) % 4]);
@@ -377,7 +392,7 @@ pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result<Vec<u8>,
         out.extend_from_slice(&word.to_le_bytes());
     }
     for p in mesh.positions.iter().chain(normals.unwrap_or_default()) {
-        out.extend_from_slice(bytemuck::cast_slice(&p.to_array().map(f32::to_le_bytes)));
+        out.extend_from_slice(bytemuck::cast_slice(&y_up(p.to_array()).map(f32::to_le_bytes)));
     }
     for t in &mesh.triangles {
         out.extend_from_slice(bytemuck::cast_slice(&t.map(u32::to_le_bytes)));
@@ -422,7 +437,7 @@ mod tests {
     fn transforms_go_down_the_tree_and_mirrors_keep_the_outside_out() {
         let half_turn = "{\"children\":[1],\"rotation\":[0,0,1,0],\"translation\":[0.1,0,0]}";
         let raw = read(&square(&format!("{half_turn},{{\"mesh\":0,\"scale\":[2,2,2]}}"), "")).unwrap();
-        assert_eq!(raw.positions[3], Vec3::new(-1900.0, -2000.0, 0.0));
+        assert_eq!(raw.positions[3], Vec3::new(-1900.0, 0.0, -2000.0));
         assert_eq!(raw.triangles, [[0, 1, 2]]);
         let mirror = "{\"mesh\":0,\"matrix\":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}";
         let raw = read(&square(mirror, "")).unwrap();
@@ -458,6 +473,24 @@ mod tests {
         assert!(problem(b"glTF\x01\0\0\0\x0c\0\0\0").contains("uses version 1"));
         assert!(problem(b"glTF\x02\0\0\0\x00\0\0\0").contains("no JSON part"));
         assert!(problem(b"glTF\x02\0\0\0\x14\0\0\0\xff\xff\xff\xffJSON").contains("announces 4294967315 bytes"));
+    }
+
+    #[test]
+    fn what_is_up_in_the_file_is_up_and_written_so() {
+        // The square's third corner is a metre up, by the specification.
+        let raw = read(&square("{\"mesh\":0}", "")).unwrap();
+        assert_eq!(raw.positions[2], Vec3::Z * 1000.0);
+        // 100 mm to the front, -y, and 300 mm up: to another program along z, and along y.
+        let [front, up] = [Vec3::new(0.0, -100.0, 0.0), Vec3::new(0.0, 0.0, 300.0)];
+        let mesh = TriMesh { positions: vec![Vec3::ZERO, front, up], triangles: vec![[0, 1, 2]] };
+        let bytes = write(&mesh, Some(&[Vec3::Z; 3])).unwrap();
+        let json = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+        let numbers: Vec<f32> =
+            bytes[28 + json..][..72].as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+        assert_eq!(numbers[..9], [0.0, 0.0, 0.0, 0.0, 0.0, 100.0, 0.0, 300.0, 0.0]);
+        assert_eq!(numbers[9..12], [0.0, 1.0, 0.0]);
+        let text = String::from_utf8_lossy(&bytes[20..20 + json]);
+        assert!(text.contains("\"max\":[0,300,100]"), "{text}");
     }
 
     #[test]

@@ -4,18 +4,22 @@
 //! vertices left out, numbers turned into mm, windings made to agree, inward components turned. Welding comes before
 //! the change of unit, because rounding to f32 after a multiplication can make two places one.
 
+use std::ops::RangeInclusive;
+
 use super::error::ReadError;
 use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
 use super::weld::weld;
-use super::{Unit, winding};
+use super::{Axes, Unit, winding};
 use crate::mesh::{Topology, TriMesh, Vec3, compacted, components, measures};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 const FARTHEST_MM: f64 = 1e9;
 
 /// Diagonals, in mm, that draw no warning.
-const USUAL_DIAGONAL_MM: std::ops::RangeInclusive<f64> = 20.0..=2000.0;
+const USUAL_DIAGONAL_MM: RangeInclusive<f64> = 20.0..=2000.0;
+/// Mean calibres, in mm, that draw none: coronary arteries have some 3, an aneurysm of the aorta 40.
+const USUAL_CALIBRE_MM: RangeInclusive<f64> = 2.5..=45.0;
 
 /// What a format's file hands over: the triangles as they stand there.
 pub(super) struct RawSurface {
@@ -63,7 +67,7 @@ pub(super) fn check_size(vertices: usize, triangles: usize) -> Result<(), ReadEr
 }
 
 /// Takes a surface from a file through the stage.
-pub(super) fn import(raw: RawSurface, unit: Unit) -> Result<Imported, ReadError> {
+pub(super) fn import(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Imported, ReadError> {
     let format = raw.label;
     if raw.triangles.is_empty() {
         return Err(ReadError::NoTriangles { format, vertices: raw.positions.len() });
@@ -79,25 +83,26 @@ pub(super) fn import(raw: RawSurface, unit: Unit) -> Result<Imported, ReadError>
             }
         }
     }
-    let imported = assemble(raw, unit);
+    let imported = assemble(raw, unit, axes);
     if imported.mesh.triangles.is_empty() {
         return Err(ReadError::AllDegenerate { format, triangles: imported.report.triangles });
     }
     Ok(imported)
 }
 
-/// Takes a surface that was made, not read, through the same stage; its positions are in mm.
+/// Takes a surface that was made, not read, through the same stage; its positions are in mm, its axes the patient's as
+/// DICOM has them.
 ///
 /// # Panics
 /// When an index of `mesh` is out of range.
 pub fn import_mesh(mesh: TriMesh, format_label: &str) -> Imported {
-    let mut imported = assemble(RawSurface::new("", mesh.positions, mesh.triangles), Unit::Millimetre);
+    let mut imported = assemble(RawSurface::new("", mesh.positions, mesh.triangles), Unit::Millimetre, Axes::Lps);
     imported.report.format = format_label.to_owned();
     imported
 }
 
 /// The stage itself.
-fn assemble(raw: RawSurface, unit: Unit) -> Imported {
+fn assemble(raw: RawSurface, unit: Unit, axes: Axes) -> Imported {
     let triangles = raw.triangles.len();
     let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
     let mut mesh = welded(raw.positions, raw.triangles);
@@ -130,6 +135,7 @@ fn assemble(raw: RawSurface, unit: Unit) -> Imported {
         format: raw.label.to_owned(),
         unit,
         scale_to_mm: unit.to_mm(),
+        axes,
         triangles,
         vertices: mesh.positions.len(),
         polygons_triangulated: raw.polygons,
@@ -188,10 +194,7 @@ fn duplicates(triangles: &[[u32; 3]], topology: &Topology) -> usize {
 /// Puts into sentences what a user should hear about.
 fn warn(report: &mut ImportReport) {
     let mut sentences = Vec::new();
-    let diagonal = f64::from(report.bounds_mm.diagonal());
-    if report.vertices > 0 && !USUAL_DIAGONAL_MM.contains(&diagonal) {
-        sentences.push(size_warning(diagonal, report.unit));
-    }
+    sentences.extend(size_warning(report).filter(|_| report.vertices > 0));
     let skipped = report.skipped;
     let mut tell = |n: usize, one: &str, many: &str, rest: &str| {
         if n > 0 {
@@ -213,19 +216,35 @@ fn warn(report: &mut ImportReport) {
 }
 
 /// What to say about an unusual size, with the units that would make it a usual one.
-fn size_warning(diagonal: f64, unit: Unit) -> String {
-    let in_unit = |other: Unit| diagonal / unit.to_mm() * other.to_mm();
-    let fitting: Vec<String> = Unit::ALL
-        .into_iter()
-        .filter(|&other| other != unit && USUAL_DIAGONAL_MM.contains(&in_unit(other)))
-        .map(|other| format!("{other} ({} mm)", length(in_unit(other))))
-        .collect();
-    let advice = if fitting.is_empty() {
-        "check its unit of length".to_owned()
-    } else {
-        format!("its numbers may be in {}", fitting.join(" or in "))
+///
+/// A body of vessels may be a few centimetres across or a metre; how wide they are tells more: the mean calibre, by area,
+/// is four times the volume over the area, as it is of a cylinder.
+fn size_warning(report: &ImportReport) -> Option<String> {
+    let diagonal = f64::from(report.bounds_mm.diagonal());
+    let calibre = report.volume_mm3.map(|volume| 4.0 * volume / report.area_mm2);
+    let in_unit = |mm: f64, other: Unit| mm / report.unit.to_mm() * other.to_mm();
+    let is_as_long = |&other: &Unit| USUAL_DIAGONAL_MM.contains(&in_unit(diagonal, other));
+    let is_as_wide = |&other: &Unit| calibre.is_none_or(|mm| USUAL_CALIBRE_MM.contains(&in_unit(mm, other)));
+    let others = || Unit::ALL.into_iter().filter(|&other| other != report.unit).filter(is_as_long);
+    let fitting: Vec<Unit> = others().filter(is_as_wide).collect();
+    let list = |units: &[Unit], mm: f64| {
+        let each = units.iter().map(|&other| format!("{other} ({} mm)", length(in_unit(mm, other))));
+        each.collect::<Vec<_>>().join(" or in ")
     };
-    format!("The surface is {} mm across, which is unusual for vessels: {advice}.", length(diagonal))
+    if !is_as_long(&report.unit) {
+        let fitting = if fitting.is_empty() { others().collect() } else { fitting };
+        let advice = if fitting.is_empty() {
+            "check its unit of length".to_owned()
+        } else {
+            format!("its numbers may be in {}", list(&fitting, diagonal))
+        };
+        return Some(format!("The surface is {} mm across, which is unusual for vessels: {advice}.", length(diagonal)));
+    }
+    let calibre = calibre.filter(|_| !is_as_wide(&report.unit) && !fitting.is_empty())?;
+    let (wide, advice) = (length(calibre), list(&fitting, calibre));
+    Some(format!(
+        "Its vessels are {wide} mm wide on average, which is unusual: the numbers of the file may be in {advice}."
+    ))
 }
 
 /// A length in mm to three digits or to the mm, whichever is more.
@@ -245,6 +264,7 @@ fn count(n: usize, one: &str, many: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::shapes::tube;
 
     /// Ten triangle corners of a tetrahedron of the given size, not welded, one triangle turned over, with a
     /// duplicate, a degenerate triangle and a vertex that nothing uses.
@@ -258,7 +278,7 @@ mod tests {
 
     #[test]
     fn a_soup_becomes_an_oriented_surface_with_its_faults_counted() {
-        let Imported { mesh, report } = import(soup(4.0), Unit::Centimetre).unwrap();
+        let Imported { mesh, report } = import(soup(4.0), Unit::Centimetre, Axes::Unknown).unwrap();
         assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::Y * 40.0, Vec3::X * 40.0, Vec3::Z * 40.0]);
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [2, 1, 3], [0, 3, 1]]);
         assert_eq!((report.triangles, report.degenerate_triangles, report.winding_flips), (5, 1, 3));
@@ -282,13 +302,41 @@ mod tests {
 
     #[test]
     fn an_unusual_size_is_told_with_the_units_that_would_fit() {
-        let warnings = |size, unit| import(soup(size), unit).unwrap().report.warnings;
+        let warnings = |size, unit| import(soup(size), unit, Axes::Unknown).unwrap().report.warnings;
         assert_eq!(
             warnings(0.2, Unit::Millimetre)[0],
             "The surface is 0.346 mm across, which is unusual for vessels: its numbers may be in m (346 mm)."
         );
         assert!(warnings(3e-7, Unit::Millimetre)[0].ends_with("check its unit of length."));
-        assert!(warnings(30.0, Unit::Metre)[0].contains("mm (52.0 mm) or in cm (520 mm)"));
+        // In cm it would be 520 mm long and 84 mm wide.
+        assert!(warnings(30.0, Unit::Metre)[0].ends_with("its numbers may be in mm (52.0 mm)."));
+    }
+
+    #[test]
+    fn vessels_that_are_too_thin_or_too_wide_for_their_unit_are_told() {
+        // An aorta of 12 mm, 24 cm long.
+        let warnings = |part: f32, unit| {
+            let aorta = tube(32, 120, 240.0 * part, |_| 6.0 * part);
+            import(RawSurface::new("tube", aorta.positions, aorta.triangles), unit, Axes::Unknown)
+                .unwrap()
+                .report
+                .warnings
+        };
+        assert_eq!(
+            warnings(0.1, Unit::Millimetre),
+            [
+                "Its vessels are 1.196 mm wide on average, which is unusual: the numbers of the file may be in cm (12.0 mm)."
+            ]
+        );
+        assert!(warnings(1e-3, Unit::Millimetre)[0].ends_with("its numbers may be in m (241 mm)."));
+        assert!(warnings(1.0, Unit::Centimetre)[0].ends_with("its numbers may be in mm (241 mm)."));
+        for (part, unit) in [(1.0, Unit::Millimetre), (0.1, Unit::Centimetre), (1e-3, Unit::Metre)] {
+            assert!(warnings(part, unit).is_empty(), "{:?}", warnings(part, unit));
+        }
+        for sample in crate::phantom::Sample::ALL {
+            let made = crate::phantom::generate(sample, 20_000).unwrap();
+            assert!(import_mesh(made, "sample").report.warnings.iter().all(|text| !text.contains("unusual")));
+        }
     }
 
     #[test]
@@ -297,7 +345,7 @@ mod tests {
         let [one, other] = [near.unwrap(), near.unwrap().next_up()].map(|x| Vec3::new(x, 0.0, 0.0));
         let positions = vec![one, Vec3::Y, Vec3::Z, other, Vec3::NEG_Y, Vec3::NEG_Z];
         let raw = RawSurface::new("soup", positions, vec![[0, 1, 2], [3, 4, 5]]);
-        let Imported { mesh, report } = import(raw, Unit::Centimetre).unwrap();
+        let Imported { mesh, report } = import(raw, Unit::Centimetre, Axes::Unknown).unwrap();
         assert_eq!((report.vertices, report.components, mesh.positions[0]), (6, 2, mesh.positions[3]));
     }
 
@@ -306,7 +354,7 @@ mod tests {
         for bad in [f32::NAN, f32::INFINITY, -1e30] {
             let mut raw = soup(40.0);
             raw.positions[4].y = bad;
-            let error = import(raw, Unit::Millimetre).unwrap_err();
+            let error = import(raw, Unit::Millimetre, Axes::Unknown).unwrap_err();
             assert!(matches!(error, ReadError::Coordinate { vertex: 5, .. }), "{error}");
         }
     }
@@ -314,8 +362,14 @@ mod tests {
     #[test]
     fn nothing_to_show_is_said_so() {
         let points = RawSurface::new("soup", vec![Vec3::X; 3], Vec::new());
-        assert_eq!(import(points, Unit::Metre), Err(ReadError::NoTriangles { format: "soup", vertices: 3 }));
+        assert_eq!(
+            import(points, Unit::Metre, Axes::Unknown),
+            Err(ReadError::NoTriangles { format: "soup", vertices: 3 })
+        );
         let flat = RawSurface::new("soup", vec![Vec3::X; 3], vec![[0, 1, 2]]);
-        assert_eq!(import(flat, Unit::Metre), Err(ReadError::AllDegenerate { format: "soup", triangles: 1 }));
+        assert_eq!(
+            import(flat, Unit::Metre, Axes::Unknown),
+            Err(ReadError::AllDegenerate { format: "soup", triangles: 1 })
+        );
     }
 }

@@ -5,11 +5,15 @@
 //! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
 //! the content first and by the extension only where the content does not say (`detect`).
 //!
+//! glTF has y upwards by its specification and Lumen z: it is turned on the way in and back on the way out. Which way a
+//! patient lies is known only where a file says so (`axes`).
+//!
 //! Numbers in a file are millimetres unless [`ImportOptions::unit`] says otherwise; glTF is metres, as its
 //! specification has it. Nothing is rescaled silently: a size that no vessel has draws a warning.
 //!
 //! No memory is allocated because a header claims it: every count is checked against the bytes that are there.
 
+mod axes;
 mod detect;
 mod error;
 mod format;
@@ -24,6 +28,7 @@ mod text;
 mod weld;
 mod winding;
 
+pub use axes::Axes;
 pub use error::{ReadError, WriteError};
 pub use format::{Format, Unit, UnknownUnit};
 pub use import::import_mesh;
@@ -60,10 +65,15 @@ pub fn read(bytes: &[u8], name: &str, options: &ImportOptions) -> Result<Importe
         Content::Glb => gltf::read_binary(bytes, unit)?,
         Content::Gltf => gltf::read_text(bytes, unit)?,
     };
-    import::import(raw, unit)
+    let axes = match content {
+        Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
+        Content::Glb | Content::Gltf => Axes::Unknown,
+    };
+    import::import(raw, unit, axes)
 }
 
-/// The bytes of `mesh` in `format`, in mm (GLB: in mm under a node scale of 0.001, since glTF is metres).
+/// The bytes of `mesh` in `format`, in mm (GLB: in mm under a node scale of 0.001, since glTF is metres, and with y
+/// upwards).
 /// `normals` are unit vectors, one a vertex; STL has no place for them and writes each facet's own.
 /// The same mesh gives the same bytes everywhere.
 ///

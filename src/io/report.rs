@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Unit;
+use super::{Axes, Unit};
 use crate::mesh::{Bounds, TriMesh};
 
 /// A surface as it was read, and what is to be said about it.
@@ -25,6 +25,9 @@ pub struct ImportReport {
     pub unit: Unit,
     /// Millimetres in one of that unit.
     pub scale_to_mm: f64,
+    /// What the coordinates grow towards, as far as the file says: "lps", "ras" or "unknown".
+    #[serde(default)]
+    pub axes: Axes,
     /// Triangles that the file holds once its polygons are triangulated, degenerate ones included.
     pub triangles: usize,
     /// Vertices in use once coincident ones are welded.

@@ -45,6 +45,19 @@ impl StandardView {
     pub const ALL: [Self; 6] =
         [Self::Anterior, Self::Posterior, Self::Left, Self::Right, Self::Superior, Self::Inferior];
 
+    /// What it is called: for the patient's side, or where that is not known for the side of the surface as it stands.
+    pub fn label(self, is_patient_known: bool) -> &'static str {
+        let [of_patient, of_surface] = match self {
+            Self::Anterior => ["Anterior", "Front"],
+            Self::Posterior => ["Posterior", "Back"],
+            Self::Left => ["Left", "Right side"],
+            Self::Right => ["Right", "Left side"],
+            Self::Superior => ["Superior", "Top"],
+            Self::Inferior => ["Inferior", "Bottom"],
+        };
+        if is_patient_known { of_patient } else { of_surface }
+    }
+
     /// Camera-to-world rotation: its columns are the view's right and up, and the way from the target to the eye.
     fn rotation(self) -> Quat {
         let (up, back) = match self {

@@ -57,7 +57,7 @@ export function stlTriangles(bytes) {
   return count;
 }
 
-/** Looks from a side ("Anterior", "Superior", ...). */
+/** Looks from a side ("Anterior", "Superior", ...; "Front", "Top", ... where the file does not know the patient's). */
 export async function lookFrom(page, side) {
   await press(page, "button", "View");
   await press(page, "menuitem", side);

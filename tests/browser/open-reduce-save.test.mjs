@@ -50,7 +50,7 @@ test("a real vessel is opened, reduced and saved", { skip: existsSync(AORTA) ? f
   assert.equal(await dragTo(page, REDUCTION, 0), 0);
   assert.equal(shownTriangles(await settled(page)), LARGEST);
   // The long axis of this scan is y: from above it is seen in full.
-  await lookFrom(page, "Superior");
+  await lookFrom(page, "Top");
   const look = async () => ({
     silhouette: await silhouette(page, views.shaded(page)),
     edges: await edgePixels(page, views.wireframe(page)),

@@ -7,6 +7,7 @@ use super::scene::{CompareScene, Shot};
 use super::words::{self, Number};
 use super::{Made, Outcome};
 use crate::app::overlay;
+use crate::io::Axes;
 use crate::render::{Camera, Look, Style, SurfaceError};
 
 /// How the pictures of a setting are arranged.
@@ -74,6 +75,8 @@ pub(super) struct Manner<'a> {
     /// Each triangle with its own normal.
     pub(super) flat: bool,
     pub(super) style: Style,
+    /// Which way the patient lies, as far as that is known.
+    pub(super) axes: Axes,
 }
 
 /// The most pictures that a cell has: the pictures of cell `i` are numbered from `i` times this.
@@ -120,7 +123,7 @@ pub(super) fn pictures(
         let texture = scene.draw(index * PICTURES + k, &made.mesh, &shot)?;
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
-        overlay::scale_and_axes(ui, rect, manner.camera);
+        overlay::scale_and_axes(ui, rect, manner.camera, manner.axes);
     }
     Ok(())
 }

@@ -7,6 +7,7 @@ use super::scene::CompareScene;
 use super::{Made, Outcome, words};
 use crate::app::overlay::NOT_CLINICAL;
 use crate::app::theme;
+use crate::io::Axes;
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::render::{Camera, Picture, PictureError, Style, SurfaceError};
 
@@ -24,6 +25,8 @@ pub struct Figure<'a> {
     pub title: &'a str,
     /// The surface's name.
     pub name: &'a str,
+    /// Which way the patient lies, as far as that is known.
+    pub axes: Axes,
     /// The settings and what was made at each, row by row in three columns; at least one.
     pub cells: &'a [Made],
     /// How their pictures are arranged.
@@ -274,7 +277,13 @@ fn panel(
     plan: &Plan,
 ) -> Result<(), SurfaceError> {
     let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - cell::caption_height(rect.width()));
-    let manner = Manner { arrangement: figure.arrangement, camera: &plan.camera, flat: false, style: Style::LIGHT };
+    let manner = Manner {
+        arrangement: figure.arrangement,
+        camera: &plan.camera,
+        flat: false,
+        style: Style::LIGHT,
+        axes: figure.axes,
+    };
     cell::pictures(ui, scene, index, above, made, &manner)?;
     let letter = char::from(b'a' + (index % 26) as u8);
     let line = ui.visuals().widgets.noninteractive.bg_stroke;

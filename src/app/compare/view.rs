@@ -137,6 +137,7 @@ impl CompareView {
                     camera: &camera,
                     flat: views.flat,
                     style: theme::style(ui.visuals()),
+                    axes: document.map(|document| document.import.axes).unwrap_or_default(),
                 };
                 let shown = ui.push_id(cell.id, |ui| self.cell(ui, i, rect, cell, title, &manner, is_current)).inner;
                 let rows = comparison.arrangement.rows();

@@ -184,7 +184,8 @@ impl TrialView {
         }
         let legend = (is_on && rect.height() > 300.0).then(|| peak_legend(trial.peaks.wall_scale()));
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
-        let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, legend };
+        let axes = document.map(|document| document.import.axes).unwrap_or_default();
+        let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, axes, legend };
         overlay::show(ui, rect, &writing);
         self.say(ui, rect, trial);
         let picks = trial.pick.is_some() && response.clicked();
@@ -382,5 +383,5 @@ fn lumen_at(at: egui::Pos2, rect: Rect, camera: &Camera, mesh: &TriMesh) -> Opti
 /// What the colours of the wall are up to a force in N; in the unit in which the panel tells such forces.
 fn peak_legend(most: f32) -> Legend {
     let (most, unit, decimals) = if is_small(most) { (most * 1e3, "mN", 0) } else { (most, "N", 2) };
-    Legend { map: ColourMap { range_mm: (0.0, most) }, title: "Peak force", unit, decimals }
+    Legend { map: ColourMap { range_mm: (0.0, most) }, title: "Peak force", unit, decimals, is_open: false }
 }

@@ -277,6 +277,60 @@ fn the_shown_level_is_saved_in_every_format_and_reads_back() {
 }
 
 #[test]
+fn a_unit_chosen_for_a_file_is_that_of_this_file_alone_and_stays_with_it() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let mesh = harness.state().state().document.as_ref().unwrap().shown_mesh().unwrap();
+    let bytes = lumen::io::write(&mesh, None, lumen::io::Format::Stl).unwrap();
+    let chosen = || PlatformEvent::Chosen { name: "scan.stl".to_owned(), bytes: bytes.clone() };
+    let unit = |harness: &Harness<'_, LumenApp>| harness.state().state().document.as_ref().unwrap().import.unit;
+    harness.get_by_role_and_label(Role::Button, "Open in").click();
+    harness.run_steps(3);
+    harness.get_by_label("cm...").click();
+    harness.run_steps(3);
+    assert_eq!(memory.borrow().asked, 1);
+    memory.borrow_mut().events.push_back(chosen());
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert_eq!(unit(&harness), lumen::io::Unit::Centimetre);
+    let size = |mesh: &lumen::mesh::TriMesh| mesh.bounds().diagonal();
+    let opened = harness.state().state().document.as_ref().unwrap().opened.clone();
+    assert!((size(&opened) / size(&mesh) - 10.0).abs() < 1e-3);
+    // The engine is started again, and the file read again: as it was.
+    memory.borrow_mut().engine_failure = Some("no memory".to_owned());
+    harness.run_steps(3);
+    settle(&mut harness);
+    let again = harness.state().state().document.as_ref().unwrap();
+    assert!(again.import.unit == lumen::io::Unit::Centimetre && size(&again.opened) == size(&opened));
+    // Given up, or over: the next file says for itself.
+    memory.borrow_mut().events.push_back(chosen());
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert_eq!(unit(&harness), lumen::io::Unit::Millimetre);
+}
+
+#[test]
+fn only_a_surface_that_knows_the_patient_is_seen_from_the_patients_sides() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let has = |harness: &mut Harness<'_, LumenApp>, side: &str| {
+        harness.get_by_role_and_label(Role::Button, "View").click();
+        harness.run_steps(3);
+        let has = harness.query_by_label(side).is_some();
+        harness.key_press(Key::Escape);
+        harness.run_steps(3);
+        has
+    };
+    assert!(has(&mut harness, "Superior") && !has(&mut harness, "Top"), "the sample knows its axes");
+    let mesh = harness.state().state().document.as_ref().unwrap().shown_mesh().unwrap();
+    let bytes = lumen::io::write(&mesh, None, lumen::io::Format::Stl).unwrap();
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "scan.stl".to_owned(), bytes });
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert!(has(&mut harness, "Top") && !has(&mut harness, "Superior"), "an STL file says nothing");
+}
+
+#[test]
 fn the_open_button_and_its_key_ask_for_a_file() {
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);
