@@ -28,7 +28,7 @@ const KEYS: [(&str, &str); 18] = [
     ("Ctrl+S", "Save as STL"),
     ("Ctrl+Z", "Undo"),
     ("Ctrl+Shift+Z, Ctrl+Y", "Redo"),
-    ("Esc", "Close what lies on top, cancel what is going on, leave the comparison"),
+    ("Esc", "Close what is on top, cancel, leave the comparison"),
     ("T", "Light or dark"),
     ("Tab", "Next control; arrows move a slider"),
     ("F1", "This sheet"),
@@ -50,7 +50,7 @@ const TRIAL_KEYS: [(&str, &str); 17] = [
     ("P", "Pause"),
     ("Z", "A second back"),
     ("M", "Slow motion"),
-    ("Esc", "Close what lies on top: a list, the tables, at last the trial"),
+    ("Esc", "Close what is on top, at last the trial"),
     ("Drag, wheel in the vessel's view", "Turn, zoom"),
     ("F1", "This sheet"),
 ];

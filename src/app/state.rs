@@ -318,7 +318,9 @@ impl State {
                 let at = self.opening.iter().position(|opening| opening.id == id);
                 let is_shown = self.engine == Engine::Loaded && id == self.generation;
                 if at.is_some() || is_shown {
-                    at.map(|at| self.opening.remove(at));
+                    if let Some(at) = at {
+                        self.opening.remove(at);
+                    }
                     if self.opening.is_empty() {
                         self.work = None;
                     }
