@@ -44,7 +44,7 @@ pub use measures::{
 pub use nearest::{Nearest, SurfaceIndex};
 pub use roughness::{Roughness, roughness};
 pub(crate) use roughness::{bends, summarise_bends};
-pub(crate) use self_intersections::distinct;
+pub(crate) use self_intersections::Crossing;
 pub use self_intersections::self_intersections;
 pub use shuffle::shuffled;
 pub use topology::{EdgeCounts, EdgeUse, Topology};

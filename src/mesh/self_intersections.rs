@@ -3,6 +3,7 @@
 //! What counts is said in `crossing.rs`; it is MeshLab's definition.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{Vec3, Vec4};
 
@@ -18,47 +19,65 @@ const PIECE: usize = 1024;
 /// into nothing.
 pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
     let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-    let found = parallel::map_ranges(index.slots(), PIECE, |slots| index.crossings(&mesh.triangles, slots));
-    distinct(found.concat())
+    let crossing = Crossing::none(mesh.triangles.len());
+    parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(&mesh.triangles, slots, &crossing));
+    crossing.triangles().collect()
 }
 
-/// Sorts and drops what is there twice.
-pub(crate) fn distinct(mut faces: Vec<u32>) -> Vec<u32> {
-    faces.sort_unstable();
-    faces.dedup();
-    faces
+/// Which triangles run into another: a flag each, so that a surface that runs into itself everywhere takes no more room.
+/// What is marked does not depend on the order of the marking.
+#[derive(Debug, Default)]
+pub(crate) struct Crossing(Vec<AtomicBool>);
+
+impl Crossing {
+    /// None of `count` triangles.
+    pub(crate) fn none(count: usize) -> Self {
+        Self((0..count).map(|_| AtomicBool::new(false)).collect())
+    }
+
+    /// Those that do, ascending.
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..).zip(&self.0).filter(|(_, flag)| flag.load(Ordering::Relaxed)).map(|(t, _)| t)
+    }
+
+    fn has(&self, triangle: u32) -> bool {
+        self.0[triangle as usize].load(Ordering::Relaxed)
+    }
+
+    fn mark(&self, triangle: u32) {
+        self.0[triangle as usize].store(true, Ordering::Relaxed);
+    }
 }
 
 impl SurfaceIndex {
-    /// The number of places that [`Self::crossings`] can be asked about.
+    /// The number of places that [`Self::mark_crossings`] can be asked about.
     pub(crate) fn slots(&self) -> usize {
         self.leaves.len()
     }
 
-    /// The triangles that run into one another, where the one of the lower number is in `slots`; some may be there
-    /// more than once. `triangles` are those of the index.
-    pub(crate) fn crossings(&self, triangles: &[[u32; 3]], slots: Range<usize>) -> Vec<u32> {
-        let mut found = Vec::new();
+    /// Marks the triangles that run into one another, where the one of the lower number is in `slots`; returns how many
+    /// pairs were looked at. `triangles` are those of the index.
+    pub(crate) fn mark_crossings(&self, triangles: &[[u32; 3]], slots: Range<usize>, crossing: &Crossing) -> usize {
+        let mut looks = 0;
         for leaf in &self.leaves[slots] {
             let [a, b, c] = leaf.corners;
             let face = Face { vertices: triangles[leaf.triangle as usize], corners: leaf.corners };
-            let mut meets = false;
+            let mut meets = crossing.has(leaf.triangle);
             self.overlapping(a.min(b).min(c), a.max(b).max(c), |slots| {
+                looks += slots.len();
                 for other in &self.leaves[slots] {
-                    if other.triangle > leaf.triangle {
+                    if other.triangle > leaf.triangle && !(meets && crossing.has(other.triangle)) {
                         let vertices = triangles[other.triangle as usize];
                         if cross(&face, &Face { vertices, corners: other.corners }) {
                             meets = true;
-                            found.push(other.triangle);
+                            crossing.mark(leaf.triangle);
+                            crossing.mark(other.triangle);
                         }
                     }
                 }
             });
-            if meets {
-                found.push(leaf.triangle);
-            }
         }
-        found
+        looks
     }
 
     /// Visits the leaves whose boxes overlap the one from `min` to `max`.
@@ -102,6 +121,13 @@ mod tests {
 
     use super::*;
     use crate::mesh::shapes::{icosphere, joined, square};
+
+    /// Sorts and drops what is there twice.
+    fn distinct(mut faces: Vec<u32>) -> Vec<u32> {
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    }
 
     /// Pair by pair.
     fn one_by_one(mesh: &TriMesh) -> Vec<u32> {
@@ -150,6 +176,28 @@ mod tests {
         mesh.positions[7].z = f32::INFINITY;
         mesh.triangles.extend([[1, 1, 2], [4, 4, 4]]);
         assert!(!self_intersections(&mesh).is_empty());
+    }
+
+    /// Thousands of triangles over vertices of a box: half of all pairs overlap.
+    #[test]
+    fn triangles_that_all_run_into_each_other_take_a_flag_each() {
+        let mut state = 1u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            state >> 8
+        };
+        let positions: Vec<Vec3> =
+            (0..2000).map(|_| Vec3::from([next(), next(), next()].map(|x| x as f32 * 1e-6))).collect();
+        let triangles = (0..2000).map(|_| [next() % 2000, next() % 2000, next() % 2000]);
+        let whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+        let mesh = TriMesh { positions, triangles: triangles.filter(whole).collect() };
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        let crossing = Crossing::none(mesh.triangles.len());
+        let looks: Vec<usize> =
+            (0..index.slots()).map(|slot| index.mark_crossings(&mesh.triangles, slot..slot + 1, &crossing)).collect();
+        assert!(looks.iter().all(|&looks| looks <= index.slots()));
+        assert_eq!(crossing.triangles().collect::<Vec<_>>(), one_by_one(&mesh));
+        assert!(crossing.triangles().count() > 1900);
     }
 
     fn soup() -> impl Strategy<Value = TriMesh> {

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::narrowest::{Narrowest, narrowest};
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{
-    AngleCounts, Angles, IndexBuild, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends, distinct,
+    AngleCounts, Angles, Crossing, IndexBuild, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends,
     summarise_bends,
 };
 use crate::parallel;
@@ -52,6 +52,9 @@ pub fn shape(mesh: &TriMesh) -> Shape {
 const PIECES: usize = 2;
 const LIGHT: usize = 4096;
 const HEAVY: usize = 512;
+/// Pairs of triangles that are looked at in one piece of work, about: where many lie in one place the pieces become
+/// smaller, down to a triangle.
+const LOOKS: usize = 1 << 16;
 /// Inner balls between two looks at the clock.
 const BALLS: usize = 64;
 
@@ -70,7 +73,9 @@ pub struct ShapeTask<M, T> {
     next: usize,
     angles: AngleCounts,
     bends: Vec<f32>,
-    crossing: Vec<u32>,
+    crossing: Crossing,
+    /// Triangles in the next piece of the search for crossings.
+    heavy: usize,
     balls: InnerRadii,
 }
 
@@ -98,7 +103,8 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             next: 0,
             angles: AngleCounts::default(),
             bends: Vec::new(),
-            crossing: Vec::new(),
+            crossing: Crossing::default(),
+            heavy: HEAVY / 8,
             balls: InnerRadii::default(),
         }
     }
@@ -127,7 +133,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             Stage::Index | Stage::Balls | Stage::Done => (0, 1),
             Stage::Angles => (self.mesh.triangles.len(), LIGHT),
             Stage::Bends => (self.topology.vertex_count(), LIGHT),
-            Stage::Crossings => (self.index.as_ref().map_or(0, |index| index.slots()), HEAVY),
+            Stage::Crossings => (self.index.as_ref().map_or(0, |index| index.slots()), self.heavy),
         }
     }
 
@@ -188,9 +194,16 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
                 self.bends
                     .extend(parallel::map_ranges(range.len(), piece, |p| bends(mesh, topology, part(p))).concat());
             }
-            Stage::Crossings => self
-                .crossing
-                .extend(parallel::map_ranges(range.len(), piece, |p| index.crossings(triangles, part(p))).concat()),
+            Stage::Crossings => {
+                if range.start == 0 {
+                    self.crossing = Crossing::none(triangles.len());
+                }
+                let crossing = &self.crossing;
+                let looks =
+                    parallel::map_ranges(range.len(), piece, |p| index.mark_crossings(triangles, part(p), crossing));
+                let most = looks.into_iter().max().unwrap_or(0);
+                self.heavy = if most > LOOKS { (piece / 2).max(1) } else { (2 * piece).min(HEAVY) };
+            }
             Stage::Index | Stage::Balls | Stage::Done => {}
         }
     }
@@ -218,7 +231,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
         let (angles, bends) = (std::mem::take(&mut self.angles), std::mem::take(&mut self.bends));
         let (crossing, balls) = (std::mem::take(&mut self.crossing), std::mem::take(&mut self.balls));
         let smallest_lumen = self.index.as_ref().and_then(|index| narrowest(&self.mesh, &self.topology, &balls, index));
-        let self_intersecting_faces = distinct(crossing).len();
+        let self_intersecting_faces = crossing.triangles().count();
         let (roughness, angles) = (summarise_bends(bends), angles.finish());
         Measured { shape: Shape { roughness, angles, self_intersecting_faces, smallest_lumen }, balls }
     }

@@ -12,7 +12,8 @@
 //!
 //! A collapse then asks the pairs of the leaf it happens in, and most have none near. Where boxes do overlap, triangles
 //! are tested one by one (`crossings.rs`). A surface may enter with crossings: then a collapse is allowed if it leaves no
-//! more triangles that cross than it found. Among more than [`MOST_NEAR`] triangles none is allowed.
+//! more triangles that cross than it found. None is allowed among more than [`MOST_NEAR`] triangles, or beside a vertex at
+//! which more than [`MOST_FAN`] meet.
 
 mod crossings;
 mod pairs;
@@ -38,6 +39,8 @@ const MARGIN: f32 = 1.5;
 const FACING: f32 = 0.07;
 /// Most leaves, and most triangles, that a collapse is tested against.
 const MOST_NEAR: usize = 1 << 15;
+/// A vertex beside one at which more triangles meet than this stays: each would have to be asked.
+const MOST_FAN: usize = 1 << 12;
 /// Slots, and leaves, that are worked on in one piece when a guard starts.
 const SLOTS: usize = 1 << 12;
 const LEAVES: usize = 1 << 9;
@@ -230,6 +233,9 @@ impl Guard {
     /// Whether the collapse makes no crossing that was not there.
     pub(super) fn allows(&mut self, rings: &Rings, mesh: &TriMesh, planned: &Planned) -> bool {
         let Planned { v, u, star, .. } = *planned;
+        if star.entries().iter().any(|&entry| rings.around(neighbour(entry)).len() > MOST_FAN) {
+            return false;
+        }
         let p = rings.at(v);
         let [mut low, mut high] = star.reach().map(|corner| corner + p);
         low = low.min(planned.end);
