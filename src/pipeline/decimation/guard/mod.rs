@@ -28,7 +28,7 @@ use self::crossings::Crossings;
 use self::pairs::Pairs;
 use self::sheet::{Sheet, faces, turned};
 use self::tree::{Leaves, Patch, SLACK, Tree, angle};
-use super::rings::{Rings, neighbour};
+use super::rings::{Rings, SIZE, neighbour};
 use super::star::Star;
 use crate::mesh::TriMesh;
 use crate::mesh::crossing::Face;
@@ -252,20 +252,26 @@ impl Guard {
             cosine = cosine.min(other.least_cosine(planned.end - rings.at(u), at, axis));
         }
         self.grow(leaf, low, high, cosine);
-        let near = self.leaves_with(leaf, (low, high));
+        let mut near = self.leaves_with(leaf, (low, high));
         let [least, most] = &mut self.boxes[leaf as usize];
         (*least, *most) = (least.min(low), most.max(high));
         let reach = (planned.end - low).max(high - planned.end).max_element();
         let reaches = &mut self.leaves.reaches[leaf as usize];
         *reaches = reaches.max(reach);
         let axis = (cosine > FACING).then_some(axis);
-        let allowed = near.is_empty()
-            || near.len() <= MOST_NEAR && self.crossings_allow(rings, mesh, planned, &near, (low, high), axis);
+        let is_known = near.len() <= MOST_NEAR;
+        near.retain(|&other| {
+            let [least, most] = self.boxes[other as usize];
+            (least.cmple(high) & most.cmpge(low)).all()
+        });
+        let allowed =
+            is_known && (near.is_empty() || self.crossings_allow(rings, mesh, planned, &near, (low, high), axis));
         self.near = near;
         allowed
     }
 
-    /// The pairs of a leaf whose triangles may reach into a box.
+    /// The pairs of a leaf, at least those whose triangles may reach into a box; where there are more than [`MOST_NEAR`],
+    /// one more than these and not all.
     fn leaves_with(&mut self, leaf: u32, (low, high): (Vec3A, Vec3A)) -> Vec<u32> {
         let mut near = std::mem::take(&mut self.near);
         near.clear();
@@ -275,10 +281,6 @@ impl Guard {
             near.extend(self.pairs.of(leaf));
         }
         self.effort += near.len();
-        near.retain(|&other| {
-            let [least, most] = self.boxes[other as usize];
-            (least.cmple(high) & most.cmpge(low)).all()
-        });
         near
     }
 
@@ -378,14 +380,17 @@ impl Guard {
     }
 }
 
-/// Mean length of an edge: of one at every few vertices.
+/// Mean length of an edge: of one at every few vertices, without those to a stray vertex, which are longer than all else.
 fn mean_edge(rings: &Rings) -> f32 {
     const STEP: usize = 16;
     let (mut sum, mut count) = (0.0, 0u32);
     for v in (0..rings.len() as u32).step_by(STEP) {
         if let Some(&n) = rings.around(v).first() {
-            sum += f64::from(rings.at(v).distance(rings.at(neighbour(n))));
-            count += 1;
+            let length = rings.at(v).distance(rings.at(neighbour(n)));
+            if length < 2.0 * SIZE {
+                sum += f64::from(length);
+                count += 1;
+            }
         }
     }
     if count > 0 { (sum / f64::from(count)) as f32 } else { 0.0 }
