@@ -1,7 +1,7 @@
 //! The app outlives the graphics device. Where a device is lost, eframe is taken down and started again with the same
 //! app: document, settings, history, camera and trial stand, and what was on the device is made again from them.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use egui::{Context, Plugin, Ui};
@@ -17,12 +17,14 @@ pub type OnEnd = Rc<dyn Fn(&Context, Fault)>;
 pub struct LastingApp {
     app: Rc<RefCell<LumenApp>>,
     on_end: OnEnd,
+    /// Whether it was heard when keys come up, in the frame before.
+    had_attention: Rc<Cell<bool>>,
 }
 
 impl LastingApp {
     /// An app that outlives its device.
     pub fn new(app: LumenApp) -> Self {
-        Self { app: Rc::new(RefCell::new(app)), on_end: Rc::new(|_, _| {}) }
+        Self { app: Rc::new(RefCell::new(app)), on_end: Rc::new(|_, _| {}), had_attention: Rc::new(Cell::new(true)) }
     }
 
     /// The same app, which calls `on_end` once its device has to be replaced.
@@ -56,6 +58,15 @@ impl LastingApp {
 }
 
 impl eframe::App for LastingApp {
+    fn raw_input_hook(&mut self, _: &Context, input: &mut egui::RawInput) {
+        let has_attention = self.app.borrow().has_attention();
+        input.focused &= has_attention;
+        if self.had_attention.replace(has_attention) && !has_attention {
+            // Keys that are held are let go: that they come up is not heard.
+            input.events.push(egui::Event::WindowFocused(false));
+        }
+    }
+
     fn logic(&mut self, ctx: &Context, frame: &mut eframe::Frame) {
         let end = {
             let mut app = self.app.borrow_mut();

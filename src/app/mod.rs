@@ -149,6 +149,11 @@ impl LumenApp {
         }
     }
 
+    /// Whether the hand on the keys can be followed: see [`Platform::has_attention`].
+    pub fn has_attention(&self) -> bool {
+        self.platform.has_attention()
+    }
+
     /// What the app knows.
     pub fn state(&self) -> &State {
         &self.state
@@ -258,6 +263,8 @@ impl LumenApp {
             self.trial.pick = None;
         } else if self.state.is_busy() {
             self.act(Action::Cancel, ctx);
+        } else if self.trial.is_open && self.trial.comparing.is_some() {
+            self.act_on_trial(&trial::Ask::CancelComparison, ctx);
         } else if self.trial.is_open {
             self.act_on_trial(&trial::Ask::Close, ctx);
         } else {

@@ -20,6 +20,12 @@ pub trait Platform {
         None
     }
 
+    /// Whether keys that are let go will be heard of: a page that is seen beside the window in use hears none. The
+    /// desktop is told by its window.
+    fn has_attention(&self) -> bool {
+        true
+    }
+
     /// The app goes on in another window: whatever has news wakes this one from now on.
     fn enter(&mut self, ctx: &egui::Context);
 

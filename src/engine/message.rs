@@ -240,6 +240,13 @@ pub trait Link<C = Command, E = Event> {
     /// Gives up the engine, whatever it does, and starts another with nothing open.
     fn restart(&mut self);
 
-    /// One plain sentence on why the engine stopped by itself, once; whoever asks should [`Self::restart`].
+    /// Gives up the engine, whatever it does. The next command starts another where one that dies at once would
+    /// otherwise be started for ever; elsewhere it is started now.
+    fn give_up(&mut self) {
+        self.restart();
+    }
+
+    /// One plain sentence on why the engine stopped by itself, once; whoever asks should [`Self::restart`] or
+    /// [`Self::give_up`].
     fn failure(&mut self) -> Option<String>;
 }

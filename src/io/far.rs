@@ -117,7 +117,7 @@ mod tests {
             assert!((report.bounds_mm.min[0] - 118.0).abs() < 1e-4, "{name}");
         }
         let far = icosphere(2, 2.0, Vec3::new(0.0, 7e5, 0.0));
-        for format in [Format::Stl, Format::Ply] {
+        for format in [Format::Stl, Format::Ply, Format::Glb] {
             assert_eq!(imported(&write(&far, None, format).unwrap(), "far").report.moved_mm, [0.0; 3]);
         }
     }

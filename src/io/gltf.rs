@@ -104,8 +104,7 @@ fn read_scene(
         limit: (4 * file_length as u64).max(1 << 25),
     };
     collected.raw.in_mm = true;
-    // Those of a node's place.
-    (collected.raw.has_doubles, collected.raw.origin) = (true, origin);
+    (collected.raw.has_doubles, collected.raw.origin) = (root.nodes.iter().any(is_moved), origin);
     let to_mm = DMat4::from_translation(-origin) * upright() * DMat4::from_scale(DVec3::splat(unit.to_mm()));
 
     let scene = root.scene.or((!root.scenes.is_empty()).then(|| Index::new(0)));
@@ -150,6 +149,12 @@ fn upright() -> DMat4 {
 /// The same back, exactly.
 fn y_up([x, y, z]: [f32; 3]) -> [f32; 3] {
     [x, z, -y]
+}
+
+/// Whether a node is somewhere else than its parent: its place then has digits beyond those of the positions.
+fn is_moved(node: &Node) -> bool {
+    let by = node.translation.or(node.matrix.map(|matrix| [matrix[12], matrix[13], matrix[14]]));
+    by.is_some_and(|by| by != [0.0; 3])
 }
 
 /// A node's place in its parent.

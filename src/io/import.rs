@@ -207,7 +207,7 @@ fn warn(report: &mut ImportReport) {
     if report.moved_mm != [0.0; 3] {
         let [x, y, z] = report.moved_mm.map(length);
         sentences.push(format!(
-            "The surface lies far from the origin of its coordinates: it was moved by ({x}, {y}, {z}) mm to keep its detail."
+            "The surface lies far from the origin of its coordinates: it was moved by ({x}, {y}, {z}) mm to keep its detail, and is saved there."
         ));
     }
     let skipped = report.skipped;

@@ -406,8 +406,10 @@ fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3) -> Resu
 /// Whether coordinates may have more digits than f32.
 fn has_doubles(header: &Header) -> bool {
     let vertices = header.elements.iter().filter(|element| element.name == "vertex");
-    header.encoding == Encoding::Ascii
-        || vertices.flat_map(|element| &element.properties).any(|property| property.kind == Scalar::F64)
+    let is_double = |property: &Property| {
+        property.kind == Scalar::F64 && matches!(property.name.to_ascii_lowercase().as_str(), "x" | "y" | "z")
+    };
+    header.encoding == Encoding::Ascii || vertices.flat_map(|element| &element.properties).any(is_double)
 }
 
 /// One row of an element.

@@ -162,8 +162,12 @@ impl Report {
 impl Report {
     /// A sentence where the volume was to be held and could not be.
     pub fn volume_held_warning(&self) -> Option<String> {
-        let sentence = "The volume could not be held, because vessels as thin as these would tear at this pass band: the \
-                        surface is smoothed as without it.";
+        let sentence = if self.volume_change_percent.is_none() {
+            "The volume could not be held, because the surface encloses none: it is smoothed as without it."
+        } else {
+            "The volume could not be held, because vessels as thin as these would tear or swell at this pass band: the \
+             surface is smoothed as without it."
+        };
         (self.volume_held == Some(false)).then(|| sentence.to_owned())
     }
 

@@ -8,14 +8,20 @@ use glam::Vec3;
 
 use super::buffer::GrowingBuffer;
 
+/// What helps where `what` is too large: positions, normals and scalars are those of all levels together.
+fn advice(what: &str) -> &'static str {
+    if matches!(what, "triangles" | "edges") { "; reduce it further" } else { "" }
+}
+
 /// Why a surface is not on the GPU.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SurfaceError {
     /// A buffer would be larger than the device allows.
     #[error(
-        "its {what} need {:.1} MB of graphics memory in one piece, and this machine gives {:.1} MB; reduce it further",
+        "its {what} need {:.1} MB of graphics memory in one piece, and this machine gives {:.1} MB{}",
         *.bytes as f64 / 1e6,
-        *.limit as f64 / 1e6
+        *.limit as f64 / 1e6,
+        advice(what)
     )]
     TooLarge {
         /// Which buffer.

@@ -41,7 +41,7 @@ pub struct TrialComparison {
     /// Distance between the two tips, in mm.
     pub deviation_mm: Vec<f32>,
     /// The largest distance at each sample between the tip on the unreduced surface and on the same in another order, in
-    /// mm; empty where that was not tried.
+    /// mm; empty where that was not tried, and shorter than the others where the wire arrived sooner there.
     pub noise_mm: Vec<f32>,
     /// How many other orders were tried, and on how many of them the wire arrived.
     pub orders: [usize; 2],
@@ -154,9 +154,11 @@ impl TrialComparison {
         let summaries = [reduced.summary(), original.summary()];
         let deviation_mm = deviations(reduced, original);
         let mut noise_mm = noise.deviation_mm.clone();
-        noise_mm.resize(if noise.orders[0] > 0 { deviation_mm.len() } else { 0 }, 0.0);
+        noise_mm.truncate(deviation_mm.len());
+        // Judged as far as the runs in other orders went.
+        let judged = if noise.orders[0] > 0 { &deviation_mm[..noise_mm.len()] } else { &deviation_mm[..] };
         Self {
-            verdict: verdict(&summaries, [&deviation_mm, &noise_mm].map(|all| largest(all)), noise.orders),
+            verdict: verdict(&summaries, [judged, &noise_mm].map(largest), noise.orders),
             inserted_mm: rows[0].iter().zip(rows[1]).map(|(_, b)| b.inserted_mm as f32).collect(),
             deviation_mm,
             noise_mm,

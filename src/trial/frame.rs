@@ -191,7 +191,7 @@ pub struct Summary {
     pub max_residual_n: f64,
     /// Largest normal force at one place of the wall, in N.
     pub max_wall_force_n: f64,
-    /// Mean over time of the sum of normal forces, in N.
+    /// Mean over the balanced steps of the sum of normal forces, in N.
     pub mean_wall_force_n: f64,
     /// Integral over time of that sum, in N s; while a step is not balanced, that of the last one which was counts.
     pub wall_impulse_n_s: f64,

@@ -190,6 +190,17 @@ impl Meter {
         self.max_contact_share = self.max_contact_share.max(touching.len() as f64 / nodes.max(1) as f64);
     }
 
+    /// The milliseconds of each step, which this then has no more.
+    pub(super) fn take_step_ms(&mut self) -> Vec<f32> {
+        std::mem::take(&mut self.step_ms)
+    }
+
+    /// Takes back the milliseconds of each step, as far as this has counted steps.
+    pub(super) fn give_step_ms(&mut self, mut step_ms: Vec<f32>) {
+        step_ms.truncate(self.counts.all() as usize);
+        self.step_ms = step_ms;
+    }
+
     /// Mean milliseconds of the last `count` steps.
     pub(super) fn last_ms(&self, count: usize) -> f64 {
         mean(&self.step_ms[self.step_ms.len().saturating_sub(count)..])

@@ -228,7 +228,9 @@ impl Trial {
             self.marks.pop();
         }
         if let Some(mark) = self.marks.last() {
+            let step_ms = self.state.meter.take_step_ms();
             self.state = mark.clone();
+            self.state.meter.give_step_ms(step_ms);
             self.wanted = Input::default();
             self.log.rows.truncate(self.state.rows);
         }
@@ -239,7 +241,10 @@ impl Trial {
             self.marks.remove(1);
         }
         self.state.rows = self.log.rows.len();
+        // How long steps took is kept once, and not with each mark: it grows with every step.
+        let step_ms = self.state.meter.take_step_ms();
         self.marks.push(self.state.clone());
+        self.state.meter.give_step_ms(step_ms);
     }
 
     /// The input of the next row.

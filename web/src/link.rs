@@ -72,6 +72,10 @@ impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
         }
     }
 
+    fn give_up(&mut self) {
+        (self.line, self.failure) = (None, None);
+    }
+
     fn failure(&mut self) -> Option<String> {
         self.failure.take()
     }

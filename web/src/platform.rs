@@ -69,6 +69,12 @@ fn save(name: &str, bytes: &[u8]) -> Result<(), String> {
 }
 
 impl Platform for Browser {
+    fn has_attention(&self) -> bool {
+        let document = web_sys::window().and_then(|window| window.document());
+        // Where it cannot be told, eframe's own word counts.
+        document.is_none_or(|document| document.has_focus().unwrap_or(true))
+    }
+
     fn link(&mut self) -> &mut dyn Link {
         &mut self.link
     }

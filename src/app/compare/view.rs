@@ -52,7 +52,7 @@ impl CompareView {
 
     /// Gives up what stands on the device, whose memory is full, until the view is shown anew.
     pub(in crate::app) fn refuse(&mut self) {
-        self.is_refused = self.scene.take().is_some();
+        self.is_refused |= self.scene.take().is_some();
     }
 
     /// Shows the comparison in what is left of `ui`; a cell that is clicked becomes `settings`.

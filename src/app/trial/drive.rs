@@ -68,7 +68,7 @@ impl Drive {
     }
 
     /// Takes the hand off the pads: that it comes off while nobody looks is not heard.
-    fn let_go(&mut self) {
+    pub(super) fn let_go(&mut self) {
         *self = Self { is_let_go: true, ..Self::default() };
     }
 

@@ -233,8 +233,7 @@ impl Trial {
             }
             Ask::StepBack => {
                 self.is_paused = true;
-                self.summary = None;
-                self.comparing = None;
+                (self.summary, self.comparison, self.comparing) = (None, None, None);
                 // What was felt up to there is told again.
                 self.forget_felt();
                 link.send(TrialCommand::StepBack { id: self.next_begun() });
@@ -560,11 +559,14 @@ impl Trial {
     /// Hears that the window's clock begins anew.
     pub(super) fn restart_clock(&mut self) {
         self.carm.restart_clock();
+        // The fingers were on another canvas, and the clock is another window's.
+        self.drive.let_go();
+        self.told_s = f64::NEG_INFINITY;
     }
 
     /// Hears that the engine has stopped by itself; what is open stands.
     pub fn engine_failed(&mut self, reason: &str, link: &mut TrialLink) -> String {
-        link.restart();
+        link.give_up();
         let is_open = self.is_open;
         self.tables.fails("The computation stopped.");
         self.tables.cancel();

@@ -252,7 +252,7 @@ const COLUMNS: [(&str, &str); 13] = [
     ("Steps/s", "Steps of 2 ms that this machine computes in a second"),
     ("Success", "Whether the tip arrived (the paper's)"),
     ("Peak force, N", "The largest wall force at one place, in the steps that are balanced"),
-    ("Mean force, N", "The sum of the wall forces, mean over time"),
+    ("Mean force, N", "The sum of the wall forces, mean over the balanced steps"),
     ("Unbalanced, %", "Steps whose forces were not in balance; the forces are those of the others"),
     ("Time, s", "Simulated time to the target"),
 ];

@@ -1,5 +1,6 @@
 //! The views of a trial: the wire in the translucent vessel, the fluoroscopy, and what the tip sees.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
@@ -32,6 +33,9 @@ pub(in crate::app) struct TrialView {
     /// Made when the views are first shown.
     scene: Option<TrialScene>,
     failure: Option<String>,
+    /// The surface that is shown, and the one that the device's memory had no room for: another is tried.
+    shown: Option<Arc<TriMesh>>,
+    refused: Option<Arc<TriMesh>>,
     /// Whether the tip's view is shown.
     shows_tip: bool,
     /// The run that the forces on the wall are of.
@@ -56,12 +60,23 @@ impl TrialView {
     /// Views on the window's device; without one (in some tests) they say so.
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
         let device = device.cloned();
-        Self { device, scene: None, failure: None, shows_tip: true, run: 0, felt: 0, picture: None, held: None }
+        Self {
+            device,
+            scene: None,
+            failure: None,
+            shown: None,
+            refused: None,
+            shows_tip: true,
+            run: 0,
+            felt: 0,
+            picture: None,
+            held: None,
+        }
     }
 
     /// Gives back the memory of the device.
     pub(in crate::app) fn let_go(&mut self) {
-        (self.scene, self.failure) = (None, None);
+        (self.scene, self.failure, self.refused) = (None, None, None);
         (self.felt, self.picture, self.held) = (0, None, None);
     }
 
@@ -71,11 +86,12 @@ impl TrialView {
         self.device = device.cloned();
     }
 
-    /// Gives up what stands on the device, whose memory is full, until the views are shown anew.
+    /// Gives up what stands on the device, whose memory is full, until the views are shown anew or another surface is.
     pub(in crate::app) fn refuse(&mut self) {
         if self.scene.is_some() {
             self.let_go();
             self.failure = Some(NO_MEMORY.to_owned());
+            self.refused = self.shown.take();
         }
     }
 
@@ -119,6 +135,10 @@ impl TrialView {
         keep: Keep,
         is_narrow: bool,
     ) -> Option<Vec3> {
+        let is_other = |refused: &Arc<TriMesh>| !trial.mesh().is_some_and(|mesh| Arc::ptr_eq(mesh, refused));
+        if self.refused.as_ref().is_some_and(is_other) {
+            (self.failure, self.refused) = (None, None);
+        }
         self.prepare();
         self.follow(trial);
         let area = ui.available_rect_before_wrap();
@@ -142,6 +162,7 @@ impl TrialView {
 
     /// Brings what is in memory up to the trial.
     fn follow(&mut self, trial: &Trial) {
+        self.shown = trial.mesh().cloned();
         let Some(scene) = &mut self.scene else { return };
         // What fails is tried again.
         self.failure = None;
