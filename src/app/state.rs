@@ -59,6 +59,8 @@ pub struct State {
 enum Engine {
     /// An engine that has the surface which is shown, or one that is on its way in.
     Loaded,
+    /// One that reads the surface which is shown once more: it has nothing to go back to, and answers no cancel.
+    Loading,
     /// An engine that has nothing open.
     Empty,
     /// None: it has stopped too often in a row. The next thing that is asked for starts another.
@@ -205,7 +207,7 @@ impl State {
             let (id, source, settings) = (self.number, document.source.clone(), self.settings.clone());
             link.send(Command::Open { id, source, settings: settings.clone() });
             self.sent = settings;
-            self.engine = Engine::Loaded;
+            self.engine = Engine::Loading;
         }
     }
 
@@ -265,7 +267,7 @@ impl State {
             self.history.record(&self.settings);
         }
         self.show_level();
-        if self.engine != Engine::Loaded && self.opening.is_empty() {
+        if matches!(self.engine, Engine::Empty | Engine::Stopped) && self.opening.is_empty() {
             // It is left alone until the hand is done with something that it is needed for.
             let is_needed = self.settings != self.sent || self.comparison.is_waiting();
             if is_held || !is_needed {
@@ -316,7 +318,7 @@ impl State {
             Event::Opened(opened) => self.receive_opened(*opened),
             Event::OpenFailed { id, name, message } => {
                 let at = self.opening.iter().position(|opening| opening.id == id);
-                let is_shown = self.engine == Engine::Loaded && id == self.generation;
+                let is_shown = matches!(self.engine, Engine::Loaded | Engine::Loading) && id == self.generation;
                 if at.is_some() || is_shown {
                     if let Some(at) = at {
                         self.opening.remove(at);
@@ -326,6 +328,7 @@ impl State {
                     }
                     if is_shown {
                         self.engine = Engine::Empty;
+                        self.is_cancelling = false;
                         self.comparison.stop("The surface could not be opened again.");
                     }
                     let kept = if self.document.is_some() { " What was open still is." } else { "" };

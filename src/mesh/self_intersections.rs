@@ -27,25 +27,35 @@ pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
 /// Which triangles run into another: a flag each, so that a surface that runs into itself everywhere takes no more room.
 /// What is marked does not depend on the order of the marking.
 #[derive(Debug, Default)]
-pub(crate) struct Crossing(Vec<AtomicBool>);
+pub(crate) struct Crossing {
+    does: Vec<AtomicBool>,
+    /// Whether a triangle was looked at: a sliver stands in several slots.
+    was_asked: Vec<AtomicBool>,
+}
 
 impl Crossing {
     /// None of `count` triangles.
     pub(crate) fn none(count: usize) -> Self {
-        Self((0..count).map(|_| AtomicBool::new(false)).collect())
+        let none = || (0..count).map(|_| AtomicBool::new(false)).collect();
+        Self { does: none(), was_asked: none() }
     }
 
     /// Those that do, ascending.
     pub(crate) fn triangles(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..).zip(&self.0).filter(|(_, flag)| flag.load(Ordering::Relaxed)).map(|(t, _)| t)
+        (0..).zip(&self.does).filter(|(_, flag)| flag.load(Ordering::Relaxed)).map(|(t, _)| t)
     }
 
     fn has(&self, triangle: u32) -> bool {
-        self.0[triangle as usize].load(Ordering::Relaxed)
+        self.does[triangle as usize].load(Ordering::Relaxed)
+    }
+
+    /// Whether this is the first time that `triangle` is asked for.
+    fn is_new(&self, triangle: u32) -> bool {
+        !self.was_asked[triangle as usize].swap(true, Ordering::Relaxed)
     }
 
     fn mark(&self, triangle: u32) {
-        self.0[triangle as usize].store(true, Ordering::Relaxed);
+        self.does[triangle as usize].store(true, Ordering::Relaxed);
     }
 }
 
@@ -55,11 +65,11 @@ impl SurfaceIndex {
         self.leaves.len()
     }
 
-    /// Marks the triangles that run into one another, where the one of the lower number is in `slots`; returns how many
-    /// pairs were looked at. `triangles` are those of the index.
+    /// Marks the triangles that run into one another, where the one of the lower number is in `slots` and in no slot before;
+    /// returns how many pairs were looked at. `triangles` are those of the index.
     pub(crate) fn mark_crossings(&self, triangles: &[[u32; 3]], slots: Range<usize>, crossing: &Crossing) -> usize {
         let mut looks = 0;
-        for leaf in &self.leaves[slots] {
+        for leaf in self.leaves[slots].iter().filter(|leaf| crossing.is_new(leaf.triangle)) {
             let [a, b, c] = leaf.corners;
             let face = Face { vertices: triangles[leaf.triangle as usize], corners: leaf.corners };
             let mut meets = crossing.has(leaf.triangle);

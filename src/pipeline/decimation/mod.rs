@@ -696,9 +696,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn caps_with_thousands_of_triangles_around_one_vertex_go_as_far_as_any() {
-        let n = 3000u32;
+    /// A cylinder of `n` sides, each end a fan around its middle.
+    fn cylinder(n: u32) -> TriMesh {
         let at = |i: u32, z: f32| {
             let angle = f64::from(i) / f64::from(n) * std::f64::consts::TAU;
             Vec3::new(50.0 * libm::cos(angle) as f32, 50.0 * libm::sin(angle) as f32, z)
@@ -709,7 +708,20 @@ mod tests {
             let j = (i + 1) % n;
             [[i, j, n + j], [i, n + j, n + i], [2 * n, j, i], [2 * n + 1, n + i, n + j]]
         };
-        let mesh = TriMesh { positions, triangles: (0..n).flat_map(around).collect() };
+        TriMesh { positions, triangles: (0..n).flat_map(around).collect() }
+    }
+
+    #[test]
+    fn beside_a_hundred_thousand_triangles_around_one_vertex_everything_stays_and_it_says_so() {
+        let mesh = cylinder(100_000);
+        let levels = levels_of(&mesh, Method::Schroeder);
+        assert!(levels.errors.is_empty());
+        assert_eq!(levels.limit.geometry as usize, mesh.positions.len());
+    }
+
+    #[test]
+    fn caps_with_thousands_of_triangles_around_one_vertex_go_as_far_as_any() {
+        let mesh = cylinder(3000);
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         for method in Method::ALL {
             let settings = Decimation { method, ..Decimation::default() };
