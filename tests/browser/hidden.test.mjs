@@ -49,8 +49,10 @@ test("the wire stops where the page is hidden with a key held", async (t) => {
   await press(page, "button", "Trial");
   const start = await eventually(() => inserted(page), (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
   await page.keyboard.down("w");
-  const moving = await eventually(() => inserted(page), (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await eventually(() => inserted(page), (cm) => cm >= start + 1, { what: "a centimetre of wire" });
   await page.evaluate(() => window.hide());
+  // The last that was drawn.
+  const moving = await inserted(page);
   await new Promise((later) => setTimeout(later, 5000));
   await page.keyboard.up("w");
   await new Promise((later) => setTimeout(later, 1500));
@@ -60,6 +62,27 @@ test("the wire stops where the page is hidden with a key held", async (t) => {
   t.diagnostic(`${(10 * (now - moving)).toFixed(0)} mm were fed while the page was hidden`);
   // At 15 mm/s: what was under way, and no more than a second of it.
   assert(now - moving <= 1.5, `from ${moving} cm to ${now} cm while nobody saw it`);
+});
+
+test("a key that is held while the window beside the page is used is let go", async (t) => {
+  const { page } = await openApp(t, browser, { before: (page) => page.addInitScript(() => {
+    window.hasAttention = true;
+    document.hasFocus = () => window.hasAttention;
+  }) });
+  await settled(page);
+  await press(page, "button", "Trial");
+  const start = await eventually(() => inserted(page), (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  await page.keyboard.down("w");
+  await eventually(() => inserted(page), (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await page.evaluate(() => (window.hasAttention = false));
+  await new Promise((later) => setTimeout(later, 2000));
+  const stopped = await inserted(page);
+  await new Promise((later) => setTimeout(later, 3000));
+  assert.equal(await inserted(page), stopped, "the wire stands, though the page is seen");
+  // The key has come up elsewhere.
+  await page.evaluate(() => (window.hasAttention = true));
+  await new Promise((later) => setTimeout(later, 2000));
+  assert.equal(await inserted(page), stopped, "and it does not go on by itself");
 });
 
 test("work that ends while the page is hidden is there when it is shown", async (t) => {

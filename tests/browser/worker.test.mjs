@@ -59,6 +59,32 @@ test("the engine dies three times, and what was open is never lost", { timeout: 
   assert.equal(stlTriangles(bytes), shown, "the new engine saves what is shown");
 });
 
+test("an engine that dies at every start is left alone, and what is shown can still be saved", { timeout: 300_000 }, async (t) => {
+  const { page } = await openApp(t, browser);
+  const shown = shownTriangles(await settled(page));
+  await page.evaluate(() => {
+    window.SoundWorker = Worker;
+    window.started = 0;
+    window.Worker = class extends SoundWorker {
+      constructor(...all) {
+        super(...all);
+        window.started += 1;
+        setTimeout(() => this.dispatchEvent(new ErrorEvent("error", { message: "injected" })), 100);
+      }
+    };
+  });
+  await breakClock(page.workers()[0]);
+  await nudge(page);
+  await says(page, /^The computation keeps stopping \(.+\)\. What is shown is still there and can be saved/);
+  const started = await page.evaluate(() => window.started);
+  await new Promise((later) => setTimeout(later, 2000));
+  assert.equal(await page.evaluate(() => window.started), started, "no further one is started by itself");
+  assert.equal(started, 2);
+  await page.evaluate(() => (window.Worker = window.SoundWorker));
+  const { bytes } = await save(page, "STL");
+  assert.equal(stlTriangles(bytes), shown);
+});
+
 test("the trial's engine dies: the surface stays, and a new trial starts", { timeout: 300_000 }, async (t) => {
   const { page } = await openApp(t, browser);
   const shown = shownTriangles(await settled(page));
