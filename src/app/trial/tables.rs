@@ -359,7 +359,7 @@ mod tests {
         assert_eq!(cells[3], "75 (18)");
         assert_eq!(cells[4], "50");
         assert_eq!((cells[5].as_str(), cells[6].as_str()), ("6.0, 11.0", "4.0"));
-        assert_eq!((cells[8].as_str(), cells[11].as_str()), ("yes (yes)", "21.0"));
+        assert_eq!((cells[8].as_str(), cells[12].as_str()), ("yes (yes)", "21.0"));
     }
 
     #[test]
@@ -367,6 +367,6 @@ mod tests {
         let row = Row { rate: 95, outcome: Outcome::Done(Box::default()), ..Row::default() };
         let cells = row.cells(Some(Sample::Coronary));
         assert_eq!((cells[2].as_str(), cells[6].as_str()), ("– (32)", "–"));
-        assert_eq!(cells[11], "–", "no time to a target that was not reached");
+        assert_eq!(cells[12], "–", "no time to a target that was not reached");
     }
 }
