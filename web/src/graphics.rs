@@ -19,8 +19,8 @@ use web_sys::{Document, Element, HtmlCanvasElement, HtmlElement, WebGl2Rendering
 
 use crate::platform::Browser;
 
-/// How long to wait before graphics are started again, in milliseconds: a browser whose process for them has died needs
-/// a moment.
+/// How long to wait before graphics are first started again, in milliseconds: a browser whose process for them has died
+/// needs a moment.
 const PAUSE_MS: i32 = 250;
 
 /// What draws, and on what.
@@ -197,11 +197,12 @@ impl Stage {
     fn lose(self: &Rc<Self>, fault: &Fault) {
         let tell = if matches!(fault, Fault::Refused(_)) { console::error_1 } else { console::warn_1 };
         tell(&fault.to_string().into());
-        if self.is_down.replace(true) {
-            return;
-        }
+        // Each frame asks, so that what is lost while it is being started is not passed over.
         if let Some(app) = &*self.app.borrow() {
             app.mark(fault.clone());
+        }
+        if self.is_down.replace(true) {
+            return;
         }
         let stage = Rc::clone(self);
         spawn_local(async move { stage.recover().await });
@@ -212,16 +213,17 @@ impl Stage {
         if let Some(app) = &*self.app.borrow() {
             app.leave();
         }
-        let now_s = self.window.performance().map_or(0.0, |clock| clock.now() / 1000.0);
-        if !self.restarts.borrow_mut().may(now_s) {
-            return self.give_up();
-        }
-        self.pause().await;
-        match self.start().await {
-            Ok(()) => self.is_down.set(false),
-            Err(error) => {
-                console::warn_2(&"The graphics could not be started again:".into(), &error);
-                self.give_up();
+        loop {
+            let now_s = self.window.performance().map_or(0.0, |clock| clock.now() / 1000.0);
+            if !self.restarts.borrow_mut().may(now_s) {
+                return self.give_up();
+            }
+            // Four times as long with each restart of late.
+            let before = self.restarts.borrow().of_late().saturating_sub(1) as u32;
+            self.pause(PAUSE_MS << (2 * before)).await;
+            match self.start().await {
+                Ok(()) => return self.is_down.set(false),
+                Err(error) => console::warn_2(&"The graphics could not be started again:".into(), &error),
             }
         }
     }
@@ -242,10 +244,10 @@ impl Stage {
         spawn_local(async move { stage.recover().await });
     }
 
-    async fn pause(&self) {
+    async fn pause(&self, ms: i32) {
         let promise = js_sys::Promise::new(&mut |done, _| {
             // Without a timer it is done at once.
-            if self.window.set_timeout_with_callback_and_timeout_and_arguments_0(&done, PAUSE_MS).is_err() {
+            if self.window.set_timeout_with_callback_and_timeout_and_arguments_0(&done, ms).is_err() {
                 let _ = done.call0(&JsValue::NULL);
             }
         });
