@@ -31,11 +31,7 @@ fn open(descriptor: &wgpu::DeviceDescriptor<'_>) -> Broken {
 fn a_call_that_is_refused_is_told() {
     let broken = open(&wgpu::DeviceDescriptor::default());
     let size = broken.device.limits().max_buffer_size + 4;
-<<<<<<< HEAD
-    let _refused = broken.device.create_buffer(&wgpu::BufferDescriptor {
-=======
     let _ = broken.device.create_buffer(&wgpu::BufferDescriptor {
->>>>>>> h-web
         label: Some("too large"),
         size,
         usage: wgpu::BufferUsages::VERTEX,
