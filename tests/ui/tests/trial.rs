@@ -325,7 +325,7 @@ fn a_restart_shows_no_wire_of_before_and_a_step_back_no_force_of_later() {
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Restart");
     let shown = harness.state().trial().frame.clone().unwrap();
-    assert!(shown.nodes.is_empty() && shown.step == 0, "{shown:?}");
+    assert!(shown.nodes == at_entry().nodes && shown.step == 0, "{shown:?}");
     // The wire at the entry is of step 0, too, and is drawn all the same.
     harness.run_steps(3);
     let before = harness.state().trial_draws();
