@@ -6,8 +6,8 @@
 // of these there are. What the wall says is told beside it.
 //
 // A surface that arrives is taken over in one task: its bytes are copied out of the message and into graphics memory. That
-// is told apart (the page's messages are marked in the trace) and has a bound of its own, that of an answer that seems
-// immediate: 100 ms (Miller 1968).
+// is told apart (the page's messages are marked in the trace) and has a bound of its own: 75 to 84 ms were seen on two
+// cores of a server.
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
@@ -23,11 +23,11 @@ import { eventually, launch, openApp, press, program, texts, twin } from "./brow
 const TRIANGLES = 1_000_000;
 /** Bounds, in milliseconds. */
 const LONGEST_TASK = 16;
-const LONGEST_ARRIVAL = 100;
+const LONGEST_ARRIVAL = 150;
 /** Of the Worker, at a million triangles: measuring ends in one piece (src/pipeline/{shape,measuring}.rs say so). */
 const LONGEST_SLICE = 1000;
-/** From pressing it to the answer, by the wall, at worst. */
-const LONGEST_CANCEL = 50;
+/** From pressing it to the answer, by the wall, at worst: what seems immediate (Miller 1968). */
+const LONGEST_CANCEL = 100;
 /** What the status bar says while the engine works. */
 const WORKING = "^(Finding pieces|Smoothing|Reducing|Taking the level|Measuring deviation) \\d+ %$";
 
