@@ -118,7 +118,7 @@ test("a finger moves the slider, turns the view, and two of them zoom", async (t
 });
 
 test("a finger on the pad feeds the wire for as long as it is there", async (t) => {
-  const { page, wrong } = await openApp(t, browser, { context: PHONE });
+  const { page, wrong } = await openApp(t, browser, { context: { viewport: { width: 1280, height: 800 }, hasTouch: true } });
   await settled(page);
   const session = await page.context().newCDPSession(page);
   await press(page, "button", "Trial");
