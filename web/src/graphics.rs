@@ -23,6 +23,9 @@ use crate::platform::Browser;
 /// needs a moment.
 const PAUSE_MS: i32 = 250;
 
+/// A canvas, and what hears of its lost context.
+type Watched = (HtmlCanvasElement, Closure<dyn Fn()>);
+
 /// What draws, and on what.
 pub(crate) struct Stage {
     window: Window,
@@ -37,7 +40,7 @@ pub(crate) struct Stage {
     /// Whether WebGPU was what was lost.
     with_webgpu: Cell<bool>,
     /// What hears of a lost WebGL context, and from which canvas.
-    watched: RefCell<Option<(HtmlCanvasElement, Closure<dyn Fn()>)>>,
+    watched: RefCell<Option<Watched>>,
 }
 
 impl Stage {
