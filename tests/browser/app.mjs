@@ -94,3 +94,28 @@ async function differing(page, view, from) {
   const least = from(differences.reduce((strongest, it) => Math.max(strongest, it), 0));
   return differences.filter((difference) => difference > least).length;
 }
+
+/** How much wire is in, in cm, as the trial's panel has it, or null. */
+export async function inserted(page) {
+  const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
+  return text ? Number(text.split(" ")[0]) : null;
+}
+
+/** Waits until a trial has begun; how much wire is in at the entry, in cm. */
+export const atEntry = (page) => eventually(() => inserted(page), (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+
+/** Waits until so many more centimetres of wire are in than `start`. */
+export const fed = (page, start, more = 1) => eventually(() => inserted(page), (cm) => cm >= start + more, { what: `${more} cm of wire` });
+
+/** Waits until the wire stands, for `ms`. */
+export async function atRest(page, ms) {
+  let last = -1;
+  const stands = async () => {
+    const now = await inserted(page);
+    const rests = now === last;
+    last = now;
+    if (rests) await new Promise((later) => setTimeout(later, ms));
+    return rests && (await inserted(page)) === now;
+  };
+  return eventually(stands, (rests) => rests, { what: "the wire at rest" });
+}

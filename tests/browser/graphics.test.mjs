@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, lookFrom, settled, shownTriangles, silhouette, views } from "./app.mjs";
+import { REDUCTION, atEntry, fed, lookFrom, settled, shownTriangles, silhouette, views } from "./app.mjs";
 import { WEBGPU, contextKind, dragTo, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let webgl, webgpu;
@@ -109,18 +109,14 @@ test("a trial goes on where it was after the context is lost", async (t) => {
   const { page } = await openApp(t, webgl);
   await settled(page);
   await press(page, "button", "Trial");
-  const inserted = async () => {
-    const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
-    return text ? Number(text.split(" ")[0]) : null;
-  };
-  const start = await eventually(inserted, (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const start = await atEntry(page);
   await page.keyboard.down("w");
-  await eventually(inserted, (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await fed(page, start);
   await page.keyboard.up("w");
   await frames(page, 5);
   await loseContext(page);
   await startedAgain(page);
-  const after = await eventually(inserted, (cm) => cm !== null, { what: "the wire" });
+  const after = await atEntry(page);
   assert(after >= start + 1, `${after} cm, no less than before`);
   await twin(page, "img", "Fluoroscopy view").waitFor({ state: "attached" });
 });

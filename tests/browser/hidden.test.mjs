@@ -5,8 +5,8 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { settled } from "./app.mjs";
-import { eventually, frames, launch, openApp, press, started, texts, twin } from "./browser.mjs";
+import { atEntry, fed, inserted, settled } from "./app.mjs";
+import { eventually, frames, launch, openApp, press, started, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -38,18 +38,13 @@ function hideable() {
 
 const hideablePage = { before: (page) => page.addInitScript(hideable) };
 
-const inserted = async (page) => {
-  const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
-  return text ? Number(text.split(" ")[0]) : null;
-};
-
 test("the wire stops where the page is hidden with a key held", async (t) => {
   const { page } = await openApp(t, browser, hideablePage);
   await settled(page);
   await press(page, "button", "Trial");
-  const start = await eventually(() => inserted(page), (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const start = await atEntry(page);
   await page.keyboard.down("w");
-  await eventually(() => inserted(page), (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await fed(page, start);
   await page.evaluate(() => window.hide());
   // The last that was drawn.
   const moving = await inserted(page);
@@ -71,9 +66,9 @@ test("a key that is held while the window beside the page is used is let go", as
   }) });
   await settled(page);
   await press(page, "button", "Trial");
-  const start = await eventually(() => inserted(page), (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const start = await atEntry(page);
   await page.keyboard.down("w");
-  await eventually(() => inserted(page), (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await fed(page, start);
   await page.evaluate(() => (window.hasAttention = false));
   await new Promise((later) => setTimeout(later, 2000));
   const stopped = await inserted(page);

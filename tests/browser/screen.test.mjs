@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, settled, shownTriangles, silhouette, views } from "./app.mjs";
-import { eventually, frames, launch, openApp, press, texts, twin, value } from "./browser.mjs";
+import { REDUCTION, atEntry, atRest, fed, settled, shownTriangles, silhouette, views } from "./app.mjs";
+import { eventually, frames, launch, openApp, press, twin, value } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -122,27 +122,12 @@ test("a finger on the pad feeds the wire for as long as it is there", async (t) 
   await settled(page);
   const session = await page.context().newCDPSession(page);
   await press(page, "button", "Trial");
-  const inserted = async () => {
-    const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
-    return text ? Number(text.split(" ")[0]) : null;
-  };
-  const start = await eventually(inserted, (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const start = await atEntry(page);
   const pad = await twin(page, "slider", "Feed pad").boundingBox();
   const held = [{ x: pad.x + pad.width * 0.8, y: pad.y + pad.height / 2 }];
   await touch(session, "touchStart", held);
-  await eventually(inserted, (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await fed(page, start);
   await touch(session, "touchEnd", []);
-  let last = -1;
-  await eventually(
-    async () => {
-      const now = await inserted();
-      const rests = now === last;
-      last = now;
-      if (rests) await new Promise((later) => setTimeout(later, 1000));
-      return rests && (await inserted()) === now;
-    },
-    (rests) => rests,
-    { what: "the wire at rest" },
-  );
+  await atRest(page, 1000);
   assert.deepEqual(wrong, []);
 });

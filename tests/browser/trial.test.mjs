@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { settled } from "./app.mjs";
+import { atEntry, atRest, fed, settled } from "./app.mjs";
 import { eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 /** How long the autopilot may take. */
@@ -73,25 +73,10 @@ test("keys drive the wire while they are held", async (t) => {
   const { page, wrong } = await openApp(t, browser);
   await settled(page);
   await press(page, "button", "Trial");
-  const inserted = async () => {
-    const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
-    return text ? Number(text.split(" ")[0]) : null;
-  };
-  const start = await eventually(inserted, (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const start = await atEntry(page);
   await page.keyboard.down("w");
-  await eventually(inserted, (cm) => cm >= start + 1, { what: "a centimetre of wire" });
+  await fed(page, start);
   await page.keyboard.up("w");
-  let last = -1;
-  await eventually(
-    async () => {
-      const now = await inserted();
-      const rests = now === last;
-      last = now;
-      if (rests) await new Promise((later) => setTimeout(later, 500));
-      return rests && (await inserted()) === now;
-    },
-    (rests) => rests,
-    { what: "the wire at rest" },
-  );
+  await atRest(page, 500);
   assert.deepEqual(wrong, []);
 });

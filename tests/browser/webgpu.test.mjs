@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { settled, silhouette, views } from "./app.mjs";
+import { atEntry, fed, settled, silhouette, views } from "./app.mjs";
 import { WEBGPU, contextKind, eventually, frames, launch, openApp, picture, press, texts, twin } from "./browser.mjs";
 
 let browser;
@@ -61,13 +61,9 @@ test("with WebGPU a wire is steered, and all three views show it", async (t) => 
   assert.equal(await contextKind(page), "webgpu");
   await settled(page);
   await press(page, "button", "Trial");
-  const inserted = async () => {
-    const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));
-    return text ? Number(text.split(" ")[0]) : null;
-  };
-  const start = await eventually(inserted, (cm) => cm !== null, { timeout: 60_000, what: "the wire at the entry" });
+  const start = await atEntry(page);
   await page.keyboard.down("w");
-  await eventually(inserted, (cm) => cm >= start + 2, { what: "two centimetres of wire" });
+  await fed(page, start, 2);
   await page.keyboard.up("w");
   await page.mouse.move(2, 2);
   await frames(page, 10);

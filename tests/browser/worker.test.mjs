@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, openFile, save, settled, shownTriangles, stlTriangles } from "./app.mjs";
+import { REDUCTION, atEntry, openFile, save, settled, shownTriangles, stlTriangles } from "./app.mjs";
 import { dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
@@ -83,13 +83,12 @@ test("the trial's engine dies: the surface stays, and a new trial starts", { tim
   const { page } = await openApp(t, browser);
   const shown = shownTriangles(await settled(page));
   await press(page, "button", "Trial");
-  const inserted = () => texts(page).then((all) => all.find((text) => /^[\d.]+ cm$/.test(text)) ?? null);
-  await eventually(inserted, (text) => text !== null, { timeout: 60_000, what: "the wire at the entry" });
+  await atEntry(page);
   const [, trial] = page.workers();
   await kill(trial);
   await says(page, /^The trial stopped \(.+\)\. The surface is still open; start again\.$/);
   await press(page, "button", "Trial");
   assert.equal(shownTriangles(await settled(page)), shown);
   await press(page, "button", "Trial");
-  await eventually(inserted, (text) => text !== null, { timeout: 60_000, what: "the wire at the entry, again" });
+  await atEntry(page);
 });
