@@ -11,6 +11,7 @@ mod components;
 pub(crate) mod crossing;
 mod four;
 mod hausdorff;
+mod hubs;
 mod index_build;
 mod inner_ball;
 mod inside;

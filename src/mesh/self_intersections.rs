@@ -2,6 +2,7 @@
 //!
 //! What counts is said in `crossing.rs`; it is MeshLab's definition.
 
+use std::cmp::Ordering::{Equal, Greater, Less};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -9,7 +10,8 @@ use glam::{Vec3, Vec4};
 
 use super::TriMesh;
 use super::crossing::{Face, cross};
-use super::nearest::{Node, STACK, SurfaceIndex};
+use super::hubs::{Hubs, half_way_box};
+use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
 use crate::parallel;
 
 /// Slots that are searched in one piece.
@@ -19,7 +21,7 @@ const PIECE: usize = 1024;
 /// into nothing.
 pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
     let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-    let crossing = Crossing::none(mesh.triangles.len());
+    let crossing = Crossing::none(&index, &mesh.triangles);
     parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(&mesh.triangles, slots, &crossing));
     crossing.triangles().collect()
 }
@@ -31,13 +33,14 @@ pub(crate) struct Crossing {
     does: Vec<AtomicBool>,
     /// Whether a triangle was looked at: a sliver stands in several slots.
     was_asked: Vec<AtomicBool>,
+    hubs: Hubs,
 }
 
 impl Crossing {
-    /// None of `count` triangles.
-    pub(crate) fn none(count: usize) -> Self {
-        let none = || (0..count).map(|_| AtomicBool::new(false)).collect();
-        Self { does: none(), was_asked: none() }
+    /// None yet of the triangles of `index`.
+    pub(crate) fn none(index: &SurfaceIndex, triangles: &[[u32; 3]]) -> Self {
+        let none = || (0..triangles.len()).map(|_| AtomicBool::new(false)).collect();
+        Self { does: none(), was_asked: none(), hubs: Hubs::of(index, triangles) }
     }
 
     /// Those that do, ascending.
@@ -65,40 +68,54 @@ impl SurfaceIndex {
         self.leaves.len()
     }
 
-    /// Marks the triangles that run into one another, where the one of the lower number is in `slots` and in no slot before;
+    /// Marks the triangles that run into one another, where one of them is in `slots` and in no slot before;
     /// returns how many pairs were looked at. `triangles` are those of the index.
     pub(crate) fn mark_crossings(&self, triangles: &[[u32; 3]], slots: Range<usize>, crossing: &Crossing) -> usize {
         let mut looks = 0;
         for leaf in self.leaves[slots].iter().filter(|leaf| crossing.is_new(leaf.triangle)) {
             let [a, b, c] = leaf.corners;
-            let face = Face { vertices: triangles[leaf.triangle as usize], corners: leaf.corners };
-            let mut meets = crossing.has(leaf.triangle);
-            self.overlapping(a.min(b).min(c), a.max(b).max(c), |slots| {
-                looks += slots.len();
-                for other in &self.leaves[slots] {
-                    if other.triangle > leaf.triangle && !(meets && crossing.has(other.triangle)) {
-                        let vertices = triangles[other.triangle as usize];
-                        if cross(&face, &Face { vertices, corners: other.corners }) {
-                            meets = true;
-                            crossing.mark(leaf.triangle);
-                            crossing.mark(other.triangle);
-                        }
-                    }
+            let vertices = triangles[leaf.triangle as usize];
+            let face = Face { vertices, corners: leaf.corners };
+            let mut look = |other: &Leaf| {
+                looks += 1;
+                if crossing.has(leaf.triangle) && crossing.has(other.triangle) {
+                    return;
                 }
+                let other_face = Face { vertices: triangles[other.triangle as usize], corners: other.corners };
+                let meets = match leaf.triangle.cmp(&other.triangle) {
+                    Less => cross(&face, &other_face),
+                    Equal => false,
+                    Greater => cross(&other_face, &face),
+                };
+                if meets {
+                    crossing.mark(leaf.triangle);
+                    crossing.mark(other.triangle);
+                }
+            };
+            let hubs = &crossing.hubs;
+            let of_no_hub_of_ours = |node, lanes: u32| lanes & !hubs.shared(node, vertices);
+            self.overlapping(a.min(b).min(c), a.max(b).max(c), of_no_hub_of_ours, |slots| {
+                self.leaves[slots].iter().filter(|other| other.triangle > leaf.triangle).for_each(&mut look);
             });
+            for corner in hubs.corners(vertices) {
+                let (min, max) = half_way_box(leaf.corners, corner);
+                self.overlapping(min, max, |_, lanes| lanes, |slots| self.leaves[slots].iter().for_each(&mut look));
+            }
         }
         looks
     }
 
-    /// Visits the leaves whose boxes overlap the one from `min` to `max`.
-    fn overlapping(&self, min: Vec3, max: Vec3, mut visit: impl FnMut(Range<usize>)) {
+    /// Visits the leaves whose boxes overlap the one from `min` to `max`, by those lanes of each node that `keep` leaves of
+    /// the overlapping ones.
+    fn overlapping(&self, min: Vec3, max: Vec3, keep: impl Fn(u32, u32) -> u32, mut visit: impl FnMut(Range<usize>)) {
         let (low, high) = (min.to_array().map(Vec4::splat), max.to_array().map(Vec4::splat));
         let mut stack = [0u32; STACK];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
             top -= 1;
-            let node = &self.nodes[stack[top] as usize];
-            let mut lanes = node.overlaps(&low, &high);
+            let number = stack[top];
+            let node = &self.nodes[number as usize];
+            let mut lanes = keep(number, node.overlaps(&low, &high));
             while lanes != 0 {
                 let lane = lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
@@ -202,12 +219,50 @@ mod tests {
         let whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
         let mesh = TriMesh { positions, triangles: triangles.filter(whole).collect() };
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-        let crossing = Crossing::none(mesh.triangles.len());
+        let crossing = Crossing::none(&index, &mesh.triangles);
         let looks: Vec<usize> =
             (0..index.slots()).map(|slot| index.mark_crossings(&mesh.triangles, slot..slot + 1, &crossing)).collect();
         assert!(looks.iter().all(|&looks| looks <= index.slots()));
         assert_eq!(crossing.triangles().collect::<Vec<_>>(), one_by_one(&mesh));
         assert!(crossing.triangles().count() > 1900);
+    }
+
+    /// Cones of `sides` triangles around one vertex, some of which stand in each other.
+    fn cones(sides: u32) -> TriMesh {
+        let mut mesh = TriMesh { positions: vec![Vec3::new(0.3, 0.2, 0.1)], triangles: Vec::new() };
+        for (lean, tall) in [(0.4, 3.0), (0.55, 2.0), (3.0, 2.5)] {
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend((0..sides).map(|i| {
+                let angle = f64::from(i) / f64::from(sides) * std::f64::consts::TAU;
+                let (x, y) = (libm::cos(angle) as f32, libm::sin(angle) as f32);
+                // The middle cone leans to a side and so goes through the first.
+                Vec3::new(lean * tall * x + if lean == 0.55 { 0.7 } else { 0.0 }, lean * tall * y, tall)
+            }));
+            mesh.triangles.extend((0..sides).map(|i| [0, first + i, first + (i + 1) % sides]));
+        }
+        // The same triangle a second time.
+        mesh.triangles.push(mesh.triangles[5]);
+        mesh
+    }
+
+    #[test]
+    fn of_the_triangles_of_a_hub_those_that_run_into_each_other_are_found() {
+        for sides in [30, 100, 300] {
+            let mesh = cones(sides);
+            let found = self_intersections(&mesh);
+            assert_eq!(found, one_by_one(&mesh), "{sides}");
+            assert!(found.len() > 4 && found.len() < mesh.triangles.len() / 2, "{sides}: {}", found.len());
+        }
+    }
+
+    #[test]
+    fn a_hub_of_a_hundred_thousand_triangles_is_not_asked_for_each_pair() {
+        let sides = 100_000;
+        let mesh = cones(sides / 3);
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        let crossing = Crossing::none(&index, &mesh.triangles);
+        let looks = index.mark_crossings(&mesh.triangles, 0..index.slots(), &crossing);
+        assert!(looks < 2000 * mesh.triangles.len(), "{looks}");
     }
 
     fn soup() -> impl Strategy<Value = TriMesh> {
