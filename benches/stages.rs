@@ -11,9 +11,10 @@ use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_grou
 use lumen::mesh::TriMesh;
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::normals::{Weighting, vertex_normals};
-use lumen::pipeline::results::{Stage, StageTimes};
+use lumen::pipeline::results::StageTimes;
 use lumen::pipeline::run::{Advance, Pipeline};
 use lumen::pipeline::settings::{Settings, Target};
+use lumen::pipeline::stage::Stage;
 use lumen::pipeline::task::Budget;
 
 const SIZES: [usize; 6] = [10_000, 30_000, 100_000, 300_000, 1_000_000, 4_000_000];

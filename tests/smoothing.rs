@@ -12,10 +12,11 @@ use lumen::parallel::with_threads;
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::filter::Filter;
 use lumen::pipeline::response::wavelength;
-use lumen::pipeline::results::{Smoothed, Stage};
+use lumen::pipeline::results::Smoothed;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Boundary, Keep, Settings, SettingsError, Smoothing, Target, Window};
 use lumen::pipeline::smoothing::{SmoothingTask, smooth};
+use lumen::pipeline::stage::Stage;
 use lumen::pipeline::task::{Budget, Progress, Task};
 use proptest::prelude::*;
 

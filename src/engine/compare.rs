@@ -8,9 +8,9 @@ use std::collections::VecDeque;
 use super::message::{Compared, Event, Work};
 use super::tell_progress;
 use crate::pipeline::report::Report;
-use crate::pipeline::results::Stage;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Settings, SettingsError};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
 
 /// Settings that are compared.
@@ -80,7 +80,7 @@ impl Comparing {
             self.running = Some(pipeline);
         }
         // Shape and lumen are not shown.
-        let running = self.running.as_mut().filter(|pipeline| pipeline.next_stage() < Some(Stage::Measures));
+        let running = self.running.as_mut().filter(|pipeline| pipeline.next_stage() < Some(Stage::SmoothedMeasures));
         running.map_or(Ok(Advance::Idle), |pipeline| pipeline.advance(budget))
     }
 

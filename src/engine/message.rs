@@ -10,8 +10,8 @@ use crate::phantom::Sample;
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::report::Report;
-use crate::pipeline::results::Stage;
 use crate::pipeline::settings::{Keep, Settings};
+use crate::pipeline::stage::Stage;
 
 /// Where a surface comes from.
 #[derive(Clone, Debug, PartialEq)]

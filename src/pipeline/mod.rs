@@ -1,7 +1,8 @@
 //! The method: connectivity, smoothing, normals, decimation to a progressive mesh, deviation.
 //!
-//! Each stage is a file; [`run`] puts them in order and remembers what each made, so that a change of a setting
-//! recomputes from the first stage that it touches.
+//! Each algorithm is a file. [`stage`] says what the stages are and what each rests on, `stages/` what each does, and
+//! [`run`] goes through them and remembers what each made, so that a change of a setting recomputes from the first stage
+//! that it touches.
 
 pub mod bound;
 pub mod connectivity;
@@ -9,7 +10,6 @@ pub mod decimation;
 pub mod deviation;
 pub mod filter;
 pub mod lumen;
-pub mod measuring;
 pub mod narrowest;
 pub mod normals;
 pub mod paper;
@@ -22,4 +22,7 @@ pub mod run;
 pub mod settings;
 pub mod shape;
 pub mod smoothing;
+pub mod stage;
+mod stages;
+mod store;
 pub mod task;

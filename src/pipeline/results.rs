@@ -1,49 +1,23 @@
-//! What the stages of the pipeline make, and how long they took.
+//! What the stages of the pipeline make, a slot each, and how long they took.
 
 use std::sync::Arc;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
+use web_time::Instant;
 
+use super::bound::Bound;
 use super::deviation::Comparison;
 use super::filter::Filter;
-use super::progressive::Level;
+use super::lumen::{Narrowing, Sample};
+use super::pinch::Pinch;
+use super::progressive::{Level, ProgressiveMesh};
 use super::response::SmoothingResponse;
-use crate::mesh::{Measures, Topology, TriMesh};
-
-/// A stage of the pipeline, in their order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Stage {
-    /// Which pieces there are, and the ones that go on.
-    Connectivity,
-    /// The windowed-sinc filter.
-    Smoothing,
-    /// The run that makes the progressive mesh.
-    Decimation,
-    /// Which level stays within the bound on the deviation, if there is one.
-    Bound,
-    /// One level of it.
-    Level,
-    /// How far it is from the smoothed surface and from the one that was opened.
-    Deviation,
-    /// Shape and lumen of the smoothed surface and of the level.
-    Measures,
-}
-
-impl Stage {
-    /// What the stage is called while it runs.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Connectivity => "Finding pieces",
-            Self::Smoothing => "Smoothing",
-            Self::Decimation => "Reducing",
-            Self::Bound => "Finding the level",
-            Self::Level => "Taking the level",
-            Self::Deviation => "Measuring deviation",
-            Self::Measures => "Measuring shape and lumen",
-        }
-    }
-}
+use super::settings::Settings;
+use super::shape::Shape;
+use super::stage::{PerStage, Stage};
+use super::task::milliseconds;
+use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh};
 
 /// Milliseconds that each stage took when it last ran.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -77,16 +51,139 @@ pub struct StageTimes {
     pub write: f64,
 }
 
-impl StageTimes {
-    pub(super) fn of(&mut self, stage: Stage) -> &mut f64 {
+/// Milliseconds by stage, and what is told apart from the stage that it was part of.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Times {
+    stages: PerStage<f64>,
+    parts: [f64; 5],
+    /// Of the present slice: what is told apart.
+    aside: f64,
+}
+
+/// What is told apart from the stage that it is part of.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Part {
+    Adjacency,
+    Normals,
+    /// Areas and volumes, of each of the three surfaces.
+    KeptAreas,
+    SmoothedAreas,
+    LevelAreas,
+}
+
+impl Times {
+    /// The stage starts from nothing.
+    pub(super) fn begin(&mut self, stage: Stage) {
+        self.stages[stage] = 0.0;
+    }
+
+    /// A slice of the stage took so long, with what was told apart since the last.
+    pub(super) fn add(&mut self, stage: Stage, ms: f64) {
+        self.stages[stage] += ms - std::mem::take(&mut self.aside);
+    }
+
+    /// Tells what was done since `start`, in the slice under way, apart from its stage.
+    pub(super) fn tell_apart(&mut self, part: Part, start: Instant) {
+        let ms = milliseconds(start);
+        self.parts[part as usize] = ms;
+        self.aside += ms;
+    }
+
+    /// As reports have them.
+    pub(super) fn told(&self) -> StageTimes {
+        let part = |part: Part| self.parts[part as usize];
+        StageTimes {
+            read: 0.0,
+            connectivity: self.stages[Stage::Connectivity],
+            adjacency: part(Part::Adjacency),
+            smoothing: self.stages[Stage::Smoothing],
+            decimation: self.stages[Stage::Decimation],
+            bound: self.stages[Stage::Bound],
+            level: self.stages[Stage::Level],
+            normals: part(Part::Normals),
+            areas: part(Part::KeptAreas) + part(Part::SmoothedAreas) + part(Part::LevelAreas),
+            deviation: self.stages[Stage::Deviation],
+            measures: self.stages[Stage::SmoothedMeasures] + self.stages[Stage::Measures],
+            write: 0.0,
+        }
+    }
+}
+
+/// What the stages made, a slot each; shared, so that a copy costs nothing.
+#[derive(Clone, Default)]
+pub(super) struct Results {
+    pub(super) settings: Settings,
+    /// Connectivity.
+    pub(super) kept: Option<Arc<Surface>>,
+    /// Smoothing.
+    pub(super) smoothed: Option<Arc<Smoothed>>,
+    /// Decimation.
+    pub(super) levels: Option<Levels>,
+    /// The search for the level within a bound.
+    pub(super) bound: Option<Bound>,
+    /// The level.
+    pub(super) reduced: Option<Arc<Reduced>>,
+    /// Its deviation.
+    pub(super) deviations: Option<Arc<Deviations>>,
+    /// Shape and lumen of the smoothed surface.
+    pub(super) smoothed_measures: Option<Arc<SmoothedMeasures>>,
+    /// Shape and lumen of the level.
+    pub(super) level_measures: Option<Arc<LevelMeasures>>,
+    pub(super) indices: Indices,
+    pub(super) times: Times,
+}
+
+/// What decimation leaves.
+#[derive(Clone, Debug)]
+pub(super) struct Levels {
+    pub(super) progressive: Arc<ProgressiveMesh>,
+    /// The smoothed surface over the nodes of the progressive mesh.
+    pub(super) finest: Arc<TriMesh>,
+}
+
+/// Indices that one stage built and others use: they go with the surface that they are of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Indices {
+    pub(super) kept: Option<Arc<SurfaceIndex>>,
+    pub(super) finest: Option<Arc<SurfaceIndex>>,
+    /// Of the level, from its deviation to its measures.
+    pub(super) level: Option<Arc<SurfaceIndex>>,
+}
+
+impl Results {
+    /// Whether the slot of `stage` is filled.
+    pub(super) fn has(&self, stage: Stage) -> bool {
         match stage {
-            Stage::Connectivity => &mut self.connectivity,
-            Stage::Smoothing => &mut self.smoothing,
-            Stage::Decimation => &mut self.decimation,
-            Stage::Bound => &mut self.bound,
-            Stage::Level => &mut self.level,
-            Stage::Deviation => &mut self.deviation,
-            Stage::Measures => &mut self.measures,
+            Stage::Connectivity => self.kept.is_some(),
+            Stage::Smoothing => self.smoothed.is_some(),
+            Stage::Decimation => self.levels.is_some(),
+            Stage::Bound => self.bound.is_some(),
+            Stage::Level => self.reduced.is_some(),
+            Stage::Deviation => self.deviations.is_some(),
+            Stage::SmoothedMeasures => self.smoothed_measures.is_some(),
+            Stage::Measures => self.level_measures.is_some(),
+        }
+    }
+
+    /// Empties the slot of `stage`.
+    pub(super) fn clear(&mut self, stage: Stage) {
+        match stage {
+            Stage::Connectivity => (self.kept, self.indices.kept) = (None, None),
+            Stage::Smoothing => self.smoothed = None,
+            Stage::Decimation => (self.levels, self.indices.finest) = (None, None),
+            Stage::Bound => {
+                self.bound = None;
+                self.times.begin(stage);
+            }
+            Stage::Level => (self.reduced, self.indices.level) = (None, None),
+            Stage::Deviation => self.deviations = None,
+            Stage::SmoothedMeasures => self.smoothed_measures = None,
+            Stage::Measures => {
+                self.level_measures = None;
+                // Both times are told as one: that of the smoothed surface counts where it was spent for this level.
+                self.times.begin(Stage::SmoothedMeasures);
+                self.times.begin(stage);
+            }
         }
     }
 }
@@ -146,6 +243,26 @@ pub struct Deviations {
     /// For each node of the level, the mean deviation from the smoothed surface around it, in mm, by the samples of
     /// which `from_smoothed` gives the numbers; 0 for other nodes.
     pub by_node: Vec<f32>,
+}
+
+/// What is measured of the smoothed surface.
+#[derive(Clone, Debug)]
+pub struct SmoothedMeasures {
+    /// Its shape.
+    pub shape: Shape,
+    /// The middles of its vessels.
+    pub samples: Arc<[Sample]>,
+    /// Where and from which rate on a vessel is pinched, if one is.
+    pub pinch: Option<Pinch>,
+}
+
+/// What is measured of a level.
+#[derive(Clone, Debug)]
+pub struct LevelMeasures {
+    /// Its shape.
+    pub shape: Shape,
+    /// Where it has narrowed a vessel most; `None` where there is no vessel.
+    pub narrowing: Option<Narrowing>,
 }
 
 /// A number by which two runs can see that they made the same surface: FNV-1a (Fowler, Noll, Vo), 64 bits, over the

@@ -5,28 +5,28 @@
 //! ```
 //!
 //! Where the target is a bound on the deviation, the level that meets it is found before it is taken. Last come the
-//! numbers that are no stage of the method (`measuring`).
+//! numbers that are no stage of the method (`stages/measures.rs`).
 //!
-//! [`Pipeline::set`] drops what a change of settings makes stale, from the first stage that it touches;
-//! [`Pipeline::advance`] works on the first stage that is missing. A change of the reduction rate alone costs a
-//! level and its deviation.
+//! [`Pipeline::set`] drops what a change of settings makes stale; [`Pipeline::advance`] works on the first stage that is
+//! missing. A change of the reduction rate alone costs a level and its deviation. Both go by the table in
+//! [`stage`](super::stage): a new stage has a line in each function there, a slot in [`Results`] and a file in `stages/`.
 
 use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::bound::{Bound, BoundTask};
+use super::bound::Bound;
 use super::connectivity::Connectivity;
-use super::decimation::DecimationTask;
-use super::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
-use super::measuring::{LevelMeasures, LevelTask, SmoothedMeasures, SmoothedTask, Subject};
-use super::normals::{Weighting, vertex_normals};
+use super::deviation::INTERACTIVE_SAMPLES;
 use super::progressive::ProgressiveMesh;
-use super::results::{Deviations, Reduced, Smoothed, Stage, StageTimes, Surface, fingerprint};
-use super::settings::{Settings, SettingsError};
-use super::smoothing::{KeptTerms, Preparation, SmoothingStage};
-use super::task::{Budget, Progress, Task, milliseconds};
-use crate::mesh::{SurfaceIndex, Topology, TriMesh, measures, measures_within, oriented_loops};
+use super::results::{Deviations, LevelMeasures, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes, Surface};
+use super::settings::{Keep, Settings, SettingsError};
+use super::smoothing::Preparation;
+use super::stage::{PerStage, Stage, stale};
+use super::stages::{self, Run};
+use super::store::Store;
+use super::task::{Budget, Progress, milliseconds};
+use crate::mesh::TriMesh;
 
 /// What [`Pipeline::advance`] did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,96 +39,34 @@ pub enum Advance {
     Idle,
 }
 
-enum Running {
-    Smoothing(Box<SmoothingStage>),
-    Decimation(Box<DecimationTask<Arc<TriMesh>, Arc<Topology>>>),
-    Bound(Box<BoundTask>),
-    Deviation(Box<DeviationRun>),
-    Level(Box<LevelTask>),
-}
-
-struct DeviationRun {
-    from_smoothed: DeviationTask<Arc<TriMesh>>,
-    from_original: DeviationTask<Arc<TriMesh>>,
-    first: Option<Option<Comparison>>,
-}
-
-/// What the stages made, each from the one before; shared, so that a copy costs nothing.
-#[derive(Clone, Default)]
-struct Results {
-    settings: Settings,
-    kept: Option<Arc<Surface>>,
-    smoothed: Option<Arc<Smoothed>>,
-    progressive: Option<Arc<ProgressiveMesh>>,
-    /// The smoothed surface over the nodes of the progressive mesh.
-    finest: Option<Arc<TriMesh>>,
-    bound: Option<Bound>,
-    reduced: Option<Arc<Reduced>>,
-    deviations: Option<Arc<Deviations>>,
-    /// Of `finest` and the kept surface, for the next level.
-    indices: [Option<Arc<SurfaceIndex>>; 2],
-    /// Of the level, from its deviation to its measures.
-    level_index: Option<Arc<SurfaceIndex>>,
-    smoothed_measures: Option<Arc<SmoothedMeasures>>,
-    level_measures: Option<Arc<LevelMeasures>>,
-    times: StageTimes,
-    /// Milliseconds that area and volume took, of the kept, the smoothed and the reduced surface.
-    measuring: [f64; 3],
-}
-
 /// One opened surface and what the stages made of it so far.
 pub struct Pipeline {
-    opened: Arc<TriMesh>,
-    samples: usize,
+    store: Store,
     /// Whether the level is measured.
     is_measured: bool,
-    connectivity: Option<Arc<Connectivity>>,
-    /// The pieces that go on, before they are measured, and their adjacency.
-    adjacent: Option<(Arc<TriMesh>, Option<Arc<Topology>>)>,
-    /// The stage whose time is being counted.
-    timed: Option<Stage>,
-    /// Milliseconds of the present call of `advance` that are not the stage's own.
-    aside: f64,
-    now: Results,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
-    running: Option<Running>,
-    /// What makes another pass band cheap; and its making, which waits for the stages.
-    terms: Option<KeptTerms>,
+    /// What is under way. A stage that a change of the settings does not touch goes on when its turn comes again.
+    running: PerStage<Option<Box<dyn Run>>>,
+    /// The making of what makes another pass band cheap, which waits for the stages.
     preparation: Option<Preparation>,
-    /// Whether the kept surface has been smoothed before: then it may well be again.
-    is_smoothed_again: bool,
-    /// The measuring of the smoothed surface: a change of the level does not stop it.
-    measuring: Option<Box<SmoothedTask>>,
 }
 
 impl Pipeline {
     /// A pipeline for an opened surface. Triangles must not repeat a vertex, coordinates must be finite (`io` sees to
     /// both).
     pub fn new(opened: Arc<TriMesh>, settings: Settings) -> Self {
-        let now = Results { settings, ..Results::default() };
-        Self {
-            opened,
-            samples: INTERACTIVE_SAMPLES,
-            is_measured: true,
-            connectivity: None,
-            adjacent: None,
-            timed: None,
-            aside: 0.0,
-            now,
-            last: None,
-            running: None,
-            terms: None,
-            preparation: None,
-            is_smoothed_again: false,
-            measuring: None,
-        }
+        Self::over(Store::new(opened, settings, INTERACTIVE_SAMPLES), true)
+    }
+
+    fn over(store: Store, is_measured: bool) -> Self {
+        Self { store, is_measured, last: None, running: PerStage::default(), preparation: None }
     }
 
     /// Sets the number of samples of each surface that the deviation takes.
     #[must_use]
     pub fn with_samples(mut self, samples: usize) -> Self {
-        self.samples = samples;
+        self.store.samples = samples;
         self
     }
 
@@ -143,22 +81,7 @@ impl Pipeline {
     /// shared, not copied.
     #[must_use]
     pub fn fork(&self) -> Self {
-        Self {
-            opened: self.opened.clone(),
-            samples: self.samples,
-            is_measured: self.is_measured,
-            connectivity: self.connectivity.clone(),
-            adjacent: None,
-            now: self.now.clone(),
-            last: None,
-            running: None,
-            terms: None,
-            preparation: None,
-            is_smoothed_again: false,
-            timed: None,
-            aside: 0.0,
-            measuring: None,
-        }
+        Self::over(self.store.fork(), self.is_measured)
     }
 
     /// Changes the settings; what they made stale is dropped.
@@ -167,82 +90,44 @@ impl Pipeline {
     /// When a setting is out of range; nothing changes then.
     pub fn set(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
-        if let (super::settings::Keep::Component(wanted), Some(found)) = (settings.keep, &self.connectivity)
+        if let (Keep::Component(wanted), Some(found)) = (settings.keep, &self.store.connectivity)
             && wanted as usize >= found.components.len()
         {
             return Err(SettingsError::Component { wanted, count: found.components.len() });
         }
-        if self.now.reduced.is_some() {
-            self.last = Some(self.now.clone());
+        if self.store.now.reduced.is_some() {
+            self.last = Some(self.store.now.clone());
         }
-        let old = std::mem::replace(&mut self.now.settings, settings);
-        let new = &self.now.settings;
-        let keep = old.keep != new.keep;
-        let smoothing = keep || !old.smoothing.gives_same(&new.smoothing);
-        let decimation = smoothing || !old.decimation.gives_same(&new.decimation);
-        let level = decimation || old.target != new.target;
-        self.is_smoothed_again |= smoothing && self.now.smoothed.is_some();
-        if smoothing {
+        let old = std::mem::replace(&mut self.store.now.settings, settings);
+        let stale = stale(&old, &self.store.now.settings);
+        if stale[Stage::Smoothing] {
             self.preparation = None;
+            self.store.is_smoothed_again |= self.store.now.smoothed.is_some();
         }
-        if keep {
-            self.terms = None;
-            self.is_smoothed_again = false;
-            self.adjacent = None;
-            self.now.kept = None;
-            self.now.indices[1] = None;
+        if stale[Stage::Connectivity] {
+            self.store.terms = None;
+            self.store.is_smoothed_again = false;
         }
-        if smoothing {
-            self.now.smoothed = None;
-        }
-        if decimation {
-            self.now.finest = None;
-            self.now.indices[0] = None;
-            self.now.progressive = None;
-            self.now.smoothed_measures = None;
-            self.measuring = None;
-        }
-        if level {
-            self.now.bound = None;
-            self.now.times.bound = 0.0;
-            self.now.reduced = None;
-            self.now.deviations = None;
-            self.now.level_index = None;
-            self.now.level_measures = None;
-            self.now.times.measures = 0.0;
-        }
-        let stale = match &self.running {
-            Some(Running::Smoothing(..)) => smoothing,
-            Some(Running::Decimation(_)) => decimation,
-            Some(Running::Bound(_) | Running::Deviation(_) | Running::Level(_)) => level,
-            None => false,
-        };
-        if stale {
-            self.running = None;
-        }
-        if stale || keep {
-            self.timed = None;
+        for stage in Stage::ALL.into_iter().filter(|&stage| stale[stage]) {
+            self.store.now.clear(stage);
+            self.running[stage] = None;
         }
         Ok(())
     }
 
     /// Whether [`Self::prepare`] has something to do.
     pub fn can_prepare(&self) -> bool {
-        let settings = &self.now.settings.smoothing;
-        let lacks_terms = |kept: &Arc<Surface>| {
-            KeptTerms::would_fit(kept, settings) && !self.terms.as_ref().is_some_and(|terms| terms.suit(kept, settings))
-        };
-        self.next_stage().is_none() && self.now.kept.as_ref().is_some_and(lacks_terms)
+        self.next_stage().is_none() && self.store.lacks_terms()
     }
 
     /// Works until `budget` is spent on what makes the next change of pass band or window cheap, while nothing else is
     /// to be done: the filter's terms, up to 64 MB. Says whether there is more to do.
     pub fn prepare(&mut self, budget: Budget) -> bool {
-        let Some(kept) = self.now.kept.as_ref().filter(|_| self.can_prepare()) else { return false };
+        let Some(kept) = self.store.now.kept.as_ref().filter(|_| self.can_prepare()) else { return false };
         let mut preparation =
-            self.preparation.take().unwrap_or_else(|| Preparation::new(kept, &self.now.settings.smoothing));
+            self.preparation.take().unwrap_or_else(|| Preparation::new(kept, &self.settings().smoothing));
         if preparation.advance(budget) {
-            self.terms = preparation.into_terms();
+            self.store.terms = preparation.into_terms();
             return false;
         }
         self.preparation = Some(preparation);
@@ -251,18 +136,15 @@ impl Pipeline {
 
     /// Stops what is under way and goes back to the last settings that reached a level, with their results.
     pub fn cancel(&mut self) {
-        self.running = None;
-        self.measuring = None;
-        self.adjacent = None;
-        self.timed = None;
-        if let (None, Some(last)) = (&self.now.reduced, self.last.take()) {
-            self.now = last;
+        self.running = PerStage::default();
+        if let (None, Some(last)) = (&self.store.now.reduced, self.last.take()) {
+            self.store.now = last;
         }
     }
 
     /// Whether there is a level to show, or to go back to.
     pub fn has_result(&self) -> bool {
-        self.now.reduced.is_some() || self.last.is_some()
+        self.store.now.reduced.is_some() || self.last.is_some()
     }
 
     /// Works until `budget` is spent or a stage is finished.
@@ -272,16 +154,30 @@ impl Pipeline {
     pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
-        // The measures come in two parts, with their time begun by `set`.
-        if self.timed.replace(stage) != Some(stage) && stage != Stage::Measures {
-            *self.now.times.of(stage) = 0.0;
+        let done = self.work(stage, budget)?;
+        self.store.now.times.add(stage, milliseconds(start));
+        if let Progress::Working(fraction) = done {
+            return Ok(Advance::Working(stage, fraction));
         }
-        let result = self.work(stage, budget)?;
-        *self.now.times.of(stage) += milliseconds(start) - std::mem::take(&mut self.aside);
-        if result == Advance::Finished(stage) {
-            self.timed = None;
+        self.running[stage] = None;
+        if stage == Stage::Level {
+            self.last = None;
         }
-        Ok(result)
+        Ok(Advance::Finished(stage))
+    }
+
+    fn work(&mut self, stage: Stage, budget: Budget) -> Result<Progress<()>, SettingsError> {
+        if self.running[stage].is_none() {
+            self.store.now.times.begin(stage);
+            self.running[stage] = stages::start(stage, &self.store);
+            if budget.is_spent() && self.running[stage].is_some() {
+                return Ok(Progress::Working(0.0));
+            }
+        }
+        match &mut self.running[stage] {
+            Some(run) => run.advance(&mut self.store, budget),
+            None => Ok(Progress::Done(())),
+        }
     }
 
     /// Runs all stages to the end.
@@ -293,312 +189,70 @@ impl Pipeline {
         Ok(())
     }
 
-    /// The first stage that has no result.
+    /// The first stage that is wanted and has no result.
     pub fn next_stage(&self) -> Option<Stage> {
-        if self.now.kept.is_none() {
-            Some(Stage::Connectivity)
-        } else if self.now.smoothed.is_none() {
-            Some(Stage::Smoothing)
-        } else if self.now.progressive.is_none() {
-            Some(Stage::Decimation)
-        } else if self.now.bound.is_none() && self.now.settings.target.deviation_mm().is_some() {
-            Some(Stage::Bound)
-        } else if self.now.reduced.is_none() {
-            Some(Stage::Level)
-        } else if !self.is_measured {
-            None
-        } else if self.now.deviations.is_none() {
-            Some(Stage::Deviation)
-        } else if self.now.level_measures.is_none() {
-            Some(Stage::Measures)
-        } else {
-            None
-        }
-    }
-
-    fn work(&mut self, stage: Stage, budget: Budget) -> Result<Advance, SettingsError> {
-        match stage {
-            Stage::Connectivity => {
-                self.now.settings.check()?;
-                if let Some(fraction) = self.connect()? {
-                    return Ok(Advance::Working(stage, fraction));
-                }
-            }
-            Stage::Level => self.take_level(),
-            Stage::Smoothing if self.now.settings.smoothing.iterations == 0 => self.skip_smoothing(),
-            Stage::Measures if self.now.smoothed_measures.is_none() => {
-                let fraction = self.measure_smoothed(budget).unwrap_or(0.9);
-                return Ok(Advance::Working(stage, 0.9 * fraction));
-            }
-            Stage::Smoothing | Stage::Decimation | Stage::Bound | Stage::Deviation | Stage::Measures => {
-                if self.running.is_none() {
-                    self.running = self.start(stage);
-                    if self.running.is_some() && budget.is_spent() {
-                        return Ok(Advance::Working(stage, 0.0));
-                    }
-                }
-                if let Some(fraction) = self.run(budget) {
-                    return Ok(Advance::Working(stage, fraction));
-                }
-            }
-        }
-        Ok(Advance::Finished(stage))
-    }
-
-    /// One of the four parts of the first stage; `None` when it was the last.
-    fn connect(&mut self) -> Result<Option<f32>, SettingsError> {
-        let Some(found) = &mut self.connectivity else {
-            self.connectivity = Some(Arc::new(Connectivity::unmeasured(&self.opened)));
-            return Ok(Some(0.2));
-        };
-        let start = Instant::now();
-        match self.adjacent.take() {
-            None => {
-                self.adjacent = Some((found.kept(&self.opened, self.now.settings.keep)?, None));
-                Ok(Some(0.3))
-            }
-            Some((mesh, None)) => {
-                let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-                self.adjacent = Some((mesh, Some(Arc::new(topology))));
-                self.now.times.adjacency = milliseconds(start);
-                self.aside += self.now.times.adjacency;
-                Ok(Some(0.7))
-            }
-            Some((mesh, Some(topology))) => {
-                if found.components.is_empty() {
-                    Arc::make_mut(found).measure(&self.opened);
-                }
-                let loops = oriented_loops(&topology);
-                let measures = measures_within(&mesh, loops.as_deref());
-                self.now.kept = Some(Arc::new(Surface { mesh, topology, loops, measures }));
-                self.now.measuring[0] = milliseconds(start);
-                self.aside += self.now.measuring[0];
-                Ok(None)
-            }
-        }
-    }
-
-    fn skip_smoothing(&mut self) {
-        let unchanged = |kept: &Arc<Surface>| Smoothed {
-            mesh: kept.mesh.clone(),
-            filter: None,
-            response: None,
-            volume_held: None,
-            measures: kept.measures,
-        };
-        self.now.smoothed = self.now.kept.as_ref().map(unchanged).map(Arc::new);
-    }
-
-    fn take_level(&mut self) {
-        let Some(progressive) = &self.now.progressive else { return };
-        let level = match &self.now.bound {
-            Some(bound) => progressive.level_after(bound.steps),
-            None => progressive.level(self.now.settings.target),
-        };
-        let mesh = Arc::new(progressive.extract(&level.triangles));
-        let start = Instant::now();
-        let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
-        self.now.times.normals = milliseconds(start);
-        let measuring = Instant::now();
-        let topology = Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
-        let measures = measures(&mesh, &topology);
-        self.now.measuring[2] = milliseconds(measuring);
-        let fingerprint = fingerprint(&mesh);
-        self.now.reduced = Some(Arc::new(Reduced { level, mesh, topology, normals, measures, fingerprint }));
-        self.last = None;
-        self.aside += milliseconds(start);
-    }
-
-    fn start(&self, stage: Stage) -> Option<Running> {
-        let kept = self.now.kept.as_ref()?;
-        Some(match stage {
-            Stage::Smoothing => {
-                let settings = self.now.settings.smoothing;
-                let stage = SmoothingStage::new(kept, settings, self.terms.as_ref(), self.is_smoothed_again);
-                Running::Smoothing(Box::new(stage))
-            }
-            Stage::Decimation => {
-                let smoothed = self.now.smoothed.as_ref()?;
-                let task =
-                    DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), &self.now.settings.decimation);
-                Running::Decimation(Box::new(task))
-            }
-            Stage::Bound => {
-                let (progressive, finest) = (self.now.progressive.as_ref()?, self.now.finest.as_ref()?);
-                let bound = self.now.settings.target.deviation_mm()?;
-                let task = BoundTask::new(progressive.clone(), finest.clone(), bound);
-                Running::Bound(Box::new(match &self.now.indices[0] {
-                    Some(index) => task.with_index(index.clone()),
-                    None => task,
-                }))
-            }
-            Stage::Measures => {
-                let (reduced, of_smoothed) = (self.now.reduced.as_ref()?, self.now.smoothed_measures.as_ref()?);
-                let mesh = reduced.mesh.clone();
-                let index = self.now.level_index.clone().map(|index| (mesh.clone(), index));
-                let subject = Subject { mesh, topology: reduced.topology.clone(), index };
-                Running::Level(Box::new(LevelTask::new(subject, of_smoothed.samples.clone())))
-            }
-            _ => {
-                let (finest, reduced) = (self.now.finest.as_ref()?, self.now.reduced.as_ref()?);
-                let task = |mesh: &Arc<TriMesh>, index: &Option<Arc<SurfaceIndex>>| {
-                    let task = DeviationTask::new(mesh.clone(), reduced.mesh.clone(), self.samples);
-                    match index {
-                        Some(index) => task.with_index_of_a(index.clone()),
-                        None => task,
-                    }
-                };
-                let [of_smoothed, of_original] = &self.now.indices;
-                let (from_smoothed, from_original) =
-                    (task(finest, of_smoothed).with_map(), task(&kept.mesh, of_original));
-                Running::Deviation(Box::new(DeviationRun { from_smoothed, from_original, first: None }))
-            }
-        })
-    }
-
-    /// Advances the measuring of the smoothed surface; the fraction that is done, or `None` when it is stored.
-    fn measure_smoothed(&mut self, budget: Budget) -> Option<f32> {
-        if self.measuring.is_none() {
-            let (kept, smoothed) = (self.now.kept.as_ref()?, self.now.smoothed.as_ref()?);
-            let index = self.now.finest.clone().zip(self.now.indices[0].clone());
-            let subject = Subject { mesh: smoothed.mesh.clone(), topology: kept.topology.clone(), index };
-            self.measuring = Some(Box::new(SmoothedTask::new(subject, self.now.progressive.clone()?)));
-        }
-        match self.measuring.as_mut()?.advance(budget) {
-            Progress::Working(fraction) => Some(fraction),
-            Progress::Done(measures) => {
-                self.now.smoothed_measures = Some(Arc::new(measures));
-                self.measuring = None;
-                None
-            }
-        }
-    }
-
-    /// Advances what is running; the fraction that is done, or `None` when all of it is and its result is stored.
-    fn run(&mut self, budget: Budget) -> Option<f32> {
-        match self.running.as_mut()? {
-            Running::Smoothing(stage) => match stage.advance(budget) {
-                Progress::Working(fraction) => return Some(fraction),
-                Progress::Done(smoothed) => {
-                    self.now.measuring[1] = stage.measuring_ms;
-                    self.aside += stage.measuring_ms;
-                    self.terms = stage.terms.take().or(self.terms.take());
-                    self.now.smoothed = Some(Arc::new(smoothed));
-                }
-            },
-            Running::Decimation(task) => match task.advance(budget) {
-                Progress::Working(fraction) => return Some(fraction),
-                Progress::Done(progressive) => {
-                    self.now.finest = Some(Arc::new(progressive.finest()));
-                    self.now.progressive = Some(Arc::new(progressive));
-                }
-            },
-            Running::Bound(task) => match task.advance(budget) {
-                Progress::Working(fraction) => return Some(fraction),
-                Progress::Done(bound) => {
-                    self.now.indices[0] = task.index().cloned();
-                    self.now.bound = Some(bound);
-                }
-            },
-            Running::Level(task) => match task.advance(budget) {
-                Progress::Working(fraction) => return Some(0.9 + 0.1 * fraction),
-                Progress::Done(measures) => {
-                    self.now.level_measures = Some(Arc::new(measures));
-                    self.now.level_index = None;
-                }
-            },
-            Running::Deviation(run) => {
-                if run.first.is_none() {
-                    match run.from_smoothed.advance(budget) {
-                        Progress::Working(fraction) => return Some(fraction / 2.0),
-                        Progress::Done(found) => run.first = Some(found),
-                    }
-                }
-                match run.from_original.advance(budget) {
-                    Progress::Working(fraction) => return Some(0.5 + fraction / 2.0),
-                    Progress::Done(from_original) => {
-                        self.now.level_index = run.from_smoothed.index_of_b().cloned();
-                        self.now.indices =
-                            [&run.from_smoothed, &run.from_original].map(|task| task.index_of_a().cloned());
-                        let from_smoothed = run.first.take().flatten();
-                        let by_node = self.by_node(from_smoothed.as_ref());
-                        self.now.deviations = Some(Arc::new(Deviations { from_smoothed, from_original, by_node }));
-                    }
-                }
-            }
-        }
-        self.running = None;
-        None
-    }
-
-    /// The map of the deviation over the level, at the nodes of the progressive mesh.
-    fn by_node(&self, found: Option<&Comparison>) -> Vec<f32> {
-        let (Some(progressive), Some(reduced)) = (&self.now.progressive, &self.now.reduced) else { return Vec::new() };
-        let mut is_used = vec![false; progressive.positions.len()];
-        reduced.level.triangles.as_flattened().iter().for_each(|&node| is_used[node as usize] = true);
-        // The level's own vertices are the nodes in use, in their order.
-        let mut map = found.map_or(&[][..], |found| &found.map).iter();
-        is_used.into_iter().map(|used| if used { map.next().copied().unwrap_or(0.0) } else { 0.0 }).collect()
+        let now = &self.store.now;
+        Stage::ALL.into_iter().find(|&stage| stage.is_wanted(&now.settings, self.is_measured) && !now.has(stage))
     }
 
     /// The surface as it was opened.
     pub fn opened(&self) -> &Arc<TriMesh> {
-        &self.opened
+        &self.store.opened
     }
 
     /// The settings in force.
     pub fn settings(&self) -> &Settings {
-        &self.now.settings
+        &self.store.now.settings
     }
 
     /// The pieces that were found.
     pub fn connectivity(&self) -> Option<&Connectivity> {
-        self.connectivity.as_deref()
+        self.store.connectivity.as_deref()
     }
 
     /// The part of the surface that goes on.
     pub fn kept(&self) -> Option<&Arc<Surface>> {
-        self.now.kept.as_ref()
+        self.store.now.kept.as_ref()
     }
 
     /// The smoothed surface.
     pub fn smoothed(&self) -> Option<&Arc<Smoothed>> {
-        self.now.smoothed.as_ref()
+        self.store.now.smoothed.as_ref()
     }
 
     /// Every level.
     pub fn progressive(&self) -> Option<&Arc<ProgressiveMesh>> {
-        self.now.progressive.as_ref()
+        self.store.now.levels.as_ref().map(|levels| &levels.progressive)
     }
 
     /// What the bound on the deviation led to, where the settings have one.
     pub fn bound(&self) -> Option<Bound> {
-        self.now.bound
+        self.store.now.bound
     }
 
     /// The level that the settings ask for.
     pub fn reduced(&self) -> Option<&Arc<Reduced>> {
-        self.now.reduced.as_ref()
+        self.store.now.reduced.as_ref()
     }
 
     /// How far that level is from where it came from.
     pub fn deviations(&self) -> Option<&Arc<Deviations>> {
-        self.now.deviations.as_ref()
+        self.store.now.deviations.as_ref()
     }
 
     /// Shape and lumen of the smoothed surface.
     pub fn smoothed_measures(&self) -> Option<&Arc<SmoothedMeasures>> {
-        self.now.smoothed_measures.as_ref()
+        self.store.now.smoothed_measures.as_ref()
     }
 
     /// Shape and lumen of the level.
     pub fn level_measures(&self) -> Option<&Arc<LevelMeasures>> {
-        self.now.level_measures.as_ref()
+        self.store.now.level_measures.as_ref()
     }
 
     /// What each stage took.
     pub fn times(&self) -> StageTimes {
-        StageTimes { areas: self.now.measuring.iter().sum(), ..self.now.times }
+        self.store.now.times.told()
     }
 }
 

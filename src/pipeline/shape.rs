@@ -18,7 +18,7 @@ use crate::mesh::{
 use crate::parallel;
 
 /// The shape of a surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shape {
     /// Dihedral deviation over the inner edges; null where there is none.
     pub roughness: Option<Roughness>,
@@ -77,6 +77,8 @@ pub struct ShapeTask<M, T> {
     /// Triangles in the next piece of the search for crossings.
     heavy: usize,
     balls: InnerRadii,
+    /// The numbers that are there.
+    found: Shape,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -86,6 +88,8 @@ enum Stage {
     Bends,
     Crossings,
     Balls,
+    /// What was gathered is summed up, a number a step.
+    Sums,
     Done,
 }
 
@@ -106,6 +110,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             crossing: Crossing::default(),
             heavy: HEAVY / 8,
             balls: InnerRadii::default(),
+            found: Shape::default(),
         }
     }
 
@@ -130,7 +135,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
     /// Number of things in the present stage, and how many are given out at once.
     fn extent(&self) -> (usize, usize) {
         match self.stage {
-            Stage::Index | Stage::Balls | Stage::Done => (0, 1),
+            Stage::Index | Stage::Balls | Stage::Sums | Stage::Done => (0, 1),
             Stage::Angles => (self.mesh.triangles.len(), LIGHT),
             Stage::Bends => (self.topology.vertex_count(), LIGHT),
             Stage::Crossings => (self.index.as_ref().map_or(0, |index| index.slots()), self.heavy),
@@ -146,8 +151,12 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
         }
         if self.stage == Stage::Balls {
             if self.add_balls() {
-                self.stage = Stage::Done;
+                self.stage = if self.wants_all { Stage::Sums } else { Stage::Done };
             }
+            return;
+        }
+        if self.stage == Stage::Sums {
+            self.sum_up();
             return;
         }
         let (length, piece) = self.extent();
@@ -196,7 +205,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             }
             Stage::Crossings => {
                 if range.start == 0 {
-                    self.crossing = Crossing::none(triangles.len());
+                    self.crossing = Crossing::none(index, triangles);
                 }
                 let crossing = &self.crossing;
                 let looks =
@@ -204,7 +213,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
                 let most = looks.into_iter().max().unwrap_or(0);
                 self.heavy = if most > LOOKS { (piece / 2).max(1) } else { (2 * piece).min(HEAVY) };
             }
-            Stage::Index | Stage::Balls | Stage::Done => {}
+            Stage::Index | Stage::Balls | Stage::Sums | Stage::Done => {}
         }
     }
 
@@ -213,6 +222,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
         let (length, _) = self.extent();
         let part = match self.stage {
             Stage::Index => self.build.fraction(),
+            Stage::Sums => self.next as f32 / 3.0,
             Stage::Balls => self.balls.fraction(),
             _ => self.next as f32 / length.max(1) as f32,
         };
@@ -221,27 +231,39 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             Stage::Angles => (0.1, 0.1),
             Stage::Bends => (0.2, 0.1),
             Stage::Crossings => (0.3, 0.35),
-            Stage::Balls => (0.65, 0.35),
+            Stage::Balls => (0.65, 0.3),
+            Stage::Sums => (0.95, 0.05),
             Stage::Done => (1.0, 0.0),
         };
         before + share * part
     }
 
+    /// The next of the three numbers that need all that was gathered.
+    fn sum_up(&mut self) {
+        match self.next {
+            0 => self.found.roughness = summarise_bends(std::mem::take(&mut self.bends)),
+            1 => self.found.angles = std::mem::take(&mut self.angles).finish(),
+            _ => {
+                let lumen = |index: &Arc<SurfaceIndex>| narrowest(&self.mesh, &self.topology, &self.balls, index);
+                self.found.smallest_lumen = self.index.as_ref().and_then(lumen);
+                self.stage = Stage::Done;
+            }
+        }
+        self.next += 1;
+    }
+
     fn result(&mut self) -> Measured {
-        let (angles, bends) = (std::mem::take(&mut self.angles), std::mem::take(&mut self.bends));
-        let (crossing, balls) = (std::mem::take(&mut self.crossing), std::mem::take(&mut self.balls));
-        let smallest_lumen = self.index.as_ref().and_then(|index| narrowest(&self.mesh, &self.topology, &balls, index));
-        let self_intersecting_faces = crossing.triangles().count();
-        let (roughness, angles) = (summarise_bends(bends), angles.finish());
-        Measured { shape: Shape { roughness, angles, self_intersecting_faces, smallest_lumen }, balls }
+        let self_intersecting_faces = std::mem::take(&mut self.crossing).triangles().count();
+        let shape = Shape { self_intersecting_faces, ..self.found.clone() };
+        Measured { shape, balls: std::mem::take(&mut self.balls) }
     }
 }
 
 impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Task for ShapeTask<M, T> {
     type Output = Measured;
 
-    /// The clock is read about every millisecond; the end sorts angles and takes up to 100 ns a triangle, and
-    /// 10 ms, in one piece.
+    /// The clock is read about every millisecond; each of the sums at the end is one piece: sorting takes up to 50 ns a
+    /// triangle, the smallest lumen about 10 ms.
     fn advance(&mut self, budget: Budget) -> Progress<Measured> {
         while self.stage != Stage::Done {
             self.step();

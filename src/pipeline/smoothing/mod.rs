@@ -15,8 +15,8 @@
 //! comes out depends on neither: each vertex's sums have one order. The `terms` `x_n` are kept where they are few:
 //! another filter of the same degree or less is then but another sum of them.
 
+mod kept_terms;
 mod order;
-mod stage;
 mod stencil;
 mod strip;
 mod terms;
@@ -26,11 +26,12 @@ use std::ops::Deref;
 
 use glam::{Vec3, Vec4};
 
+pub(crate) use self::kept_terms::{KeptTerms, Preparation, keeping, kept_terms};
 use self::order::Order;
-pub(crate) use self::stage::{KeptTerms, Preparation, SmoothingStage};
 use self::stencil::Stencil;
 use self::strip::{Strip, Wave};
 pub use self::terms::Terms;
+pub(crate) use self::volume::{Before, VolumeTask};
 use super::filter::Filter;
 use super::settings::Boundary;
 use super::task::{Budget, Progress, Task};

@@ -39,7 +39,7 @@ const MOST: f64 = 1.0;
 const TORN: f64 = 0.01;
 
 /// The surface before smoothing.
-pub(super) struct Before<'a> {
+pub(crate) struct Before<'a> {
     pub mesh: &'a TriMesh,
     pub topology: &'a Arc<Topology>,
     /// Its boundary, each loop in the direction of its triangles.
@@ -49,7 +49,7 @@ pub(super) struct Before<'a> {
 }
 
 /// Puts lost volume back, in slices.
-pub(super) struct VolumeTask {
+pub(crate) struct VolumeTask {
     smoothed: Vec<Vec3>,
     boundary: Boundary,
     filter: Filter,
@@ -66,20 +66,20 @@ struct Attempt {
 
 impl VolumeTask {
     /// Starts from `smoothed`, the result of `filter` on the surface `before`.
-    pub(super) fn new(before: &Before, smoothed: Vec<Vec3>, boundary: Boundary, filter: &Filter) -> Self {
+    pub(crate) fn new(before: &Before, smoothed: Vec<Vec3>, boundary: Boundary, filter: &Filter) -> Self {
         let normals = vertex_normals(&smoothed, &before.mesh.triangles, Weighting::Area);
         let attempt = Attempt::new(before, &smoothed, normals, boundary, filter);
         Self { smoothed, boundary, filter: filter.clone(), attempt }
     }
 
     /// The smoothed positions, as they came.
-    pub(super) fn into_smoothed(self) -> Vec<Vec3> {
+    pub(crate) fn into_smoothed(self) -> Vec<Vec3> {
         self.smoothed
     }
 
     /// Works until `budget` is spent or the volume is held. Gives the positions, and whether they hold it: where they
     /// cannot, they are the smoothed ones.
-    pub(super) fn advance(&mut self, before: &Before, budget: Budget) -> Progress<(Vec<Vec3>, bool)> {
+    pub(crate) fn advance(&mut self, before: &Before, budget: Budget) -> Progress<(Vec<Vec3>, bool)> {
         let field = match self.attempt.field.advance(budget) {
             Progress::Working(fraction) => return Progress::Working((self.attempt.begun() + fraction) / 2.0),
             Progress::Done(field) => field,

@@ -1,0 +1,77 @@
+//! The terms of a surface, kept from one run of the stage to the next.
+
+use std::sync::Arc;
+
+use super::{SmoothingTask, Terms};
+use crate::mesh::{Topology, Vec3};
+use crate::pipeline::filter::Filter;
+use crate::pipeline::results::Surface;
+use crate::pipeline::settings::{Boundary, Smoothing};
+use crate::pipeline::task::{Budget, Progress, Task};
+
+/// Bytes that terms may take. Surfaces of more than about 53,000 vertices at 100 iterations are filtered anew each time.
+pub(crate) const TERMS_BYTES: usize = 64_000_000;
+
+/// The terms of a surface, and which they are of.
+pub(crate) struct KeptTerms {
+    of: Arc<Surface>,
+    boundary: Boundary,
+    terms: Terms,
+}
+
+impl KeptTerms {
+    /// Whether another filter for `settings` on `kept` is but a sum of these.
+    pub(crate) fn suit(&self, kept: &Arc<Surface>, settings: &Smoothing) -> bool {
+        let degree = settings.iterations as usize;
+        Arc::ptr_eq(&self.of, kept) && self.boundary == settings.boundary && degree <= self.terms.degree()
+    }
+
+    /// The surface that `filter` makes.
+    pub(crate) fn smooth(&self, filter: &Filter) -> Vec<Vec3> {
+        self.terms.smooth(filter)
+    }
+
+    /// Whether the terms of `kept` for `settings` are few enough to be kept.
+    pub(crate) fn would_fit(kept: &Surface, settings: &Smoothing) -> bool {
+        settings.iterations > 0
+            && Terms::bytes(kept.mesh.positions.len(), settings.iterations as usize) <= TERMS_BYTES as u64
+    }
+}
+
+/// Runs the filter for its terms alone.
+pub(crate) struct Preparation {
+    kept: Arc<Surface>,
+    boundary: Boundary,
+    task: SmoothingTask<Arc<Topology>>,
+}
+
+impl Preparation {
+    pub(crate) fn new(kept: &Arc<Surface>, settings: &Smoothing) -> Self {
+        Self { kept: kept.clone(), boundary: settings.boundary, task: keeping(kept, settings, &Filter::new(settings)) }
+    }
+
+    /// Works until `budget` is spent; whether all is done.
+    pub(crate) fn advance(&mut self, budget: Budget) -> bool {
+        matches!(self.task.advance(budget), Progress::Done(_))
+    }
+
+    /// The terms of a run that is done.
+    pub(crate) fn into_terms(self) -> Option<KeptTerms> {
+        kept_terms(self.task, self.kept, self.boundary)
+    }
+}
+
+/// A run of `filter` that keeps its terms.
+pub(crate) fn keeping(kept: &Surface, settings: &Smoothing, filter: &Filter) -> SmoothingTask<Arc<Topology>> {
+    let task = SmoothingTask::new(&kept.mesh.positions, kept.topology.clone(), settings.boundary, filter);
+    task.keeping_terms(TERMS_BYTES)
+}
+
+/// The terms of a run that is done, if it kept them.
+pub(crate) fn kept_terms(
+    task: SmoothingTask<Arc<Topology>>,
+    of: Arc<Surface>,
+    boundary: Boundary,
+) -> Option<KeptTerms> {
+    Some(KeptTerms { of, boundary, terms: task.into_terms()? })
+}

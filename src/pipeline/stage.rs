@@ -1,0 +1,155 @@
+//! The stages of the pipeline: their order, what each rests on, and what of the settings decides it.
+//!
+//! Everything that [`run`](super::run) does by itself (what is stale after a change, what comes next, what a cancel stops)
+//! follows from this table; what a stage does is its file in `stages/`, and what it leaves its slot in
+//! [`results`](super::results).
+
+use serde::{Deserialize, Serialize};
+
+use super::settings::Settings;
+
+/// A stage of the pipeline, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Stage {
+    /// Which pieces there are, and the ones that go on.
+    Connectivity,
+    /// The windowed-sinc filter.
+    Smoothing,
+    /// The run that makes the progressive mesh.
+    Decimation,
+    /// Which level stays within the bound on the deviation, if there is one.
+    Bound,
+    /// One level of it.
+    Level,
+    /// How far it is from the smoothed surface and from the one that was opened.
+    Deviation,
+    /// Shape and lumen of the smoothed surface, and from which rate on a vessel of it is pinched.
+    SmoothedMeasures,
+    /// Shape and lumen of the level.
+    Measures,
+}
+
+impl Stage {
+    /// All, in their order.
+    pub const ALL: [Self; 8] = [
+        Self::Connectivity,
+        Self::Smoothing,
+        Self::Decimation,
+        Self::Bound,
+        Self::Level,
+        Self::Deviation,
+        Self::SmoothedMeasures,
+        Self::Measures,
+    ];
+
+    /// What the stage is called while it runs.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Connectivity => "Finding pieces",
+            Self::Smoothing => "Smoothing",
+            Self::Decimation => "Reducing",
+            Self::Bound => "Finding the level",
+            Self::Level => "Taking the level",
+            Self::Deviation => "Measuring deviation",
+            Self::SmoothedMeasures | Self::Measures => "Measuring shape and lumen",
+        }
+    }
+
+    /// The stages whose results it takes.
+    fn rests_on(self) -> &'static [Self] {
+        match self {
+            Self::Connectivity => &[],
+            Self::Smoothing => &[Self::Connectivity],
+            Self::Decimation => &[Self::Smoothing],
+            Self::Bound | Self::SmoothedMeasures => &[Self::Decimation],
+            Self::Level => &[Self::Decimation, Self::Bound],
+            Self::Deviation => &[Self::Level],
+            Self::Measures => &[Self::Level, Self::SmoothedMeasures],
+        }
+    }
+
+    /// Whether other settings make it another by themselves.
+    fn is_decided_anew(self, old: &Settings, new: &Settings) -> bool {
+        match self {
+            Self::Connectivity => old.keep != new.keep,
+            Self::Smoothing => !old.smoothing.gives_same(&new.smoothing),
+            Self::Decimation => !old.decimation.gives_same(&new.decimation),
+            Self::Bound | Self::Level => old.target != new.target,
+            Self::Deviation | Self::SmoothedMeasures | Self::Measures => false,
+        }
+    }
+
+    /// Whether it is made at all. Who wants the level alone leaves out the measures.
+    pub(super) fn is_wanted(self, settings: &Settings, is_measured: bool) -> bool {
+        match self {
+            Self::Bound => settings.target.deviation_mm().is_some(),
+            Self::Deviation | Self::SmoothedMeasures | Self::Measures => is_measured,
+            Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,
+        }
+    }
+}
+
+/// Something for each stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct PerStage<T>([T; Stage::ALL.len()]);
+
+impl<T> std::ops::Index<Stage> for PerStage<T> {
+    type Output = T;
+
+    fn index(&self, stage: Stage) -> &T {
+        &self.0[stage as usize]
+    }
+}
+
+impl<T> std::ops::IndexMut<Stage> for PerStage<T> {
+    fn index_mut(&mut self, stage: Stage) -> &mut T {
+        &mut self.0[stage as usize]
+    }
+}
+
+/// Which stages are others after a change of the settings: those that it decides anew, and all that rest on them.
+pub(super) fn stale(old: &Settings, new: &Settings) -> PerStage<bool> {
+    let mut stale = PerStage::default();
+    for stage in Stage::ALL {
+        stale[stage] = stage.is_decided_anew(old, new) || stage.rests_on().iter().any(|&below| stale[below]);
+    }
+    stale
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::settings::{Keep, Smoothing, Target};
+
+    #[test]
+    fn no_stage_rests_on_a_later_one() {
+        for (i, stage) in Stage::ALL.into_iter().enumerate() {
+            assert_eq!(stage as usize, i);
+            assert!(stage.rests_on().iter().all(|&below| below < stage), "{stage:?}");
+        }
+    }
+
+    #[test]
+    fn a_change_makes_stale_what_it_touches_and_nothing_before() {
+        let old = Settings::default();
+        let smoothing = Smoothing { iterations: old.smoothing.iterations + 1, ..old.smoothing };
+        let changes = [
+            (old.clone(), None),
+            (Settings { keep: Keep::All, ..old.clone() }, Some(Stage::Connectivity)),
+            (Settings { smoothing, ..old.clone() }, Some(Stage::Smoothing)),
+            (Settings { target: Target::Reduction(10), ..old.clone() }, Some(Stage::Bound)),
+        ];
+        for (new, first) in changes {
+            let stale = stale(&old, &new);
+            let expected = |stage: Stage| match first {
+                None => false,
+                // The measures of the smoothed surface are the same for every level.
+                Some(Stage::Bound) => stage >= Stage::Bound && stage != Stage::SmoothedMeasures,
+                Some(first) => stage >= first,
+            };
+            for stage in Stage::ALL {
+                assert_eq!(stale[stage], expected(stage), "{stage:?} after a change of {first:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! What each stage does, a file each: from the slots that it rests on to its own.
+
+mod bound;
+mod connectivity;
+mod decimation;
+mod deviation;
+mod level;
+mod measures;
+mod smoothing;
+
+use super::settings::SettingsError;
+use super::stage::Stage;
+use super::store::Store;
+use super::task::{Budget, Progress};
+
+/// A stage under way.
+pub(super) trait Run: Send {
+    /// Works until `budget` is spent or the stage is done and its result in its slot.
+    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError>;
+}
+
+/// Starts a stage on what it rests on; `None` while that is not there.
+pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {
+    Some(match stage {
+        Stage::Connectivity => Box::new(connectivity::Connecting::start()),
+        Stage::Smoothing => Box::new(smoothing::Filtering::start(store)?),
+        Stage::Decimation => Box::new(decimation::Decimating::start(store)?),
+        Stage::Bound => Box::new(bound::Bounding::start(store)?),
+        Stage::Level => Box::new(level::Taking::start(store)?),
+        Stage::Deviation => Box::new(deviation::Deviating::start(store)?),
+        Stage::SmoothedMeasures => Box::new(measures::OfSmoothed::start(store)?),
+        Stage::Measures => Box::new(measures::OfLevel::start(store)?),
+    })
+}

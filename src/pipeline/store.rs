@@ -1,0 +1,49 @@
+//! What the stages read and write: the surface, their results, and what they keep for the next time.
+
+use std::sync::Arc;
+
+use super::connectivity::Connectivity;
+use super::results::{Results, Surface};
+use super::settings::Settings;
+use super::smoothing::KeptTerms;
+use crate::mesh::TriMesh;
+
+/// One opened surface and what the stages made of it so far.
+pub(super) struct Store {
+    pub(super) opened: Arc<TriMesh>,
+    /// Of each surface, for the deviation.
+    pub(super) samples: usize,
+    /// The pieces: the same for all settings.
+    pub(super) connectivity: Option<Arc<Connectivity>>,
+    pub(super) now: Results,
+    /// What makes another pass band cheap.
+    pub(super) terms: Option<KeptTerms>,
+    /// Whether the kept surface has been smoothed before: then it may well be again.
+    pub(super) is_smoothed_again: bool,
+}
+
+impl Store {
+    pub(super) fn new(opened: Arc<TriMesh>, settings: Settings, samples: usize) -> Self {
+        let now = Results { settings, ..Results::default() };
+        Self { opened, samples, connectivity: None, now, terms: None, is_smoothed_again: false }
+    }
+
+    /// The same surface with the same results. Terms stay behind: they are large.
+    pub(super) fn fork(&self) -> Self {
+        Self {
+            opened: self.opened.clone(),
+            samples: self.samples,
+            connectivity: self.connectivity.clone(),
+            now: self.now.clone(),
+            terms: None,
+            is_smoothed_again: false,
+        }
+    }
+
+    /// Whether there are no terms that suit the settings, though they would fit.
+    pub(super) fn lacks_terms(&self) -> bool {
+        let settings = &self.now.settings.smoothing;
+        let suit = |kept: &Arc<Surface>| self.terms.as_ref().is_some_and(|terms| terms.suit(kept, settings));
+        self.now.kept.as_ref().is_some_and(|kept| KeptTerms::would_fit(kept, settings) && !suit(kept))
+    }
+}
