@@ -47,6 +47,10 @@ enum Command {
         /// Run these alone; may be given more than once.
         #[arg(long, value_enum, value_delimiter = ',')]
         only: Vec<test::Suite>,
+        /// Try everything where the ordinary run tries a sample: all seeds, settings and rates. Takes about three times as
+        /// long.
+        #[arg(long)]
+        long: bool,
     },
     /// Run Lumen beside VTK, meshoptimizer and fast-simplification and write docs/benchmarks.md.
     Peers(peers::Options),
@@ -77,7 +81,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Serve { port, open } => build::build().and_then(|dist| serve::serve(&dist, port, open)),
         Command::Build => build::build().map(|_| ()),
-        Command::Test { only } => test::test(&only),
+        Command::Test { only, long } => test::test(&only, long),
         Command::Peers(options) => peers::peers(&options),
         Command::BenchTrial => bench_trial::bench_trial(),
         Command::FuzzTrial { steps } => fuzz::trial(steps),

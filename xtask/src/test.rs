@@ -27,7 +27,8 @@ struct Counts {
 }
 
 /// Runs the suites named in `only`, or all of them, and fails if a test fails.
-pub(crate) fn test(only: &[Suite]) -> Result<()> {
+/// With `long` everything is tried where else a sample is.
+pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
     let wanted = |suite| only.is_empty() || only.contains(&suite);
     let mut total = Counts::default();
     let mut sound = true;
@@ -38,7 +39,7 @@ pub(crate) fn test(only: &[Suite]) -> Result<()> {
         sound &= ended_well;
     };
     if wanted(Suite::Native) {
-        add(native()?);
+        add(native(long)?);
     }
     if wanted(Suite::Browser) {
         add(browser()?);
@@ -50,7 +51,7 @@ pub(crate) fn test(only: &[Suite]) -> Result<()> {
     Ok(())
 }
 
-fn native() -> Result<(Counts, bool)> {
+fn native(long: bool) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
     let cargo = cargo();
@@ -63,6 +64,9 @@ fn native() -> Result<(Counts, bool)> {
         None => cargo,
     };
     command.args(["test", "--workspace", "--no-fail-fast"]);
+    if long {
+        command.env("LUMEN_LONG", "1");
+    }
     step("Run the native tests", || count(&mut command, cargo_counts))
 }
 

@@ -1,8 +1,6 @@
 //! The paper's figures as the command draws them, without a window: sizes, panels, words. Needs a GPU or a software one
 //! and fails without.
 
-#![cfg(feature = "gui")]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

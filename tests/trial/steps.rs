@@ -1,11 +1,9 @@
 //! What steps tell of themselves on their way to the log, the summary and what is shown; and what only some trials meet:
 //! withdrawal with short elements, ends that are no wall, a hand that takes its time, a step back.
 
-#[path = "common/tubes.rs"]
-mod tubes;
-
 use std::sync::Arc;
 
+use crate::tubes::{curve, tube};
 use lumen::io::import_mesh;
 use lumen::phantom::{Sample, generate};
 use lumen::trial::compare::{Noise, SHUFFLES, TrialComparison};
@@ -18,7 +16,6 @@ use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
 use lumen::trial::wire::Wire;
-use tubes::{curve, tube};
 
 const AT: Entry = Entry { at: [4.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
 

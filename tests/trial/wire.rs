@@ -1,17 +1,14 @@
 //! A wire that is fed through tubes: it follows them, stays inside, and its tip is bent as its numbers say.
 
-#[path = "common/tubes.rs"]
-mod tubes;
-
 use std::sync::Arc;
 
+use crate::tubes::{curve, tube};
 use lumen::trial::audit::Audit;
 use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
 use lumen::trial::wire::Wire;
-use tubes::{curve, tube};
 
 /// Through an S of two bends, coarse and fine, rolling all the way at half a turn a second: the tip arrives where the tube
 /// leads, and no capsule reaches farther into the wall than 5 % of the radius, by a measure of its own (`audit`).

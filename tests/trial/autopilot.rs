@@ -22,6 +22,8 @@ use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wire::Wire;
 
+use crate::long::is_long;
+
 /// Levels of a sample at rates in tenths of a percent, smoothed so that thin vessels stay open.
 fn levels(sample: Sample, triangles: usize, rates: &[u32]) -> Vec<Arc<TriMesh>> {
     let mesh = import_mesh(generate(sample, triangles).unwrap(), "sample").mesh;
@@ -50,7 +52,8 @@ fn steered(course: &Arc<Course>, setup: &Setup) -> Trial {
 }
 
 /// Runs seeds at each rate where the lumen is open; names those that do not arrive.
-fn arrives(sample: Sample, triangles: usize, rates: &[u32], seeds: u64) {
+fn arrives(sample: Sample, triangles: usize, rates: &[u32]) {
+    let seeds = if is_long() { 10 } else { 2 };
     let mut failures = Vec::new();
     let mut open = 0;
     for (mesh, rate) in levels(sample, triangles, rates).iter().zip(rates) {
@@ -87,12 +90,12 @@ fn arrives(sample: Sample, triangles: usize, rates: &[u32], seeds: u64) {
 
 #[test]
 fn the_autopilot_arrives_in_the_aorta() {
-    arrives(Sample::Aorta, 74_307, &[0, 500, 900, 950, 990], 10);
+    arrives(Sample::Aorta, 74_307, &[0, 500, 900, 950, 990]);
 }
 
 #[test]
 fn the_autopilot_arrives_in_the_coronary_tree() {
-    arrives(Sample::Coronary, 380_000, &[0, 900, 950, 990], 10);
+    arrives(Sample::Coronary, 380_000, &[0, 900, 950, 990]);
 }
 
 #[test]

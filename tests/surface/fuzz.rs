@@ -12,18 +12,9 @@ use lumen::pipeline::settings::{Keep, Settings, Target};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
-#[path = "common/crossings.rs"]
-mod crossings;
-#[path = "common/promises.rs"]
-mod promises;
-#[path = "common/shape.rs"]
-mod shape;
-#[path = "common/tangles.rs"]
-mod tangles;
-
-use crossings::crossing_faces;
-use promises::{check, settings};
-use tangles::tangles;
+use crate::crossings::crossing_faces;
+use crate::promises::{check, settings};
+use crate::tangles::tangles;
 
 /// Most faults of a surface.
 const FAULTS: usize = 12;

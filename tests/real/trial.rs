@@ -1,6 +1,4 @@
-//! The autopilot in real vessels: it arrives from ten seeds, in trees that the route finds by itself.
-
-mod common;
+//! The autopilot in real vessels: it arrives from each seed, in trees that the route finds by itself.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,6 +14,8 @@ use lumen::trial::course::Course;
 use lumen::trial::session::Trial;
 use lumen::trial::setup::Setup;
 use lumen::trial::wire::Wire;
+
+use crate::long::is_long;
 
 /// Segmented, scanned or printed surfaces with open lumens, and the wire for each.
 const FILES: [(&str, &str); 5] = [
@@ -34,7 +34,10 @@ const PROPOSED: [&str; 6] = [
     "steve_mechanical_thrombectomy.obj",
     "steve_vessel_architecture.obj",
 ];
-const SEEDS: u64 = 10;
+/// Trials of each: as many as docs/guide.md tells of, or a sample.
+fn seeds() -> u64 {
+    if is_long() { 10 } else { 2 }
+}
 
 fn read(file: &Path) -> Result<Arc<TriMesh>, Failed> {
     Ok(Arc::new(io::read(&std::fs::read(file)?, &file.to_string_lossy(), &io::ImportOptions::default())?.mesh))
@@ -56,7 +59,7 @@ fn arrives(name: &str, mesh: &Arc<TriMesh>, mut setup: Setup) -> Result<(), Fail
         return Err(format!("the lumen is not open: {shut:?}").into());
     }
     let mut failures = Vec::new();
-    for seed in 0..SEEDS {
+    for seed in 0..seeds() {
         let mut trial = Trial::new(course.clone(), Setup { seed, ..setup.clone() })?;
         trial.set_autopilot(true);
         trial.finish();
@@ -65,27 +68,26 @@ fn arrives(name: &str, mesh: &Arc<TriMesh>, mut setup: Setup) -> Result<(), Fail
             failures.push(format!("seed {seed}: {}", summary.reason));
         }
     }
-    let arrived = SEEDS - failures.len() as u64;
-    eprintln!("{name} by {}: {arrived} of {SEEDS} arrive {failures:?}", setup.wire.name);
-    if failures.is_empty() { Ok(()) } else { Err(format!("{arrived} of {SEEDS} arrive: {failures:?}").into()) }
+    let seeds = seeds();
+    let arrived = seeds - failures.len() as u64;
+    eprintln!("{name} by {}: {arrived} of {seeds} arrive {failures:?}", setup.wire.name);
+    if failures.is_empty() { Ok(()) } else { Err(format!("{arrived} of {seeds} arrive: {failures:?}").into()) }
 }
 
-fn main() {
-    common::run("trial_real", |folder| {
-        let path = |file: &str| folder.join("real").join(file);
-        let by = |(file, wire): (&'static str, &'static str)| {
-            let path = path(file);
-            Test::test(format!("the autopilot arrives in {file} by {wire}"), move || {
-                let wire = Wire::preset(wire).ok_or("no such wire")?;
-                arrives(file, &read(&path)?, Setup { wire, ..Setup::default() })
-            })
-        };
-        let proposed = |file: &'static str| {
-            let path = path(file);
-            Test::test(format!("the autopilot arrives in {file} by what is proposed"), move || {
-                arrives(file, &smoothed(read(&path)?)?, Setup { proposes_wire: true, ..Setup::default() })
-            })
-        };
-        FILES.into_iter().map(by).chain(PROPOSED.into_iter().map(proposed)).collect()
-    });
+pub(crate) fn trials(data: &Path) -> Vec<Test> {
+    let path = |file: &str| data.join("real").join(file);
+    let by = |(file, wire): (&'static str, &'static str)| {
+        let path = path(file);
+        Test::test(format!("trial: the autopilot arrives in {file} by {wire}"), move || {
+            let wire = Wire::preset(wire).ok_or("no such wire")?;
+            arrives(file, &read(&path)?, Setup { wire, ..Setup::default() })
+        })
+    };
+    let proposed = |file: &'static str| {
+        let path = path(file);
+        Test::test(format!("trial: the autopilot arrives in {file} by what is proposed"), move || {
+            arrives(file, &smoothed(read(&path)?)?, Setup { proposes_wire: true, ..Setup::default() })
+        })
+    };
+    FILES.into_iter().map(by).chain(PROPOSED.into_iter().map(proposed)).collect()
 }

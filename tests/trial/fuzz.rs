@@ -1,4 +1,4 @@
-//! Random input, for 50,000 steps: no number that is none, nothing through the wall, nothing farther into it than 5 % of
+//! Random input, for thousands of steps: no number that is none, nothing through the wall, nothing farther into it than 5 % of
 //! the wire's radius, no wire that is stuck for good. `LUMEN_FUZZ_STEPS` asks for more (`cargo xtask fuzz-trial`: a
 //! million).
 //!
@@ -17,6 +17,8 @@ use lumen::trial::course::Course;
 use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Input, Setup};
 use lumen::trial::wire::Wire;
+
+use crate::long::is_long;
 
 /// Steps between two audits: nothing moves farther than 3.2 mm meanwhile.
 const AUDITED: u64 = 20;
@@ -92,7 +94,11 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
 }
 
 fn steps() -> u64 {
-    std::env::var("LUMEN_FUZZ_STEPS").ok().and_then(|text| text.parse().ok()).unwrap_or(50_000)
+    std::env::var("LUMEN_FUZZ_STEPS").ok().and_then(|text| text.parse().ok()).unwrap_or(if is_long() {
+        50_000
+    } else {
+        12_000
+    })
 }
 
 #[test]

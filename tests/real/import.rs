@@ -1,7 +1,7 @@
 //! The facts of `data/INDEX.md`, established with VTK, are what Lumen reports about the same files.
 //!
 //! The data are not part of the repository: they are looked for where `LUMEN_DATA` says, else in `../shared/data`
-//! beside the checkout. Where there are none the trials are ignored, not passed.
+//! beside the checkout.
 
 use std::path::Path;
 
@@ -9,26 +9,18 @@ use libtest_mimic::{Failed, Trial};
 use lumen::io::{Format, ImportOptions, ImportReport, Imported, ReadError, read, write};
 use lumen::mesh::{Topology, Vec3};
 
-mod common;
-
-fn main() {
-    common::run("facts of INDEX.md", |data| {
-        let index = std::fs::read_to_string(data.join("INDEX.md")).expect("INDEX.md is text");
-        trials(data, &index)
-    })
-}
-
-fn trials(data: &Path, index: &str) -> Vec<Trial> {
+pub(crate) fn trials(data: &Path) -> Vec<Trial> {
+    let index = std::fs::read_to_string(data.join("INDEX.md")).expect("INDEX.md is text");
     let rows = index.lines().filter_map(Row::parse);
     let mut trials: Vec<Trial> = rows
         .map(|row| {
             let path = data.join(&row.file);
-            Trial::test(row.file.clone(), move || check(&path, &row))
+            Trial::test(format!("import: {}", row.file), move || check(&path, &row))
         })
         .collect();
     for name in ["volumes/seqseg_PA000016_mask.nii.gz", "volumes/vmtk_aorta_mra.mha"] {
         let path = data.join(name);
-        trials.push(Trial::test(name, move || match open(&path)? {
+        trials.push(Trial::test(format!("import: {name}"), move || match open(&path)? {
             Err(ReadError::ImageVolume { .. }) => Ok(()),
             other => Err(format!("{:?}", other.map(|imported| imported.report)).into()),
         }));

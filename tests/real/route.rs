@@ -12,8 +12,6 @@ use lumen::pipeline::task::Budget;
 use lumen::trial::audit::Audit;
 use lumen::trial::route::{RouteError, Tree};
 
-mod common;
-
 /// File; least and most ends; least and most length in mm of the route from the best entry to the best target; a wire that
 /// fits, in mm. The ends were counted in a viewer, small stumps being the difference; a route is at least as long as the
 /// surface's box is along its longest side, less a part.
@@ -28,21 +26,19 @@ const TREES: [(&str, [usize; 2], [f64; 2], f64); 5] = [
 /// Walls with a thickness: what is inside of the surface is no lumen.
 const WALLS: [&str; 2] = ["real/cathsim_low_tort_arch.stl", "real/matteopescio_abdominal_aorta_phantom.stl"];
 
-fn main() {
-    common::run("trees of real vessels", |data| {
-        let tree = |(file, ends, length, wire): (&str, [usize; 2], [f64; 2], f64)| {
-            let path = data.join(file);
-            Trial::test(file, move || check(&path, ends, length, wire))
-        };
-        let wall = |file: &str| {
-            let path = data.join(file);
-            Trial::test(file, move || match Tree::new(&load(&path)?) {
-                Err(RouteError::Sheet { .. }) => Ok(()),
-                other => Err(format!("{:?}", other.map(|tree| tree.branches().len())).into()),
-            })
-        };
-        TREES.into_iter().map(tree).chain(WALLS.into_iter().map(wall)).collect()
-    })
+pub(crate) fn trials(data: &Path) -> Vec<Trial> {
+    let tree = |(file, ends, length, wire): (&str, [usize; 2], [f64; 2], f64)| {
+        let path = data.join(file);
+        Trial::test(format!("route: {file}"), move || check(&path, ends, length, wire))
+    };
+    let wall = |file: &str| {
+        let path = data.join(file);
+        Trial::test(format!("route: {file}"), move || match Tree::new(&load(&path)?) {
+            Err(RouteError::Sheet { .. }) => Ok(()),
+            other => Err(format!("{:?}", other.map(|tree| tree.branches().len())).into()),
+        })
+    };
+    TREES.into_iter().map(tree).chain(WALLS.into_iter().map(wall)).collect()
 }
 
 fn load(path: &Path) -> Result<TriMesh, Failed> {

@@ -17,28 +17,22 @@ use lumen::pipeline::settings::{Boundary, Settings, Smoothing, Window};
 use lumen::pipeline::smoothing::{SmoothingTask, smooth};
 use lumen::pipeline::task::{Budget, Progress, Task};
 
-mod common;
-#[path = "common/vessels.rs"]
-mod vessels;
-
-use vessels::VESSELS;
+use crate::vessels::VESSELS;
 
 /// Surfaces with open ends cut by a plane, and their voxels in mm.
 const OPEN_ENDS: [(&str, usize, f64); 2] =
     [("bench/aorta74k.ply", 3, 1.0), ("real/aorta-surface-open-ends.stl", 3, 0.88)];
 
-fn main() {
-    common::run("smoothing of real vessels", |data| {
-        let everywhere = VESSELS.iter().map(|file| {
-            let path = data.join(file);
-            Trial::test(*file, move || check(&path))
-        });
-        let ends = OPEN_ENDS.iter().map(|&(file, ends, voxel)| {
-            let path = data.join(file);
-            Trial::test(format!("open ends of {file}"), move || check_open_ends(&path, ends, voxel))
-        });
-        everywhere.chain(ends).collect()
-    })
+pub(crate) fn trials(data: &Path) -> Vec<Trial> {
+    let everywhere = VESSELS.iter().map(|file| {
+        let path = data.join(file);
+        Trial::test(format!("smoothing: {file}"), move || check(&path))
+    });
+    let ends = OPEN_ENDS.iter().map(|&(file, ends, voxel)| {
+        let path = data.join(file);
+        Trial::test(format!("smoothing: open ends of {file}"), move || check_open_ends(&path, ends, voxel))
+    });
+    everywhere.chain(ends).collect()
 }
 
 fn open(path: &Path) -> Result<TriMesh, Failed> {

@@ -11,8 +11,6 @@ use libtest_mimic::{Failed, Trial};
 use lumen::io::{ImportOptions, Unit, read};
 use lumen::pipeline::shape::shape;
 
-mod common;
-
 /// Self-intersecting triangles; smallest angle in degrees; percentage of triangles with one below 10 degrees.
 const FACTS: [(&str, usize, f64, f64); 12] = [
     ("bench/aorta74k.ply", 0, 17.398_802, 0.0),
@@ -29,14 +27,12 @@ const FACTS: [(&str, usize, f64, f64); 12] = [
     ("real/vmtk_aorta_mra_iso800.stl", 0, 0.031_243, 11.511_093),
 ];
 
-fn main() {
-    common::run("measures of real vessels", |data| {
-        let trial = |(file, crossing, smallest, slivers): (&str, usize, f64, f64)| {
-            let path = data.join(file);
-            Trial::test(file, move || check(&path, crossing, smallest, slivers))
-        };
-        FACTS.into_iter().map(trial).collect()
-    })
+pub(crate) fn trials(data: &Path) -> Vec<Trial> {
+    let trial = |(file, crossing, smallest, slivers): (&str, usize, f64, f64)| {
+        let path = data.join(file);
+        Trial::test(format!("measures: {file}"), move || check(&path, crossing, smallest, slivers))
+    };
+    FACTS.into_iter().map(trial).collect()
 }
 
 fn check(path: &Path, crossing: usize, smallest: f64, slivers: f64) -> Result<(), Failed> {

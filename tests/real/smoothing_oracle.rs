@@ -14,8 +14,6 @@ use lumen::pipeline::settings::{Boundary, Smoothing, Window};
 use lumen::pipeline::smoothing::smooth;
 use serde::Deserialize;
 
-mod common;
-
 /// Largest distance from VTK's result, as a part of the diagonal.
 const TOLERANCE: f64 = 1e-5;
 
@@ -30,20 +28,18 @@ struct Case {
     sigma: f64,
 }
 
-fn main() {
-    common::run("smoothing beside VTK", |data| {
-        let oracle = data.join("../oracle");
-        let list = oracle.join("windowed_sinc.json");
-        let text = std::fs::read_to_string(&list)
-            .unwrap_or_else(|error| panic!("VTK's results belong beside the test meshes: {}: {error}", list.display()));
-        let cases: Vec<Case> = serde_json::from_str(&text).expect("a list of cases");
-        assert_eq!(cases.len(), 26);
-        let trial = |case: Case| {
-            let oracle = oracle.clone();
-            Trial::test(case.output.clone(), move || check(&oracle, &case))
-        };
-        cases.into_iter().map(trial).collect()
-    })
+pub(crate) fn trials(data: &Path) -> Vec<Trial> {
+    let oracle = data.join("../oracle");
+    let list = oracle.join("windowed_sinc.json");
+    let text = std::fs::read_to_string(&list)
+        .unwrap_or_else(|error| panic!("VTK's results belong beside the test meshes: {}: {error}", list.display()));
+    let cases: Vec<Case> = serde_json::from_str(&text).expect("a list of cases");
+    assert_eq!(cases.len(), 26);
+    let trial = |case: Case| {
+        let oracle = oracle.clone();
+        Trial::test(format!("smoothing beside VTK: {}", case.output), move || check(&oracle, &case))
+    };
+    cases.into_iter().map(trial).collect()
 }
 
 /// Little-endian f32 triples.

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use libtest_mimic::{Arguments, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 use lumen::io::{ImportOptions, read};
 use lumen::mesh::{TriMesh, Vec3};
 use lumen::phantom::{Sample, generate};
@@ -15,25 +15,18 @@ use lumen::pipeline::settings::{Keep, Method, Settings, Smoothing, Target};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
-#[path = "common/crossings.rs"]
-mod crossings;
-#[path = "common/data.rs"]
-mod data;
-#[path = "common/promises.rs"]
-mod promises;
-#[path = "common/shape.rs"]
-mod shape;
-#[path = "common/vessels.rs"]
-mod vessels;
-
-use crossings::crossing_faces;
-use promises::{RATES, check, settings};
-use vessels::VESSELS;
+use crate::crossings::crossing_faces;
+use crate::long::is_long;
+use crate::promises::{RATES, check, settings};
+use crate::vessels::VESSELS;
 
 /// Random settings tried on each surface.
-const CASES: u32 = 12;
+fn cases() -> u32 {
+    if is_long() { 12 } else { 4 }
+}
 
-fn main() {
+/// On surfaces that are made here.
+pub(crate) fn made() -> Vec<Trial> {
     let mut trials = vec![Trial::test("the counter of crossings counts", the_counter_counts)];
     for (name, mesh) in surfaces() {
         let mesh = Arc::new(mesh);
@@ -46,14 +39,16 @@ fn main() {
         let mesh = Arc::new(mesh);
         trials.push(Trial::test(format!("{name}: nothing crosses"), move || nothing_crosses(&mesh)));
     }
-    match data::data() {
-        Some(folder) => trials.extend(VESSELS.map(|file| {
-            let path = folder.join(file);
-            Trial::test(format!("{file}: nothing new crosses"), move || no_crossings(&Arc::new(open(&path)?)))
-        })),
-        None => trials.push(Trial::test("real vessels", || Ok(())).with_ignored_flag(true)),
-    }
-    libtest_mimic::run(&Arguments::from_args(), trials).exit()
+    trials
+}
+
+/// On real vessels.
+pub(crate) fn trials(data: &Path) -> Vec<Trial> {
+    let trial = |file: &str| {
+        let path = data.join(file);
+        Trial::test(format!("{file}: nothing new crosses"), move || no_crossings(&Arc::new(open(&path)?)))
+    };
+    VESSELS.into_iter().map(trial).collect()
 }
 
 fn open(path: &Path) -> Result<TriMesh, Failed> {
@@ -175,7 +170,7 @@ fn runner(cases: u32) -> TestRunner {
 }
 
 fn any_settings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
-    let tried = runner(CASES).run(&settings(), |settings| {
+    let tried = runner(cases()).run(&settings(), |settings| {
         let mut pipeline = Pipeline::new(mesh.clone(), settings).with_samples(1);
         check(&mut pipeline).map_err(TestCaseError::fail)
     });
@@ -209,11 +204,12 @@ fn any_bound(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
     Ok(())
 }
 
-/// At the five rates no more faces cross others than did on the smoothed surface.
+/// At the paper's rates no more faces cross others than did on the smoothed surface.
 fn no_crossings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
     let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_samples(1);
     let mut failures = Vec::new();
-    for (method, rate) in Method::ALL.into_iter().flat_map(|method| RATES.map(|rate| (method, rate))) {
+    let rates = if is_long() { &RATES[..] } else { &[900, 990] };
+    for (method, &rate) in Method::ALL.into_iter().flat_map(|method| rates.iter().map(move |rate| (method, rate))) {
         let mut settings = Settings { target: Target::Reduction(rate), ..Settings::default() };
         settings.decimation.method = method;
         pipeline.set(settings)?;

@@ -1,0 +1,5 @@
+//! The program from outside: its subcommands and the files that it writes.
+
+mod cli;
+#[cfg(feature = "gui")]
+mod figures;

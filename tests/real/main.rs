@@ -1,0 +1,52 @@
+//! What is tried over lists: the facts of `data/INDEX.md`, real vessels, and surfaces made here under many settings.
+//!
+//! The test meshes are no part of the repository: they are looked for where `LUMEN_DATA` says, else in `../shared/data`
+//! beside the checkout. Where there are none, one trial is reported as ignored, not as passed.
+
+#[path = "../common/crossings.rs"]
+mod crossings;
+#[path = "../common/data.rs"]
+mod data;
+#[path = "../common/long.rs"]
+mod long;
+#[path = "../common/promises.rs"]
+mod promises;
+#[path = "../common/shape.rs"]
+mod shape;
+#[path = "../common/vessels.rs"]
+mod vessels;
+
+mod guarantees;
+mod import;
+mod measures;
+mod pipeline;
+mod route;
+mod smoothing;
+mod smoothing_oracle;
+mod trial;
+
+use libtest_mimic::{Arguments, Trial};
+
+fn main() {
+    let mut trials = guarantees::made();
+    match data::data() {
+        Some(folder) => {
+            let parts = [
+                guarantees::trials,
+                import::trials,
+                measures::trials,
+                pipeline::trials,
+                route::trials,
+                smoothing::trials,
+                smoothing_oracle::trials,
+                trial::trials,
+            ];
+            trials.extend(parts.into_iter().flat_map(|part| part(&folder)));
+        }
+        None => {
+            eprintln!("no test meshes: set LUMEN_DATA to their folder");
+            trials.push(Trial::test("real vessels", || Ok(())).with_ignored_flag(true));
+        }
+    }
+    libtest_mimic::run(&Arguments::from_args(), trials).exit()
+}

@@ -1,0 +1,17 @@
+//! Surfaces: what is read, smoothed, reduced and measured, on meshes made here.
+
+#[path = "../common/crossings.rs"]
+mod crossings;
+#[path = "../common/promises.rs"]
+mod promises;
+#[path = "../common/shape.rs"]
+mod shape;
+#[path = "../common/tangles.rs"]
+mod tangles;
+
+mod bad_input;
+mod decimation;
+mod fuzz;
+mod import_robustness;
+mod lumen_width;
+mod smoothing;
