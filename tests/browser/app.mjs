@@ -75,7 +75,7 @@ export const silhouette = (page, view) => differing(page, view, () => 24);
 export const edgePixels = (page, view) => differing(page, view, (strongest) => (strongest * 2) / 3);
 
 /**
- * How many pixels differ from the background by more than `from(strongest difference)`, of 255. The background is
+ * How many points differ from the background by more than `from(strongest difference)`, of 255. The background is
  * graded from top to bottom, so each row is compared with its own leftmost pixel.
  */
 async function differing(page, view, from) {
@@ -92,7 +92,9 @@ async function differing(page, view, from) {
     }
   }
   const least = from(differences.reduce((strongest, it) => Math.max(strongest, it), 0));
-  return differences.filter((difference) => difference > least).length;
+  // In points, however many pixels a point has.
+  const scale = await page.evaluate(() => devicePixelRatio);
+  return differences.filter((difference) => difference > least).length / scale ** 2;
 }
 
 /** How much wire is in, in cm, as the trial's panel has it, or null. */

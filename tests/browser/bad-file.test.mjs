@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { REDUCTION, grouped, openFile, settled, shownTriangles } from "./app.mjs";
-import { dragTo, eventually, launch, openApp, texts } from "./browser.mjs";
+import { COARSE, dragTo, eventually, launch, openApp, texts } from "./browser.mjs";
 
 /** A binary STL file of `claimed` triangles that has only `bytes` bytes. */
 function truncatedStl(claimed, bytes) {
@@ -27,7 +27,7 @@ before(async () => (browser = await launch()));
 after(() => browser.close());
 
 test("what cannot be opened is refused in one sentence, and the sample stays", async (t) => {
-  const { page, wrong } = await openApp(t, browser);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE });
   const shown = shownTriangles(await settled(page));
   assert(shown > 0);
   for (const [what, name, buffer] of FILES) {

@@ -25,6 +25,12 @@ const START_MS = 60_000;
 /** WebGPU on the processor: Chromium brings SwiftShader as a Vulkan driver. */
 export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
+/**
+ * A page that is drawn with half as many pixels a point: for tests that do not look at single ones. Drawing is what takes
+ * the time where there is no graphics card.
+ */
+export const COARSE = { deviceScaleFactor: 0.5 };
+
 /** A browser that draws without a graphics card and talks to nobody by itself. */
 export function launch(more = []) {
   return chromium.launch({

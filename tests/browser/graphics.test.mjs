@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { REDUCTION, atEntry, fed, lookFrom, settled, shownTriangles, silhouette, views } from "./app.mjs";
-import { WEBGPU, contextKind, dragTo, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { COARSE, WEBGPU, contextKind, dragTo, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let webgl, webgpu;
 before(async () => ([webgl, webgpu] = [await launch(), await launch(WEBGPU)]));
@@ -58,7 +58,7 @@ async function arranged(page) {
 }
 
 test("a lost WebGL2 context is made again, and all is as it was", async (t) => {
-  const { page, wrong } = await openApp(t, webgl);
+  const { page, wrong } = await openApp(t, webgl, { context: COARSE });
   const asItWas = await arranged(page);
   await loseContext(page);
   await startedAgain(page);
@@ -71,7 +71,7 @@ test("a lost WebGL2 context is made again, and all is as it was", async (t) => {
 });
 
 test("a context that is lost again and again is not made for ever, and the user decides", async (t) => {
-  const { page } = await openApp(t, webgl);
+  const { page } = await openApp(t, webgl, { context: COARSE });
   const asItWas = await arranged(page);
   const screen = page.getByRole("alert");
   let losses = 0;
@@ -106,7 +106,7 @@ test("a context that is lost again and again is not made for ever, and the user 
 });
 
 test("a trial goes on where it was after the context is lost", async (t) => {
-  const { page } = await openApp(t, webgl);
+  const { page } = await openApp(t, webgl, { context: COARSE });
   await settled(page);
   await press(page, "button", "Trial");
   const start = await atEntry(page);
@@ -122,7 +122,7 @@ test("a trial goes on where it was after the context is lost", async (t) => {
 });
 
 test("a lost WebGPU device is replaced, and all is as it was", async (t) => {
-  const { page, wrong } = await openApp(t, webgpu, { before: (page) => page.addInitScript(keepDevices) });
+  const { page, wrong } = await openApp(t, webgpu, { context: COARSE, before: (page) => page.addInitScript(keepDevices) });
   assert.equal(await contextKind(page), "webgpu");
   const asItWas = await arranged(page);
   const before = await page.evaluate(() => window.devices.length);
@@ -134,7 +134,7 @@ test("a lost WebGPU device is replaced, and all is as it was", async (t) => {
 });
 
 test("full graphics memory is told in a sentence, and a coarser level is drawn again", async (t) => {
-  const { page, wrong } = await openApp(t, webgpu, { before: (page) => page.addInitScript(keepDevices) });
+  const { page, wrong } = await openApp(t, webgpu, { context: COARSE, before: (page) => page.addInitScript(keepDevices) });
   await settled(page);
   const before = await silhouette(page, views.shaded(page));
   await page.evaluate(() => {
@@ -155,7 +155,7 @@ test("where WebGPU cannot be started the app draws with WebGL2", async (t) => {
       throw new DOMException("injected", "OperationError");
     };
   };
-  const { page } = await openApp(t, webgpu, { before: (page) => page.addInitScript(fails) });
+  const { page } = await openApp(t, webgpu, { context: COARSE, before: (page) => page.addInitScript(fails) });
   await settled(page);
   assert.equal(await contextKind(page), "webgl2");
   assert((await silhouette(page, views.shaded(page))) > 10_000, "there is something to see");
@@ -163,7 +163,7 @@ test("where WebGPU cannot be started the app draws with WebGL2", async (t) => {
 
 for (const [what, browser] of [["WebGL2", () => webgl], ["WebGPU", () => webgpu]]) {
   test(`with ${what} the end of the browser's process for graphics is survived`, async (t) => {
-    const { page } = await openApp(t, browser());
+    const { page } = await openApp(t, browser(), { context: COARSE });
     const asItWas = await arranged(page);
     const session = await browser().newBrowserCDPSession();
     // It ends in the middle of the answer.

@@ -6,7 +6,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { atEntry, fed, inserted, settled } from "./app.mjs";
-import { eventually, frames, launch, openApp, press, started, twin } from "./browser.mjs";
+import { COARSE, eventually, frames, launch, openApp, press, started, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -36,7 +36,7 @@ function hideable() {
   window.show = () => turn(false);
 }
 
-const hideablePage = { before: (page) => page.addInitScript(hideable) };
+const hideablePage = { context: COARSE, before: (page) => page.addInitScript(hideable) };
 
 test("the wire stops where the page is hidden with a key held", async (t) => {
   const { page } = await openApp(t, browser, hideablePage);
@@ -60,7 +60,7 @@ test("the wire stops where the page is hidden with a key held", async (t) => {
 });
 
 test("a key that is held while the window beside the page is used is let go", async (t) => {
-  const { page } = await openApp(t, browser, { before: (page) => page.addInitScript(() => {
+  const { page } = await openApp(t, browser, { context: COARSE, before: (page) => page.addInitScript(() => {
     window.hasAttention = true;
     document.hasFocus = () => window.hasAttention;
   }) });

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { REDUCTION, openFile, settled, shownTriangles } from "./app.mjs";
-import { dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { COARSE, dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -45,7 +45,7 @@ async function works(page, percent) {
 }
 
 test("a surface that cannot be copied to its Worker is told, and the app goes on", async (t) => {
-  const { page } = await openApp(t, browser, { before: (page) => page.addInitScript(limitArrays) });
+  const { page } = await openApp(t, browser, { context: COARSE, before: (page) => page.addInitScript(limitArrays) });
   await settled(page);
   await page.evaluate(() => (window.mostBytes = 10_000));
   await press(page, "button", "Save");
@@ -56,7 +56,7 @@ test("a surface that cannot be copied to its Worker is told, and the app goes on
 });
 
 test("a download that cannot be made is told, and the app goes on", async (t) => {
-  const { page, wrong } = await openApp(t, browser, { before: (page) => page.addInitScript(limitArrays) });
+  const { page, wrong } = await openApp(t, browser, { context: COARSE, before: (page) => page.addInitScript(limitArrays) });
   await settled(page);
   // What goes to the Worker is smaller than the text of an OBJ that comes back.
   await dragTo(page, REDUCTION, 50);
@@ -71,7 +71,7 @@ test("a download that cannot be made is told, and the app goes on", async (t) =>
 });
 
 test("a file that does not fit into memory is told, and what was open stays", async (t) => {
-  const { page, wrong } = await openApp(t, browser, { before: (page) => page.addInitScript(failFiles) });
+  const { page, wrong } = await openApp(t, browser, { context: COARSE, before: (page) => page.addInitScript(failFiles) });
   const shown = shownTriangles(await settled(page));
   await openFile(page, { name: "large.stl", buffer: Buffer.alloc(2_000_000) });
   await says(page, /^large\.stl has 2 MB, for which this browser has no memory left\.$/);
@@ -81,7 +81,7 @@ test("a file that does not fit into memory is told, and what was open stays", as
 });
 
 test("an answer that its Worker cannot copy ends that Worker, and another takes its place", async (t) => {
-  const { page } = await openApp(t, browser);
+  const { page } = await openApp(t, browser, { context: COARSE });
   await settled(page);
   const [worker] = page.workers();
   await worker.evaluate(limitArrays);

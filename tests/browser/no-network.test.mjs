@@ -5,7 +5,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { REDUCTION, openFile, save, settled } from "./app.mjs";
-import { data, dragTo, launch, openApp } from "./browser.mjs";
+import { COARSE, data, dragTo, launch, openApp } from "./browser.mjs";
 
 const AORTA = join(data, "real/aorta-surface-segment-2.stl");
 
@@ -19,7 +19,7 @@ test("no request leaves the page after it is loaded", { skip: existsSync(AORTA) 
   const listen = (page) =>
     // The context hears its Workers too.
     page.context().on("request", (request) => (loaded ? requests.later : requests.loading).push(request.url()));
-  const { page, address } = await openApp(t, browser, { before: listen });
+  const { page, address } = await openApp(t, browser, { context: COARSE, before: listen });
   await settled(page);
   loaded = true;
 

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { REDUCTION, atEntry, openFile, save, settled, shownTriangles, stlTriangles } from "./app.mjs";
-import { dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { COARSE, dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -35,7 +35,7 @@ function sheet(n) {
 }
 
 test("the engine dies twice, and what was open is never lost", { timeout: 300_000 }, async (t) => {
-  const { page } = await openApp(t, browser);
+  const { page } = await openApp(t, browser, { context: COARSE });
   await settled(page);
   await openFile(page, { name: "sheet.obj", buffer: sheet(40) });
   await eventually(() => texts(page), (all) => all.some((text) => / of 3,200$/.test(text)), { what: "the sheet" });
@@ -55,7 +55,7 @@ test("the engine dies twice, and what was open is never lost", { timeout: 300_00
 });
 
 test("an engine that dies at every start is left alone, and what is shown can still be saved", { timeout: 300_000 }, async (t) => {
-  const { page } = await openApp(t, browser);
+  const { page } = await openApp(t, browser, { context: COARSE });
   const shown = shownTriangles(await settled(page));
   await page.evaluate(() => {
     window.SoundWorker = Worker;
@@ -80,7 +80,7 @@ test("an engine that dies at every start is left alone, and what is shown can st
 });
 
 test("the trial's engine dies: the surface stays, and a new trial starts", { timeout: 300_000 }, async (t) => {
-  const { page } = await openApp(t, browser);
+  const { page } = await openApp(t, browser, { context: COARSE });
   const shown = shownTriangles(await settled(page));
   await press(page, "button", "Trial");
   await atEntry(page);
