@@ -23,6 +23,7 @@ mod far;
 mod format;
 mod gltf;
 mod import;
+mod numbers;
 mod obj;
 mod ply;
 mod polygons;

@@ -8,22 +8,10 @@ use glam::DVec3;
 
 use super::error::ReadError;
 use super::import::RawSurface;
+use super::numbers::{BinaryNumbers, Numbers, Scalar, TextNumbers};
 use super::polygons::Faces;
 use super::text::{self, Words};
 use crate::mesh::{TriMesh, Vec3};
-
-/// The type of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
 
 impl Scalar {
     /// The type that a header calls `name`.
@@ -102,8 +90,8 @@ pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError>
     let body = &bytes[header.body..];
     match header.encoding {
         Encoding::Ascii => read_ascii(&header, body, origin),
-        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false> { bytes: body }, origin),
-        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true> { bytes: body }, origin),
+        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false>::new(body), origin),
+        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true>::new(body), origin),
     }
 }
 
@@ -112,9 +100,9 @@ pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError>
 /// be a line gets over them.
 fn read_ascii(header: &Header, body: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     let attempt = |row_is_line| {
-        let mut numbers = AsciiNumbers { words: Words::new(body, header.body_line), row_is_line, fault: None };
+        let mut numbers = TextNumbers::new("PLY", Words::new(body, header.body_line), row_is_line);
         let result = read_body(header, &mut numbers, origin);
-        let even = result.is_ok() && numbers.words.next().is_none();
+        let even = result.is_ok() && numbers.is_at_end();
         (result, even)
     };
     let (result, even) = attempt(false);
@@ -198,109 +186,6 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     }
     let encoding = encoding.ok_or_else(|| malformed("its header does not say which encoding it has"))?;
     Ok(Header { encoding, elements, body: at, body_line: line + 1 })
-}
-
-/// The numbers of a body, one after another. `None` is the end of the file, or a [`Numbers::fault`]: these calls
-/// are the inner loop, so they return what fits into registers.
-trait Numbers {
-    /// The next number, of any type: `f64` holds them all.
-    fn number(&mut self, kind: Scalar) -> Option<f64>;
-
-    /// The next number relative to `origin`; where that is 0, rounded once to `f32`.
-    fn coordinate(&mut self, kind: Scalar, origin: f64) -> Option<f32> {
-        self.number(kind).map(|x| (x - origin) as f32)
-    }
-
-    /// What is wrong in the place where the last `None` came from, if it was not the end of the file.
-    fn fault(&mut self) -> Option<ReadError> {
-        None
-    }
-
-    /// A row of an element ends here.
-    fn end_row(&mut self) {}
-
-    /// Bytes left.
-    fn remaining(&self) -> usize;
-}
-
-struct AsciiNumbers<'a> {
-    words: Words<'a>,
-    /// Whether what is left of a line after a row is passed over.
-    row_is_line: bool,
-    fault: Option<ReadError>,
-}
-
-impl AsciiNumbers<'_> {
-    fn parse<T>(&mut self, of: impl Fn(&[u8]) -> Option<T>) -> Option<T> {
-        let word = self.words.next()?;
-        let value = of(word);
-        if value.is_none() {
-            let problem = format!("{} stands where a number should", text::quoted(word));
-            self.fault = Some(ReadError::Syntax { format: "PLY", line: self.words.line(), problem });
-        }
-        value
-    }
-}
-
-impl Numbers for AsciiNumbers<'_> {
-    fn number(&mut self, _: Scalar) -> Option<f64> {
-        self.parse(text::number)
-    }
-
-    fn coordinate(&mut self, _: Scalar, origin: f64) -> Option<f32> {
-        self.parse(|word| text::coordinate(word, origin))
-    }
-
-    fn fault(&mut self) -> Option<ReadError> {
-        self.fault.take()
-    }
-
-    fn end_row(&mut self) {
-        if self.row_is_line {
-            self.words.skip_line();
-        }
-    }
-
-    fn remaining(&self) -> usize {
-        self.words.remaining()
-    }
-}
-
-struct BinaryNumbers<'a, const BIG: bool> {
-    bytes: &'a [u8],
-}
-
-impl<const BIG: bool> BinaryNumbers<'_, BIG> {
-    /// The next `N` bytes in little-endian order.
-    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let (&first, rest) = self.bytes.split_first_chunk::<N>()?;
-        self.bytes = rest;
-        let mut value = first;
-        if BIG {
-            value.reverse();
-        }
-        Some(value)
-    }
-}
-
-impl<const BIG: bool> Numbers for BinaryNumbers<'_, BIG> {
-    #[inline]
-    fn number(&mut self, kind: Scalar) -> Option<f64> {
-        match kind {
-            Scalar::I8 => self.take().map(|b| f64::from(i8::from_le_bytes(b))),
-            Scalar::U8 => self.take().map(|b| f64::from(u8::from_le_bytes(b))),
-            Scalar::I16 => self.take().map(|b| f64::from(i16::from_le_bytes(b))),
-            Scalar::U16 => self.take().map(|b| f64::from(u16::from_le_bytes(b))),
-            Scalar::I32 => self.take().map(|b| f64::from(i32::from_le_bytes(b))),
-            Scalar::U32 => self.take().map(|b| f64::from(u32::from_le_bytes(b))),
-            Scalar::F32 => self.take().map(|b| f64::from(f32::from_le_bytes(b))),
-            Scalar::F64 => self.take().map(f64::from_le_bytes),
-        }
-    }
-
-    fn remaining(&self) -> usize {
-        self.bytes.len()
-    }
 }
 
 /// What an element means to Lumen, with the place of the property that matters.

@@ -18,6 +18,7 @@ mod inside;
 mod measures;
 mod nearest;
 mod planes;
+mod ray;
 mod roughness;
 mod self_intersections;
 #[cfg(test)]
