@@ -1,5 +1,10 @@
 //! Tables of numbers beside the paper's, as aligned text, as CSV and as Markdown.
 
+use tabled::builder::Builder;
+use tabled::settings::object::Columns;
+use tabled::settings::span::ColumnSpan;
+use tabled::settings::{Alignment, Style};
+
 use crate::digits::grouped;
 use crate::pipeline::report::DISCLAIMER;
 
@@ -128,43 +133,18 @@ impl Table {
             return no_rows(out);
         }
         let (heads, rows) = self.cells();
-        // A quantity's head stands over all of its columns: two spaces between these, three between quantities.
+        let mut builder = Builder::default();
+        [0, 1].into_iter().for_each(|line| builder.push_record(heads.iter().map(|head| &head[line])));
+        rows.into_iter().for_each(|row| builder.push_record(row));
+        let mut table = builder.build();
+        table.with(Style::psql().remove_vertical()).modify(Columns::new(1..), Alignment::right());
+        // A quantity's head stands over all of its columns; the rule stands under the second line.
         let starts: Vec<usize> = (1..heads.len()).filter(|&i| !heads[i][0].is_empty()).collect();
         let ends = starts.iter().skip(1).copied().chain([heads.len()]);
-        let groups: Vec<_> = starts.iter().zip(ends).map(|(&start, end)| start..end).collect();
-        let mut widths: Vec<usize> = heads.iter().map(|head| head[1].len()).collect();
-        widths[0] = heads[0][0].len();
-        for row in &rows {
-            for (width, cell) in widths.iter_mut().zip(row) {
-                *width = (*width).max(cell.len());
-            }
+        for (&start, end) in starts.iter().zip(ends).filter(|(start, end)| end - **start > 1) {
+            table.modify((0, start), ColumnSpan::new((end - start) as isize));
         }
-        let width_of = |widths: &[usize], group: &std::ops::Range<usize>| {
-            widths[group.clone()].iter().sum::<usize>() + 2 * (group.len() - 1)
-        };
-        for group in &groups {
-            widths[group.start] += heads[group.start][0].len().saturating_sub(width_of(&widths, group));
-        }
-        let mut line = format!("{:<width$}", heads[0][0], width = widths[0]);
-        for group in &groups {
-            line += &format!("   {:>width$}", heads[group.start][0], width = width_of(&widths, group));
-        }
-        let align = |cells: &mut dyn Iterator<Item = &String>| {
-            let mut line = String::new();
-            for (i, (cell, &width)) in cells.zip(&widths).enumerate() {
-                line += &match i {
-                    0 => format!("{cell:<width$}"),
-                    _ if starts.contains(&i) => format!("   {cell:>width$}"),
-                    _ => format!("  {cell:>width$}"),
-                };
-            }
-            line
-        };
-        let second = align(&mut heads.iter().map(|head| &head[1]));
-        *out += &format!("{line}\n{second}\n{}\n", "-".repeat(second.len()));
-        for row in &rows {
-            *out += &format!("{}\n", align(&mut row.iter()));
-        }
+        *out += &format!("{table}\n");
     }
 
     fn markdown(&self, out: &mut String) {
@@ -236,29 +216,30 @@ impl Sheet {
 
     /// One tidy table for machines: a line a number, with all that it needs to be understood alone (RFC 4180).
     pub(super) fn csv(&self) -> String {
-        let mut out = "table,item,quantity,unit,paper,lumen,difference,input,version,disclaimer\r\n".to_owned();
+        const HEADS: [&str; 10] =
+            ["table", "item", "quantity", "unit", "paper", "lumen", "difference", "input", "version", "disclaimer"];
+        let mut out = csv::WriterBuilder::new().terminator(csv::Terminator::CRLF).from_writer(Vec::new());
+        let mut write = |fields: [&str; HEADS.len()]| out.write_record(fields).expect("memory takes every line");
+        write(HEADS);
         for table in &self.tables {
-            for item in &table.items {
-                for entry in &item.entries {
-                    let number = |value: Option<f64>| value.map_or(String::new(), |value| entry.plain(value));
-                    let fields = [
-                        table.number,
-                        &item.name,
-                        entry.quantity,
-                        entry.unit,
-                        &number(entry.paper),
-                        &number(entry.lumen),
-                        &number(entry.difference()),
-                        &table.input,
-                        env!("CARGO_PKG_VERSION"),
-                        DISCLAIMER,
-                    ]
-                    .map(quoted);
-                    out += &format!("{}\r\n", fields.join(","));
-                }
+            for (item, entry) in table.items.iter().flat_map(|item| item.entries.iter().map(move |entry| (item, entry)))
+            {
+                let number = |value: Option<f64>| value.map_or(String::new(), |value| entry.plain(value));
+                write([
+                    table.number,
+                    &item.name,
+                    entry.quantity,
+                    entry.unit,
+                    &number(entry.paper),
+                    &number(entry.lumen),
+                    &number(entry.difference()),
+                    &table.input,
+                    env!("CARGO_PKG_VERSION"),
+                    DISCLAIMER,
+                ]);
             }
         }
-        out
+        String::from_utf8(out.into_inner().expect("memory takes every line")).expect("fields are text")
     }
 }
 
@@ -269,25 +250,8 @@ fn no_rows(out: &mut String) {
 
 /// A note as a point of a list, wrapped.
 fn bullet(out: &mut String, note: &str) {
-    const WIDTH: usize = 100;
-    let mut line = "-".to_owned();
-    for word in note.split(' ') {
-        if line.chars().count() + word.chars().count() >= WIDTH {
-            *out += &format!("{line}\n");
-            line = " ".to_owned();
-        }
-        line += &format!(" {word}");
-    }
-    *out += &format!("{line}\n");
-}
-
-/// A field of CSV, in quotes where it needs them.
-fn quoted(field: &str) -> String {
-    if field.contains(['"', ',', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
-    }
+    let options = textwrap::Options::new(100).initial_indent("- ").subsequent_indent("  ");
+    *out += &format!("{}\n", textwrap::fill(note, options));
 }
 
 #[cfg(test)]
@@ -322,10 +286,5 @@ mod tests {
             );
         }
         assert_eq!(sheet.csv().lines().count(), 1);
-    }
-
-    #[test]
-    fn fields_with_commas_and_quotes_are_quoted() {
-        assert_eq!(["a b", "a,b", "5\" tube"].map(quoted), ["a b", "\"a,b\"", "\"5\"\" tube\""]);
     }
 }

@@ -8,6 +8,7 @@ mod bench_trial;
 mod build;
 mod curve;
 mod document;
+mod estimate;
 mod fuzz;
 mod page;
 mod peers;

@@ -1,12 +1,14 @@
 //! `cargo xtask test`: every test, and at the end how many passed.
 
 use std::io::{BufRead as _, BufReader};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
-use anyhow::{Context as _, Result, bail};
+use anyhow::{Context as _, Result, anyhow, bail};
 use clap::ValueEnum;
 
-use crate::step::{cargo, name, root, step};
+use crate::estimate::Estimate;
+use crate::step::{cargo, name, root, step, target};
 use crate::{build, tools};
 
 /// A part of the tests.
@@ -26,10 +28,11 @@ struct Counts {
     ignored: u64,
 }
 
-/// Runs the suites named in `only`, or all of them, and fails if a test fails.
-/// With `long` everything is tried where else a sample is.
+/// Runs the suites named in `only`, or all of them, and fails if a test fails. With `long` everything is tried where else a
+/// sample is.
 pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
     let wanted = |suite| only.is_empty() || only.contains(&suite);
+    let mut estimate = Estimate::new(if long { "long-test" } else { "test" });
     let mut total = Counts::default();
     let mut sound = true;
     let mut add = |(counts, ended_well): (Counts, bool)| {
@@ -38,12 +41,19 @@ pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
         total.ignored += counts.ignored;
         sound &= ended_well;
     };
-    if wanted(Suite::Native) {
-        add(native(long)?);
-    }
-    if wanted(Suite::Browser) {
-        add(browser()?);
-    }
+    std::thread::scope(|scope| {
+        // Linking and wasm-opt are one thread for minutes: they go on beside the native tests.
+        let dist = wanted(Suite::Browser).then(|| scope.spawn(build::build));
+        if wanted(Suite::Native) {
+            add(native(long, &mut estimate)?);
+        }
+        if let Some(dist) = dist {
+            let dist = dist.join().map_err(|_| anyhow!("the build of the browser app panicked"))??;
+            add(browser(&dist, &mut estimate)?);
+        }
+        anyhow::Ok(())
+    })?;
+    estimate.keep();
     println!("{} passed, {} failed, {} skipped", total.passed, total.failed, total.ignored);
     if total.failed > 0 || !sound {
         bail!("not every test passed");
@@ -51,7 +61,7 @@ pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
     Ok(())
 }
 
-fn native(long: bool) -> Result<(Counts, bool)> {
+fn native(long: bool, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
     let cargo = cargo();
@@ -67,7 +77,19 @@ fn native(long: bool) -> Result<(Counts, bool)> {
     if long {
         command.env("LUMEN_LONG", "1");
     }
-    step("Run the native tests", || count(&mut command, cargo_counts))
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // Where there is no desktop session, what looks for a display complains in every test that opens a window.
+        let folder = target().join("run");
+        std::fs::create_dir_all(&folder)?;
+        command.env("XDG_RUNTIME_DIR", folder);
+    }
+    estimate.begin("compile the native tests");
+    step("Run the native tests", || count(&mut command, cargo_counts, cargo_part, estimate))
+}
+
+/// "     Running tests/real/main.rs (target/debug/deps/real-14627fb9)", on the error output: what is run.
+fn cargo_part(line: &str) -> Option<&str> {
+    line.trim_start().strip_prefix("Running ").and_then(|rest| rest.rsplit_once(" (")).map(|(what, _)| what)
 }
 
 /// "test result: ok. 12 passed; 0 failed; 1 ignored; ..."
@@ -85,10 +107,9 @@ fn cargo_counts(line: &str, counts: &mut Counts) {
     }
 }
 
-fn browser() -> Result<(Counts, bool)> {
+fn browser(dist: &Path, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     let npm = tools::npm()?;
     let chromium = tools::chromium()?;
-    let dist = build::build()?;
     let mut files: Vec<_> = std::fs::read_dir(root().join("tests/browser"))?
         .filter_map(|entry| Some(entry.ok()?.path()))
         .filter(|path| path.to_string_lossy().ends_with(".test.mjs"))
@@ -110,7 +131,8 @@ fn browser() -> Result<(Counts, bool)> {
             "LUMEN_PROGRAM",
             crate::step::target().join("debug").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
         );
-    step("Run the browser tests", || count(&mut command, node_counts))
+    estimate.begin("browser tests");
+    step("Run the browser tests", || count(&mut command, node_counts, |_| None, estimate))
 }
 
 /// "ℹ pass 5"
@@ -127,21 +149,40 @@ fn node_counts(line: &str, counts: &mut Counts) {
     }
 }
 
-/// Runs a test runner with its output shown and read; whether it ended well is told beside the counts.
-fn count(command: &mut Command, read: fn(&str, &mut Counts)) -> Result<(Counts, bool)> {
+/// Runs a test runner with its output shown and read; whether it ended well is told beside the counts. `part` finds in a
+/// line of the error output what begins there.
+fn count(
+    command: &mut Command,
+    read: fn(&str, &mut Counts),
+    part: fn(&str) -> Option<&str>,
+    estimate: &mut Estimate,
+) -> Result<(Counts, bool)> {
     let mut runner = command
         .current_dir(root())
         .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
         .spawn()
         .with_context(|| format!("{} did not start", name(command)))?;
     let mut counts = Counts::default();
-    if let Some(output) = runner.stdout.take() {
-        for line in BufReader::new(output).lines() {
+    let (output, errors) = (runner.stdout.take(), runner.stderr.take());
+    std::thread::scope(|scope| {
+        // Both have to be read, or the one that is not fills up and the runner waits.
+        scope.spawn(|| {
+            for line in errors.into_iter().flat_map(|errors| BufReader::new(errors).lines()).map_while(Result::ok) {
+                eprintln!("{line}");
+                if let Some(part) = part(&line) {
+                    estimate.begin(part);
+                    estimate.left().into_iter().for_each(|left| eprintln!("     {left}"));
+                }
+            }
+        });
+        for line in output.into_iter().flat_map(|output| BufReader::new(output).lines()) {
             let line = line.context("what a test runner prints is no text")?;
             println!("{line}");
             read(&line, &mut counts);
         }
-    }
+        anyhow::Ok(())
+    })?;
     Ok((counts, runner.wait()?.success()))
 }
 
@@ -161,5 +202,8 @@ mod tests {
         node_counts("ℹ fail 1", &mut counts);
         node_counts("    pass the file to the chooser", &mut counts);
         assert_eq!((counts.passed, counts.failed, counts.ignored), (20, 3, 1));
+        let part = cargo_part("     Running unittests src/lib.rs (target/debug/deps/lumen-189a92ad)");
+        assert_eq!(part, Some("unittests src/lib.rs"));
+        assert_eq!(cargo_part("   Compiling lumen v0.1.0 (folder)"), None);
     }
 }
