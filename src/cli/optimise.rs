@@ -16,6 +16,7 @@ use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Boundary, Decimation, Keep, Method, Settings, Smoothing, Target, Window};
+use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
@@ -248,7 +249,10 @@ pub(super) fn advance(pipeline: &mut Pipeline) -> Result<()> {
                 bar.set_message(stage.label());
                 bar.set_position((fraction * 1000.0) as u64);
             }
-            Advance::Finished(stage) if !is_terminal => eprintln!("{}: done", stage.label()),
+            // The measures are two stages of one name: the last says that they are done.
+            Advance::Finished(stage) if !is_terminal && stage != Stage::SmoothedMeasures => {
+                eprintln!("{}: done", stage.label());
+            }
             Advance::Finished(_) => {}
             Advance::Idle => break,
         }

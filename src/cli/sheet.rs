@@ -3,7 +3,8 @@
 use tabled::builder::Builder;
 use tabled::settings::object::Columns;
 use tabled::settings::span::ColumnSpan;
-use tabled::settings::{Alignment, Style};
+use tabled::settings::style::HorizontalLine;
+use tabled::settings::{Alignment, Padding, Style};
 
 use crate::digits::grouped;
 use crate::pipeline::report::DISCLAIMER;
@@ -137,7 +138,8 @@ impl Table {
         [0, 1].into_iter().for_each(|line| builder.push_record(heads.iter().map(|head| &head[line])));
         rows.into_iter().for_each(|row| builder.push_record(row));
         let mut table = builder.build();
-        table.with(Style::psql().remove_vertical()).modify(Columns::new(1..), Alignment::right());
+        table.with(Style::empty().horizontals([(2, HorizontalLine::new('-'))])).with(Padding::zero());
+        table.modify(Columns::new(1..), Alignment::right()).modify(Columns::new(1..), Padding::new(2, 0, 0, 0));
         // A quantity's head stands over all of its columns; the rule stands under the second line.
         let starts: Vec<usize> = (1..heads.len()).filter(|&i| !heads[i][0].is_empty()).collect();
         let ends = starts.iter().skip(1).copied().chain([heads.len()]);

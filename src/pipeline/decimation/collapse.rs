@@ -139,7 +139,7 @@ impl Surface {
                     candidate.place = Some(self.level(v, u, &candidate, at, limits).unwrap_or(place));
                 }
                 let tip = self.tip(&candidate, at);
-                let key = self.method.priority(tip) * limits.price;
+                let key = self.method.priority(tip).max(candidate.priority) * limits.price;
                 if key > threshold {
                     return Err(Refusal::Later(key));
                 }

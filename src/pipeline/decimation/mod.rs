@@ -164,7 +164,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
             return;
         }
         match self.surface.way(&self.mesh, v, &judged, limits, threshold) {
-            Ok((candidate, tip)) => self.collapse(v, &candidate, judged.distance, tip),
+            Ok((candidate, tip)) => self.collapse(v, &candidate, tip),
             Err(Refusal::Later(key)) => self.schedule.keys[v as usize] = key,
             Err(Refusal::Stuck(stuck)) => match self.eased(v, &judged, stuck) {
                 Some(strictness) => {
@@ -186,13 +186,13 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
         Some(*strictness)
     }
 
-    fn collapse(&mut self, v: u32, candidate: &Candidate, distance: f32, tip: f32) {
+    fn collapse(&mut self, v: u32, candidate: &Candidate, tip: f32) {
         let surface = &mut self.surface;
         let u = neighbour(surface.star.entries()[candidate.to]);
         let (gone, kept) = (surface.rings.nodes[v as usize], surface.rings.nodes[u as usize]);
         let made = surface.collapse(v, candidate, tip);
         self.merges.push(Merge { gone, kept, made });
-        self.errors.push(distance.max(tip) * surface.rings.unit);
+        self.errors.push(candidate.distance.max(tip) * surface.rings.unit);
         self.schedule.remove(v);
         let around_v = surface.star.entries().iter();
         let around_u = surface.rings.around(u).iter().filter(|_| made.is_some());

@@ -158,15 +158,19 @@ impl Method for Quadric {
             let form = own.plus(&self.forms[u as usize].seen_from(-way));
             let stays = rings.stays(u) || rings.is_open(u) && !is_open;
             let place = if stays { None } else { form.least(way * 0.5) };
-            let cost = form.at(place.unwrap_or(way));
-            self.candidates.push(Candidate { cost: cost as f32, to, place: place.map(DVec3::as_vec3a) });
+            let candidate = |place: Option<DVec3>| {
+                let cost = form.at(place.unwrap_or(way));
+                let distance = if form.area > 0.0 { (cost / form.area).sqrt() as f32 } else { 0.0 };
+                let (priority, place) = (cost.sqrt() as f32, place.map(DVec3::as_vec3a));
+                Candidate { distance, priority, cost: cost as f32, to, place }
+            };
+            let best = candidate(place);
+            self.candidates.push(best);
             if is_last && place.is_some() {
-                self.candidates.push(Candidate { cost: form.at(way) as f32, to, place: None });
+                self.candidates.push(candidate(None));
             }
-            let priority = cost.sqrt() as f32;
-            if priority < judged.priority {
-                judged.priority = priority;
-                judged.distance = if form.area > 0.0 { (cost / form.area).sqrt() as f32 } else { 0.0 };
+            if best.priority < judged.priority {
+                (judged.priority, judged.distance) = (best.priority, best.distance);
             }
         }
         judged
