@@ -8,8 +8,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
 pub use self::window::run;
-use crate::app::trial::Offer;
-use crate::app::{Platform, PlatformEvent, Waker};
+use crate::app::{Offer, Platform, PlatformEvent, Waker};
 use crate::engine::trial::TrialLink;
 use crate::engine::{Engine, Link, TrialEngine};
 

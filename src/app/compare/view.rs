@@ -6,13 +6,12 @@ use egui::{UiBuilder, WidgetInfo, pos2, vec2};
 use super::cell::{self, Arrangement, Manner};
 use super::scene::CompareScene;
 use super::{Cell, Comparison, MOST, Outcome, words};
-use crate::app::NO_MEMORY;
-use crate::app::control::name;
+use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::icon::{self, Icon};
 use crate::app::overlay::NOT_CLINICAL;
 use crate::app::theme;
-use crate::app::views::Views;
+use crate::app::views::{NO_MEMORY, Views};
 use crate::pipeline::paper;
 use crate::pipeline::settings::Settings;
 
@@ -55,16 +54,16 @@ impl CompareView {
         self.is_refused |= self.scene.take().is_some();
     }
 
-    /// Shows the comparison in what is left of `ui`; a cell that is clicked becomes `settings`.
+    /// Shows the comparison with `settings`, those in force, in what is left of `ui`. Returns others that were chosen.
     pub(in crate::app) fn show(
         &mut self,
         ui: &mut Ui,
         comparison: &mut Comparison,
         views: &mut Views,
-        settings: &mut Settings,
+        settings: &Settings,
         document: Option<&Document>,
         is_narrow: bool,
-    ) {
+    ) -> Option<Settings> {
         if let (None, false, Some(device)) = (&self.scene, self.is_refused, &self.device) {
             self.scene = Some(CompareScene::new(device));
         }
@@ -92,14 +91,14 @@ impl CompareView {
             footer(ui, name, &shared, slow(comparison), is_narrow);
         });
         ui.scope_builder(UiBuilder::new().max_rect(grid), |ui| {
-            let deed = self.grid(ui, comparison, &titles, views, settings, document, is_narrow);
-            match deed {
-                Some(Deed::Choose(chosen)) => *settings = Settings { keep: settings.keep, ..chosen },
-                Some(Deed::Remove(id)) => comparison.remove(id),
-                Some(Deed::Retry(id)) => comparison.retry(id),
-                None => {}
+            match self.grid(ui, comparison, &titles, views, settings, document, is_narrow)? {
+                Deed::Choose(chosen) => return Some(Settings { keep: settings.keep, ..chosen }),
+                Deed::Remove(id) => comparison.remove(id),
+                Deed::Retry(id) => comparison.retry(id),
             }
-        });
+            None
+        })
+        .inner
     }
 
     #[expect(clippy::too_many_arguments, reason = "one call, and a struct would only name the same things again")]
@@ -143,7 +142,7 @@ impl CompareView {
                 let manner = Manner {
                     arrangement: comparison.arrangement,
                     camera: &camera,
-                    flat: views.flat,
+                    flat: views.options.flat,
                     style: theme::style(ui.visuals()),
                     axes: document.map(|document| document.import.axes).unwrap_or_default(),
                 };
