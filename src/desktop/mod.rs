@@ -26,7 +26,9 @@ impl Desktop {
     pub fn new(ctx: &egui::Context) -> Self {
         let (sender, events) = channel();
         let waker = Waker::new(ctx);
-        Self { link: ThreadLink::new(waker.clone()), trial: ThreadLink::new(waker.clone()), sender, events, waker }
+        let link = ThreadLink::new(waker.clone(), Engine::new);
+        let trial = ThreadLink::new(waker.clone(), TrialEngine::new);
+        Self { link, trial, sender, events, waker }
     }
 }
 
