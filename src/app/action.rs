@@ -1,8 +1,8 @@
 //! What the user asks for. Every control and key says it in these words, and [`LumenApp`](super::LumenApp) does it in one
 //! place.
 
-use super::trial;
 use super::views::ViewOptions;
+use super::{compare, trial};
 use crate::io::{Format, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
@@ -39,6 +39,8 @@ pub enum Action {
     HoldBefore(bool),
     /// Show or leave the compare view.
     Compare,
+    /// Something of the comparison.
+    Comparison(compare::Action),
     /// Start a trial or leave it.
     ToggleTrial,
     /// Something of the trial.

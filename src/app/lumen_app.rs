@@ -248,7 +248,8 @@ impl LumenApp {
         actions.into_iter().for_each(|action| self.act(action, ctx));
     }
 
-    /// Does what is asked for: nothing else here changes settings or trial by the user's will.
+    /// Does what is asked for: nothing else changes settings, comparison or trial by the user's will, but for what is steered
+    /// by hand: cameras, C-arm and wire.
     fn act(&mut self, action: Action, ctx: &egui::Context) {
         // What was shown of it before is not the last.
         ctx.request_repaint();
@@ -271,6 +272,7 @@ impl LumenApp {
             Action::Show(options) => self.views.options = options,
             Action::HoldBefore(is_held) => self.views.before_is_held = is_held,
             Action::Compare => state.toggle_comparison(),
+            Action::Comparison(action) => state.comparison.act(action, &state.settings),
             Action::ToggleTrial => {
                 let toggle = if self.trial.is_open() { trial::Action::Close } else { trial::Action::Start };
                 self.act_on_trial(toggle, ctx);
@@ -359,7 +361,7 @@ impl LumenApp {
         let asked = CentralPanel::default()
             .frame(Frame::new().fill(ui.visuals().widgets.noninteractive.bg_stroke.color))
             .show(ui, |ui| {
-                let State { document, comparison, settings, .. } = &mut self.state;
+                let State { document, comparison, settings, .. } = &self.state;
                 let document = document.as_ref();
                 if std::mem::take(&mut self.look_next) {
                     self.views.look_first(document, keep);
@@ -373,16 +375,15 @@ impl LumenApp {
                 if self.trial.is_open() {
                     let trial = &mut self.trial;
                     let asked = self.trial_view.show(ui, trial, &mut self.views, document, keep, is_narrow);
-                    return asked.map(Action::Trial);
+                    return Vec::from_iter(asked.map(Action::Trial));
                 }
                 if comparison.is_open() {
-                    let chosen = self.compare.show(ui, comparison, &mut self.views, settings, document, is_narrow);
-                    return chosen.map(|chosen| Action::Set(Box::new(chosen)));
+                    return self.compare.show(ui, comparison, &mut self.views, settings, document, is_narrow);
                 }
-                let piece = self.views.show(ui, document, keep, is_narrow)?;
+                let Some(piece) = self.views.show(ui, document, keep, is_narrow) else { return Vec::new() };
                 let is_largest = document.and_then(|document| document.pieces.by_size.first()) == Some(&piece);
                 let keep = if is_largest { Keep::Largest } else { Keep::Component(piece) };
-                Some(Action::Set(Box::new(Settings { keep, ..settings.clone() })))
+                vec![Action::Set(Box::new(Settings { keep, ..settings.clone() }))]
             });
         self.act_on_all(asked.inner, ui.ctx());
         self.trial_view.time_tables(ui, &mut self.trial.tables);

@@ -30,7 +30,7 @@ mod view;
 pub use self::action::{Action, Arm, Pick};
 pub use self::carm::CArm;
 pub(super) use self::panel::{keys, show as panel};
-pub use self::state::{Session, Stage, Trial};
+pub use self::state::{Preparing, Run, Session, Stage, Trial};
 pub use self::tables::Tables;
 pub(super) use self::tables_window::show as tables;
 pub(super) use self::view::TrialView;
