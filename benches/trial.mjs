@@ -33,7 +33,7 @@ async function replay({ setup, steps, scripted }) {
       const event = JSON.parse(header);
       const failed = event.Refused ?? event.Failed;
       if (failed) reject(new Error(failed.message));
-      if (event.Ready) worker.postMessage([JSON.stringify({ Replay: { id: 2 } }), csv], [csv]);
+      if (event.Ready) worker.postMessage([JSON.stringify({ Replay: { id: 2, csv: 0 } }), csv], [csv]);
       const frame = event.Frame?.frame;
       const speed = frame?.steps_per_second;
       if (speed && frame.step > steps - scripted && speed !== speeds.at(-1)) speeds.push(speed);
@@ -44,7 +44,7 @@ async function replay({ setup, steps, scripted }) {
         resolve({ stepsPerSecond, stretches: speeds.length, step_ms, steps: made });
       }
     };
-    const header = { Start: { id: 1, sample: "coronary", setup } };
+    const header = { Start: { id: 1, mesh: { positions: 0, triangles: 1 }, sample: "coronary", setup } };
     worker.postMessage([JSON.stringify(header), positions, triangles], [positions, triangles]);
   });
 }

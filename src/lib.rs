@@ -17,6 +17,7 @@
 //! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
 //! - `app`: the window's content, the same on the desktop and in the browser (feature `gui`).
 //! - `desktop`: what the desktop gives the app: files and threads (feature `gui`).
+//! - [`transfer`]: messages between threads that share no memory; it knows nothing of what is in them.
 //! - `digits`: numbers as they are read.
 //! - `cli`: the subcommands; the figures among them are `app`'s compare view, drawn off screen.
 
@@ -35,4 +36,5 @@ pub mod phantom;
 pub mod pipeline;
 #[cfg(feature = "gui")]
 pub mod render;
+pub mod transfer;
 pub mod trial;

@@ -59,7 +59,8 @@ async function runSteps({ name, steps, first }) {
     const generation = first + step + 1;
     const heard = answer(generation);
     if (step === 0) {
-      const header = { OpenFile: { id: generation, name, options: { unit: null }, settings } };
+      const source = { File: { name, bytes: 0, options: { unit: null } } };
+      const header = { Open: { id: generation, source, settings } };
       worker.postMessage([JSON.stringify(header), bytes], [bytes]);
     } else {
       // As after a look at the result: what the engine gets ready while nothing is asked of it is there.

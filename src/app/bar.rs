@@ -2,53 +2,22 @@
 
 use egui::{Button, Response, RichText, Role, Ui};
 
-use super::control::{name, progress};
+use super::action::Action;
+use super::assist::name;
+use super::control::progress;
 use super::icon::{self, Icon};
 use super::state::State;
-use super::views::Views;
+use super::views::{ViewOptions, Views};
 use crate::digits::grouped;
 use crate::io::{Axes, Format, Unit};
 use crate::phantom::Sample;
-
-/// What the user asked for in a bar or by a key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
-    /// Choose a file to open.
-    Open,
-    /// Choose a file to open whose numbers are in this unit.
-    OpenIn(Unit),
-    /// Open a sample.
-    Sample(Sample),
-    /// Save the shown level.
-    Save(Format),
-    /// One step back.
-    Undo,
-    /// One step forth.
-    Redo,
-    /// Stop what is going on.
-    Cancel,
-    /// Fit the surface into the views.
-    Fit,
-    /// Look from a side.
-    View(crate::render::StandardView),
-    /// Show or leave the compare view.
-    Compare,
-    /// Start a trial or leave it.
-    Trial,
-    /// The other theme.
-    Theme,
-    /// Show or hide the keys.
-    Help,
-    /// Show or hide what Lumen is.
-    About,
-}
+use crate::render::StandardView;
 
 /// The bar above. `is_narrow`: on a phone, where only what is needed most has a button of its own.
-pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool, is_narrow: bool) -> Option<Action> {
-    let mut action = None;
+pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, in_trial: bool, is_narrow: bool, asked: &mut Vec<Action>) {
     let mut ask = |wanted: bool, what: Action| {
         if wanted {
-            action = Some(what);
+            asked.push(what);
         }
     };
     ui.horizontal_centered(|ui| {
@@ -93,14 +62,14 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool,
             ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
             let in_views = !(in_trial || state.comparison.is_open());
-            ui.add_enabled_ui(in_views, |ui| before_button(ui, views));
+            ui.add_enabled_ui(in_views, |ui| before_button(ui, views, &mut ask));
             ask(
                 compare(ui, state, in_trial).on_hover_text("Several settings side by side (C)").clicked(),
                 Action::Compare,
             );
             let help = "Steer a guidewire through the level that is shown";
-            ask(trial(ui, state, in_trial).on_hover_text(help).clicked(), Action::Trial);
-            ui.menu_button("View", |ui| view_menu(ui, state, views, &mut ask));
+            ask(trial(ui, state, in_trial).on_hover_text(help).clicked(), Action::ToggleTrial);
+            ui.menu_button("View", |ui| view_menu(ui, state, views.options, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ask(ui.button("About").clicked(), Action::About);
                 ask(ui.button("Help").on_hover_text("Keys and gestures (F1)").clicked(), Action::Help);
@@ -108,7 +77,6 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool,
             });
         }
     });
-    action
 }
 
 fn compare(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
@@ -121,42 +89,46 @@ fn trial(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
 }
 
 /// Shows the surface as it was opened for as long as it is held.
-fn before_button(ui: &mut Ui, views: &mut Views) {
+fn before_button(ui: &mut Ui, views: &Views, ask: &mut impl FnMut(bool, Action)) {
     let response = ui.add(Button::new("Before").sense(egui::Sense::click_and_drag()).selected(views.show_before));
     let response = response.on_hover_text("Hold to see the surface as it was opened (or hold B)");
-    views.before_is_held = response.is_pointer_button_down_on();
+    let is_held = response.is_pointer_button_down_on();
+    ask(is_held != views.before_is_held, Action::HoldBefore(is_held));
 }
 
-fn view_menu(ui: &mut Ui, state: &State, views: &mut Views, ask: &mut impl FnMut(bool, Action)) {
+fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, ask: &mut impl FnMut(bool, Action)) {
     ask(ui.button("Fit").clicked(), Action::Fit);
     ui.separator();
     // The sides are those of LPS: of other axes they are sides of the surface alone.
     let is_lps = state.document.as_ref().is_some_and(|document| document.import.axes == Axes::Lps);
-    for view in crate::render::StandardView::ALL {
+    for view in StandardView::ALL {
         ask(ui.button(view.label(is_lps)).clicked(), Action::View(view));
     }
     ui.separator();
-    ui.checkbox(&mut views.flat, "Flat triangles").on_hover_text("Each triangle with its own normal");
-    ui.checkbox(&mut views.see_through, "See-through wireframe").on_hover_text("Shows hidden lines, faintly");
-    ui.checkbox(&mut views.show_deviation, "Colour by deviation")
+    let mut chosen = options;
+    ui.checkbox(&mut chosen.flat, "Flat triangles").on_hover_text("Each triangle with its own normal");
+    ui.checkbox(&mut chosen.see_through, "See-through wireframe").on_hover_text("Shows hidden lines, faintly");
+    ui.checkbox(&mut chosen.deviation, "Colour by deviation")
         .on_hover_text("Mean distance between this and the smoothed surface around each vertex, both ways, in mm");
+    ask(chosen != options, Action::Show(chosen));
 }
 
-fn more(ui: &mut Ui, state: &State, views: &mut Views, in_trial: bool, ask: &mut impl FnMut(bool, Action)) {
+fn more(ui: &mut Ui, state: &State, views: &Views, in_trial: bool, ask: &mut impl FnMut(bool, Action)) {
     ask(ui.add_enabled(state.history.can_undo(), Button::new("Undo")).clicked(), Action::Undo);
     ask(ui.add_enabled(state.history.can_redo(), Button::new("Redo")).clicked(), Action::Redo);
-    ui.checkbox(&mut views.before_is_on, "Show before");
+    let mut chosen = views.options;
+    ui.checkbox(&mut chosen.before, "Show before");
+    ask(chosen != views.options, Action::Show(chosen));
     ask(compare(ui, state, in_trial).clicked(), Action::Compare);
-    ask(trial(ui, state, in_trial).clicked(), Action::Trial);
-    ui.menu_button("View", |ui| view_menu(ui, state, views, ask));
+    ask(trial(ui, state, in_trial).clicked(), Action::ToggleTrial);
+    ui.menu_button("View", |ui| view_menu(ui, state, views.options, ask));
     ask(ui.button("Theme").clicked(), Action::Theme);
     ask(ui.button("Help").clicked(), Action::Help);
     ask(ui.button("About").clicked(), Action::About);
 }
 
 /// The bar below.
-pub(super) fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: bool) -> Option<Action> {
-    let mut action = None;
+pub(super) fn status(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut Vec<Action>) {
     ui.horizontal_centered(|ui| {
         if let Some((work, fraction)) = state.work {
             let width = if is_narrow { 96.0 } else { 160.0 };
@@ -166,7 +138,7 @@ pub(super) fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: b
                 ui.add(egui::Label::new(RichText::new(name).weak()).truncate());
             }
             if ui.button("Cancel").on_hover_text("Esc").clicked() {
-                action = Some(Action::Cancel);
+                asked.push(Action::Cancel);
             }
         } else if let Some(notice) = &state.notice {
             let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
@@ -192,5 +164,4 @@ pub(super) fn status(ui: &mut Ui, state: &mut State, views: &Views, is_narrow: b
             });
         }
     });
-    action
 }

@@ -1,9 +1,11 @@
-//! The rows of the panel: a setting as a slider, a typed value with its unit and a way back to its default.
+//! A setting as rows of the panel: a slider, a typed value with its unit and a way back to its default; and how far work
+//! is.
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, ProgressBar, Response, Role, Slider, Ui, WidgetInfo};
+use egui::{DragValue, ProgressBar, Role, Slider, Ui};
 
+use super::assist::{describe, name};
 use super::icon::{self, Icon};
 
 /// Height of a row, in points.
@@ -88,15 +90,6 @@ impl Setting<'_> {
     }
 }
 
-/// Tells assistive tools what a control is called and where it stands.
-fn describe(response: &Response, kind: Role, label: &str, value: f64) {
-    response.widget_info(|| {
-        let mut info = WidgetInfo::labeled(kind, response.enabled(), label);
-        info.value = Some(value);
-        info
-    });
-}
-
 /// How far work is: a bar of this width, on a rail that is seen on a panel.
 pub(super) fn progress(ui: &mut Ui, fraction: f32, width: f32, what: &str) {
     let bar = ui.scope(|ui| {
@@ -104,9 +97,4 @@ pub(super) fn progress(ui: &mut Ui, fraction: f32, width: f32, what: &str) {
         ui.add(ProgressBar::new(fraction).desired_width(width).desired_height(8.0))
     });
     name(&bar.inner, Role::ProgressIndicator, what);
-}
-
-/// Tells assistive tools what a control is called.
-pub(super) fn name(response: &Response, kind: Role, label: &str) {
-    response.widget_info(|| WidgetInfo::labeled(kind, response.enabled(), label));
 }

@@ -182,13 +182,15 @@ impl Document {
         }
     }
 
-    /// Takes numbers.
-    pub fn set_measured(&mut self, measured: Measured) {
-        if let Some(bound) = measured.report.bound {
-            self.found = Some((measured.report.settings.target, bound.steps));
+    /// Takes numbers; without a `deviation` by node the one that is known still stands.
+    pub fn set_measured(&mut self, generation: u64, report: Report, deviation: Option<Vec<f32>>) {
+        if let Some(bound) = report.bound {
+            self.found = Some((report.settings.target, bound.steps));
             self.asked = None;
         }
-        self.measured = Some(measured);
+        let before = self.measured.take().map(|measured| measured.deviation);
+        let deviation = deviation.or(before).unwrap_or_default();
+        self.measured = Some(Measured { generation, report, deviation });
         self.revision.measured += 1;
     }
 

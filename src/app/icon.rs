@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 
 use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-use super::control::name;
+use super::assist::name;
 
 /// An icon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

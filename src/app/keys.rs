@@ -5,8 +5,8 @@
 
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
-use super::bar::Action;
-use super::views::Views;
+use super::action::Action;
+use super::views::{ViewOptions, Views};
 use crate::io::Format;
 use crate::render::StandardView;
 
@@ -75,15 +75,15 @@ pub(super) fn with_ctrl(ui: &Ui, keys: Keys) -> Option<Action> {
         (Modifiers::COMMAND, Key::Y, Action::Redo),
     ];
     // These go on while they are held.
-    let step = steps.into_iter().find(|&(modifiers, key, _)| {
-        keys == Keys::Views && ui.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(modifiers, key)))
+    let step = steps.into_iter().find(|(modifiers, key, _)| {
+        keys == Keys::Views && ui.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(*modifiers, *key)))
     });
     let others = [
         (Modifiers::COMMAND, Key::O, Action::Open),
         (Modifiers::COMMAND, Key::S, Action::Save(Format::Stl)),
         (Modifiers::NONE, Key::F1, Action::Help),
     ];
-    let found = step.or_else(|| others.into_iter().find(|&(modifiers, key, _)| pressed(ui, modifiers, key)));
+    let found = step.or_else(|| others.into_iter().find(|(modifiers, key, _)| pressed(ui, *modifiers, *key)));
     found.map(|(.., action)| action)
 }
 
@@ -95,11 +95,12 @@ pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
             return Some(Action::View(view));
         }
     }
+    let options = views.options;
     if pressed(Key::L) {
-        views.show_left_out = !views.show_left_out;
+        return Some(Action::Show(ViewOptions { left_out: !options.left_out, ..options }));
     }
     if pressed(Key::D) {
-        views.show_deviation = !views.show_deviation;
+        return Some(Action::Show(ViewOptions { deviation: !options.deviation, ..options }));
     }
     if pressed(Key::F) {
         return Some(Action::Fit);

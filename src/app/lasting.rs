@@ -4,10 +4,10 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use egui::{Context, Plugin, Ui};
+use egui::{Context, Ui};
 
-use super::LumenApp;
-use crate::render::{DeviceHealth, Fault};
+use super::lumen_app::LumenApp;
+use crate::render::Fault;
 
 /// Called once the device has to be replaced, from within a frame.
 pub type OnEnd = Rc<dyn Fn(&Context, Fault)>;
@@ -80,21 +80,6 @@ impl eframe::App for LastingApp {
 
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         self.app.borrow_mut().ui(ui, frame);
-    }
-}
-
-/// Paints nothing with a device that is gone: the window library's painter would panic over it.
-pub(super) struct PaintGuard(pub(super) DeviceHealth);
-
-impl Plugin for PaintGuard {
-    fn debug_name(&self) -> &'static str {
-        "paint guard"
-    }
-
-    fn output_hook(&mut self, _: &Context, output: &mut egui::FullOutput) {
-        if self.0.end().is_some() {
-            output.shapes.clear();
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::panel::number;
+use super::row::number;
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::Report;
 use crate::pipeline::shape::Shape;

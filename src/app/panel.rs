@@ -3,77 +3,49 @@
 
 use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
 
-use super::control::{Setting, name};
+use super::action::Action;
+use super::assist::name;
+use super::control::Setting;
 use super::document::Document;
 use super::response;
+use super::row::{number, remark, row, step, warning};
 use super::state::State;
-use super::trial::{self, Ask, Trial};
-use super::views::Views;
+use super::views::{ViewOptions, Views};
 use crate::digits::grouped;
 use crate::engine::Source;
 use crate::io::Unit;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Method, Settings, Smoothing, Target, Window, reduction_percent};
 
-/// Shows the panel; returns the unit in which the file should be read instead, if one was chosen, and what is asked of
-/// the trial.
-pub(super) fn show(
-    ui: &mut Ui,
-    state: &mut State,
-    views: &mut Views,
-    trial: &mut Trial,
-) -> (Option<Unit>, Option<Ask>) {
-    ui.spacing_mut().item_spacing.y = 3.0;
-    // Each step with an identity of its own: what comes and goes in one must not take the focus away in another.
-    let unit = ui.push_id("surface", |ui| surface(ui, state, views)).inner;
-    ui.push_id("smooth", |ui| smooth(ui, &mut state.settings, measured(state.document.as_ref())));
-    ui.push_id("reduce", |ui| reduce(ui, state));
-    // What follows, and the views, are of the level that was just asked for.
-    state.show_level();
-    let ask =
-        ui.push_id("trial", |ui| trial::panel(ui, trial, &state.settings.smoothing, state.document.as_ref())).inner;
-    ui.push_id("result", |ui| result(ui, state));
-    (unit, ask)
+/// A step of the method: shows its controls, and says what they ask for.
+type Step = fn(&mut Ui, &State, &Views, &mut Vec<Action>);
+
+/// The steps that lead to a level, each with an identity of its own: what comes and goes in one must not take the focus
+/// away in another.
+pub(super) const STEPS: [(&str, Step); 3] = [("surface", surface), ("smooth", smooth), ("reduce", reduce)];
+
+/// Asks for `settings`, if they are others than those of `state`.
+fn set(settings: Settings, state: &State, asked: &mut Vec<Action>) {
+    if settings != state.settings {
+        asked.push(Action::Set(Box::new(settings)));
+    }
 }
 
 fn measured(document: Option<&Document>) -> Option<&Report> {
     Some(&document?.measured.as_ref()?.report)
 }
 
-pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
-    if number > 1 {
-        ui.separator();
-    }
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(number.to_string()).heading().color(ui.visuals().hyperlink_color));
-        ui.label(RichText::new(title).heading());
-    });
-    ui.add(egui::Label::new(RichText::new(what).small().weak()).wrap());
-}
-
-/// A line of the numbers: what it is on the left, how much on the right.
-pub(super) fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
-    ui.spacing_mut().interact_size.y = 18.0;
-    let row = ui.horizontal(|ui| {
-        ui.label(RichText::new(what).weak());
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(how_much));
-    });
-    if !help.is_empty() {
-        row.response.on_hover_text(help);
-    }
-}
-
-fn surface(ui: &mut Ui, state: &mut State, views: &mut Views) -> Option<Unit> {
+fn surface(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
     step(ui, 1, "Surface", "The largest connected piece is kept.");
     let Some(document) = &state.document else {
         ui.label("Open a surface, or drop a file here.");
-        return None;
+        return;
     };
     let pieces = &document.pieces;
-    let unit = unit_list(ui, document);
+    unit_list(ui, document, asked);
     number(ui, "Triangles in file", &grouped(document.import.triangles), "As the file holds them, polygons split");
     let Some(kept) = pieces.kept(state.settings.keep).or(pieces.by_size.first().copied()) else {
-        return unit;
+        return;
     };
     let kept_count = match state.settings.keep {
         Keep::All => document.opened.triangles.len(),
@@ -87,19 +59,21 @@ fn surface(ui: &mut Ui, state: &mut State, views: &mut Views) -> Option<Unit> {
         number(ui, "Left out", &text, "Pieces that share no vertex with the one that is kept");
     }
     if pieces.list.len() > 1 {
-        let mut keep = state.settings.keep;
-        piece_list(ui, document, &mut keep);
-        state.settings.keep = keep;
-        let shown = ui.checkbox(&mut views.show_left_out, "Show what is left out");
-        shown.on_hover_text("Click a piece in the view to keep that one");
+        let mut settings = state.settings.clone();
+        piece_list(ui, document, &mut settings.keep);
+        set(settings, state, asked);
+        let mut left_out = views.options.left_out;
+        let shown = ui.checkbox(&mut left_out, "Show what is left out");
+        if shown.on_hover_text("Click a piece in the view to keep that one").changed() {
+            asked.push(Action::Show(ViewOptions { left_out, ..views.options }));
+        }
     }
-    unit
 }
 
-/// The unit of the file's numbers; returns another one that was chosen.
-fn unit_list(ui: &mut Ui, document: &Document) -> Option<Unit> {
+/// The unit of the file's numbers.
+fn unit_list(ui: &mut Ui, document: &Document, asked: &mut Vec<Action>) {
     if !matches!(document.source, Source::File { .. }) {
-        return None;
+        return;
     }
     let mut unit = document.import.unit;
     ui.horizontal(|ui| {
@@ -114,7 +88,9 @@ fn unit_list(ui: &mut Ui, document: &Document) -> Option<Unit> {
             name(&response.response, Role::ComboBox, "Unit");
         });
     });
-    (unit != document.import.unit).then_some(unit)
+    if unit != document.import.unit {
+        asked.push(Action::ReadIn(unit));
+    }
 }
 
 /// Size of a piece in words.
@@ -149,10 +125,15 @@ fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
     name(&response.response, Role::ComboBox, "Piece");
 }
 
-fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
+fn smooth(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
+    let mut settings = state.settings.clone();
+    smoothing(ui, &mut settings.smoothing, measured(state.document.as_ref()));
+    set(settings, state, asked);
+}
+
+fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
     step(ui, 2, "Smooth", "Takes off the stair-steps of the scan.");
     let default = Smoothing::default();
-    let smoothing = &mut settings.smoothing;
     let pass_band = Setting {
         name: "Pass band",
         help: "What passes the filter: 0.001 leaves the broad form alone, 2 leaves everything. Without unit.",
@@ -176,17 +157,15 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
     if iterations.show(ui, &mut count) {
         smoothing.iterations = count as u32;
     }
-    ui.horizontal(|ui| {
-        ui.label("Window").on_hover_text("How the filter is tapered. Hamming is the paper's; Nuttall ripples least.");
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let list = ComboBox::from_id_salt("window").selected_text(smoothing.window.name());
-            let response = list.show_ui(ui, |ui| {
-                for window in Window::ALL {
-                    ui.selectable_value(&mut smoothing.window, window, window.name());
-                }
-            });
-            name(&response.response, Role::ComboBox, "Window");
+    let help = "How the filter is tapered. Hamming is the paper's; Nuttall ripples least.";
+    row(ui, "Window", help, |ui| {
+        let list = ComboBox::from_id_salt("window").selected_text(smoothing.window.name());
+        let response = list.show_ui(ui, |ui| {
+            for window in Window::ALL {
+                ui.selectable_value(&mut smoothing.window, window, window.name());
+            }
         });
+        name(&response.response, Role::ComboBox, "Window");
     });
     let hold = ui.checkbox(&mut smoothing.preserve_volume, "Preserve volume");
     hold.on_hover_text("Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.");
@@ -201,32 +180,31 @@ fn smooth(ui: &mut Ui, settings: &mut Settings, report: Option<&Report>) {
     }
 }
 
-fn remark(ui: &mut Ui, text: &str) {
-    ui.add(egui::Label::new(RichText::new(text).small()).wrap());
+fn reduce(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
+    let mut settings = state.settings.clone();
+    reduction(ui, state, &mut settings);
+    set(settings, state, asked);
 }
 
-fn reduce(ui: &mut Ui, state: &mut State) {
+/// Changes `settings`, a copy of those of `state`.
+fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
     step(ui, 3, "Reduce", "Removes what matters least; topology stays.");
-    stop_list(ui, state);
-    if state.settings.target.deviation_mm().is_some() {
-        largest_deviation(ui, state);
+    stop_list(ui, state, &mut settings.target);
+    if settings.target.deviation_mm().is_some() {
+        largest_deviation(ui, state, settings);
     } else {
-        rate_or_count(ui, state);
+        rate_or_count(ui, state, &mut settings.target);
     }
-    let decimation = &mut state.settings.decimation;
-    ui.horizontal(|ui| {
-        ui.label("Method").on_hover_text(
-            "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the mean deviation, better shape.",
-        );
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let list = ComboBox::from_id_salt("method").selected_text(decimation.method.name());
-            let response = list.show_ui(ui, |ui| {
-                for method in Method::ALL {
-                    ui.selectable_value(&mut decimation.method, method, method.name());
-                }
-            });
-            name(&response.response, Role::ComboBox, "Method");
+    let decimation = &mut settings.decimation;
+    let help = "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the mean deviation, better shape.";
+    row(ui, "Method", help, |ui| {
+        let list = ComboBox::from_id_salt("method").selected_text(decimation.method.name());
+        let response = list.show_ui(ui, |ui| {
+            for method in Method::ALL {
+                ui.selectable_value(&mut decimation.method, method, method.name());
+            }
         });
+        name(&response.response, Role::ComboBox, "Method");
     });
     if decimation.method == Method::Schroeder {
         let angle = Setting {
@@ -242,34 +220,29 @@ fn reduce(ui: &mut Ui, state: &mut State) {
     }
     let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
     if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
-        let text = RichText::new(format!("{shortfall}.")).small();
-        ui.add(egui::Label::new(text).wrap());
+        remark(ui, &format!("{shortfall}."));
     }
     if let Some(pinch) = state.document.as_ref().and_then(Document::pinch) {
-        let text = RichText::new(format!("{pinch}.")).small().color(ui.visuals().error_fg_color);
-        ui.add(egui::Label::new(text).wrap());
+        warning(ui, &format!("{pinch}."));
     }
 }
 
 /// What the reduction stops at; another choice goes on from the level that is shown.
-fn stop_list(ui: &mut Ui, state: &mut State) {
-    let by_deviation = state.settings.target.deviation_mm().is_some();
+fn stop_list(ui: &mut Ui, state: &State, target: &mut Target) {
+    let by_deviation = target.deviation_mm().is_some();
     let mut chosen = by_deviation;
-    ui.horizontal(|ui| {
-        ui.label("Stop at").on_hover_text("What says how far the reduction goes");
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let names = |by_deviation: bool| if by_deviation { "Deviation" } else { "Rate or count" };
-            let list = ComboBox::from_id_salt("stop").selected_text(names(by_deviation));
-            let response = list.show_ui(ui, |ui| {
-                for choice in [false, true] {
-                    ui.selectable_value(&mut chosen, choice, names(choice));
-                }
-            });
-            name(&response.response, Role::ComboBox, "Stop at");
+    row(ui, "Stop at", "What says how far the reduction goes", |ui| {
+        let names = |by_deviation: bool| if by_deviation { "Deviation" } else { "Rate or count" };
+        let list = ComboBox::from_id_salt("stop").selected_text(names(by_deviation));
+        let response = list.show_ui(ui, |ui| {
+            for choice in [false, true] {
+                ui.selectable_value(&mut chosen, choice, names(choice));
+            }
         });
+        name(&response.response, Role::ComboBox, "Stop at");
     });
     if chosen != by_deviation {
-        state.settings.target = if chosen { deviation_shown(state) } else { rate_shown(state) };
+        *target = if chosen { deviation_shown(state) } else { rate_shown(state) };
     }
 }
 
@@ -298,8 +271,8 @@ const DEFAULT_BOUND: Target = Target::Deviation(100);
 /// The largest bound of the slider, in thousandths of a mm.
 const LARGEST_BOUND: u32 = 10_000;
 
-fn largest_deviation(ui: &mut Ui, state: &mut State) {
-    let mut bound = state.settings.target.deviation_mm().unwrap_or_default();
+fn largest_deviation(ui: &mut Ui, state: &State, settings: &mut Settings) {
+    let mut bound = settings.target.deviation_mm().unwrap_or_default();
     let setting = Setting {
         name: "Largest deviation",
         help: "As few triangles as stay within this of the smoothed surface everywhere, both ways.",
@@ -310,18 +283,19 @@ fn largest_deviation(ui: &mut Ui, state: &mut State) {
         logarithmic: true,
     };
     if setting.show(ui, &mut bound) {
-        state.settings.target = Target::Deviation((bound * 1000.0).round() as u32);
+        settings.target = Target::Deviation((bound * 1000.0).round() as u32);
     }
     // Of these settings and no others: another smoothing has other levels.
-    let found = measured(state.document.as_ref()).filter(|_| state.has_level()).and_then(|report| report.bound);
+    let is_current = *settings == state.settings && state.has_level();
+    let found = measured(state.document.as_ref()).filter(|_| is_current).and_then(|report| report.bound);
     let next = found.map(|found| found.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.3} mm")));
     let help = "A deviation that was found in the level with one step more";
     number(ui, "Next coarser level", next.as_deref().unwrap_or("–"), help);
 }
 
-fn rate_or_count(ui: &mut Ui, state: &mut State) {
+fn rate_or_count(ui: &mut Ui, state: &State, target: &mut Target) {
     let entering = state.document.as_ref().and_then(|d| Some(d.levels.as_ref()?.1.triangles.len()));
-    let mut rate = state.settings.target.percent(entering.unwrap_or(0));
+    let mut rate = target.percent(entering.unwrap_or(0));
     let reduction = Setting {
         name: "Reduction",
         help: "The part of the triangles that is removed.",
@@ -332,28 +306,26 @@ fn rate_or_count(ui: &mut Ui, state: &mut State) {
         logarithmic: false,
     };
     if reduction.show(ui, &mut rate) {
-        state.settings.target = Target::Reduction((rate * 10.0).round() as u32);
+        *target = Target::Reduction((rate * 10.0).round() as u32);
     }
     if let Some(entering) = entering {
-        ui.horizontal(|ui| {
-            ui.label("Triangles wanted").on_hover_text("The same as a number; drag, or click to type");
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                // The field shows what can be typed into it: left alone, it sets nothing.
-                let most = entering.max(1);
-                let wanted = state.settings.target.triangles(entering).clamp(1, most);
-                let mut typed = wanted;
-                let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
-                let response = ui.add(field.update_while_editing(false));
-                name(&response, Role::SpinButton, "Triangles wanted");
-                if typed != wanted {
-                    state.settings.target = Target::Triangles(typed as u32);
-                }
-            });
+        row(ui, "Triangles wanted", "The same as a number; drag, or click to type", |ui| {
+            // The field shows what can be typed into it: left alone, it sets nothing.
+            let most = entering.max(1);
+            let wanted = target.triangles(entering).clamp(1, most);
+            let mut typed = wanted;
+            let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
+            let response = ui.add(field.update_while_editing(false));
+            name(&response, Role::SpinButton, "Triangles wanted");
+            if typed != wanted {
+                *target = Target::Triangles(typed as u32);
+            }
         });
     }
 }
 
-fn result(ui: &mut Ui, state: &State) {
+/// Shows what came of it, in numbers.
+pub(super) fn result(ui: &mut Ui, state: &State) {
     let Some(document) = &state.document else { return };
     let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return };
     ui.separator();
@@ -368,9 +340,8 @@ fn result(ui: &mut Ui, state: &State) {
     let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
     let report = &measured.report;
     let warnings = [report.volume_warning(), report.smoothing_warning()];
-    for warning in warnings.into_iter().flatten().filter(|_| is_current) {
-        let text = RichText::new(warning).small().color(ui.visuals().error_fg_color);
-        ui.add(egui::Label::new(text).wrap());
+    for text in warnings.into_iter().flatten().filter(|_| is_current) {
+        warning(ui, &text);
     }
     let percent =
         |change: Option<f64>| change.filter(|_| is_current).map_or("–".to_owned(), |c| format!("{c:+.2} %"));
@@ -408,7 +379,7 @@ fn result(ui: &mut Ui, state: &State) {
     if !document.import.warnings.is_empty() {
         ui.collapsing("Notes on the file", |ui| {
             for warning in &document.import.warnings {
-                ui.add(egui::Label::new(RichText::new(warning).small()).wrap());
+                remark(ui, warning);
             }
         });
     }

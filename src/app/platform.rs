@@ -2,7 +2,6 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::trial::Offer;
 use crate::engine::Link;
 use crate::engine::trial::TrialLink;
 
@@ -44,6 +43,15 @@ pub trait Platform {
 
     /// What has happened since.
     fn poll(&mut self) -> Option<PlatformEvent>;
+}
+
+/// A file for the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Offer {
+    /// Its name.
+    pub name: String,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
 }
 
 /// What wakes the window that the app is in, from any thread; clones wake the same.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::compare::Comparison;
-use super::document::{Document, Measured};
+use super::document::Document;
 use super::history::History;
 use crate::engine::{Command, Event, Link, Source, Work};
 use crate::io::{Format, ImportOptions, Unit};
@@ -369,7 +369,7 @@ impl State {
                     }
                 }
                 if let Some(document) = &mut self.document {
-                    document.set_measured(Measured { generation, report: *report, deviation });
+                    document.set_measured(generation, *report, deviation);
                     // Of an older bound too: the view follows the slider as fast as levels are found.
                     if self.settings.target.deviation_mm().is_some() {
                         document.show_found();

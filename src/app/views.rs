@@ -3,7 +3,7 @@
 use egui::{Color32, PointerButton, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
 use glam::Vec2;
 
-use super::control::name;
+use super::assist::name;
 use super::document::{Document, Revision};
 use super::overlay;
 use super::scene::{Picture, Scene, deviation_map};
@@ -11,22 +11,32 @@ use super::theme;
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, Look, StandardView, pick};
 
+/// Said where the surface is not drawn because an allocation on the graphics device failed.
+pub(super) const NO_MEMORY: &str = "The graphics memory is full, so this surface cannot be drawn; it is still open and can be reduced further or saved.";
+
+/// What the views show, as the user chooses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ViewOptions {
+    /// The pieces that are left out, faintly; a click keeps one of them.
+    pub left_out: bool,
+    /// Each triangle with its own normal.
+    pub flat: bool,
+    /// The hidden lines of the wireframe.
+    pub see_through: bool,
+    /// The shaded view in colours by deviation.
+    pub deviation: bool,
+    /// The surface as it was opened, where nothing can be held.
+    pub before: bool,
+}
+
 /// The views and how they are looked at.
 pub struct Views {
     /// From where both look.
     pub camera: Camera,
-    /// Shows the pieces that are left out, faintly; a click keeps one of them.
-    pub show_left_out: bool,
-    /// Each triangle with its own normal.
-    pub flat: bool,
-    /// Shows the hidden lines of the wireframe.
-    pub see_through: bool,
-    /// Colours the shaded view by deviation.
-    pub show_deviation: bool,
+    /// What they show.
+    pub options: ViewOptions,
     /// The "before" button is held.
     pub before_is_held: bool,
-    /// "Before" is switched on, where nothing can be held.
-    pub before_is_on: bool,
     /// The surface is shown as it was opened, in this frame.
     pub show_before: bool,
     scene: Option<Scene>,
@@ -47,12 +57,8 @@ impl Views {
     pub fn new(render_state: Option<&egui_wgpu::RenderState>) -> Self {
         let mut views = Self {
             camera: Camera::default(),
-            show_left_out: false,
-            flat: false,
-            see_through: false,
-            show_deviation: false,
+            options: ViewOptions::default(),
             before_is_held: false,
-            before_is_on: false,
             show_before: false,
             scene: None,
             failure: None,
@@ -88,7 +94,7 @@ impl Views {
     pub(super) fn refuse(&mut self, shown: Option<Revision>) {
         self.scene = None;
         self.refused = shown;
-        self.failure = Some(super::NO_MEMORY.to_owned());
+        self.failure = Some(NO_MEMORY.to_owned());
     }
 
     /// Tries again what the device had no memory for, once there is something else to show.
@@ -150,7 +156,7 @@ impl Views {
             self.failure = None;
         }
         if let (Some(scene), Some(document)) = (&mut self.scene, document)
-            && let Err(error) = scene.follow(document, self.show_deviation)
+            && let Err(error) = scene.follow(document, self.options.deviation)
         {
             self.failure = Some(format!("The surface cannot be drawn: {error}."));
         }
@@ -158,8 +164,8 @@ impl Views {
         let (first, second) =
             if is_narrow { area.split_top_bottom_at_fraction(0.5) } else { area.split_left_right_at_fraction(0.5) };
         self.take_shape(first, 1, document, keep);
-        let shaded = if self.flat { Look::Flat } else { Look::Shaded };
-        let lines = if self.see_through { Look::SeeThrough } else { Look::Wireframe };
+        let shaded = if self.options.flat { Look::Flat } else { Look::Shaded };
+        let lines = if self.options.see_through { Look::SeeThrough } else { Look::Wireframe };
         let mut clicked = None;
         for (index, (rect, look)) in [(first, shaded), (second, lines)].into_iter().enumerate() {
             let title = if index == 0 { "Shaded view" } else { "Wireframe view" };
@@ -185,7 +191,7 @@ impl Views {
         self.steer(ui, &response, 1, document, keep);
         let pixels = rect.size() * ui.ctx().pixels_per_point();
         let mut style = theme::style(ui.visuals());
-        if self.show_deviation && index == 0 && !self.show_before {
+        if self.options.deviation && index == 0 && !self.show_before {
             style.map = document.and_then(deviation_map);
         }
         let picture = Picture {
@@ -194,7 +200,7 @@ impl Views {
             look,
             style,
             before: self.show_before,
-            left_out: self.show_left_out,
+            left_out: self.options.left_out,
         };
         let drawn = self.scene.as_mut().map(|scene| scene.draw(index, &picture, document, keep));
         match drawn {
@@ -238,7 +244,7 @@ impl Views {
             let label = format!("{fate}: {:.1} mm before", pinch.diameter_before_mm);
             overlay::ring(ui, rect, &self.camera, pinch.at_mm.into(), &label);
         }
-        let is_click = response.clicked() && self.show_left_out;
+        let is_click = response.clicked() && self.options.left_out;
         is_click.then(|| self.piece_at(response.interact_pointer_pos()?, rect, document?)).flatten()
     }
 

@@ -9,8 +9,7 @@ use std::thread;
 
 use rfd::FileDialog;
 
-use crate::app::trial::Offer;
-use crate::app::{PlatformEvent, Waker};
+use crate::app::{Offer, PlatformEvent, Waker};
 
 /// Extensions that can be opened: those of surfaces, and that of a trial's log.
 const EXTENSIONS: [&str; 6] = ["stl", "ply", "obj", "glb", "gltf", "csv"];

@@ -8,8 +8,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
 pub use self::window::run;
-use crate::app::trial::Offer;
-use crate::app::{Platform, PlatformEvent, Waker};
+use crate::app::{Offer, Platform, PlatformEvent, Waker};
 use crate::engine::trial::TrialLink;
 use crate::engine::{Engine, Link, TrialEngine};
 
@@ -27,7 +26,9 @@ impl Desktop {
     pub fn new(ctx: &egui::Context) -> Self {
         let (sender, events) = channel();
         let waker = Waker::new(ctx);
-        Self { link: ThreadLink::new(waker.clone()), trial: ThreadLink::new(waker.clone()), sender, events, waker }
+        let link = ThreadLink::new(waker.clone(), Engine::new);
+        let trial = ThreadLink::new(waker.clone(), TrialEngine::new);
+        Self { link, trial, sender, events, waker }
     }
 }
 

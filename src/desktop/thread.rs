@@ -13,8 +13,12 @@ use crate::engine::{Link, Machine};
 /// Passing events are dropped while so many others are not heard.
 const UNHEARD: usize = 30;
 
+/// Makes an engine, on the thread that it is to work on.
+type Make<M> = Arc<dyn Fn() -> M + Send + Sync>;
+
 /// The line to an engine on a thread of its own.
 pub(super) struct ThreadLink<M: Machine> {
+    make: Make<M>,
     waker: Waker,
     commands: Sender<M::Command>,
     events: Receiver<Result<M::Event, String>>,
@@ -23,11 +27,12 @@ pub(super) struct ThreadLink<M: Machine> {
 }
 
 impl<M: Machine> ThreadLink<M> {
-    /// Starts an engine that wakes the window when it has something to say.
-    pub(super) fn new(waker: Waker) -> Self {
-        let unheard = Arc::default();
-        let (commands, events) = start::<M>(waker.clone(), Arc::clone(&unheard));
-        Self { waker, commands, events, unheard, failure: None }
+    /// Starts an engine that `make` makes, as it does after a restart, and that wakes the window when it has something to
+    /// say.
+    pub(super) fn new(waker: Waker, make: impl Fn() -> M + Send + Sync + 'static) -> Self {
+        let (make, unheard): (Make<M>, _) = (Arc::new(make), Arc::default());
+        let (commands, events) = start(Arc::clone(&make), waker.clone(), Arc::clone(&unheard));
+        Self { make, waker, commands, events, unheard, failure: None }
     }
 }
 
@@ -55,7 +60,7 @@ impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
     fn restart(&mut self) {
         // The old thread ends when it next looks for a command, and its events go nowhere.
         self.unheard = Arc::default();
-        (self.commands, self.events) = start::<M>(self.waker.clone(), Arc::clone(&self.unheard));
+        (self.commands, self.events) = start(Arc::clone(&self.make), self.waker.clone(), Arc::clone(&self.unheard));
         self.failure = None;
     }
 
@@ -66,11 +71,11 @@ impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
 
 type Ends<M> = (Sender<<M as Machine>::Command>, Receiver<Result<<M as Machine>::Event, String>>);
 
-fn start<M: Machine>(waker: Waker, unheard: Arc<AtomicUsize>) -> Ends<M> {
+fn start<M: Machine>(make: Make<M>, waker: Waker, unheard: Arc<AtomicUsize>) -> Ends<M> {
     let (commands, inbox) = channel();
     let (outbox, events) = channel();
     thread::spawn(move || {
-        let run = catch_unwind(AssertUnwindSafe(|| work::<M>(&inbox, &outbox, &unheard, &waker)));
+        let run = catch_unwind(AssertUnwindSafe(|| work(make(), &inbox, &outbox, &unheard, &waker)));
         if let Err(panic) = run {
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let reason = text.or_else(|| panic.downcast_ref::<String>().cloned());
@@ -84,12 +89,12 @@ fn start<M: Machine>(waker: Waker, unheard: Arc<AtomicUsize>) -> Ends<M> {
 
 /// Runs an engine until its line is cut.
 fn work<M: Machine>(
+    mut machine: M,
     inbox: &Receiver<M::Command>,
     outbox: &Sender<Result<M::Event, String>>,
     unheard: &AtomicUsize,
     waker: &Waker,
 ) {
-    let mut machine = M::default();
     let since = Instant::now();
     let mut rest = None;
     loop {
@@ -179,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_machine_that_keeps_pace_hears_commands_in_between_and_piles_nothing_up() {
-        let mut link = ThreadLink::<Clock>::new(Waker::new(&egui::Context::default()));
+        let mut link = ThreadLink::new(Waker::new(&egui::Context::default()), Clock::default);
         link.send("start");
         thread::sleep(Duration::from_millis(300));
         link.send("stop");
@@ -191,7 +196,7 @@ mod tests {
 
     #[test]
     fn a_machine_that_panics_is_told_of_and_another_takes_its_place() {
-        let mut link = ThreadLink::<Clock>::new(Waker::new(&egui::Context::default()));
+        let mut link = ThreadLink::new(Waker::new(&egui::Context::default()), Clock::default);
         link.send("panic");
         let reason = wait(|| {
             let _ = link.poll();

@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 
 use super::message::{Compared, Event, Work};
-use super::tell_progress;
+use super::progress::tell_progress;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Settings, SettingsError};
@@ -205,16 +205,20 @@ mod tests {
         let settings = Settings { target: Target::Reduction(500), ..Settings::default() };
         engine.handle(Command::Set { generation: 3, settings });
         while engine.advance(SLICE) {}
-        let mut order = String::new();
+        let (mut order, mut deviations) = (String::new(), Vec::new());
         while let Some(event) = engine.poll() {
             match event {
-                Event::Measured { generation: 3, complete: true, .. } => order.push('m'),
+                Event::Measured { generation: 3, complete: true, deviation, .. } => {
+                    order.push('m');
+                    deviations.push(deviation.is_some());
+                }
                 Event::Compared(_) => order.push('c'),
                 _ => {}
             }
         }
         // With the deviation, and again with shape and lumen.
         assert_eq!(order, "mmccccc", "the numbers first, then what is left of the comparison");
+        assert_eq!(deviations, [true, false], "that of each node is told once");
         engine.handle(Command::Compare { id: 4, settings: paper::figure_6(Keep::Largest) });
         engine.advance(SLICE);
         engine.handle(Command::Cancel);

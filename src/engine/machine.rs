@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use super::trial::{TrialCommand, TrialEvent};
-use super::{Command, Engine, Event, SLICE, TrialEngine};
+/// How long a slice of work should be, so that a command is heard in time.
+pub const SLICE: Duration = Duration::from_millis(8);
 
-/// An engine: commands in, events out.
-pub trait Machine: Default + 'static {
+/// An engine: commands in, events out. Whoever runs it is given what makes one: it may need more than a thread to be on.
+pub trait Machine: 'static {
     /// What it is asked.
     type Command: Send;
     /// What it tells.
@@ -26,43 +26,5 @@ pub trait Machine: Default + 'static {
     /// hidden, such events need not pile up.
     fn is_passing(_: &Self::Event) -> bool {
         false
-    }
-}
-
-impl Machine for Engine {
-    type Command = Command;
-    type Event = Event;
-
-    fn handle(&mut self, command: Command) {
-        self.handle(command);
-    }
-
-    fn advance(&mut self, _: f64) -> Option<Duration> {
-        self.advance(SLICE).then_some(Duration::ZERO)
-    }
-
-    fn poll(&mut self) -> Option<Event> {
-        self.poll()
-    }
-}
-
-impl Machine for TrialEngine {
-    type Command = TrialCommand;
-    type Event = TrialEvent;
-
-    fn handle(&mut self, command: TrialCommand) {
-        self.handle(command);
-    }
-
-    fn advance(&mut self, now_s: f64) -> Option<Duration> {
-        self.advance(now_s, SLICE)
-    }
-
-    fn poll(&mut self) -> Option<TrialEvent> {
-        self.poll()
-    }
-
-    fn is_passing(event: &TrialEvent) -> bool {
-        matches!(event, TrialEvent::Frame { .. })
     }
 }

@@ -1,9 +1,11 @@
-//! What passes between the app and the engine.
+//! What passes between the app and the engine: it can cross between threads that share no memory, large arrays as buffers
+//! of their own ([`transfer`](crate::transfer)).
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::surfaces::{levels, surface};
 use crate::io::{Format, ImportOptions, ImportReport};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
@@ -12,15 +14,17 @@ use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::pipeline::stage::Stage;
+use crate::transfer::{bulk, optional};
 
 /// Where a surface comes from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Source {
     /// A file that was chosen or dropped.
     File {
         /// Its name, with extension.
         name: String,
         /// Its bytes.
+        #[serde(with = "bulk")]
         bytes: Arc<Vec<u8>>,
         /// How to read it.
         options: ImportOptions,
@@ -50,7 +54,7 @@ impl Source {
 }
 
 /// What the engine is asked to do.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Read a surface and run the pipeline on it.
     Open {
@@ -86,6 +90,7 @@ pub enum Command {
         /// Its format.
         format: Format,
         /// The surface.
+        #[serde(with = "surface")]
         mesh: TriMesh,
     },
 }
@@ -113,7 +118,7 @@ impl Work {
 }
 
 /// A surface that was opened.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Opened {
     /// That of the command.
     pub id: u64,
@@ -122,22 +127,24 @@ pub struct Opened {
     /// What was found and mended.
     pub report: ImportReport,
     /// All of it.
+    #[serde(with = "surface")]
     pub mesh: Arc<TriMesh>,
 }
 
 /// Every level of the surface under some settings.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reduced {
     /// That of the settings.
     pub generation: u64,
     /// The pieces it is made from.
     pub keep: Keep,
     /// The levels.
+    #[serde(with = "levels")]
     pub mesh: Arc<ProgressiveMesh>,
 }
 
 /// What the pipeline made at one of the settings to compare.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
     /// That of the command.
     pub id: u64,
@@ -146,11 +153,12 @@ pub struct Compared {
     /// The numbers, deviations among them.
     pub report: Report,
     /// The level, over its own vertices.
+    #[serde(with = "surface")]
     pub mesh: Arc<TriMesh>,
 }
 
 /// What the engine has to say.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Event {
     /// A surface is open; its pieces and results follow.
     Opened(Box<Opened>),
@@ -166,6 +174,7 @@ pub enum Event {
     /// The pieces of the open surface.
     Pieces {
         /// The piece of each triangle.
+        #[serde(with = "bulk")]
         labels: Vec<u32>,
         /// The pieces.
         components: Vec<Component>,
@@ -187,8 +196,10 @@ pub enum Event {
         complete: bool,
         /// The numbers.
         report: Box<Report>,
-        /// For each node of the level, the mean deviation around it, in mm; empty until `complete`.
-        deviation: Vec<f32>,
+        /// For each node of the level, the mean deviation around it, in mm; empty until `complete`. `None`: as in the
+        /// event before.
+        #[serde(with = "optional")]
+        deviation: Option<Vec<f32>>,
     },
     /// The work was stopped; these settings, and their results, are in force.
     Cancelled {
@@ -213,6 +224,7 @@ pub enum Event {
         /// Its name.
         name: String,
         /// Its bytes.
+        #[serde(with = "bulk")]
         bytes: Vec<u8>,
     },
     /// A file could not be made.
@@ -249,4 +261,62 @@ pub trait Link<C = Command, E = Event> {
     /// One plain sentence on why the engine stopped by itself, once; whoever asks should [`Self::restart`] or
     /// [`Self::give_up`].
     fn failure(&mut self) -> Option<String>;
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::engine::Engine;
+    use crate::transfer::tests::sent;
+
+    #[test]
+    fn every_event_of_a_run_and_every_command_comes_through_unchanged() {
+        let mut engine = Engine::new();
+        let stl = {
+            let sample = crate::phantom::generate(Sample::Aorta, 10_000).unwrap();
+            Arc::new(crate::io::write(&sample, None, Format::Stl).unwrap())
+        };
+        let mesh = TriMesh { positions: vec![glam::Vec3::X; 3], triangles: vec![[0, 1, 2]] };
+        let source = Source::File { name: "a.stl".into(), bytes: stl, options: ImportOptions::default() };
+        let bad = Source::File { name: "b.stl".into(), bytes: Arc::new(vec![0; 3]), options: ImportOptions::default() };
+        let settings = Settings::default();
+        let impossible = Settings { keep: Keep::Component(10_000), ..Settings::default() };
+        let commands = [
+            Command::Open { id: 1, source, settings: settings.clone() },
+            Command::Open { id: 2, source: bad, settings: settings.clone() },
+            Command::Write { name: "c.stl".into(), format: Format::Stl, mesh },
+            Command::Set { generation: 3, settings: settings.clone() },
+            Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },
+            Command::Cancel,
+            Command::Open { id: 5, source: Source::sample(Sample::Coronary), settings },
+        ];
+        let mut kinds = std::collections::BTreeSet::new();
+        for command in commands {
+            assert_eq!(sent(&command).1.unwrap(), command);
+            if matches!(command, Command::Open { id: 5, .. }) {
+                break;
+            }
+            engine.handle(command);
+            while engine.advance(Duration::from_millis(1)) {}
+            while let Some(event) = engine.poll() {
+                let (line, arrived) = sent(&event);
+                kinds.insert(line.split('"').nth(1).unwrap_or_default().to_owned());
+                assert_eq!(arrived.unwrap(), event);
+            }
+        }
+        let expected = [
+            "Cancelled",
+            "Compared",
+            "Measured",
+            "NotCompared",
+            "OpenFailed",
+            "Opened",
+            "Pieces",
+            "Reduced",
+            "Written",
+        ];
+        assert!(expected.iter().all(|kind| kinds.contains(*kind)), "{kinds:?}");
+    }
 }

@@ -37,17 +37,22 @@ pub struct TrialComparison {
     /// One sentence.
     pub verdict: String,
     /// Inserted length in mm at each sample.
+    #[serde(with = "crate::transfer::bulk")]
     pub inserted_mm: Vec<f32>,
     /// Distance between the two tips, in mm.
+    #[serde(with = "crate::transfer::bulk")]
     pub deviation_mm: Vec<f32>,
     /// The largest distance at each sample between the tip on the unreduced surface and on the same in another order, in
     /// mm; empty where that was not tried, and shorter than the others where the wire arrived sooner there.
+    #[serde(with = "crate::transfer::bulk")]
     pub noise_mm: Vec<f32>,
     /// How many other orders were tried, and on how many of them the wire arrived.
     pub orders: [usize; 2],
     /// The way of the tip on the level that is shown.
+    #[serde(with = "crate::transfer::bulk")]
     pub tip: Vec<[f32; 3]>,
     /// The way of the tip on the other surface.
+    #[serde(with = "crate::transfer::bulk")]
     pub other_tip: Vec<[f32; 3]>,
     /// Places where the wall's largest forces differ most, and by more than from order to order: where, and by how much in
     /// N. They are those of all balanced steps.

@@ -43,9 +43,8 @@ pub struct Frame {
     /// Simulated seconds since the start.
     pub time_s: f64,
     /// The wire outside the guide, from its tip to the mouth of the guide, in mm.
+    #[serde(with = "crate::transfer::bulk")]
     pub nodes: Vec<[f32; 3]>,
-    /// What the wall does to each node in the last step, in N.
-    pub forces: Vec<[f32; 3]>,
     /// What came of the last step. The forces below are those of the last one that was balanced.
     pub report: StepReport,
     /// Steps so far, by kind.

@@ -372,7 +372,6 @@ impl Trial {
     pub fn frame(&self) -> Frame {
         let state = &self.state;
         let simulation = &state.simulation;
-        let body = simulation.body();
         let plain = |v: DVec3| v.as_vec3().to_array();
         let forces = state.meter.forces;
         let [direction, side] = self.tip_side();
@@ -380,7 +379,6 @@ impl Trial {
             step: simulation.steps(),
             time_s: simulation.steps() as f64 * STEP,
             nodes: simulation.nodes().map(plain).collect(),
-            forces: body.contacts.forces(simulation.count()).into_iter().chain([DVec3::ZERO]).map(plain).collect(),
             report: simulation.report(),
             step_kinds: state.meter.counts,
             contacts: forces.contacts,

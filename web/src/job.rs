@@ -8,8 +8,9 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::time::Duration;
 
-use lumen::engine::wire::{Encoded, WireError};
-use lumen::engine::{Engine, Machine, TrialEngine, trial_wire, wire};
+use lumen::engine::trial::is_frame;
+use lumen::engine::{Engine, Machine, TrialEngine};
+use lumen::transfer::Message;
 use wasm_bindgen::prelude::*;
 use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent, MessagePort};
 
@@ -30,67 +31,34 @@ pub(crate) const TRIAL: &str = "trial";
 pub fn worker_main(job: &str) -> Result<(), JsValue> {
     crate::page::report_panics();
     match job {
-        PIPELINE => run::<Engine>(),
-        TRIAL => run::<TrialEngine>(),
+        PIPELINE => run(Engine::new()),
+        TRIAL => run(TrialEngine::new()),
         _ => Err(format!("there is no job named {job}").into()),
     }
 }
 
 /// An engine whose commands and events can be sent.
-pub(crate) trait Sent: Machine {
+pub(crate) trait Sent: Machine<Command: Message, Event: Message> {
     /// The name of its job.
     const JOB: &str;
 
-    /// Whether a message with this header is useless once there is another such.
-    fn is_passing_header(header: &str) -> bool;
-
-    /// A command as a message.
-    fn encode_command(command: &Self::Command) -> Encoded<'_>;
-
-    /// The command in a message.
-    fn decode_command(message: &Received) -> Result<Self::Command, WireError>;
-
-    /// An event as a message.
-    fn encode_event(event: &Self::Event) -> Encoded<'_>;
-
-    /// The event in a message.
-    fn decode_event(message: &Received) -> Result<Self::Event, WireError>;
+    /// Whether a message with this line is useless once there is another such.
+    fn is_passing_line(_: &str) -> bool {
+        false
+    }
 }
 
-macro_rules! sent {
-    ($engine:ty, $job:expr, $wire:path, $passing:expr) => {
-        impl Sent for $engine {
-            const JOB: &str = $job;
-
-            fn is_passing_header(header: &str) -> bool {
-                $passing(header)
-            }
-
-            fn encode_command(command: &Self::Command) -> Encoded<'_> {
-                use $wire as wire;
-                wire::encode_command(command)
-            }
-
-            fn decode_command(message: &Received) -> Result<Self::Command, WireError> {
-                use $wire as wire;
-                wire::decode_command(&message.header, message)
-            }
-
-            fn encode_event(event: &Self::Event) -> Encoded<'_> {
-                use $wire as wire;
-                wire::encode_event(event)
-            }
-
-            fn decode_event(message: &Received) -> Result<Self::Event, WireError> {
-                use $wire as wire;
-                wire::decode_event(&message.header, message)
-            }
-        }
-    };
+impl Sent for Engine {
+    const JOB: &str = PIPELINE;
 }
 
-sent!(Engine, PIPELINE, wire, |_| false);
-sent!(TrialEngine, TRIAL, trial_wire, trial_wire::is_frame);
+impl Sent for TrialEngine {
+    const JOB: &str = TRIAL;
+
+    fn is_passing_line(line: &str) -> bool {
+        is_frame(line)
+    }
+}
 
 /// What the Worker holds.
 struct Worker<M> {
@@ -99,15 +67,15 @@ struct Worker<M> {
     again: Again,
 }
 
-fn run<M: Sent>() -> Result<(), JsValue> {
+fn run<M: Sent>(machine: M) -> Result<(), JsValue> {
     let scope: DedicatedWorkerGlobalScope = js_sys::global().dyn_into().map_err(|_| "this is no Worker")?;
-    let worker = Rc::new(Worker { machine: RefCell::new(M::default()), again: Again::new(&scope)?, scope });
+    let worker = Rc::new(Worker { machine: RefCell::new(machine), again: Again::new(&scope)?, scope });
 
     let hear = Closure::<dyn Fn(MessageEvent) -> Result<(), JsValue>>::new({
         let worker = Rc::clone(&worker);
         move |event: MessageEvent| {
             let message = Received::unpack(&event.data()).ok_or("a message that is none")?;
-            let command = M::decode_command(&message).map_err(|error| error.to_string())?;
+            let command = message.read().map_err(|error| error.to_string())?;
             worker.machine.borrow_mut().handle(command);
             // The answer to a cancel does not wait for the next slice.
             worker.tell()?;
@@ -144,7 +112,7 @@ impl<M: Sent> Worker<M> {
     fn tell(&self) -> Result<(), JsValue> {
         let mut machine = self.machine.borrow_mut();
         while let Some(event) = machine.poll() {
-            let (values, transfer) = pack(&M::encode_event(&event))?;
+            let (values, transfer) = pack(&event)?;
             self.scope.post_message_with_transfer(&values, &transfer)?;
         }
         Ok(())

@@ -42,14 +42,14 @@ impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
             self.restart();
         }
         let Some(line) = &self.line else { return };
-        if let Err(error) = line.send(&M::encode_command(&command)) {
+        if let Err(error) = line.send(&command) {
             self.fail(format!("a command could not be sent: {}", told(&error)));
         }
     }
 
     fn poll(&mut self) -> Option<M::Event> {
         match self.line.as_ref()?.poll()? {
-            Heard::Message(message) => match M::decode_event(&message) {
+            Heard::Message(message) => match message.read() {
                 Ok(event) => return Some(event),
                 Err(error) => self.fail(format!("an answer could not be read: {error}")),
             },
@@ -64,7 +64,7 @@ impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
             Some(line) => line.restart(),
             None => {
                 let waker = self.waker.clone();
-                WorkerLine::start(M::JOB, M::is_passing_header, move || waker.wake()).map(|line| self.line = Some(line))
+                WorkerLine::start(M::JOB, M::is_passing_line, move || waker.wake()).map(|line| self.line = Some(line))
             }
         };
         if let Err(error) = started {

@@ -4,8 +4,7 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use lumen::app::trial::Offer;
-use lumen::app::{Gamepad, Platform, PlatformEvent, Waker};
+use lumen::app::{Gamepad, Offer, Platform, PlatformEvent, Waker};
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
 use wasm_bindgen::prelude::*;

@@ -1,7 +1,7 @@
 //! Work in a dedicated Worker: the page's end of the line and the Worker's.
 //!
 //! A Worker runs an instance of its own of the module the page has already compiled (`www/worker.js`). There is no
-//! shared memory. A message is a JSON header and any number of byte buffers: each buffer is copied once out of the
+//! shared memory. A message is a line of JSON and any number of byte buffers: each buffer is copied once out of the
 //! sender's memory, transferred, and copied once into the receiver's.
 //!
 //! A Worker that dies (a panic, out of memory) says so to the page as an error event; [`WorkerLine::poll`] hands it on
@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 use js_sys::{Array, Object, Reflect, Uint8Array};
-use lumen::engine::wire::{Buffers, Encoded};
+use lumen::transfer::{self, Buffers, Message, TransferError};
 use wasm_bindgen::prelude::*;
 use web_sys::{ErrorEvent, MessageEvent, Worker, WorkerOptions, WorkerType};
 
@@ -23,11 +23,11 @@ use crate::bytes;
 /// # Errors
 ///
 /// When the browser has no memory left for the copies.
-pub(crate) fn pack((header, buffers): &Encoded<'_>) -> Result<(Array, Array), JsValue> {
-    let values = Array::of1(&JsValue::from_str(header));
+pub(crate) fn pack(message: &impl Message) -> Result<(Array, Array), JsValue> {
+    let (line, buffers) = transfer::encode(message, |array| Ok::<_, JsValue>(bytes::copied(array)?.buffer()))?;
+    let values = Array::of1(&JsValue::from_str(&line));
     let transfer = Array::new();
     for buffer in buffers {
-        let buffer = bytes::copied(buffer)?.buffer();
         values.push(&buffer);
         transfer.push(&buffer);
     }
@@ -38,27 +38,40 @@ pub(crate) fn pack((header, buffers): &Encoded<'_>) -> Result<(Array, Array), Js
 #[derive(Debug)]
 pub(crate) struct Received {
     /// What it is, as a line of JSON.
-    pub(crate) header: String,
-    buffers: Vec<Uint8Array>,
+    line: String,
+    buffers: Outside,
 }
+
+/// Buffers outside this instance's memory.
+#[derive(Debug)]
+struct Outside(Vec<Uint8Array>);
 
 impl Received {
     /// The reverse of [`pack`]; `None` for anything else.
     pub(crate) fn unpack(value: &JsValue) -> Option<Self> {
         let values: &Array = value.dyn_ref()?;
-        let header = values.get(0).as_string()?;
+        let line = values.get(0).as_string()?;
         let buffers = values.iter().skip(1).map(|buffer| bytes::view(&buffer).ok()).collect::<Option<_>>()?;
-        Some(Self { header, buffers })
+        Some(Self { line, buffers: Outside(buffers) })
+    }
+
+    /// The message.
+    ///
+    /// # Errors
+    ///
+    /// When it is none such, or there is no memory left for it.
+    pub(crate) fn read<M: Message>(self) -> Result<M, TransferError> {
+        transfer::decode(&self.line, self.buffers)
     }
 }
 
-impl Buffers for Received {
+impl Buffers for Outside {
     fn len(&self, index: usize) -> Option<usize> {
-        self.buffers.get(index).map(|buffer| buffer.length() as usize)
+        self.0.get(index).map(|buffer| buffer.length() as usize)
     }
 
     fn copy(&self, index: usize, target: &mut [u8]) {
-        self.buffers[index].copy_to(target);
+        self.0[index].copy_to(target);
     }
 }
 
@@ -81,7 +94,7 @@ pub(crate) struct WorkerLine {
 
 impl WorkerLine {
     /// Starts a Worker on `job`; `wake` is called whenever [`poll`](Self::poll) has something new. Of messages that
-    /// are `passing`, by their headers, only the newest waits: a hidden page listens to none.
+    /// are `passing`, by their lines, only the newest waits: a hidden page listens to none.
     ///
     /// # Errors
     ///
@@ -101,7 +114,7 @@ impl WorkerLine {
     /// # Errors
     ///
     /// What the browser answers when there is no memory left for the copies.
-    pub(crate) fn send(&self, message: &Encoded<'_>) -> Result<(), JsValue> {
+    pub(crate) fn send(&self, message: &impl Message) -> Result<(), JsValue> {
         let (values, transfer) = pack(message)?;
         self.worker.post_message_with_transfer(&values, &transfer)
     }
@@ -139,7 +152,7 @@ struct Inbox {
 
 impl Inbox {
     fn put(&self, heard: Heard) {
-        let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(&message.header));
+        let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(&message.line));
         {
             let mut queue = self.queue.borrow_mut();
             // What does not pass may have come between.

@@ -3,69 +3,13 @@
 
 use egui::{Align, Color32, Layout, Rect, RichText, Ui, UiBuilder, pos2, vec2};
 
+use super::arrangement::Arrangement;
+use super::comparison::{Made, Outcome};
 use super::scene::{CompareScene, Shot};
 use super::words::{self, Number};
-use super::{Made, Outcome};
 use crate::app::overlay;
 use crate::io::Axes;
-use crate::render::{Camera, Look, Style, SurfaceError};
-
-/// How the pictures of a setting are arranged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Arrangement {
-    /// Shaded.
-    #[default]
-    Shaded,
-    /// Its edges.
-    Wireframe,
-    /// Edges over the shaded surface.
-    Both,
-    /// Shaded, and its edges in a second picture below.
-    Stacked,
-}
-
-impl Arrangement {
-    /// All, in the order of a menu.
-    pub const ALL: [Self; 4] = [Self::Shaded, Self::Wireframe, Self::Both, Self::Stacked];
-
-    /// What it is called.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Shaded => "Shaded",
-            Self::Wireframe => "Wireframe",
-            Self::Both => "Both",
-            Self::Stacked => "Stacked",
-        }
-    }
-
-    /// What it shows.
-    pub(super) fn help(self) -> &'static str {
-        match self {
-            Self::Shaded => "The surfaces",
-            Self::Wireframe => "Their edges",
-            Self::Both => "Edges over the surface",
-            Self::Stacked => "The surface above its edges",
-        }
-    }
-
-    /// The pictures of a setting, from the top, each of surfaces and lines over one another.
-    fn pictures(self, flat: bool) -> &'static [&'static [Look]] {
-        match (self, flat) {
-            (Self::Shaded, false) => &[&[Look::Shaded]],
-            (Self::Shaded, true) => &[&[Look::Flat]],
-            (Self::Wireframe, _) => &[&[Look::Wireframe]],
-            (Self::Both, false) => &[&[Look::Shaded, Look::Wireframe]],
-            (Self::Both, true) => &[&[Look::Flat, Look::Wireframe]],
-            (Self::Stacked, false) => &[&[Look::Shaded], &[Look::Wireframe]],
-            (Self::Stacked, true) => &[&[Look::Flat], &[Look::Wireframe]],
-        }
-    }
-
-    /// How many pictures stand one above the other.
-    pub(super) fn rows(self) -> usize {
-        self.pictures(false).len()
-    }
-}
+use crate::render::{Camera, Style, SurfaceError};
 
 /// How all cells of a grid are drawn.
 #[derive(Clone, Copy)]

@@ -2,9 +2,11 @@
 
 use egui::{Align, CentralPanel, Color32, Frame, Layout, Pos2, RawInput, Rect, RichText, Ui, UiBuilder, vec2};
 
-use super::cell::{self, Arrangement, Manner};
+use super::arrangement::Arrangement;
+use super::cell::{self, Manner};
+use super::comparison::{Made, Outcome};
 use super::scene::CompareScene;
-use super::{Made, Outcome, words};
+use super::words;
 use crate::app::overlay::NOT_CLINICAL;
 use crate::app::theme;
 use crate::io::Axes;

@@ -3,17 +3,19 @@
 use egui::{ComboBox, Frame, Margin, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui};
 use egui::{UiBuilder, WidgetInfo, pos2, vec2};
 
-use super::cell::{self, Arrangement, Manner};
+use super::action::Action as OfComparison;
+use super::arrangement::Arrangement;
+use super::cell::{self, Manner};
+use super::comparison::{Cell, Comparison, MOST, Outcome};
 use super::scene::CompareScene;
-use super::{Cell, Comparison, MOST, Outcome, words};
-use crate::app::NO_MEMORY;
-use crate::app::control::name;
+use super::words;
+use crate::app::action::Action;
+use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::icon::{self, Icon};
 use crate::app::overlay::NOT_CLINICAL;
 use crate::app::theme;
-use crate::app::views::Views;
-use crate::pipeline::paper;
+use crate::app::views::{NO_MEMORY, Views};
 use crate::pipeline::settings::Settings;
 
 /// A picture is at least this high, in points; a grid that does not fit scrolls.
@@ -32,13 +34,6 @@ pub(in crate::app) struct CompareView {
     over_picture: bool,
 }
 
-/// What a user did with a cell.
-enum Deed {
-    Choose(Settings),
-    Remove(u64),
-    Retry(u64),
-}
-
 impl CompareView {
     /// A view on the window's device; without one (in some tests) it says so.
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
@@ -55,16 +50,17 @@ impl CompareView {
         self.is_refused |= self.scene.take().is_some();
     }
 
-    /// Shows the comparison in what is left of `ui`; a cell that is clicked becomes `settings`.
+    /// Shows the comparison in what is left of `ui`; `settings` are those in force.
     pub(in crate::app) fn show(
         &mut self,
         ui: &mut Ui,
-        comparison: &mut Comparison,
+        comparison: &Comparison,
         views: &mut Views,
-        settings: &mut Settings,
+        settings: &Settings,
         document: Option<&Document>,
         is_narrow: bool,
-    ) {
+    ) -> Vec<Action> {
+        let mut asked = Vec::new();
         if let (None, false, Some(device)) = (&self.scene, self.is_refused, &self.device) {
             self.scene = Some(CompareScene::new(device));
         }
@@ -79,7 +75,7 @@ impl CompareView {
         ui.spacing_mut().item_spacing.y = 1.0;
         Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 6)).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
-            bar(ui, comparison, settings, is_narrow);
+            bar(ui, comparison, settings, is_narrow, &mut asked);
         });
         let all: Vec<_> = comparison.cells().iter().map(|cell| &cell.settings).collect();
         let (shared, titles) = words::titles(&all);
@@ -92,14 +88,9 @@ impl CompareView {
             footer(ui, name, &shared, slow(comparison), is_narrow);
         });
         ui.scope_builder(UiBuilder::new().max_rect(grid), |ui| {
-            let deed = self.grid(ui, comparison, &titles, views, settings, document, is_narrow);
-            match deed {
-                Some(Deed::Choose(chosen)) => *settings = Settings { keep: settings.keep, ..chosen },
-                Some(Deed::Remove(id)) => comparison.remove(id),
-                Some(Deed::Retry(id)) => comparison.retry(id),
-                None => {}
-            }
+            asked.extend(self.grid(ui, comparison, &titles, views, settings, document, is_narrow));
         });
+        asked
     }
 
     #[expect(clippy::too_many_arguments, reason = "one call, and a struct would only name the same things again")]
@@ -112,7 +103,7 @@ impl CompareView {
         settings: &Settings,
         document: Option<&Document>,
         is_narrow: bool,
-    ) -> Option<Deed> {
+    ) -> Option<Action> {
         let area = ui.available_rect_before_wrap();
         let count = comparison.cells().len();
         if count == 0 {
@@ -129,7 +120,7 @@ impl CompareView {
         let height = (area.height() / rows as f32).floor().max(least);
         let source =
             egui::containers::scroll_area::ScrollSource { mouse_wheel: !self.over_picture, ..Default::default() };
-        let mut deed = None;
+        let mut asked = None;
         let mut over_picture = false;
         ScrollArea::vertical().auto_shrink(false).scroll_source(source).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
@@ -138,25 +129,24 @@ impl CompareView {
             for (i, (cell, title)) in comparison.cells().iter().zip(titles).enumerate() {
                 let corner = whole.min + vec2(width * (i % columns) as f32, height * (i / columns) as f32);
                 let rect = Rect::from_min_size(corner, vec2(width, height)).shrink(0.5);
-                let is_current = cell.settings == *settings;
                 let camera = views.camera;
                 let manner = Manner {
                     arrangement: comparison.arrangement,
                     camera: &camera,
-                    flat: views.flat,
+                    flat: views.options.flat,
                     style: theme::style(ui.visuals()),
                     axes: document.map(|document| document.import.axes).unwrap_or_default(),
                 };
-                let shown = ui.push_id(cell.id, |ui| self.cell(ui, i, rect, cell, title, &manner, is_current)).inner;
+                let shown = ui.push_id(cell.id, |ui| self.cell(ui, i, rect, cell, title, &manner, settings)).inner;
                 let rows = comparison.arrangement.rows();
                 views.steer(ui, &shown.picture, rows, document, settings.keep);
                 views.take_shape(shown.picture.rect, rows, document, settings.keep);
                 over_picture |= shown.picture.contains_pointer();
-                deed = deed.take().or(shown.deed);
+                asked = asked.take().or(shown.asked);
             }
         });
         self.over_picture = over_picture;
-        deed
+        asked
     }
 
     #[expect(clippy::too_many_arguments, reason = "one call, and a struct would only name the same things again")]
@@ -168,14 +158,15 @@ impl CompareView {
         cell: &Cell,
         title: &str,
         manner: &Manner<'_>,
-        is_current: bool,
+        settings: &Settings,
     ) -> Shown {
         const ROOM: f32 = 28.0;
+        let is_current = cell.settings == *settings;
         let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - cell::caption_height(rect.width()));
         let picture = ui.interact(above, ui.scope_id().with("picture"), Sense::click_and_drag());
         picture.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_current, title));
         let words = ui.interact(below, ui.scope_id().with("words"), Sense::CLICK);
-        let (mut deed, mut failure) = (None, None);
+        let (mut asked, mut failure) = (None, None);
         match (&cell.outcome, &mut self.scene) {
             (Outcome::Done(made), Some(scene)) => {
                 if let Err(error) = cell::pictures(ui, scene, index, above, made, manner) {
@@ -194,7 +185,7 @@ impl CompareView {
         if matches!(cell.outcome, Outcome::Failed(_)) {
             let button = egui::Button::new("Try again");
             if ui.place(Rect::from_center_size(above.center(), vec2(96.0, 28.0)), button).clicked() {
-                deed = Some(Deed::Retry(cell.id));
+                asked = Some(Action::Comparison(OfComparison::Retry(cell.id)));
             }
         }
         if let Some(failure) = failure {
@@ -209,18 +200,19 @@ impl CompareView {
         });
         frame(ui, rect, &picture, words.hovered(), is_current);
         if close.inner.clicked() {
-            deed = Some(Deed::Remove(cell.id));
+            asked = Some(Action::Comparison(OfComparison::Remove(cell.id)));
         } else if picture.clicked() || words.clicked() {
-            deed = deed.or_else(|| Some(Deed::Choose(cell.settings.clone())));
+            let choice = || Action::Set(Box::new(Settings { keep: settings.keep, ..cell.settings.clone() }));
+            asked = asked.or_else(|| Some(choice()));
         }
-        Shown { picture, deed }
+        Shown { picture, asked }
     }
 }
 
 /// A cell that was shown.
 struct Shown {
     picture: Response,
-    deed: Option<Deed>,
+    asked: Option<Action>,
 }
 
 /// The lines around a cell: the current one's in the accent, the focused one's and the hovered one's as of a button.
@@ -248,7 +240,8 @@ fn columns(count: usize, is_narrow: bool) -> usize {
 }
 
 /// What can be done.
-fn bar(ui: &mut Ui, comparison: &mut Comparison, settings: &Settings, is_narrow: bool) {
+fn bar(ui: &mut Ui, comparison: &Comparison, settings: &Settings, is_narrow: bool, asked: &mut Vec<Action>) {
+    let mut ask = |what| asked.push(Action::Comparison(what));
     ui.horizontal_wrapped(|ui| {
         let can_add = comparison.can_add(settings);
         let add = ui.add_enabled(can_add, egui::Button::new(if is_narrow { "Add" } else { "Add current" }));
@@ -259,25 +252,27 @@ fn bar(ui: &mut Ui, comparison: &mut Comparison, settings: &Settings, is_narrow:
             "The current settings are compared already"
         };
         if add.on_hover_text("Compare the current settings too").on_disabled_hover_text(why_not).clicked() {
-            comparison.add(settings);
+            ask(OfComparison::Add);
         }
         if ui.button("Figure 6").on_hover_text("The six smoothing settings of the paper's Figure 6").clicked() {
-            comparison.set(paper::figure_6(settings.keep));
-            comparison.arrangement = Arrangement::Shaded;
+            ask(OfComparison::Figure6);
         }
         if ui.button("Figure 7").on_hover_text("The three reduction rates of the paper's Figure 7").clicked() {
-            comparison.set(paper::figure_7(settings.keep));
-            comparison.arrangement = Arrangement::Stacked;
+            ask(OfComparison::Figure7);
         }
+        let mut chosen = comparison.arrangement;
         let list = ComboBox::from_id_salt("arrangement").width(96.0).selected_text(comparison.arrangement.label());
         let response = list.show_ui(ui, |ui| {
             for choice in Arrangement::ALL {
-                ui.selectable_value(&mut comparison.arrangement, choice, choice.label()).on_hover_text(choice.help());
+                ui.selectable_value(&mut chosen, choice, choice.label()).on_hover_text(choice.help());
             }
         });
         name(&response.response, Role::ComboBox, "Show as");
+        if chosen != comparison.arrangement {
+            ask(OfComparison::Arrange(chosen));
+        }
         if ui.button("Done").on_hover_text("Back to the two views (C)").clicked() {
-            comparison.set_open(false);
+            ask(OfComparison::Close);
         }
     });
 }

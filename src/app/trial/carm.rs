@@ -6,6 +6,7 @@
 
 use glam::{Mat3, Quat};
 
+use super::action::Arm;
 use crate::mesh::{Bounds, Vec3};
 use crate::render::Camera;
 
@@ -85,6 +86,17 @@ impl CArm {
         (self.seconds, self.given, self.last, self.counted) = (0.0, None, f64::NEG_INFINITY, 0.0);
     }
 
+    /// Does what is asked of it.
+    pub(super) fn act(&mut self, what: Arm) {
+        match what {
+            Arm::Pedal => self.is_on = !self.is_on,
+            Arm::Contrast(now) => self.give_contrast(now),
+            Arm::Roadmap(on) => self.roadmap = on,
+            Arm::Look(lao, cran) => (self.lao, self.cran) = (lao, cran),
+            Arm::Rate(rate) => self.rate = rate,
+        }
+    }
+
     /// Turns by a drag of so many degrees.
     pub(super) fn turn(&mut self, lao: f32, cran: f32) {
         self.lao = (self.lao + lao).clamp(-120.0, 120.0);
@@ -97,7 +109,7 @@ impl CArm {
     }
 
     /// Gives contrast now, and sees it: the pedal goes down.
-    pub(super) fn give_contrast(&mut self, now: f64) {
+    fn give_contrast(&mut self, now: f64) {
         self.given = Some(now);
         self.is_on = true;
     }

@@ -4,6 +4,7 @@ use egui::{Context, Event, Id, Key, Pos2, Rect, Sense, Stroke, TouchPhase, Ui, W
 
 use crate::app::keys::Keys;
 use crate::app::platform::Gamepad;
+use crate::engine::trial::HAND;
 use crate::trial::setup::Input;
 
 /// Feed by a key, and with Shift, in mm/s.
@@ -20,9 +21,58 @@ enum Pad {
     Roll,
 }
 
+/// The operator's hand, and what the engine was told of it.
+#[derive(Default)]
+pub(super) struct Hand {
+    pads: Pads,
+    /// The input that the engine has, and when it was told, by the window's clock.
+    told: Input,
+    told_s: f64,
+}
+
+impl Hand {
+    /// What it does now.
+    pub(super) fn input(&mut self, ctx: &Context, keys: Keys, gamepad: Option<Gamepad>) -> Input {
+        self.pads.input(ctx, keys, gamepad)
+    }
+
+    /// Shows the pads, side by side.
+    pub(super) fn pads(&mut self, ui: &mut Ui) {
+        self.pads.show(ui);
+    }
+
+    /// The input that the engine has.
+    pub(super) fn told(&self) -> Input {
+        self.told
+    }
+
+    /// Whether `input` has to be told at `now_s`: where it has changed, and again and again while the hand is on the wire,
+    /// as the engine lets go of what it does not hear of any more. Then it counts as told.
+    pub(super) fn tell(&mut self, input: Input, now_s: f64, steers_itself: bool) -> bool {
+        let is_held = input != Input::default() && !steers_itself;
+        let is_due = is_held && now_s - self.told_s >= HAND / 5.0;
+        let is_news = input != self.told || is_due;
+        if is_news {
+            (self.told, self.told_s) = (input, now_s);
+        }
+        is_news
+    }
+
+    /// The engine begins anew, and has no input.
+    pub(super) fn forget_told(&mut self) {
+        self.told = Input::default();
+    }
+
+    /// The window's clock begins anew, and the fingers were on another canvas.
+    pub(super) fn restart_clock(&mut self) {
+        self.pads.let_go();
+        self.told_s = f64::NEG_INFINITY;
+    }
+}
+
 /// How far each pad is pushed, -1 to 1.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Drive {
+struct Pads {
     feed: f32,
     roll: f32,
     /// Fingers on the pads: egui has one pointer, and two pads may be held at once.
@@ -31,10 +81,10 @@ pub(super) struct Drive {
     is_let_go: bool,
 }
 
-impl Drive {
+impl Pads {
     /// What the hand does now. It rests while the window is hidden or without attention, and under a sheet; keys rest
     /// while others have them.
-    pub(super) fn input(&mut self, ctx: &Context, keys: Keys, gamepad: Option<Gamepad>) -> Input {
+    fn input(&mut self, ctx: &Context, keys: Keys, gamepad: Option<Gamepad>) -> Input {
         let is_seen = ctx.input(|input| input.raw.focused && input.viewport().visible() != Some(false));
         if !is_seen || keys == Keys::Sheet {
             self.let_go();
@@ -68,12 +118,12 @@ impl Drive {
     }
 
     /// Takes the hand off the pads: that it comes off while nobody looks is not heard.
-    pub(super) fn let_go(&mut self) {
+    fn let_go(&mut self) {
         *self = Self { is_let_go: true, ..Self::default() };
     }
 
     /// Shows both pads, side by side.
-    pub(super) fn pads(&mut self, ui: &mut Ui) {
+    fn show(&mut self, ui: &mut Ui) {
         let gap = ui.spacing().item_spacing.x;
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width() - 8.0, PAD), Sense::hover());
         let (left, right) = rect.split_left_right_at_fraction(0.5);

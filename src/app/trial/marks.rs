@@ -2,9 +2,10 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 
-use super::Trial;
-use super::readout::plate;
+use super::plate::plate;
+use super::state::Session;
 use crate::app::overlay;
+use crate::engine::trial::RouteShown;
 use crate::mesh::Vec3;
 use crate::render::Camera;
 
@@ -21,16 +22,16 @@ pub(super) fn colours(dark: bool) -> [Color32; 2] {
 }
 
 /// Draws all of it over the view in `rect`.
-pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
-    let Some(ready) = &trial.ready else { return };
+pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, session: &Session) {
+    let Session { ready, run, .. } = session;
     let painter = ui.painter_at(rect);
     let at = |p: Vec3| project(camera, rect, p);
     let visuals = ui.visuals();
     let accent = visuals.hyperlink_color;
-    let way: Vec<Pos2> = ahead(trial, &ready.route.points).iter().filter_map(|&p| at(p.into())).collect();
+    let way: Vec<Pos2> = ahead(session).iter().filter_map(|&p| at(p.into())).collect();
     painter.extend(Shape::dashed_line(&way, Stroke::new(1.0, accent.gamma_multiply(0.8)), 5.0, 5.0));
     let [here, other] = colours(visuals.dark_mode);
-    if let Some(comparison) = &trial.comparison {
+    if let Some(comparison) = &run.comparison {
         for (path, colour) in [(&comparison.other_tip, other), (&comparison.tip, here)] {
             let line: Vec<Pos2> = path.iter().filter_map(|&p| at(p.into())).collect();
             painter.add(Shape::line(line, Stroke::new(2.0, colour)));
@@ -42,8 +43,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
             plate(ui, at + vec2(7.0, 0.0), Align2::LEFT_CENTER, &(i + 1).to_string(), true);
         }
     }
-    target(ui, &painter, rect, camera, trial);
-    if let Some(comparison) = &trial.comparison {
+    target(ui, &painter, rect, camera, &ready.route);
+    if let Some(comparison) = &run.comparison {
         // The largest come first; one beside another would hide its number.
         let mut ringed: Vec<Pos2> = Vec::new();
         for &(place, force) in &comparison.force_differences {
@@ -62,8 +63,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, trial: &Trial) {
 }
 
 /// The part of the way that the tip has yet to go.
-fn ahead<'a>(trial: &Trial, way: &'a [[f32; 3]]) -> &'a [[f32; 3]] {
-    let gone = trial.frame.as_ref().map_or(0.0, |frame| frame.arc_mm as f32);
+fn ahead(session: &Session) -> &[[f32; 3]] {
+    let way = &session.ready.route.points;
+    let gone = session.run.frame.as_ref().map_or(0.0, |frame| frame.arc_mm as f32);
     let mut along = 0.0;
     let passed = way.windows(2).take_while(|pair| {
         along += Vec3::from(pair[0]).distance(pair[1].into());
@@ -77,10 +79,9 @@ fn dot(painter: &Painter, at: Pos2, colour: Color32, ground: Color32) {
 }
 
 /// A ring as wide as the lumen, across the way at its end.
-fn target(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, trial: &Trial) {
+fn target(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, route: &RouteShown) {
     const SIDES: usize = 40;
-    let Some(ready) = &trial.ready else { return };
-    let (points, radii) = (&ready.route.points, &ready.route.radii);
+    let (points, radii) = (&route.points, &route.radii);
     let (Some(&end), Some(&radius)) = (points.last(), radii.last()) else { return };
     let end = Vec3::from(end);
     let before = points.iter().rev().map(|&p| Vec3::from(p)).find(|p| p.distance(end) > 2.0).unwrap_or(end - Vec3::Z);

@@ -3,39 +3,41 @@
 use egui::{Align, Layout, RichText, Role, Ui};
 use egui_plot::{Line, Plot, PlotPoints};
 
-use super::{Ask, Stage, Trial, marks};
-use crate::app::control::{name, progress};
-use crate::app::panel::number;
+use super::action::Action;
+use super::marks;
+use super::state::{Comparing, Trial};
+use crate::app::assist::name;
+use crate::app::control::progress;
+use crate::app::row::number;
 use crate::engine::trial::TrialComparison;
 
 /// Shows the button, and what came of it.
-pub(super) fn show(ui: &mut Ui, trial: &Trial) -> Option<Ask> {
-    let mut ask = None;
-    let has_way = trial.frame.as_ref().is_some_and(|frame| frame.step > 0);
-    let can_compare = trial.stage == Stage::On && has_way && trial.comparing.is_none();
+pub(super) fn show(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
+    let has_way = trial.frame().is_some_and(|frame| frame.step > 0);
+    let can_compare = trial.is_on() && has_way && !trial.is_comparing();
     ui.add_enabled_ui(can_compare, |ui| {
         let button = ui.button("Compare with the unreduced surface");
         if button.on_hover_text("Replays the same input on the surface before its reduction").clicked() {
-            ask = Some(Ask::Compare);
+            asked.push(Action::Compare);
         }
     });
-    if let Some(fraction) = trial.comparing {
+    let Some(run) = trial.run() else { return };
+    if let Some(Comparing { fraction, .. }) = run.comparing {
         ui.horizontal(|ui| {
             ui.label(format!("Comparing: {:.0} %", fraction * 100.0));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let cancel = ui.button("Cancel").on_hover_text("Compare no more; the trial goes on");
                 name(&cancel, Role::Button, "Cancel comparison");
                 if cancel.clicked() {
-                    ask = Some(Ask::CancelComparison);
+                    asked.push(Action::CancelComparison);
                 }
                 progress(ui, fraction, ui.available_width(), "Comparing");
             });
         });
     }
-    if let Some(comparison) = &trial.comparison {
+    if let Some(comparison) = &run.comparison {
         ui.scope(|ui| shown(ui, comparison));
     }
-    ask
 }
 
 fn shown(ui: &mut Ui, comparison: &TrialComparison) {

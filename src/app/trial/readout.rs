@@ -1,24 +1,22 @@
 //! The numbers of a trial: how far, how long, how hard.
 
-use egui::{Align2, Color32, FontId, RichText, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use super::Trial;
-use crate::app::panel::number;
+use super::state::{Run, Trial};
+use crate::app::row::number;
 use crate::render::{Colour, viridis};
 use crate::trial::STEP;
-use crate::trial::frame::{Frame, Progress, Touch};
+use crate::trial::frame::{Frame, Progress};
 use crate::trial::report::StepKind;
 
-/// The end of a bar while forces are small, in N: a floppy wire presses with less.
-const LEAST_SCALE: f64 = 0.001;
 /// Below this many N a force is told in mN.
 const SMALL: f64 = 0.01;
 /// The room beside a bar for where it ends, in points.
 const END: f32 = 40.0;
 
 /// One sentence on how the trial stands.
-pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
-    if let Some(summary) = &trial.summary {
+pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
+    if let Some(summary) = &run.summary {
         let text = if summary.success {
             format!(
                 "Success: the tip arrived after {:.1} s; largest wall force {}.",
@@ -35,7 +33,7 @@ pub(super) fn sentence(trial: &Trial, frame: &Frame) -> (String, bool) {
         Progress::TimedOut => "Failed: the time is over.",
         Progress::GaveUp => "Failed: the autopilot gave up.",
         Progress::Over => "The recorded input is over.",
-        Progress::Running if trial.is_paused => "Paused.",
+        Progress::Running if run.is_paused => "Paused.",
         Progress::Running if frame.is_looped => "The wire has turned back on itself: withdraw.",
         Progress::Running if frame.is_wrong_branch => "Wrong branch: withdraw and roll.",
         Progress::Running if frame.is_behind => "The machine is behind: the trial runs slower than time.",
@@ -58,13 +56,14 @@ fn lower(text: &str) -> String {
 /// Shows the bars and the numbers.
 pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let wall = frame.max_wall_force_n as f32;
-    let end = trial.peaks.wall_scale();
+    let peaks = trial.peaks();
+    let end = peaks.wall_scale();
     let Colour([r, g, b]) = viridis(wall / end);
     let help = "The largest normal force at one place of the wall; the bar grows with the largest so far";
     bar(ui, "Wall force", wall, end, Color32::from_rgb(r, g, b), help);
     let accent = ui.visuals().hyperlink_color;
     let help = "What it takes to hold the wire at the guide: negative when it is held back. The bar shows how much";
-    bar(ui, "Push force", frame.push_n as f32, scale(trial.peaks.push), accent, help);
+    bar(ui, "Push force", frame.push_n as f32, peaks.push_scale(), accent, help);
     ui.add_space(2.0);
     number(ui, "Insertion", &format!("{:.1} cm", frame.inserted_mm / 10.0), "Length of wire outside the guide");
     number(
@@ -122,41 +121,6 @@ fn fed(frame: &Frame) -> String {
     if fed == wanted { format!("{fed:.1} mm/s") } else { format!("{fed:.1} of {wanted:.1} mm/s") }
 }
 
-/// The largest forces so far, in N.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Largest {
-    wall: f32,
-    push: f32,
-}
-
-impl Largest {
-    pub(super) fn take(&mut self, frame: &Frame) {
-        self.wall = self.wall.max(frame.max_wall_force_n as f32);
-        self.push = self.push.max(frame.push_n.abs() as f32);
-    }
-
-    pub(super) fn feel(&mut self, touches: &[Touch]) {
-        self.wall = touches.iter().fold(self.wall, |most, touch| most.max(touch.force));
-    }
-
-    /// The force at one place of the wall that has the last colour and the end of its bar, in N.
-    pub(super) fn wall_scale(&self) -> f32 {
-        scale(self.wall)
-    }
-}
-
-/// Where a bar ends for forces of up to `peak`: the next of 0.001, 0.002, 0.005, 0.01, ... N.
-fn scale(peak: f32) -> f32 {
-    let mut scale = LEAST_SCALE;
-    for growth in [2.0, 2.5, 2.0].into_iter().cycle().take(24) {
-        if scale as f32 >= peak {
-            break;
-        }
-        scale *= growth;
-    }
-    scale as f32
-}
-
 /// A bar with its number, and beside it the force at its end.
 fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
     let most = if is_small(scale) { format!("{:.0} mN", scale * 1e3) } else { format!("{scale} N") };
@@ -207,34 +171,8 @@ fn clock(seconds: f64) -> String {
     format!("{}:{:02}.{} min", tenths / 600, tenths / 10 % 60, tenths % 10)
 }
 
-/// A line in a picture's corner, over a plate so that it can be read on anything.
-pub(super) fn plate(ui: &Ui, at: egui::Pos2, align: egui::Align2, text: &str, strong: bool) {
-    let font = FontId::proportional(12.0);
-    let colour = if strong { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
-    let rect = align.anchor_size(at, galley.size() + vec2(8.0, 4.0));
-    ui.painter().rect_filled(rect, 3.0, ui.visuals().panel_fill.gamma_multiply(0.85));
-    ui.painter().galley(rect.min + vec2(4.0, 2.0), galley, colour);
-}
-
-/// A remark in small letters.
-pub(super) fn remark(ui: &mut Ui, text: &str, is_error: bool) {
-    let mut text = RichText::new(text).small();
-    if is_error {
-        text = text.color(ui.visuals().error_fg_color);
-    }
-    ui.add(egui::Label::new(text).wrap());
-}
-
 #[cfg(test)]
 mod tests {
-    #[test]
-    fn bars_grow_by_round_steps() {
-        let peaks = [0.0, 0.001, 0.0011, 0.009, 0.011, 0.101, 0.35, 0.6, 1.0, 1.1, 4.9, 11.0];
-        assert_eq!(peaks.map(super::scale), [0.001, 0.001, 0.002, 0.01, 0.02, 0.2, 0.5, 1.0, 1.0, 2.0, 5.0, 20.0]);
-        assert!(super::scale(f32::INFINITY).is_finite());
-    }
-
     #[test]
     fn small_forces_are_told_in_thousandths() {
         let forces = [0.0, -0.000_001, 0.000_214, -0.009_9, 0.01, 0.312_4];

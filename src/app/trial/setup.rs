@@ -1,9 +1,12 @@
 //! What a trial is to be: the wire, where it enters and should go, the seed.
 
-use egui::{Button, ComboBox, DragValue, RichText, Role, Ui};
+use egui::{Button, ComboBox, DragValue, Role, Ui};
 
-use super::{Pick, Trial};
-use crate::app::control::{Setting, name};
+use super::action::{Action, Pick};
+use crate::app::assist::name;
+use crate::app::control::Setting;
+use crate::app::row::{remark, row};
+use crate::engine::trial::TrialReady;
 use crate::trial::setup::{Entry, Setup};
 use crate::trial::wire::Wire;
 
@@ -83,14 +86,13 @@ fn numbers(ui: &mut Ui, wire: &mut Wire) {
     }
 }
 
-/// Where it enters and should go; says whether another place was chosen, which begins anew.
-pub(super) fn places(ui: &mut Ui, trial: &mut Trial) -> bool {
-    let Some(ready) = &trial.ready else { return false };
-    let mut changed = false;
-    let (mut entry, mut target) = (trial.setup.entry, trial.setup.target);
+/// Where it enters and should go, of the places in `ready`, and the seed; `pick` is what the next click on the vessel
+/// chooses. Another place than before begins anew.
+pub(super) fn places(ui: &mut Ui, ready: &TrialReady, setup: &mut Setup, pick: Option<Pick>, asked: &mut Vec<Action>) {
+    let (mut entry, mut target) = (setup.entry, setup.target);
     let chosen = entry.map_or("Proposed".to_owned(), |entry| place(entry.at));
     row(ui, "Entry", "Where the wire comes out of its sheath or guide catheter", |ui| {
-        pick_button(ui, &mut trial.pick, Pick::Entry);
+        pick_button(ui, pick, Pick::Entry, asked);
         let list = ComboBox::from_id_salt("entry").width(112.0).selected_text(chosen);
         let response = list.show_ui(ui, |ui| {
             ui.selectable_value(&mut entry, None, "Proposed");
@@ -104,7 +106,7 @@ pub(super) fn places(ui: &mut Ui, trial: &mut Trial) -> bool {
     let name_of = |at: [f32; 3]| ready.targets.iter().find(|(_, other)| *other == at).map(|(name, _)| name.clone());
     let chosen = target.map_or("Proposed".to_owned(), |at| name_of(at).unwrap_or_else(|| place(at)));
     row(ui, "Target", "Where it should go", |ui| {
-        pick_button(ui, &mut trial.pick, Pick::Target);
+        pick_button(ui, pick, Pick::Target, asked);
         let list = ComboBox::from_id_salt("target").width(112.0).selected_text(chosen);
         let response = list.show_ui(ui, |ui| {
             ui.selectable_value(&mut target, None, "Proposed");
@@ -114,17 +116,18 @@ pub(super) fn places(ui: &mut Ui, trial: &mut Trial) -> bool {
         });
         name(&response.response, Role::ComboBox, "Target");
     });
-    changed |= entry.map(key) != trial.setup.entry.map(key) || target != trial.setup.target;
-    (trial.setup.entry, trial.setup.target) = (entry, target);
-    if let Some(pick) = trial.pick {
+    if entry.map(key) != setup.entry.map(key) || target != setup.target {
+        asked.push(Action::Restart);
+    }
+    (setup.entry, setup.target) = (entry, target);
+    if let Some(pick) = pick {
         let what = if pick == Pick::Entry { "where the wire enters" } else { "where it should go" };
-        ui.add(egui::Label::new(RichText::new(format!("Click the vessel {what}.")).small()).wrap());
+        remark(ui, &format!("Click the vessel {what}."));
     }
     row(ui, "Seed", "Varies entry, roll and friction a little; 0 varies nothing. Takes effect on restart", |ui| {
-        let response = ui.add(DragValue::new(&mut trial.setup.seed).range(0..=9999).update_while_editing(false));
+        let response = ui.add(DragValue::new(&mut setup.seed).range(0..=9999).update_while_editing(false));
         name(&response, Role::SpinButton, "Seed");
     });
-    changed
 }
 
 fn key(entry: Entry) -> ([f32; 3], [f32; 3]) {
@@ -136,20 +139,12 @@ fn place(at: [f32; 3]) -> String {
     format!("({x:.0}, {y:.0}, {z:.0}) mm")
 }
 
-fn pick_button(ui: &mut Ui, picked: &mut Option<Pick>, pick: Pick) {
-    let is_on = *picked == Some(pick);
+fn pick_button(ui: &mut Ui, picked: Option<Pick>, pick: Pick, asked: &mut Vec<Action>) {
+    let is_on = picked == Some(pick);
     let what = if pick == Pick::Entry { "entry" } else { "target" };
     let response = ui.add(Button::new("Pick").selected(is_on)).on_hover_text("Then click the vessel");
     name(&response, Role::Button, &format!("Pick {what}"));
     if response.clicked() {
-        *picked = (!is_on).then_some(pick);
+        asked.push(Action::Pick((!is_on).then_some(pick)));
     }
-}
-
-/// A row: what on the left, the control on the right.
-pub(super) fn row(ui: &mut Ui, what: &str, help: &str, control: impl FnOnce(&mut Ui)) {
-    ui.horizontal(|ui| {
-        ui.label(what).on_hover_text(help);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), control);
-    });
 }

@@ -6,15 +6,18 @@ use std::time::Duration;
 use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
 use glam::{Mat3, Quat};
 
-use super::readout::{is_small, plate};
+use super::action::Action;
+use super::marks;
+use super::plate::plate;
+use super::readout::is_small;
 use super::scene::TrialScene;
-use super::{AWAITS, Stage, Trial, marks, tables};
-use crate::app::NO_MEMORY;
-use crate::app::control::name;
+use super::state::{AWAITS, Session, Stage, Trial};
+use super::tables::Tables;
+use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::overlay::{self, Legend, NOT_CLINICAL};
 use crate::app::theme;
-use crate::app::views::{Views, in_view};
+use crate::app::views::{NO_MEMORY, Views, in_view};
 use crate::mesh::{Bounds, TriMesh, Vec3};
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, ColourMap, Exposure, Ray, pick};
@@ -38,12 +41,12 @@ pub(in crate::app) struct TrialView {
     refused: Option<Arc<TriMesh>>,
     /// Whether the tip's view is shown.
     shows_tip: bool,
-    /// The run that the forces on the wall are of.
+    /// The number of the run that the forces on the wall are of.
     run: u64,
     /// How many of what the wall has felt they have in them.
     felt: usize,
     /// The picture of the wire that they have.
-    picture: Option<u64>,
+    picture: Option<(u64, u64)>,
     /// What the last fluoroscopy was taken from.
     held: Option<Held>,
 }
@@ -53,7 +56,7 @@ pub(in crate::app) struct TrialView {
 struct Held {
     camera: Camera,
     exposure: Exposure,
-    picture: u64,
+    picture: (u64, u64),
 }
 
 impl TrialView {
@@ -114,18 +117,17 @@ impl TrialView {
         }
     }
 
-    /// Shows the tables, if they are open; says whether they were cancelled.
-    pub(in crate::app) fn tables(&mut self, ui: &Ui, trial: &mut Trial) -> bool {
-        if trial.tables.is_busy() || trial.tables.is_open {
+    /// Times the drawing of the surfaces of the tables.
+    pub(in crate::app) fn time_tables(&mut self, ui: &Ui, tables: &mut Tables) {
+        if tables.needs_views() {
             self.prepare();
             let (scene, style) = (&self.scene, theme::style(ui.visuals()));
             let time = |mesh: &TriMesh| scene.as_ref()?.time_frame(mesh, &style).ok();
-            trial.tables.time(time);
+            tables.time(time);
         }
-        trial.tables.is_open && tables::show(ui, &mut trial.tables)
     }
 
-    /// Shows the views in what is left of `ui`. Returns the place that was picked.
+    /// Shows the views in what is left of `ui`. Returns what is asked for by a click: to begin with the place under it.
     pub(in crate::app) fn show(
         &mut self,
         ui: &mut Ui,
@@ -134,7 +136,7 @@ impl TrialView {
         document: Option<&Document>,
         keep: Keep,
         is_narrow: bool,
-    ) -> Option<Vec3> {
+    ) -> Option<Action> {
         let is_other = |refused: &Arc<TriMesh>| !trial.mesh().is_some_and(|mesh| Arc::ptr_eq(mesh, refused));
         if self.refused.as_ref().is_some_and(is_other) {
             (self.failure, self.refused) = (None, None);
@@ -157,7 +159,7 @@ impl TrialView {
             Some(third) => self.tip(ui, third.shrink(0.5), trial),
             None => self.tip_button(ui, second.shrink(0.5)),
         }
-        picked
+        Some(Action::Place(trial.pick?, picked?))
     }
 
     /// Brings what is in memory up to the trial.
@@ -166,8 +168,9 @@ impl TrialView {
         let Some(scene) = &mut self.scene else { return };
         // What fails is tried again.
         self.failure = None;
-        let Some((mesh, ready)) = trial.mesh().zip(trial.ready.as_ref()) else { return };
-        match scene.take(mesh, &ready.route) {
+        let Some(session) = trial.session() else { return };
+        let run = &session.run;
+        match scene.take(&session.subject.mesh, &session.ready.route) {
             Ok(true) => (self.felt, self.picture) = (0, None),
             Ok(false) => {}
             Err(error) => {
@@ -175,19 +178,19 @@ impl TrialView {
                 return;
             }
         }
-        if std::mem::replace(&mut self.run, trial.runs) != trial.runs {
+        if std::mem::replace(&mut self.run, run.id) != run.id {
             (self.felt, self.picture, self.held) = (0, None, None);
             if let Some(peaks) = scene.peaks() {
                 peaks.clear();
             }
         }
-        if self.picture != Some(trial.pictures) || self.felt < trial.felt.len() {
-            scene.feel(&trial.felt[self.felt.min(trial.felt.len())..]);
-            self.felt = trial.felt.len();
+        if self.picture != Some(run.picture()) || self.felt < run.felt.len() {
+            scene.feel(&run.felt[self.felt.min(run.felt.len())..]);
+            self.felt = run.felt.len();
             // Without a frame there is no wire to be seen.
-            let nodes = trial.frame.as_ref().map_or(&[][..], |frame| &frame.nodes);
-            match scene.set_wire(nodes, radius(trial)) {
-                Ok(()) => self.picture = Some(trial.pictures),
+            let nodes = run.frame.as_ref().map_or(&[][..], |frame| &frame.nodes);
+            match scene.set_wire(nodes, radius(session)) {
+                Ok(()) => self.picture = Some(run.picture()),
                 Err(error) => self.failure = Some(format!("The wire cannot be drawn: {error}.")),
             }
         }
@@ -206,20 +209,21 @@ impl TrialView {
         name(&response, Role::Image, "Trial view");
         views.steer(ui, &response, 1, document, keep);
         let mut style = theme::style(ui.visuals());
-        let forces = ColourMap { range_mm: (0.0, trial.peaks.wall_scale()) };
-        style.map = Some(forces);
+        let end = trial.peaks().wall_scale();
+        style.map = Some(ColourMap { range_mm: (0.0, end) });
         let camera = views.camera;
-        let is_on = trial.ready.is_some();
+        let session = trial.session();
+        let is_on = session.is_some();
         if let Some(scene) = self.scene.as_mut().filter(|_| is_on) {
             let texture = scene.vessel(&camera, pixels(ui, rect), &style);
             image(ui, rect, texture);
         } else {
             empty(ui, rect);
         }
-        if is_on {
-            marks::show(ui, rect, &camera, trial);
+        if let Some(session) = session {
+            marks::show(ui, rect, &camera, session);
         }
-        let legend = (is_on && rect.height() > 300.0).then(|| peak_legend(trial.peaks.wall_scale()));
+        let legend = (is_on && rect.height() > 300.0).then(|| peak_legend(end));
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
         let axes = document.map(|document| document.import.axes).unwrap_or_default();
         let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, axes, legend };
@@ -231,14 +235,16 @@ impl TrialView {
 
     /// What there is to say where there is nothing to see.
     fn say(&self, ui: &Ui, rect: Rect, trial: &Trial) {
-        let text = match (&self.failure, trial.stage) {
+        let text = match (&self.failure, &trial.stage) {
             (Some(failure), _) => failure.clone(),
             (None, _) if self.device.is_none() => "There is no graphics device to draw with.".to_owned(),
             (None, _) if trial.awaits.is_some() => AWAITS.to_owned(),
-            (None, Stage::Preparing(fraction)) => format!("Finding the way: {:.0} %", fraction * 100.0),
-            (None, Stage::Off) if trial.problem.is_some() => "No trial is on: the panel says why.".to_owned(),
-            (None, Stage::Off) => "No trial is on.".to_owned(),
-            (None, Stage::On) => return,
+            (None, Stage::Preparing(preparing)) => format!("Finding the way: {:.0} %", preparing.fraction * 100.0),
+            (None, Stage::Closed | Stage::Off) if trial.problem.is_some() => {
+                "No trial is on: the panel says why.".to_owned()
+            }
+            (None, Stage::Closed | Stage::Off) => "No trial is on.".to_owned(),
+            (None, Stage::On(_)) => return,
         };
         plate(ui, rect.center(), Align2::CENTER_CENTER, &text, true);
     }
@@ -263,7 +269,7 @@ impl TrialView {
             };
             plate(ui, inner.left_top() + vec2(0.0, 44.0), Align2::LEFT_TOP, &state, false);
             plate(ui, inner.left_bottom() - vec2(0.0, 22.0), Align2::LEFT_BOTTOM, &trial.name, false);
-            if trial.ready.is_some() {
+            if trial.session().is_some() {
                 scale_bar(ui, inner, rect, arm.field_mm);
             }
         }
@@ -274,18 +280,18 @@ impl TrialView {
     /// is in.
     fn expose(&mut self, ui: &Ui, rect: Rect, trial: &mut Trial) -> Option<TextureId> {
         let now = ui.input(|input| input.time);
-        let radius = radius(trial);
-        let bounds = trial.mesh().map_or(Bounds::EMPTY, |mesh| mesh.bounds());
-        let Trial { carm, frame, ready, pictures, .. } = trial;
-        let (scene, frame, ready) = (self.scene.as_mut()?, frame.as_ref()?, ready.as_ref()?);
+        let Trial { carm, stage, .. } = trial;
+        let (scene, session) = (self.scene.as_mut()?, stage.session()?);
+        let frame = session.run.frame.as_ref()?;
+        let (bounds, radius) = (session.subject.mesh.bounds(), radius(session));
         carm.count(frame.time_s);
         let exposure = Exposure {
             pulse: carm.pulses,
             contrast_s: carm.contrast_s(now),
-            flow: FLOW / (ready.route.length_mm as f32).max(1.0),
+            flow: FLOW / (session.ready.route.length_mm as f32).max(1.0),
             roadmap: carm.roadmap,
         };
-        let mut new = Held { camera: carm.camera(bounds), exposure, picture: *pictures };
+        let mut new = Held { camera: carm.camera(bounds), exposure, picture: session.run.picture() };
         let is_news = self.held != Some(new);
         let is_due = is_news && carm.pulses_at(now);
         let (texture, is_other_size) = scene.picture(pixels(ui, rect));
@@ -311,7 +317,7 @@ impl TrialView {
     fn tip(&mut self, ui: &mut Ui, rect: Rect, trial: &Trial) {
         let response = ui.allocate_rect(rect, Sense::hover());
         name(&response, Role::Image, "Tip view");
-        match (&mut self.scene, &trial.frame) {
+        match (&mut self.scene, trial.frame()) {
             (Some(scene), Some(frame)) if !frame.nodes.is_empty() => {
                 let texture = scene.tip(&from_tip(frame), pixels(ui, rect), &theme::style(ui.visuals()));
                 image(ui, rect, texture);
@@ -344,8 +350,8 @@ fn split((a, b): (Rect, Rect)) -> (Rect, Option<Rect>) {
 }
 
 /// The wire's radius in mm.
-fn radius(trial: &Trial) -> f32 {
-    trial.setup_in_force().map_or(0.2, |setup| setup.wire.radius() as f32)
+fn radius(session: &Session) -> f32 {
+    session.ready.setup.wire.radius() as f32
 }
 
 /// The size of a view in pixels.

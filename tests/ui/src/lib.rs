@@ -10,8 +10,7 @@ use std::time::Duration;
 
 use eframe::App as _;
 use egui_kittest::Harness;
-use lumen::app::trial::Offer;
-use lumen::app::{Gamepad, LastingApp, LumenApp, Platform, PlatformEvent, State};
+use lumen::app::{Gamepad, LastingApp, LumenApp, Offer, Platform, PlatformEvent, State};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
 use lumen::render::Fault;

@@ -118,7 +118,6 @@ pub fn frame() -> Frame {
         step: 500,
         time_s: 75.0,
         nodes: (0..30).map(|i| [0.0, 0.0, 30.0 - i as f32]).collect(),
-        forces: vec![[0.0; 3]; 30],
         tip_direction: [0.0, 0.0, 1.0],
         tip_side: [1.0, 0.0, 0.0],
         inserted_mm: 123.4,
@@ -149,13 +148,7 @@ pub fn id_of_start(commands: &[TrialCommand]) -> u64 {
 /// The wire at its entry.
 pub fn at_entry() -> Frame {
     let nodes = (0..10).map(|i| [0.0, 0.0, 10.0 - i as f32]).collect();
-    Frame {
-        nodes,
-        forces: vec![[0.0; 3]; 10],
-        tip_direction: [0.0, 0.0, 1.0],
-        tip_side: [1.0, 0.0, 0.0],
-        ..Frame::default()
-    }
+    Frame { nodes, tip_direction: [0.0, 0.0, 1.0], tip_side: [1.0, 0.0, 0.0], ..Frame::default() }
 }
 
 /// Chooses another target, to which a trial starts.

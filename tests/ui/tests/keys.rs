@@ -37,13 +37,13 @@ fn escape_closes_an_open_list_and_then_the_trial() {
     choose(&mut harness, "Wire");
     assert!(harness.query_by_label("0.014 in stiff").is_some());
     escape(&mut harness);
-    assert!(harness.query_by_label("0.014 in stiff").is_none() && harness.state().trial().is_open);
+    assert!(harness.query_by_label("0.014 in stiff").is_none() && harness.state().trial().is_open());
     press(&mut harness, "Sample");
     assert!(harness.query_by_label_contains("oronary").is_some());
     escape(&mut harness);
-    assert!(harness.query_by_label_contains("oronary").is_none() && harness.state().trial().is_open);
+    assert!(harness.query_by_label_contains("oronary").is_none() && harness.state().trial().is_open());
     escape(&mut harness);
-    assert!(!harness.state().trial().is_open);
+    assert!(!harness.state().trial().is_open());
 }
 
 #[test]
@@ -52,9 +52,9 @@ fn escape_ends_picking_and_then_the_trial() {
     press(&mut harness, "Pick target");
     assert!(says(&harness, "Click the vessel where it should go."));
     escape(&mut harness);
-    assert!(!says(&harness, "Click the vessel") && harness.state().trial().is_open);
+    assert!(!says(&harness, "Click the vessel") && harness.state().trial().is_open());
     escape(&mut harness);
-    assert!(!harness.state().trial().is_open);
+    assert!(!harness.state().trial().is_open());
 }
 
 #[test]
@@ -68,9 +68,9 @@ fn escape_closes_the_sheet_then_the_tables_then_the_trial() {
     escape(&mut harness);
     assert!(!says(&harness, "Keys and gestures") && says(&harness, "Initial fps"));
     escape(&mut harness);
-    assert!(!says(&harness, "Initial fps") && harness.state().trial().is_open);
+    assert!(!says(&harness, "Initial fps") && harness.state().trial().is_open());
     escape(&mut harness);
-    assert!(!harness.state().trial().is_open);
+    assert!(!harness.state().trial().is_open());
 }
 
 #[test]
@@ -84,9 +84,9 @@ fn escape_leaves_a_field_that_is_typed_into_and_then_the_trial() {
     harness.run_steps(2);
     assert!(harness.ctx.text_edit_focused());
     escape(&mut harness);
-    assert!(harness.state().trial().is_open, "the field alone is left");
+    assert!(harness.state().trial().is_open(), "the field alone is left");
     escape(&mut harness);
-    assert!(!harness.state().trial().is_open);
+    assert!(!harness.state().trial().is_open());
 }
 
 #[test]
@@ -98,13 +98,13 @@ fn escape_cancels_what_is_going_on_before_it_closes_the_trial_and_leaves_the_com
     harness.run_steps(5);
     assert!(harness.state().state().opening().is_some());
     escape(&mut harness);
-    assert!(harness.state().state().opening().is_none() && harness.state().trial().is_open);
+    assert!(harness.state().state().opening().is_none() && harness.state().trial().is_open());
     // Another engine takes up the surface that is shown.
     memory.borrow_mut().slice = Duration::from_millis(50);
     settle(&mut harness);
-    assert!(harness.state().trial().is_open);
+    assert!(harness.state().trial().is_open());
     escape(&mut harness);
-    assert!(!harness.state().trial().is_open);
+    assert!(!harness.state().trial().is_open());
     press(&mut harness, "Compare");
     assert!(harness.state().state().comparison.is_open());
     choose(&mut harness, "Show as");

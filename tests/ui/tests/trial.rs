@@ -126,7 +126,7 @@ fn buttons_and_keys_ask_for_the_same() {
     harness.key_press(Key::Z);
     harness.run_steps(3);
     assert_eq!(asked(&memory), [TrialCommand::StepBack { id: FIRST + 3 }]);
-    assert!(harness.state().trial().is_paused);
+    assert!(harness.state().trial().run().unwrap().is_paused);
     harness.key_press(Key::Num2);
     harness.run_steps(3);
     assert!(says(&harness, "LAO 45"));
@@ -138,7 +138,7 @@ fn buttons_and_keys_ask_for_the_same() {
     harness.key_press(Key::Escape);
     harness.run_steps(3);
     assert_eq!(asked(&memory), [TrialCommand::Stop]);
-    assert!(!harness.state().trial().is_open);
+    assert!(!harness.state().trial().is_open());
 }
 
 #[test]
@@ -232,7 +232,7 @@ fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_tri
     assert_eq!(harness.state().state().settings, Settings { smoothing, ..before.clone() });
     assert!(!is_refused(&harness) && says(&harness, "Smoothing less: the trial starts when the new level is there."));
     assert!(asked(&memory).is_empty(), "not with the level before");
-    wait(&mut harness, |harness| harness.state().trial().ready.is_some());
+    wait(&mut harness, |harness| harness.state().trial().session().is_some());
     let commands = asked(&memory);
     let starts = commands.iter().filter(|command| matches!(command, TrialCommand::Start { .. }));
     assert_eq!(starts.count(), 1);
@@ -324,7 +324,7 @@ fn the_bars_of_forces_grow_with_the_largest_so_far() {
 fn a_restart_shows_no_wire_of_before_and_a_step_back_no_force_of_later() {
     let (mut harness, memory) = on(DESKTOP);
     press(&mut harness, "Restart");
-    let shown = harness.state().trial().frame.clone().unwrap();
+    let shown = harness.state().trial().frame().cloned().unwrap();
     assert!(shown.nodes == at_entry().nodes && shown.step == 0, "{shown:?}");
     // The wire at the entry is of step 0, too, and is drawn all the same.
     harness.run_steps(3);
@@ -707,7 +707,7 @@ fn pictures_of_the_trial() {
             if sample == Sample::Coronary {
                 save(&mut harness, &format!("trial-{name}-{sample}-refused"));
                 press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
-                wait(&mut harness, |harness| harness.state().trial().ready.is_some());
+                wait(&mut harness, |harness| harness.state().trial().session().is_some());
             }
             press(&mut harness, "Autopilot");
             harness.run_steps(600);

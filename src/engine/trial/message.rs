@@ -1,30 +1,35 @@
-//! The trial as work beside the app: commands in, frames out, in a worker of its own.
+//! What passes between the app and a trial: it can cross between threads that share no memory.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::engine::message::Link;
+use crate::engine::surfaces::surface;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
-pub use crate::trial::compare::TrialComparison;
+use crate::transfer::bulk;
+use crate::trial::compare::TrialComparison;
+use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::{Frame, Summary, Touch};
-use crate::trial::route::{Route, RoutePoint};
+use crate::trial::route::{Route, RouteError, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
 
 /// The app's end of the line to a trial.
-pub type TrialLink = dyn super::Link<TrialCommand, TrialEvent>;
+pub type TrialLink = dyn Link<TrialCommand, TrialEvent>;
 
 /// Seconds of the clock for which an input by hand holds.
 pub const HAND: f64 = 0.5;
 
 /// What the trial is asked to do.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TrialCommand {
     /// Build the wall and the route, and put the wire at the entry; the trial before is over then.
     Start {
         /// Comes back with all that belongs to this trial.
         id: u64,
         /// The surface: the level that is shown.
+        #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
         /// The sample that it was made from, if it was one: samples bring entry and target with them.
         sample: Option<Sample>,
@@ -56,6 +61,7 @@ pub enum TrialCommand {
         /// As for `Restart`.
         id: u64,
         /// The log, as it was saved.
+        #[serde(with = "bulk")]
         csv: Arc<Vec<u8>>,
     },
     /// Replays the present trial's input on another surface, to the end, and compares the two.
@@ -63,6 +69,7 @@ pub enum TrialCommand {
         /// Comes back with what is told of it.
         id: u64,
         /// That surface: the one that was not reduced.
+        #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
     },
     /// Runs the autopilot to the end as fast as it goes, on a surface of its own, and tells the summary alone; what is
@@ -71,6 +78,7 @@ pub enum TrialCommand {
         /// Comes back with the summary.
         id: u64,
         /// The surface.
+        #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
         /// The sample, as for `Start`.
         sample: Option<Sample>,
@@ -142,8 +150,23 @@ pub struct TrialReady {
     pub route_ms: f64,
 }
 
+impl TrialReady {
+    /// The trial of this number, on its course.
+    pub(super) fn new(id: u64, setup: &Setup, course: &Course) -> Self {
+        Self {
+            id,
+            setup: setup.clone(),
+            route: RouteShown::from(&course.route),
+            entries: course.entries.clone(),
+            targets: course.targets.clone(),
+            wall_ms: course.wall_ms,
+            route_ms: course.route_ms,
+        }
+    }
+}
+
 /// What the trial tells.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TrialEvent {
     /// The wall is being built; the part that is done.
     Preparing {
@@ -176,6 +199,7 @@ pub enum TrialEvent {
         /// As for `Frame`.
         id: u64,
         /// Each place with its largest force since `id` began.
+        #[serde(with = "bulk")]
         touches: Vec<Touch>,
     },
     /// The trial is over.
@@ -188,8 +212,10 @@ pub enum TrialEvent {
     /// The log.
     Saved {
         /// Sample by sample.
+        #[serde(with = "bulk")]
         csv: String,
         /// The summary.
+        #[serde(with = "bulk")]
         json: String,
     },
     /// What `Compare` was asked for.
@@ -218,4 +244,124 @@ pub enum TrialEvent {
         /// One sentence.
         message: String,
     },
+}
+
+impl TrialEvent {
+    /// That what was asked for under this number cannot be done.
+    pub(super) fn refused(id: u64, error: &TrialError) -> Self {
+        let is_too_thin = matches!(error, TrialError::Route(RouteError::TooThin { .. }));
+        Self::Refused { id, message: sentence(&error.to_string()), is_too_thin }
+    }
+
+    /// That what acts on a trial cannot be done without one.
+    pub(super) fn refused_without_trial(id: u64) -> Self {
+        Self::Refused { id, message: sentence(NO_TRIAL), is_too_thin: false }
+    }
+
+    /// That something else cannot be done.
+    pub(super) fn failed(why: &str) -> Self {
+        Self::Failed { message: sentence(why) }
+    }
+
+    /// The same, without a trial.
+    pub(super) fn failed_without_trial() -> Self {
+        Self::failed(NO_TRIAL)
+    }
+}
+
+/// Why what acts on the trial that is shown cannot be done.
+const NO_TRIAL: &str = "no trial is on";
+
+/// Whether this is the line of a frame, which the next frame makes useless.
+pub fn is_frame(line: &str) -> bool {
+    line.starts_with("{\"Frame\"")
+}
+
+/// With a capital letter and a full stop.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
+    let stop = if text.ends_with('.') { "" } else { "." };
+    format!("{first}{}{stop}", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transfer::tests::sent;
+    use crate::trial::frame::Progress;
+    use crate::trial::report::{StepCounts, StepKind, StepReport};
+
+    #[test]
+    fn every_command_comes_through_unchanged() {
+        let mesh = Arc::new(TriMesh { positions: vec![glam::Vec3::X; 3], triangles: vec![[0, 1, 2]] });
+        let setup = Setup { target: Some([1.0, 2.0, 3.5]), seed: 7, ..Setup::default() };
+        let (sample, id) = (Some(Sample::Coronary), 5);
+        let commands = [
+            TrialCommand::Start { id, mesh: mesh.clone(), sample, setup: setup.clone() },
+            TrialCommand::Drive(Input { feed: -3.5, roll: 0.25 }),
+            TrialCommand::Autopilot(true),
+            TrialCommand::Pause(false),
+            TrialCommand::Pace(0.25),
+            TrialCommand::Restart { id },
+            TrialCommand::StepBack { id },
+            TrialCommand::Save,
+            TrialCommand::Replay { id, csv: Arc::new(b"time_s\n0\n".to_vec()) },
+            TrialCommand::Compare { id, mesh: mesh.clone() },
+            TrialCommand::Measure { id, mesh, sample: None, setup },
+            TrialCommand::Cancel { id },
+            TrialCommand::Stop,
+        ];
+        for command in commands {
+            assert_eq!(sent(&command).1.unwrap(), command);
+        }
+    }
+
+    #[test]
+    fn every_event_comes_through_unchanged() {
+        let touch = Touch { at: [1.0, 2.0, 3.0], triangle: 9, force: 0.25 };
+        let frame = Frame {
+            nodes: vec![[0.1, 0.2, 0.3]; 4],
+            contacts: 2,
+            report: StepReport { kind: StepKind::Waited, wanted_mm: 0.04, push_n: -0.1, ..StepReport::default() },
+            step_kinds: StepCounts { balanced: 40, held: 2, ..StepCounts::default() },
+            time_s: 0.1,
+            progress: Progress::Arrived,
+            doing: "feeds".to_owned(),
+            ..Frame::default()
+        };
+        let route = RouteShown { points: vec![[1.0; 3]; 2], radii: vec![2.0; 2], ..RouteShown::default() };
+        let ready = TrialReady { id: 1, route, targets: vec![("left".to_owned(), [0.0; 3])], ..TrialReady::default() };
+        let comparison = TrialComparison {
+            verdict: "it arrives".to_owned(),
+            inserted_mm: vec![1.0, 2.0],
+            deviation_mm: vec![0.0, 0.5],
+            noise_mm: vec![0.1, 0.2],
+            orders: [3, 2],
+            tip: vec![[1.0; 3]; 2],
+            other_tip: vec![[1.5; 3]; 2],
+            force_differences: vec![([1.0; 3], 0.5)],
+            ..TrialComparison::default()
+        };
+        let summary = Box::new(Summary { success: true, friction: [0.06, 0.04], ..Summary::default() });
+        let message = "no way".to_owned();
+        let events = [
+            TrialEvent::Preparing { id: 1, fraction: 0.5 },
+            TrialEvent::Ready(Box::new(ready)),
+            TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true },
+            TrialEvent::Frame { id: 4, frame: Box::new(frame) },
+            TrialEvent::Felt { id: 4, touches: vec![touch; 3] },
+            TrialEvent::Ended { id: 4, summary: summary.clone() },
+            TrialEvent::Saved { csv: "a,b\n1,2\n".to_owned(), json: "{}".to_owned() },
+            TrialEvent::Compared { id: 2, comparison: Box::new(comparison) },
+            TrialEvent::Busy { id: 2, fraction: 0.25 },
+            TrialEvent::Measured { id: 3, summary },
+            TrialEvent::Failed { message },
+        ];
+        for event in events {
+            let (line, arrived) = sent(&event);
+            assert_eq!(is_frame(&line), matches!(event, TrialEvent::Frame { .. }));
+            assert_eq!(arrived.unwrap(), event);
+        }
+    }
 }

@@ -1,0 +1,59 @@
+//! What the user asks for. Every control and key says it in these words, and [`LumenApp`](super::LumenApp) does it in one
+//! place.
+
+use super::views::ViewOptions;
+use super::{compare, trial};
+use crate::io::{Format, Unit};
+use crate::phantom::Sample;
+use crate::pipeline::settings::Settings;
+use crate::render::StandardView;
+
+/// What the user asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Choose a file to open.
+    Open,
+    /// Choose a file to open whose numbers are in this unit.
+    OpenIn(Unit),
+    /// Open the file that is shown again, with its numbers in this unit.
+    ReadIn(Unit),
+    /// Open a sample.
+    Sample(Sample),
+    /// Save the shown level.
+    Save(Format),
+    /// Go over to these settings.
+    Set(Box<Settings>),
+    /// One step back.
+    Undo,
+    /// One step forth.
+    Redo,
+    /// Stop what is going on.
+    Cancel,
+    /// Fit the surface into the views.
+    Fit,
+    /// Look from a side.
+    View(StandardView),
+    /// Show other things in the views.
+    Show(ViewOptions),
+    /// Show the surface as it was opened, for as long as this is so.
+    HoldBefore(bool),
+    /// Show or leave the compare view.
+    Compare,
+    /// Something of the comparison.
+    Comparison(compare::Action),
+    /// Start a trial or leave it.
+    ToggleTrial,
+    /// Something of the trial.
+    Trial(trial::Action),
+    /// The other theme.
+    Theme,
+    /// Show or hide the keys.
+    Help,
+    /// Show or hide what Lumen is.
+    About,
+}
+
+/// The actions of a trial among all others.
+pub(super) fn of_trial(asked: Vec<trial::Action>) -> impl Iterator<Item = Action> {
+    asked.into_iter().map(Action::Trial)
+}

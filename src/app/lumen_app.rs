@@ -1,0 +1,451 @@
+//! The app, frame by frame: it hears platform and engines, shows controls and views, and does what they ask for.
+
+use std::time::Duration;
+
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, ScrollArea, Ui};
+
+use super::action::{Action, of_trial};
+use super::keys::{self, Keys};
+use super::paint_guard::PaintGuard;
+use super::platform::{Platform, PlatformEvent};
+use super::sheets::{self, Sheet};
+use super::state::{Effect, State};
+use super::trial::{self, Trial, TrialView};
+use super::views::{NO_MEMORY, Views};
+use super::{bar, compare, panel, theme};
+use crate::phantom::Sample;
+use crate::pipeline::settings::{Keep, Settings};
+use crate::render::{Camera, DeviceHealth, Fault};
+
+/// Below this width in points the views stack and the panel becomes a sheet at the bottom.
+const NARROW: f32 = 720.0;
+
+/// How often the engine is listened to while it works and nothing else moves.
+const LISTEN: Duration = Duration::from_millis(16);
+
+/// The app.
+pub struct LumenApp {
+    /// The window that it is in.
+    ctx: egui::Context,
+    /// What is known of its device.
+    health: DeviceHealth,
+    state: State,
+    views: Views,
+    compare: compare::CompareView,
+    trial: Trial,
+    trial_view: TrialView,
+    platform: Box<dyn Platform>,
+    sheet: Option<Sheet>,
+    /// Whether a field was typed into at the end of the frame before.
+    was_typing: bool,
+    /// The views find a new surface when they are next shown: their shape is known by then.
+    look_next: bool,
+}
+
+impl LumenApp {
+    /// The app, with a sample open.
+    pub fn new(
+        ctx: &egui::Context,
+        render_state: Option<&egui_wgpu::RenderState>,
+        mut platform: Box<dyn Platform>,
+    ) -> Self {
+        let mut state = State::default();
+        state.open_sample(Sample::Aorta, platform.link());
+        let mut app = Self {
+            ctx: ctx.clone(),
+            health: DeviceHealth::default(),
+            state,
+            views: Views::new(None),
+            compare: compare::CompareView::new(None),
+            trial: Trial::new(),
+            trial_view: TrialView::new(None),
+            platform,
+            sheet: None,
+            was_typing: false,
+            look_next: false,
+        };
+        app.enter(ctx, render_state);
+        app
+    }
+
+    /// Goes on in another window, with another device: what is open, the settings, their history, the camera, the trial
+    /// and how the controls stand stay as they are, and what was on the old device is made again.
+    pub fn resume(&mut self, ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>) {
+        let memory = self.ctx.memory(Clone::clone);
+        ctx.memory_mut(|now| *now = memory);
+        self.platform.enter(ctx);
+        self.trial.restart_clock();
+        self.enter(ctx, render_state);
+        self.state.tell("The graphics were interrupted and have been started again. Nothing was lost.");
+    }
+
+    fn enter(&mut self, ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>) {
+        theme::apply(ctx);
+        self.ctx = ctx.clone();
+        self.health = render_state.map_or_else(DeviceHealth::default, |state| {
+            let ctx = ctx.clone();
+            DeviceHealth::watch(&state.device, move || ctx.request_repaint())
+        });
+        ctx.add_plugin(PaintGuard(self.health.clone()));
+        self.views.set_device(render_state);
+        self.compare = compare::CompareView::new(render_state);
+        self.trial_view.set_device(render_state);
+    }
+
+    /// Lets go of the device and of all that stands on it, before it is replaced.
+    pub fn leave(&mut self) {
+        self.views.set_device(None);
+        self.compare = compare::CompareView::new(None);
+        self.trial_view.set_device(None);
+    }
+
+    /// Why the device has to be replaced, if it has to be.
+    pub fn device_end(&self) -> Option<Fault> {
+        self.health.end()
+    }
+
+    /// What is known of the device, for whoever hears of its end before it does.
+    pub fn device_health(&self) -> &DeviceHealth {
+        &self.health
+    }
+
+    /// Gives up what is on a device whose memory is full, and says so. It is tried again with what is shown next.
+    fn heed_memory(&mut self) {
+        if self.health.take_full() {
+            self.views.refuse(self.state.document.as_ref().map(|document| document.revision));
+            self.compare.refuse();
+            self.trial_view.refuse();
+            self.state.warn(NO_MEMORY);
+        }
+    }
+
+    /// Whether the hand on the keys can be followed: see [`Platform::has_attention`].
+    pub fn has_attention(&self) -> bool {
+        self.platform.has_attention()
+    }
+
+    /// What the app knows.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What the app knows of the trial.
+    pub fn trial(&self) -> &Trial {
+        &self.trial
+    }
+
+    /// From where the surface is looked at.
+    pub fn camera(&self) -> &Camera {
+        &self.views.camera
+    }
+
+    /// How many pictures of the trial were drawn since its views were shown.
+    pub fn trial_draws(&self) -> u64 {
+        self.trial_view.draws()
+    }
+
+    /// Whether the trial's views stand in the device's memory.
+    pub fn trial_holds_memory(&self) -> bool {
+        self.trial_view.holds_memory()
+    }
+
+    /// Hears what platform and engines have to say, deaths among it.
+    fn listen(&mut self, ctx: &egui::Context) {
+        while let Some(event) = self.platform.poll() {
+            match event {
+                PlatformEvent::Chosen { name, bytes } if is_log(&name) => {
+                    self.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
+                }
+                PlatformEvent::Chosen { name, bytes } => self.state.open_file(name, bytes, self.platform.link()),
+                PlatformEvent::Saved { message } => self.state.tell(&message),
+                PlatformEvent::Failed { message } => self.state.warn(&message),
+            }
+        }
+        while let Some(event) = self.platform.link().poll() {
+            match self.state.receive(event) {
+                Some(Effect::Opened) => {
+                    self.look_next = true;
+                    self.trial.leave_surface(self.platform.trial());
+                }
+                Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
+                None => {}
+            }
+        }
+        if let Some(reason) = self.platform.link().failure() {
+            self.state.engine_failed(&reason, self.platform.link());
+        }
+        while let Some(event) = self.platform.trial().poll() {
+            if let Some(log) = self.trial.receive(event, self.platform.trial()) {
+                self.platform.offer_pair(log, ctx);
+            }
+        }
+        if let Some(reason) = self.platform.trial().failure() {
+            let sentence = self.trial.engine_failed(&reason, self.platform.trial());
+            self.state.warn(&sentence);
+        }
+    }
+
+    /// Sends on what was done and heard.
+    fn follow(&mut self, ctx: &egui::Context) {
+        self.state.follow(keys::moves_control(ctx), self.platform.link());
+        let State { document, settings, .. } = &self.state;
+        let has_level = self.state.has_level();
+        self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
+        self.trial.next_row(self.platform.trial());
+        // A gamepad tells nothing by itself.
+        let has_gamepad = self.trial.is_in_hand() && self.platform.gamepad().is_some();
+        if has_gamepad
+            || self.trial.is_moving()
+            || self.trial.is_driven()
+            || self.state.is_busy()
+            || self.trial.is_busy()
+        {
+            ctx.request_repaint_after(LISTEN);
+        }
+    }
+
+    /// Does what the keys ask for.
+    fn take_keys(&mut self, ui: &Ui, keys: Keys) {
+        if matches!(keys, Keys::Sheet | Keys::List) {
+            return;
+        }
+        let ctx = ui.ctx();
+        let mut action = keys::with_ctrl(ui, keys);
+        if keys == Keys::Views {
+            if self.trial.is_open() {
+                let mut asked = Vec::new();
+                trial::keys(ui, &self.trial, &mut asked);
+                self.act_on_all(of_trial(asked), ctx);
+            } else {
+                action = action.or_else(|| keys::action(ui, &mut self.views));
+            }
+            if keys::pressed(ui, Modifiers::NONE, Key::Escape) {
+                self.act_on_all(self.on_top(), ctx);
+            }
+        }
+        self.act_on_all(action, ctx);
+    }
+
+    /// What takes off one thing, the one that lies on top: the tables, picking, what is going on, the trial, the comparison.
+    /// Sheets, lists and fields take themselves off.
+    fn on_top(&self) -> Option<Action> {
+        if self.trial.tables.is_open {
+            Some(Action::Trial(trial::Action::CloseTables))
+        } else if self.trial.pick.is_some() {
+            Some(Action::Trial(trial::Action::Pick(None)))
+        } else if self.state.is_busy() {
+            Some(Action::Cancel)
+        } else if self.trial.is_comparing() {
+            Some(Action::Trial(trial::Action::CancelComparison))
+        } else if self.trial.is_open() {
+            Some(Action::Trial(trial::Action::Close))
+        } else {
+            self.state.comparison.is_open().then_some(Action::Compare)
+        }
+    }
+
+    fn act_on_all(&mut self, actions: impl IntoIterator<Item = Action>, ctx: &egui::Context) {
+        actions.into_iter().for_each(|action| self.act(action, ctx));
+    }
+
+    /// Does what is asked for: nothing else changes settings, comparison or trial by the user's will, but for what is steered
+    /// by hand: cameras, C-arm and wire.
+    fn act(&mut self, action: Action, ctx: &egui::Context) {
+        // What was shown of it before is not the last.
+        ctx.request_repaint();
+        let keep = self.state.settings.keep;
+        let state = &mut self.state;
+        match action {
+            Action::Open | Action::OpenIn(_) => {
+                state.next_unit = if let Action::OpenIn(unit) = action { Some(unit) } else { None };
+                self.platform.choose_file(ctx);
+            }
+            Action::ReadIn(unit) => state.set_unit(unit, self.platform.link()),
+            Action::Sample(sample) => state.open_sample(sample, self.platform.link()),
+            Action::Save(format) => state.save(format, self.platform.link()),
+            Action::Set(settings) => state.settings = *settings,
+            Action::Undo => state.undo(),
+            Action::Redo => state.redo(),
+            Action::Cancel => state.cancel(self.platform.link()),
+            Action::Fit => self.views.fit(state.document.as_ref(), keep),
+            Action::View(view) => self.views.look_from(view, state.document.as_ref(), keep),
+            Action::Show(options) => self.views.options = options,
+            Action::HoldBefore(is_held) => self.views.before_is_held = is_held,
+            Action::Compare => state.toggle_comparison(),
+            Action::Comparison(action) => state.comparison.act(action, &state.settings),
+            Action::ToggleTrial => {
+                let toggle = if self.trial.is_open() { trial::Action::Close } else { trial::Action::Start };
+                self.act_on_trial(toggle, ctx);
+            }
+            Action::Trial(action) => self.act_on_trial(action, ctx),
+            Action::Theme => {
+                let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
+                ctx.set_theme(other);
+            }
+            Action::Help => self.sheet = toggled(self.sheet, Sheet::Help),
+            Action::About => self.sheet = toggled(self.sheet, Sheet::About),
+        }
+    }
+
+    fn act_on_trial(&mut self, action: trial::Action, ctx: &egui::Context) {
+        match action {
+            trial::Action::OpenLog => self.platform.choose_file(ctx),
+            trial::Action::SmoothLess => {
+                // One step to undo, whatever was changed before it.
+                self.state.history.record(&self.state.settings);
+                self.trial.smooth_less(&mut self.state.settings.smoothing);
+            }
+            trial::Action::Start => self.state.comparison.set_open(false),
+            _ => {}
+        }
+        self.trial.act(action, self.state.document.as_ref(), self.platform.trial());
+    }
+
+    /// Shows the bars and the panel, and does what is asked for there.
+    fn controls(&mut self, ui: &mut Ui, is_narrow: bool) {
+        let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
+        let mut asked = Vec::new();
+        let in_trial = self.trial.is_open();
+        Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
+            bar::top(ui, &self.state, &self.views, in_trial, is_narrow, &mut asked);
+        });
+        Panel::bottom("status").frame(bar).exact_size(40.0).show(ui, |ui| {
+            bar::status(ui, &self.state, &self.views, is_narrow, &mut asked);
+        });
+        let panel = if is_narrow {
+            let height = ui.available_height() * 0.45;
+            Panel::bottom("panel").exact_size(height)
+        } else {
+            Panel::left("panel").resizable(true).default_size(296.0).size_range(256.0..=440.0)
+        };
+        let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
+        panel.frame(margin).show(ui, |ui| {
+            if in_trial {
+                self.trial.pads(ui);
+            }
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                // Room for the scroll bar beside what stands at the right.
+                ui.set_max_width(ui.available_width() - 8.0);
+                ui.spacing_mut().item_spacing.y = 3.0;
+                let of_trial = if in_trial { self.trial_panel(ui) } else { self.method_panel(ui) };
+                asked.extend(of_trial);
+            });
+        });
+        self.act_on_all(asked, ui.ctx());
+    }
+
+    /// Shows the method from top to bottom. What its steps set is done at once: what follows, and the views, are of the
+    /// level that was just asked for. Returns what is asked of the trial.
+    fn method_panel(&mut self, ui: &mut Ui) -> Vec<Action> {
+        for (id, step) in panel::STEPS {
+            let mut asked = Vec::new();
+            ui.push_id(id, |ui| step(ui, &self.state, &self.views, &mut asked));
+            self.act_on_all(asked, ui.ctx());
+        }
+        self.state.show_level();
+        let asked = ui.push_id("trial", |ui| self.trial_panel(ui)).inner;
+        ui.push_id("result", |ui| panel::result(ui, &self.state));
+        asked
+    }
+
+    fn trial_panel(&self, ui: &mut Ui) -> Vec<Action> {
+        let (smoothing, document) = (&self.state.settings.smoothing, self.state.document.as_ref());
+        let mut asked = Vec::new();
+        trial::panel(ui, &self.trial, smoothing, document, &mut asked);
+        of_trial(asked).collect()
+    }
+
+    /// Shows the views, and what lies over them.
+    fn centre(&mut self, ui: &mut Ui, is_narrow: bool) {
+        let keep = self.state.settings.keep;
+        let asked = CentralPanel::default()
+            .frame(Frame::new().fill(ui.visuals().widgets.noninteractive.bg_stroke.color))
+            .show(ui, |ui| {
+                let State { document, comparison, settings, .. } = &self.state;
+                let document = document.as_ref();
+                if std::mem::take(&mut self.look_next) {
+                    self.views.look_first(document, keep);
+                }
+                if !comparison.is_open() {
+                    self.compare.let_go();
+                }
+                if !(self.trial.is_open() || self.trial.tables.needs_views()) {
+                    self.trial_view.let_go();
+                }
+                if self.trial.is_open() {
+                    let trial = &mut self.trial;
+                    let asked = self.trial_view.show(ui, trial, &mut self.views, document, keep, is_narrow);
+                    return Vec::from_iter(asked.map(Action::Trial));
+                }
+                if comparison.is_open() {
+                    return self.compare.show(ui, comparison, &mut self.views, settings, document, is_narrow);
+                }
+                let Some(piece) = self.views.show(ui, document, keep, is_narrow) else { return Vec::new() };
+                let is_largest = document.and_then(|document| document.pieces.by_size.first()) == Some(&piece);
+                let keep = if is_largest { Keep::Largest } else { Keep::Component(piece) };
+                vec![Action::Set(Box::new(Settings { keep, ..settings.clone() }))]
+            });
+        self.act_on_all(asked.inner, ui.ctx());
+        self.trial_view.time_tables(ui, &mut self.trial.tables);
+        let mut asked = Vec::new();
+        trial::tables(ui, &self.trial.tables, &mut asked);
+        self.act_on_all(of_trial(asked), ui.ctx());
+    }
+}
+
+/// Whether a file is the log of a trial.
+fn is_log(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case("csv"))
+}
+
+fn toggled(open: Option<Sheet>, sheet: Sheet) -> Option<Sheet> {
+    (open != Some(sheet)).then_some(sheet)
+}
+
+impl eframe::App for LumenApp {
+    /// Before each frame, and alone while the window is minimised or its tab hidden: what is heard does not wait for
+    /// eyes, and no hand that nobody sees is on the wire.
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.listen(ctx);
+        if ctx.input(|input| input.viewport().visible() == Some(false)) {
+            self.trial.follow_hand(ctx, Keys::Views, None, self.platform.trial());
+            self.follow(ctx);
+        }
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        if let Some(end) = self.health.end() {
+            // Nothing can be drawn any more, and calls to the device may panic. A call that was refused is a mistake in
+            // here, which tests should not pass over.
+            debug_assert!(!matches!(end, Fault::Refused(_)), "{end}");
+            return;
+        }
+        self.heed_memory();
+        let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
+        if let Some(file) = dropped {
+            // The unit was chosen for a file of the dialog.
+            self.state.next_unit = None;
+            self.platform.read_dropped(file, &ctx);
+        }
+        let keys = Keys::of(&ctx, self.sheet.is_some(), self.was_typing);
+        let by_key = keys == Keys::Views && ctx.input(|input| input.key_down(Key::B));
+        self.views.show_before = by_key || self.views.before_is_held || self.views.options.before;
+        let is_narrow = ui.available_width() < NARROW;
+        self.controls(ui, is_narrow);
+        self.take_keys(ui, keys);
+        // Before the views: they are of this frame.
+        self.state.show_level();
+        self.centre(ui, is_narrow);
+        let gamepad = self.platform.gamepad();
+        self.trial.follow_hand(&ctx, keys, gamepad, self.platform.trial());
+        if let Some(sheet) = self.sheet {
+            let is_done = sheets::show(ui, sheet, self.trial.is_open());
+            if is_done || keys::pressed(ui, Modifiers::NONE, Key::F1) {
+                self.sheet = None;
+            }
+        }
+        self.was_typing = ctx.text_edit_focused();
+        self.follow(&ctx);
+    }
+}

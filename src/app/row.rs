@@ -1,0 +1,46 @@
+//! The rows of the panel: the head of a step, a control with its label, a number, a remark.
+
+use egui::{Align, Label, Layout, RichText, Ui};
+
+/// The head of a step of the method: its number and name, and what it does.
+pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
+    if number > 1 {
+        ui.separator();
+    }
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(number.to_string()).heading().color(ui.visuals().hyperlink_color));
+        ui.label(RichText::new(title).heading());
+    });
+    ui.add(Label::new(RichText::new(what).small().weak()).wrap());
+}
+
+/// What on the left, the control on the right.
+pub(super) fn row(ui: &mut Ui, what: &str, help: &str, control: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        ui.label(what).on_hover_text(help);
+        ui.with_layout(Layout::right_to_left(Align::Center), control);
+    });
+}
+
+/// A line of the numbers: what it is on the left, how much on the right.
+pub(super) fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
+    ui.spacing_mut().interact_size.y = 18.0;
+    let row = ui.horizontal(|ui| {
+        ui.label(RichText::new(what).weak());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(how_much));
+    });
+    if !help.is_empty() {
+        row.response.on_hover_text(help);
+    }
+}
+
+/// A remark in small letters.
+pub(super) fn remark(ui: &mut Ui, text: &str) {
+    ui.add(Label::new(RichText::new(text).small()).wrap());
+}
+
+/// A remark on something that is wrong.
+pub(super) fn warning(ui: &mut Ui, text: &str) {
+    let text = RichText::new(text).small().color(ui.visuals().error_fg_color);
+    ui.add(Label::new(text).wrap());
+}

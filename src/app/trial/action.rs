@@ -1,0 +1,101 @@
+//! What is asked of a trial: by a button, a key or a click on the vessel.
+
+use crate::mesh::Vec3;
+use crate::trial::setup::Setup;
+
+/// What the user asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Begin: with the level that is shown.
+    Start,
+    /// Smooth less, so that thin vessels stay open, and begin with the level that this makes.
+    SmoothLess,
+    /// Begin again; anew where the level or the setup have changed.
+    Restart,
+    /// Steer by itself, or no longer.
+    Autopilot,
+    /// Stand still, or go on.
+    Pause,
+    /// Slow motion, or no longer.
+    Slow,
+    /// A second back.
+    StepBack,
+    /// The log as files.
+    Save,
+    /// Replay what a chosen log holds.
+    OpenLog,
+    /// Compare with the surface that was not reduced.
+    Compare,
+    /// Compare no more.
+    CancelComparison,
+    /// Back to the surface.
+    Close,
+    /// Another wire, place or seed, for the next beginning.
+    Set(Box<Setup>),
+    /// The next click on the vessel chooses this; `None`: nothing any more.
+    Pick(Option<Pick>),
+    /// Begin with this place, which was picked.
+    Place(Pick, Vec3),
+    /// Something of the fluoroscope.
+    Arm(Arm),
+    /// Show the paper's tables, and run what of them has not been run.
+    Tables,
+    /// Run them again.
+    RepeatTables,
+    /// Run them no further.
+    CancelTables,
+    /// Take the tables off; what runs goes on.
+    CloseTables,
+}
+
+impl Action {
+    /// Whether it tries something: what could not be done before it is no longer said.
+    pub(super) fn is_attempt(&self) -> bool {
+        match self {
+            Self::Start
+            | Self::SmoothLess
+            | Self::Restart
+            | Self::Autopilot
+            | Self::Pause
+            | Self::Slow
+            | Self::StepBack
+            | Self::Save
+            | Self::OpenLog
+            | Self::Compare
+            | Self::CancelComparison
+            | Self::Close
+            | Self::Tables => true,
+            Self::Set(_)
+            | Self::Pick(_)
+            | Self::Place(..)
+            | Self::Arm(_)
+            | Self::RepeatTables
+            | Self::CancelTables
+            | Self::CloseTables => false,
+        }
+    }
+}
+
+/// What the next click on the vessel chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pick {
+    /// Where the wire enters.
+    Entry,
+    /// Where it should go.
+    Target,
+}
+
+/// What is asked of the fluoroscope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Arm {
+    /// The beam on, or off.
+    Pedal,
+    /// A puff of contrast, at this second of the window's clock.
+    Contrast(f64),
+    /// Whether the lumen is shown over the picture.
+    Roadmap(bool),
+    /// The detector to so many degrees LAO and CRAN.
+    Look(f32, f32),
+    /// So many pulses a second.
+    Rate(f32),
+}

@@ -1,0 +1,275 @@
+//! How a trial does what the user asks for, and follows the hand, the level and the tables.
+
+use std::sync::Arc;
+
+use super::action::{Action, Pick};
+use super::state::{Coming, Comparing, Preparing, Run, Stage, Subject, Trial, taken_from};
+use super::tables::Tables;
+use crate::app::document::Document;
+use crate::app::keys::Keys;
+use crate::app::platform::Gamepad;
+use crate::engine::Source;
+use crate::engine::trial::{TrialCommand, TrialLink};
+use crate::mesh::Vec3;
+use crate::phantom::Sample;
+use crate::pipeline::settings::{Smoothing, Target};
+use crate::trial::log::Log;
+use crate::trial::setup::{Entry, Input, Setup};
+
+/// Simulated seconds a second in slow motion.
+const SLOW: f32 = 0.25;
+
+impl Trial {
+    /// Does what the user asks for. What needs a platform or the settings ([`Action::OpenLog`],
+    /// [`Action::SmoothLess`]) is not for here.
+    pub fn act(&mut self, action: Action, document: Option<&Document>, link: &mut TrialLink) {
+        if action.is_attempt() {
+            self.problem = None;
+        }
+        match action {
+            Action::Start => self.start(None, document, link),
+            Action::Restart => self.restart(document, link),
+            Action::Autopilot => self.set_autopilot(!self.run().is_some_and(|run| run.autopilot), link),
+            Action::Pause => {
+                if let Stage::On(session) = &mut self.stage {
+                    session.run.is_paused = !session.run.is_paused;
+                    link.send(TrialCommand::Pause(session.run.is_paused));
+                }
+            }
+            Action::Slow => {
+                self.is_slow = !self.is_slow;
+                link.send(TrialCommand::Pace(self.pace()));
+            }
+            Action::StepBack => {
+                if let Some(id) = self.begin_run(|session, id| session.run.stepped_back(id)) {
+                    link.send(TrialCommand::StepBack { id });
+                }
+            }
+            Action::Save => link.send(TrialCommand::Save),
+            Action::Compare => self.compare(link),
+            Action::CancelComparison => {
+                if let Some(comparing) = self.session_mut().and_then(|session| session.run.comparing.take()) {
+                    link.send(TrialCommand::Cancel { id: comparing.id });
+                }
+            }
+            Action::Close => {
+                link.send(TrialCommand::Stop);
+                self.end(Stage::Closed);
+            }
+            Action::Set(setup) => self.setup = *setup,
+            Action::Pick(pick) => self.pick = pick,
+            Action::Place(pick, at) => self.place(pick, at, document, link),
+            Action::Arm(arm) => self.carm.act(arm),
+            Action::Tables => self.show_tables(document),
+            Action::RepeatTables => self.tables.again(),
+            Action::CancelTables => self.cancel_tables(link),
+            Action::CloseTables => self.tables.is_open = false,
+            // Files and smoothing are the app's.
+            Action::OpenLog | Action::SmoothLess => {}
+        }
+    }
+
+    /// Starts with the level that is shown, and with a log to be replayed once the wire is in.
+    fn start(&mut self, log: Option<Arc<Vec<u8>>>, document: Option<&Document>, link: &mut TrialLink) {
+        let level = document.and_then(|d| Some((d, d.shown_mesh()?, d.levels.as_ref()?.1.clone())));
+        let Some((document, mesh, levels)) = level else {
+            self.problem = Some("There is no surface to steer through yet.".to_owned().into());
+            return;
+        };
+        self.awaits = None;
+        let (id, mesh) = (self.next_number(), Arc::new(mesh));
+        document.name.clone_into(&mut self.name);
+        let (sample, setup) = (sample_of(document), self.setup.clone());
+        self.sent = Some(setup.clone());
+        let mut preparing = match std::mem::take(&mut self.stage) {
+            Stage::Closed | Stage::Off => Preparing::default(),
+            Stage::Preparing(preparing) => Preparing { fraction: 0.0, ..preparing },
+            Stage::On(session) => Preparing { before: Some(session), ..Preparing::default() },
+        };
+        let subject = Subject { mesh: mesh.clone(), levels, of: taken_from(document) };
+        preparing.coming.push(Coming { id, subject });
+        preparing.log = log.or(preparing.log);
+        self.stage = Stage::Preparing(preparing);
+        link.send(TrialCommand::Start { id, mesh, sample, setup });
+    }
+
+    fn restart(&mut self, document: Option<&Document>, link: &mut TrialLink) {
+        let of = self.session().map(|session| session.subject.of);
+        let is_other = document.is_some_and(|document| Some(taken_from(document)) != of);
+        if self.has_changed() || is_other {
+            self.start(None, document, link);
+        } else if let Some(id) = self.begin_run(Run::from_entry) {
+            // What is on its way in begins at its entry.
+            self.reset_controls();
+            link.send(TrialCommand::Restart { id });
+        }
+    }
+
+    /// Starts with a saved log: what was done then is done again.
+    pub fn replay(&mut self, bytes: Vec<u8>, document: Option<&Document>, link: &mut TrialLink) {
+        let recorded = Log::read(&bytes).map(|recorded| recorded.setup);
+        let csv = Arc::new(bytes);
+        let is_same = |setup: &Setup| {
+            self.setup_in_force().is_some_and(|force| (force.entry, force.target) == (setup.entry, setup.target))
+        };
+        match recorded {
+            // With another wire another target is proposed: the log's own way is taken.
+            Ok(setup) if !(self.is_on() && is_same(&setup)) => {
+                self.setup = Setup { proposes_wire: false, ..setup };
+                self.start(Some(csv), document, link);
+            }
+            // What is no log is refused by the engine.
+            _ => match self.begin_run(|_, id| Run::new(id)) {
+                // The log's wire may enter a little otherwise than the one that is shown.
+                Some(id) => {
+                    self.reset_controls();
+                    link.send(TrialCommand::Replay { id, csv });
+                }
+                None => self.start(Some(csv), document, link),
+            },
+        }
+    }
+
+    fn set_autopilot(&mut self, on: bool, link: &mut TrialLink) {
+        let Stage::On(session) = &mut self.stage else { return };
+        session.run.autopilot = on;
+        link.send(TrialCommand::Autopilot(on));
+        if on && std::mem::take(&mut session.run.is_paused) {
+            link.send(TrialCommand::Pause(false));
+        }
+    }
+
+    fn pace(&self) -> f32 {
+        if self.is_slow { SLOW } else { 1.0 }
+    }
+
+    /// Tells an engine that has just begun, as fast as time, where it is to be slower.
+    pub(super) fn tell_pace(&self, link: &mut TrialLink) {
+        if self.is_slow {
+            link.send(TrialCommand::Pace(self.pace()));
+        }
+    }
+
+    fn compare(&mut self, link: &mut TrialLink) {
+        let id = self.next_number();
+        let Stage::On(session) = &mut self.stage else { return };
+        let levels = &session.subject.levels;
+        let whole = levels.extract(&levels.level(Target::Reduction(0)).triangles);
+        session.run.comparing = Some(Comparing { id, fraction: 0.0 });
+        link.send(TrialCommand::Compare { id, mesh: Arc::new(whole) });
+    }
+
+    /// Begins with a place that was picked: where the wire enters, or where it should go.
+    fn place(&mut self, pick: Pick, at: Vec3, document: Option<&Document>, link: &mut TrialLink) {
+        self.pick = None;
+        match pick {
+            Pick::Target => self.setup.target = Some(at.to_array()),
+            Pick::Entry => {
+                let direction = self.session().and_then(|session| session.direction_at(at)).unwrap_or(Vec3::Z);
+                let direction = direction.normalize_or(Vec3::Z).to_array();
+                self.setup.entry = Some(Entry { at: at.to_array(), direction });
+            }
+        }
+        self.start(None, document, link);
+    }
+
+    /// Another surface was opened: what was begun or chosen in the one before is no more.
+    pub(in crate::app) fn leave_surface(&mut self, link: &mut TrialLink) {
+        self.cancel_tables(link);
+        if self.is_open() {
+            link.send(TrialCommand::Stop);
+        }
+        self.end(Stage::Closed);
+        self.tables = Tables::default();
+        // Places in one vessel are nowhere in another.
+        (self.setup.entry, self.setup.target) = (None, None);
+    }
+
+    fn show_tables(&mut self, document: Option<&Document>) {
+        self.tables.is_open = true;
+        if let Some(document) = document.filter(|document| self.tables.can_start(document)) {
+            // The wire, entry and target of the trial that is on, if one is in this surface.
+            let is_on = self.is_on() && self.name == document.name && !self.has_changed();
+            let setup = self.setup_in_force().filter(|_| is_on).unwrap_or(&self.setup).clone();
+            self.tables.begin(document, sample_of(document), &setup);
+        }
+    }
+
+    /// Asks for the next row of the tables, if there is one and none is being run.
+    pub(in crate::app) fn next_row(&mut self, link: &mut TrialLink) {
+        if let Some((mesh, sample, setup)) = self.tables.next() {
+            let id = self.next_number();
+            self.tables.started(id, mesh.triangles.len());
+            link.send(TrialCommand::Measure { id, mesh, sample, setup });
+        }
+    }
+
+    /// Stops the tables; the trial stands.
+    fn cancel_tables(&mut self, link: &mut TrialLink) {
+        if let Some(id) = self.tables.cancel() {
+            link.send(TrialCommand::Cancel { id });
+        }
+    }
+
+    /// Sets the gentler smoothing; the trial begins once its level is there.
+    pub(in crate::app) fn smooth_less(&mut self, smoothing: &mut Smoothing) {
+        if let Some(gentler) = self.gentler(smoothing) {
+            *smoothing = gentler;
+            (self.problem, self.awaits) = (None, Some(gentler));
+        }
+    }
+
+    /// Begins with the level that was awaited, if it is there: `has_level` says whether the level that is shown is that
+    /// of the settings. Where smoothing was set to something else meanwhile, nothing is awaited any more.
+    pub(in crate::app) fn follow_level(
+        &mut self,
+        smoothing: &Smoothing,
+        has_level: bool,
+        document: Option<&Document>,
+        link: &mut TrialLink,
+    ) {
+        self.awaits.take_if(|awaited| awaited != smoothing);
+        if self.awaits.is_some() && has_level {
+            self.start(None, document, link);
+        }
+    }
+
+    /// Sends what the hand does where that is news. A hand on the wire takes it from the autopilot.
+    pub(in crate::app) fn follow_hand(
+        &mut self,
+        ctx: &egui::Context,
+        keys: Keys,
+        gamepad: Option<Gamepad>,
+        link: &mut TrialLink,
+    ) {
+        let hand = self.hand.input(ctx, keys, gamepad);
+        let input = if self.is_on() { hand } else { Input::default() };
+        let steers_itself = self.run().is_some_and(|run| run.autopilot);
+        let is_other = input != self.hand.told();
+        if !self.hand.tell(input, ctx.input(|input| input.time), steers_itself) {
+            return;
+        }
+        if is_other && steers_itself && input != Input::default() {
+            self.set_autopilot(false, link);
+        }
+        link.send(TrialCommand::Drive(input));
+    }
+
+    /// Whether the hand is on the wire: then the engine has to be told of it.
+    pub(in crate::app) fn is_driven(&self) -> bool {
+        self.hand.told() != Input::default()
+    }
+
+    /// Shows the pads for a finger or the mouse.
+    pub(in crate::app) fn pads(&mut self, ui: &mut egui::Ui) {
+        self.hand.pads(ui);
+    }
+}
+
+/// The sample that a document was made from.
+fn sample_of(document: &Document) -> Option<Sample> {
+    match document.source {
+        Source::Sample { sample, .. } => Some(sample),
+        Source::File { .. } => None,
+    }
+}

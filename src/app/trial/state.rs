@@ -1,0 +1,369 @@
+//! What the app knows of a trial.
+//!
+//! [`Trial`] holds what belongs to the controls, and a [`Stage`]. A [`Session`] is a trial in one surface, a [`Run`] in it
+//! one way of the wire from its entry: what belongs to either goes with it when another takes its place.
+
+use std::sync::Arc;
+
+use super::action::Pick;
+use super::carm::CArm;
+use super::drive::Hand;
+use super::largest::Largest;
+use super::tables::Tables;
+use crate::app::document::{Document, Revision};
+use crate::engine::trial::{TrialComparison, TrialReady};
+use crate::mesh::{TriMesh, Vec3};
+use crate::pipeline::progressive::ProgressiveMesh;
+use crate::pipeline::settings::Smoothing;
+use crate::trial::frame::{Frame, Progress, Summary, Touch};
+use crate::trial::setup::Setup;
+use crate::trial::wire::Wire;
+
+/// The pass band and the iterations that are offered where smoothing leaves no room for the wire.
+const GENTLE: (f64, u32) = (0.1, 30);
+
+/// What is said until a smoother level is there.
+pub(super) const AWAITS: &str = "Smoothing less: the trial starts when the new level is there.";
+
+/// What the app knows of the trial.
+#[derive(Default)]
+pub struct Trial {
+    /// All that decides it, as the controls have it.
+    pub setup: Setup,
+    /// The paper's tables.
+    pub tables: Tables,
+    /// What the next click on the vessel chooses.
+    pub pick: Option<Pick>,
+    /// The fluoroscope.
+    pub carm: CArm,
+    /// Whether it is in slow motion.
+    pub is_slow: bool,
+    /// The operator's hand.
+    pub(super) hand: Hand,
+    /// Why the last thing asked for could not be done.
+    pub(super) problem: Option<Problem>,
+    /// The smoothing whose level is awaited: it begins with that.
+    pub(super) awaits: Option<Smoothing>,
+    /// The setup of the newest start, as the controls had it.
+    pub(super) sent: Option<Setup>,
+    /// The number of the newest command that has one.
+    pub(super) number: u64,
+    /// The name of the surface.
+    pub(super) name: String,
+    pub(super) stage: Stage,
+}
+
+/// How far a trial is.
+#[derive(Default)]
+pub enum Stage {
+    /// The surface is shown, and there is no trial.
+    #[default]
+    Closed,
+    /// The trial's views are shown, but none is on.
+    Off,
+    /// The wall and the route are being found.
+    Preparing(Preparing),
+    /// The wire is in the vessel.
+    On(Box<Session>),
+}
+
+/// Starts that the engine has not answered yet.
+#[derive(Default)]
+pub struct Preparing {
+    /// The part of it that is done.
+    pub fraction: f32,
+    /// Those on their way in, in order.
+    pub(super) coming: Vec<Coming>,
+    /// A log to be replayed once the last of them is in.
+    pub(super) log: Option<Arc<Vec<u8>>>,
+    /// The trial before, which stands until one of them is in.
+    pub(super) before: Option<Box<Session>>,
+}
+
+/// A trial on its way in.
+pub(super) struct Coming {
+    /// The number of its command.
+    pub(super) id: u64,
+    pub(super) subject: Subject,
+}
+
+/// The surface of a trial.
+pub(super) struct Subject {
+    /// The level that the wire is in.
+    pub(super) mesh: Arc<TriMesh>,
+    /// All levels.
+    pub(super) levels: Arc<ProgressiveMesh>,
+    /// What they were taken from.
+    pub(super) of: Revision,
+}
+
+/// A trial in one surface.
+pub struct Session {
+    pub(super) subject: Subject,
+    /// The way and the places that can be chosen.
+    pub ready: TrialReady,
+    /// The wire at its entry, once it is told: what a restart shows until the engine has answered.
+    pub(super) at_entry: Option<Frame>,
+    /// What goes on in it.
+    pub run: Run,
+}
+
+/// One way of the wire from its entry: a restart, a replay and a step back begin another.
+#[derive(Default)]
+pub struct Run {
+    /// The number of the command that began it: frames of other numbers are not shown.
+    pub(super) id: u64,
+    /// Whether the autopilot steers.
+    pub autopilot: bool,
+    /// Whether it stands still.
+    pub is_paused: bool,
+    /// The wire now.
+    pub(super) frame: Option<Frame>,
+    /// Counts up with every frame in which the wire is another than in the one before.
+    pictures: u64,
+    /// What the wall has felt, in the order in which it was told.
+    pub(super) felt: Vec<Touch>,
+    /// The largest forces.
+    pub(super) peaks: Largest,
+    /// What came of it, once it is over.
+    pub summary: Option<Summary>,
+    /// What the unreduced surface makes of it.
+    pub comparison: Option<TrialComparison>,
+    /// A comparison that is under way.
+    pub(super) comparing: Option<Comparing>,
+}
+
+/// A comparison that is under way.
+#[derive(Clone, Copy)]
+pub(super) struct Comparing {
+    /// The number of its command.
+    pub(super) id: u64,
+    /// The part that is done, 0 to 1.
+    pub(super) fraction: f32,
+}
+
+/// Why something could not be done.
+pub(super) struct Problem {
+    pub(super) text: String,
+    /// Whether a lumen is thinner than the wire: less smoothing may help.
+    pub(super) is_too_thin: bool,
+}
+
+impl From<String> for Problem {
+    fn from(text: String) -> Self {
+        Self { text, is_too_thin: false }
+    }
+}
+
+impl Trial {
+    /// None is on; the wire is to be the one that is proposed.
+    pub(in crate::app) fn new() -> Self {
+        Self { setup: Setup { proposes_wire: true, ..Setup::default() }, ..Self::default() }
+    }
+
+    /// How far it is.
+    pub fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
+    /// Whether its views are shown.
+    pub fn is_open(&self) -> bool {
+        !matches!(self.stage, Stage::Closed)
+    }
+
+    /// Whether the wire is in the vessel, and nothing else on its way in.
+    pub fn is_on(&self) -> bool {
+        matches!(self.stage, Stage::On(_))
+    }
+
+    /// The trial that is shown: the one that is on, or that stands until the next is ready.
+    pub fn session(&self) -> Option<&Session> {
+        self.stage.session()
+    }
+
+    pub(super) fn session_mut(&mut self) -> Option<&mut Session> {
+        match &mut self.stage {
+            Stage::Closed | Stage::Off => None,
+            Stage::Preparing(preparing) => preparing.before.as_deref_mut(),
+            Stage::On(session) => Some(session),
+        }
+    }
+
+    /// The way of the wire that is shown.
+    pub fn run(&self) -> Option<&Run> {
+        self.session().map(|session| &session.run)
+    }
+
+    /// The wire as it is shown.
+    pub fn frame(&self) -> Option<&Frame> {
+        self.run()?.frame.as_ref()
+    }
+
+    /// The largest forces of what is shown.
+    pub(super) fn peaks(&self) -> Largest {
+        self.run().map(|run| run.peaks).unwrap_or_default()
+    }
+
+    /// The surface that the wire is in.
+    pub(super) fn mesh(&self) -> Option<&Arc<TriMesh>> {
+        self.session().map(|session| &session.subject.mesh)
+    }
+
+    /// Whether a hand can move the wire: then it is looked after, as a gamepad tells nothing by itself.
+    pub fn is_in_hand(&self) -> bool {
+        let Stage::On(session) = &self.stage else { return false };
+        let run = &session.run;
+        let is_over = run.frame.as_ref().is_some_and(|frame| frame.progress != Progress::Running);
+        !(run.is_paused || is_over || run.summary.is_some())
+    }
+
+    /// Whether frames come by themselves: at its entry the wire waits for the first input, and asks for none.
+    pub fn is_moving(&self) -> bool {
+        self.is_in_hand() && self.frame().is_some_and(|frame| frame.step > 0)
+    }
+
+    /// Whether a comparison is under way.
+    pub fn is_comparing(&self) -> bool {
+        self.run().is_some_and(|run| run.comparing.is_some())
+    }
+
+    /// Whether something is being computed for it.
+    pub fn is_busy(&self) -> bool {
+        matches!(self.stage, Stage::Preparing(_)) || self.is_comparing() || self.tables.is_busy()
+    }
+
+    /// The setup in force, with its entry and its target.
+    pub fn setup_in_force(&self) -> Option<&Setup> {
+        self.session().map(|session| &session.ready.setup)
+    }
+
+    /// Whether the controls say other than what the wire is in for.
+    pub fn has_changed(&self) -> bool {
+        let is_proposed = |sent: &Setup| sent.proposes_wire && self.setup.proposes_wire;
+        let as_now = |sent: &Setup| Setup {
+            wire: if is_proposed(sent) { self.setup.wire.clone() } else { sent.wire.clone() },
+            ..sent.clone()
+        };
+        self.sent.as_ref().is_some_and(|sent| as_now(sent) != self.setup)
+    }
+
+    /// The wire that is proposed for the way that is shown, where one was.
+    pub(super) fn proposed_wire(&self) -> Option<&Wire> {
+        let is_proposed = self.is_on() && self.sent.as_ref().is_some_and(|sent| sent.proposes_wire);
+        self.setup_in_force().filter(|_| is_proposed).map(|setup| &setup.wire)
+    }
+
+    /// The smoothing that is offered in place of `smoothing`, where the lumen is too thin for the wire.
+    pub(super) fn gentler(&self, smoothing: &Smoothing) -> Option<Smoothing> {
+        let (pass_band, iterations) = GENTLE;
+        let is_too_thin = self.problem.as_ref().is_some_and(|problem| problem.is_too_thin);
+        let is_stronger = smoothing.iterations > 0 && smoothing.pass_band < pass_band;
+        (is_too_thin && is_stronger).then_some(Smoothing { pass_band, iterations, ..*smoothing })
+    }
+
+    /// A number for a command.
+    pub(super) fn next_number(&mut self) -> u64 {
+        self.number += 1;
+        self.number
+    }
+
+    /// Begins another run in the trial that is on, if one is, with what `begin` makes of it and its number.
+    pub(super) fn begin_run(&mut self, begin: impl FnOnce(&Session, u64) -> Run) -> Option<u64> {
+        let id = self.number + 1;
+        let Stage::On(session) = &mut self.stage else { return None };
+        session.run = begin(session, id);
+        self.number = id;
+        Some(id)
+    }
+
+    /// The wire is at its entry: no hand is on it, and no time of the beam has passed.
+    pub(super) fn reset_controls(&mut self) {
+        self.carm.reset();
+        self.hand.forget_told();
+    }
+
+    /// Ends whatever is on. What was chosen stands, and so do the tables.
+    pub(super) fn end(&mut self, stage: Stage) {
+        let (setup, tables) = (std::mem::take(&mut self.setup), std::mem::take(&mut self.tables));
+        let (name, number) = (std::mem::take(&mut self.name), self.number);
+        *self = Self { setup, tables, name, number, stage, ..Self::default() };
+    }
+
+    /// Hears that the window's clock begins anew.
+    pub(in crate::app) fn restart_clock(&mut self) {
+        self.carm.restart_clock();
+        self.hand.restart_clock();
+    }
+}
+
+impl Stage {
+    /// The trial that is shown: the one that is on, or that stands until the next is ready.
+    pub(super) fn session(&self) -> Option<&Session> {
+        match self {
+            Self::Closed | Self::Off => None,
+            Self::Preparing(preparing) => preparing.before.as_deref(),
+            Self::On(session) => Some(session),
+        }
+    }
+}
+
+impl Preparing {
+    /// Whether the trial of this number is on its way in.
+    pub(super) fn awaits(&self, id: u64) -> bool {
+        self.coming.iter().any(|coming| coming.id == id)
+    }
+}
+
+impl Session {
+    /// Along the way where it passes; else towards the target.
+    pub(super) fn direction_at(&self, at: Vec3) -> Option<Vec3> {
+        let points = &self.ready.route.points;
+        let away = |p: &[f32; 3]| Vec3::from(*p).distance(at);
+        let nearest = (0..points.len()).min_by(|&a, &b| away(&points[a]).total_cmp(&away(&points[b])));
+        let along = nearest.filter(|&i| away(&points[i]) < 10.0).map(|i| {
+            let (before, after) = (i.saturating_sub(2), (i + 2).min(points.len() - 1));
+            Vec3::from(points[after]) - Vec3::from(points[before])
+        });
+        along.or_else(|| Some(Vec3::from(self.ready.setup.target?) - at))
+    }
+}
+
+impl Run {
+    /// One that nothing is known of yet.
+    pub(super) fn new(id: u64) -> Self {
+        Self { id, ..Self::default() }
+    }
+
+    /// From the entry: the wire is shown there until more is told.
+    pub(super) fn from_entry(session: &Session, id: u64) -> Self {
+        Self { frame: session.at_entry.clone(), ..Self::new(id) }
+    }
+
+    /// From a second before, standing still. What was felt up to there is told again.
+    pub(super) fn stepped_back(&self, id: u64) -> Self {
+        let (autopilot, frame) = (self.autopilot, self.frame.clone());
+        Self { autopilot, frame, is_paused: true, ..Self::new(id) }
+    }
+
+    /// Differs wherever the wire may lie otherwise, in this run or another.
+    pub(super) fn picture(&self) -> (u64, u64) {
+        (self.id, self.pictures)
+    }
+
+    /// Whether this is the number of the comparison that is awaited.
+    pub(super) fn is_comparing(&self, id: u64) -> bool {
+        self.comparing.is_some_and(|comparing| comparing.id == id)
+    }
+
+    /// Shows the wire as it is in `frame`.
+    pub(super) fn show(&mut self, frame: Frame) {
+        let is_same = |before: &Frame| (before.step, &before.nodes) == (frame.step, &frame.nodes);
+        self.pictures += u64::from(!self.frame.as_ref().is_some_and(is_same));
+        self.frame = Some(frame);
+    }
+}
+
+/// What of a document its level comes from.
+pub(super) fn taken_from(document: &Document) -> Revision {
+    Revision { measured: 0, opened: 0, ..document.revision }
+}

@@ -1,0 +1,210 @@
+//! The trial that is shown: what moves it, and what is told of it.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use super::message::{HAND, TrialEvent};
+use super::pace::Pace;
+use crate::trial::course::TrialError;
+use crate::trial::frame::Progress;
+use crate::trial::log::Log;
+use crate::trial::session::Trial;
+use crate::trial::setup::Input;
+
+/// Seconds between two frames.
+const FRAME: f64 = 1.0 / 60.0;
+
+/// The hand on the wire. Whoever holds it tells so again and again; one that is not heard of any more (its window is
+/// hidden, its page has stopped) is off.
+#[derive(Clone, Copy, PartialEq)]
+enum Hand {
+    /// None is on it.
+    Off,
+    /// It was heard of since the clock was looked at last.
+    Heard,
+    /// It is on the wire until then, in seconds by the clock.
+    Until(f64),
+}
+
+/// The trial that is shown.
+pub(super) struct Shown {
+    /// That of the command which began what is shown now.
+    id: u64,
+    trial: Box<Trial>,
+    /// Whether a hand, the autopilot or a log has moved the wire yet: until then it lies at its entry, and its time does
+    /// not run.
+    has_begun: bool,
+    hand: Hand,
+    is_paused: bool,
+    pace: Pace,
+    /// When the last frame was told, in seconds by the clock.
+    framed: f64,
+    /// Whether the end was told.
+    is_told: bool,
+    needs_frame: bool,
+}
+
+impl Shown {
+    pub(super) fn new(id: u64, trial: Trial) -> Self {
+        Self {
+            id,
+            trial: Box::new(trial),
+            has_begun: false,
+            hand: Hand::Off,
+            is_paused: false,
+            pace: Pace::new(),
+            framed: f64::NEG_INFINITY,
+            is_told: false,
+            needs_frame: true,
+        }
+    }
+
+    /// What is simulated.
+    pub(super) fn trial(&self) -> &Trial {
+        &self.trial
+    }
+
+    /// A command of number `id` begins what follows, whether or not it can be done: the frames that follow are those after
+    /// it.
+    pub(super) fn begin(&mut self, id: u64) {
+        self.id = id;
+    }
+
+    /// What the wall has felt up to where the wire is now is told to whoever has forgotten all.
+    pub(super) fn tell_felt_again(&mut self) {
+        self.trial.felt_mut().tell_again();
+    }
+
+    /// A frame is told in the next slice, whatever the clock says.
+    pub(super) fn needs_frame(&mut self) {
+        self.needs_frame = true;
+    }
+
+    /// Goes on with the input of a hand.
+    pub(super) fn drive(&mut self, input: Input) {
+        self.trial.drive(input);
+        let is_on = input != Input::default();
+        self.hand = if is_on { Hand::Heard } else { Hand::Off };
+        self.has_begun |= is_on;
+    }
+
+    pub(super) fn set_autopilot(&mut self, on: bool) {
+        self.trial.set_autopilot(on);
+        self.has_begun |= on;
+    }
+
+    pub(super) fn pause(&mut self, on: bool) {
+        self.is_paused = on;
+    }
+
+    pub(super) fn set_pace(&mut self, pace: f32) {
+        self.pace.set(pace);
+    }
+
+    /// Begins again on the same course, by hand.
+    pub(super) fn restart(&mut self) -> Result<(), TrialError> {
+        let made = Trial::new(self.trial.course().clone(), self.trial.setup().clone());
+        let trial = made.inspect_err(|_| self.hand_over())?;
+        *self = Self { pace: self.pace.anew(), ..Self::new(self.id, trial) };
+        Ok(())
+    }
+
+    /// Goes back by a second of simulated time, and stands still.
+    pub(super) fn step_back(&mut self) {
+        self.trial.step_back();
+        self.pace.forgive();
+        (self.is_paused, self.is_told) = (true, false);
+    }
+
+    /// Begins again with what a log says.
+    pub(super) fn replay(&mut self, csv: &[u8]) -> Result<(), String> {
+        let trial = self.recorded(csv).inspect_err(|_| self.hand_over())?;
+        *self = Self { pace: self.pace.anew(), has_begun: true, ..Self::new(self.id, trial) };
+        Ok(())
+    }
+
+    fn recorded(&self, csv: &[u8]) -> Result<Trial, String> {
+        let recorded = Log::read(csv).map_err(|error| error.to_string())?;
+        let (course, setup) = (self.trial.course().clone(), self.trial.setup());
+        if recorded.surface != format!("{:016x}", course.fingerprint) {
+            return Err("the log is of another surface, or of another level: open that first".to_owned());
+        }
+        if (recorded.setup.entry, recorded.setup.target) != (setup.entry, setup.target) {
+            return Err(format!(
+                "the log has another entry or target than the route of {:.0} mm that is shown: start a trial with those first",
+                course.route.length_mm
+            ));
+        }
+        let mut trial = Trial::new(course, recorded.setup).map_err(|error| error.to_string())?;
+        trial.replay(recorded.inputs, recorded.steps);
+        Ok(trial)
+    }
+
+    /// What was to begin anew could not: it goes on, but in the hand of whoever asked.
+    fn hand_over(&mut self) {
+        self.trial.set_autopilot(false);
+        (self.is_paused, self.is_told) = (false, false);
+    }
+
+    /// Lets go of the wire where the hand was not heard of for too long. The autopilot and a log need none.
+    pub(super) fn look_after_hand(&mut self, now_s: f64) {
+        match self.hand {
+            Hand::Heard => self.hand = Hand::Until(now_s + HAND),
+            Hand::Until(end) if now_s > end => {
+                self.trial.drive(Input::default());
+                self.hand = Hand::Off;
+            }
+            Hand::Off | Hand::Until(_) => {}
+        }
+    }
+
+    /// Other work is done at `now_s`: the wire waits.
+    pub(super) fn wait(&mut self, now_s: f64) {
+        self.pace.skip(now_s);
+    }
+
+    /// Whether it stands, whatever the clock says.
+    fn stands(&self) -> bool {
+        self.is_paused || !self.has_begun
+    }
+
+    fn is_over(&self) -> bool {
+        self.trial.progress() != Progress::Running
+    }
+
+    /// Works for a slice at `now_s`, and tells what there is to show; says after what time it wants to go on.
+    pub(super) fn advance(
+        &mut self,
+        now_s: f64,
+        slice: Duration,
+        events: &mut VecDeque<TrialEvent>,
+    ) -> Option<Duration> {
+        if self.stands() || self.is_over() {
+            self.pace.stand();
+        } else {
+            self.pace.run(&mut self.trial, now_s, slice);
+        }
+        let is_over = self.is_over();
+        let is_end = is_over && !self.is_told;
+        if self.needs_frame || is_end || now_s - self.framed >= FRAME && !self.stands() {
+            self.framed = now_s;
+            self.needs_frame = false;
+            self.tell_frame(events);
+        }
+        if is_end {
+            self.is_told = true;
+            events.push_back(TrialEvent::Ended { id: self.id, summary: Box::new(self.trial.summary()) });
+        }
+        (!is_over && !self.stands()).then(|| self.pace.rest())
+    }
+
+    fn tell_frame(&mut self, events: &mut VecDeque<TrialEvent>) {
+        let touches = self.trial.felt_mut().news();
+        if !touches.is_empty() {
+            events.push_back(TrialEvent::Felt { id: self.id, touches });
+        }
+        let mut frame = self.trial.frame();
+        (frame.steps_per_second, frame.is_behind) = (self.pace.speed(), self.pace.is_behind());
+        events.push_back(TrialEvent::Frame { id: self.id, frame: Box::new(frame) });
+    }
+}

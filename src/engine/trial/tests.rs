@@ -1,0 +1,236 @@
+//! The trial's engine by a clock of the test's own: what it tells of which command, and when.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::engine::TrialEngine;
+use super::message::{HAND, TrialCommand, TrialEvent};
+use super::pace::BEHIND;
+use crate::mesh::TriMesh;
+use crate::phantom::Sample;
+use crate::trial::STEP;
+use crate::trial::frame::{Frame, Progress};
+use crate::trial::log::Log;
+use crate::trial::setup::{Input, Setup};
+
+const SLICE: Duration = Duration::from_millis(1);
+
+fn aorta() -> Arc<TriMesh> {
+    Arc::new(crate::io::import_mesh(crate::phantom::generate(Sample::Aorta, 20_000).unwrap(), "sample").mesh)
+}
+
+fn events(engine: &mut TrialEngine) -> Vec<TrialEvent> {
+    std::iter::from_fn(|| engine.poll()).collect()
+}
+
+/// The newest frame, asked for by standing still.
+fn frame(engine: &mut TrialEngine, now_s: f64) -> Frame {
+    engine.handle(TrialCommand::Pause(true));
+    while engine.advance(now_s, SLICE).is_some() {}
+    frames(engine).pop().unwrap().1
+}
+
+/// What frames were told, each with its number.
+fn frames(engine: &mut TrialEngine) -> Vec<(u64, Frame)> {
+    let frame = |event| match event {
+        TrialEvent::Frame { id, frame } => Some((id, *frame)),
+        _ => None,
+    };
+    events(engine).into_iter().filter_map(frame).collect()
+}
+
+/// The frames of 0.4 s of the clock.
+fn run_from(engine: &mut TrialEngine, now_s: f64) -> Vec<(u64, Frame)> {
+    (0..20).for_each(|i| _ = engine.advance(now_s + f64::from(i) * 0.02, Duration::from_millis(50)));
+    frames(engine)
+}
+
+#[test]
+fn a_comparison_that_is_cancelled_leaves_the_trial_as_it_stands() {
+    let mesh = aorta();
+    let mut engine = TrialEngine::new();
+    let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+    engine.handle(TrialCommand::Start { id: 1, mesh: mesh.clone(), sample, setup: setup.clone() });
+    assert!(matches!(events(&mut engine)[..], [TrialEvent::Preparing { id: 1, .. }, TrialEvent::Ready(_)]));
+    engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+    for i in 0..200 {
+        engine.advance(f64::from(i) * 0.02, Duration::from_millis(50));
+    }
+    let before = frame(&mut engine, 5.0);
+    assert!(before.step > 200, "{}", before.step);
+    engine.handle(TrialCommand::Compare { id: 2, mesh: mesh.clone() });
+    engine.handle(TrialCommand::Measure { id: 3, mesh, sample, setup });
+    assert_eq!(engine.advance(6.0, SLICE), Some(Duration::ZERO), "a job goes on");
+    engine.handle(TrialCommand::Cancel { id: 2 });
+    assert_eq!(engine.jobs.len(), 1, "the measurement is another's");
+    engine.handle(TrialCommand::Cancel { id: 3 });
+    let after = frame(&mut engine, 7.0);
+    assert_eq!((after.step, &after.nodes), (before.step, &before.nodes));
+    engine.handle(TrialCommand::Pause(false));
+    for i in 0..10 {
+        engine.advance(7.0 + f64::from(i) * 0.02, Duration::from_millis(50));
+    }
+    assert!(frame(&mut engine, 8.0).step > before.step);
+    assert!(!events(&mut engine).iter().any(|event| matches!(event, TrialEvent::Compared { .. })));
+}
+
+#[test]
+fn time_runs_from_the_first_input_on_and_a_restart_is_by_hand() {
+    let mut engine = TrialEngine::new();
+    let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+    engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+    events(&mut engine);
+    assert!(matches!(&run_from(&mut engine, 0.0)[..], [(_, frame)] if frame.step == 0), "the wire at its entry, once");
+    engine.handle(TrialCommand::Save);
+    let Some(TrialEvent::Saved { csv, json }) = engine.poll() else { panic!("no log") };
+    assert_eq!(Log::read(csv.as_bytes()).unwrap().steps, 0);
+    assert!(json.contains("\"steps\": 0"), "{json}");
+    engine.handle(TrialCommand::Drive(Input::default()));
+    assert_eq!(run_from(&mut engine, 100.0).last().unwrap().1.step, 0, "no input");
+    engine.handle(TrialCommand::Autopilot(true));
+    let steered = run_from(&mut engine, 300.0);
+    let (_, last) = steered.last().unwrap();
+    assert!(last.step > 0 && last.time_s < 0.5 && !last.doing.is_empty(), "{last:?}");
+    assert!(!steered.iter().any(|(_, frame)| frame.is_behind), "what has passed while it stood is not owed");
+    engine.handle(TrialCommand::Restart { id: 2 });
+    assert_eq!(run_from(&mut engine, 400.0).last().unwrap().1.step, 0);
+    engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+    let (_, by_hand) = run_from(&mut engine, 500.0).pop().unwrap();
+    assert!(by_hand.feed == 20.0 && by_hand.doing.is_empty(), "{by_hand:?}");
+}
+
+#[test]
+fn frames_tell_what_they_belong_to() {
+    let mut engine = TrialEngine::new();
+    let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+    engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+    engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+    let is_of = |frames: &[(u64, Frame)], id| frames.len() > 5 && frames.iter().all(|frame| frame.0 == id);
+    let first = run_from(&mut engine, 0.0);
+    assert!(is_of(&first, 1), "{first:?}");
+    engine.handle(TrialCommand::Restart { id: 5 });
+    engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+    let second = run_from(&mut engine, 0.4);
+    assert!(is_of(&second, 5) && second[0].1.step < first.last().unwrap().1.step, "{second:?}");
+    // What is refused leaves the trial as it stands, and is answered all the same.
+    engine.handle(TrialCommand::Replay { id: 6, csv: Arc::new(b"no log".to_vec()) });
+    let third = run_from(&mut engine, 0.8);
+    assert!(is_of(&third, 6), "{third:?}");
+    engine.handle(TrialCommand::StepBack { id: 7 });
+    engine.advance(2.0, SLICE);
+    assert!(matches!(events(&mut engine)[..], [TrialEvent::Frame { id: 7, .. }]));
+}
+
+/// Drives for so many seconds of the clock by an input that is told every so many; gives the length that is in the
+/// vessel after each tenth of a second.
+fn inserted(engine: &mut TrialEngine, from_s: f64, seconds: f64, told_every: Option<f64>) -> Vec<f64> {
+    let mut lengths = Vec::new();
+    let mut due = told_every;
+    for i in 0..(seconds * 100.0) as u32 {
+        let passed = f64::from(i) / 100.0;
+        if due.is_some_and(|due| passed >= due) {
+            engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+            due = due.zip(told_every).map(|(due, every)| due + every);
+        }
+        engine.advance(from_s + passed, Duration::from_millis(50));
+        if i % 10 == 9 {
+            lengths.extend(engine.shown.as_ref().map(|shown| shown.trial().simulation().inserted()));
+        }
+    }
+    lengths
+}
+
+#[test]
+fn an_input_that_is_not_told_again_is_let_go() {
+    let mut engine = TrialEngine::new();
+    let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+    engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+    let entry = inserted(&mut engine, -1.0, 0.1, None)[0];
+    engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+    let told_once = inserted(&mut engine, 0.0, 3.0, None);
+    let last = told_once[29];
+    // 20 mm/s for as long as an input holds, and for the row of the log that it ends in.
+    let (fed, most) = (last - entry, 20.0 * (HAND + 0.02));
+    assert!(fed <= most + 0.5 && fed >= 0.8 * most, "{fed} mm of {most}");
+    assert!(told_once[10..].iter().all(|&length| (length - last).abs() < 1e-9), "{told_once:?}");
+    let told_again = inserted(&mut engine, 3.0, 2.0, Some(0.1));
+    let fed = told_again[19] - last;
+    assert!((fed - 40.0).abs() < 4.0, "{fed} mm in two seconds");
+    // By the clock, whatever the pace: the hand is as far from the simulated time as the user is.
+    engine.handle(TrialCommand::Pace(0.25));
+    engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+    let slow = inserted(&mut engine, 5.0, 3.0, None);
+    let fed = slow[29] - told_again[19];
+    assert!(fed > 0.5 * HAND * 5.0 && fed < 5.0 * (HAND + 0.1) + 1.0, "{fed} mm");
+    // A machine that slept has no hand on it when it wakes.
+    engine.handle(TrialCommand::Pace(1.0));
+    engine.handle(TrialCommand::Drive(Input { feed: 20.0, roll: 0.0 }));
+    engine.advance(8.0, Duration::from_millis(50));
+    let before = inserted(&mut engine, 8.0, 0.1, None)[0];
+    let after = inserted(&mut engine, 3600.0, 2.0, None)[19];
+    assert!((after - before).abs() < 0.5, "{before} {after}");
+}
+
+#[test]
+fn the_autopilot_and_a_log_need_no_hand() {
+    let mut engine = TrialEngine::new();
+    let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+    engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+    engine.handle(TrialCommand::Autopilot(true));
+    let steered = inserted(&mut engine, 0.0, 3.0, None);
+    assert!(steered[29] > 1.5 * 20.0 * HAND && steered[29] > steered[20], "{steered:?}");
+    engine.handle(TrialCommand::Save);
+    let csv = events(&mut engine).into_iter().find_map(|event| match event {
+        TrialEvent::Saved { csv, .. } => Some(csv),
+        _ => None,
+    });
+    let csv = Arc::new(csv.unwrap().into_bytes());
+    engine.handle(TrialCommand::Replay { id: 2, csv });
+    let replayed = inserted(&mut engine, 10.0, 2.5, None);
+    assert!((replayed[20] - steered[20]).abs() < 1.0, "{} {}", replayed[20], steered[20]);
+}
+
+#[test]
+fn what_the_wall_feels_between_frames_is_told() {
+    let mut engine = TrialEngine::new();
+    let (sample, setup) = (Some(Sample::Aorta), Setup { proposes_wire: true, ..Setup::default() });
+    engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample, setup });
+    engine.handle(TrialCommand::Autopilot(true));
+    let (mut felt, mut framed, mut most) = (0.0_f64, 0.0_f64, None);
+    let mut last = Progress::Running;
+    for i in 0..20_000 {
+        // A frame in 25 steps at first, where the largest force is; then as the engine asks for.
+        let now_s = if i < 40 { f64::from(i) * BEHIND } else { 40.0 * BEHIND + f64::from(i) * 2.0 * STEP };
+        engine.advance(now_s, Duration::from_secs(1));
+        for event in events(&mut engine) {
+            match event {
+                TrialEvent::Felt { id: 1, touches } => {
+                    felt = touches.iter().fold(felt, |most, touch| most.max(f64::from(touch.force)));
+                }
+                TrialEvent::Frame { frame, .. } => {
+                    (framed, last) = (framed.max(frame.max_wall_force_n), frame.progress);
+                }
+                TrialEvent::Ended { summary, .. } => most = Some(summary.max_wall_force_n),
+                _ => {}
+            }
+        }
+        if most.is_some() {
+            break;
+        }
+    }
+    let most = most.expect("an end");
+    assert!((felt / most - 1.0).abs() < 1e-6, "{felt} of {most}");
+    assert!(framed < most, "no frame has shown it: {framed} of {most}");
+    assert_eq!(last, Progress::Arrived, "the end is shown");
+}
+
+#[test]
+fn closing_the_trial_lets_measurements_go_on() {
+    let mut engine = TrialEngine::new();
+    let (sample, setup) = (Some(Sample::Aorta), Setup::default());
+    engine.handle(TrialCommand::Measure { id: 7, mesh: aorta(), sample, setup });
+    engine.handle(TrialCommand::Stop);
+    assert_eq!(engine.advance(0.0, SLICE), Some(Duration::ZERO));
+    engine.handle(TrialCommand::Compare { id: 8, mesh: Arc::default() });
+    assert!(matches!(events(&mut engine)[..], [TrialEvent::Refused { id: 8, .. }]), "without a trial");
+}
