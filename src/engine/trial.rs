@@ -7,9 +7,10 @@ use serde::{Deserialize, Serialize};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 pub use crate::trial::compare::TrialComparison;
-use crate::trial::frame::{Frame, Summary, Touch};
+use crate::trial::frame::{Frame, Touch};
 use crate::trial::route::{Route, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
+use crate::trial::summary::Summary;
 
 /// The app's end of the line to a trial.
 pub type TrialLink = dyn super::Link<TrialCommand, TrialEvent>;

@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 use super::trial::{TrialCommand, TrialComparison, TrialEvent, TrialReady};
 use super::wire::{Buffers, Encoded, WireError, array, line, mesh, mesh_buffers};
 use crate::phantom::Sample;
-use crate::trial::frame::{Frame, Summary};
+use crate::trial::frame::Frame;
 use crate::trial::setup::{Input, Setup};
+use crate::trial::summary::Summary;
 
 #[derive(Serialize, Deserialize)]
 enum CommandHeader {

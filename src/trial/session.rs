@@ -17,6 +17,7 @@ use super::report::StepKind;
 use super::route::Located;
 use super::setup::{Input, Setup};
 use super::simulation::Simulation;
+use super::stopwatch::Stopwatch;
 use crate::pipeline::task::milliseconds;
 
 /// Steps between two rows of the log, and between two decisions.
@@ -57,6 +58,8 @@ pub struct Trial {
     friction: [f64; 2],
     state: State,
     marks: Vec<State>,
+    /// How long steps took: kept once, and not with each mark, as it grows with every step.
+    stopwatch: Stopwatch,
     log: Log,
     is_steered: bool,
     /// What the operator does from the next row of the log on.
@@ -95,6 +98,7 @@ impl Trial {
             friction,
             state,
             marks: Vec::new(),
+            stopwatch: Stopwatch::default(),
             log,
             is_steered: false,
             wanted: Input::default(),
@@ -141,6 +145,11 @@ impl Trial {
         &self.state.meter
     }
 
+    /// How long its steps took so far.
+    pub(super) fn stopwatch(&self) -> &Stopwatch {
+        &self.stopwatch
+    }
+
     /// What was logged so far.
     pub fn log(&self) -> &Log {
         &self.log
@@ -183,7 +192,8 @@ impl Trial {
         self.press();
         let state = &mut self.state;
         let report = state.simulation.step(state.input);
-        state.meter.stepped(milliseconds(start), &report, &state.simulation);
+        self.stopwatch.stepped(milliseconds(start));
+        state.meter.stepped(&report, &state.simulation);
         if report.kind == StepKind::Balanced {
             state.felt.take(touches(&state.simulation));
         }
@@ -228,9 +238,8 @@ impl Trial {
             self.marks.pop();
         }
         if let Some(mark) = self.marks.last() {
-            let step_ms = self.state.meter.take_step_ms();
             self.state = mark.clone();
-            self.state.meter.give_step_ms(step_ms);
+            self.stopwatch.keep(self.state.simulation.steps() as usize);
             self.wanted = Input::default();
             self.log.rows.truncate(self.state.rows);
         }
@@ -241,10 +250,7 @@ impl Trial {
             self.marks.remove(1);
         }
         self.state.rows = self.log.rows.len();
-        // How long steps took is kept once, and not with each mark: it grows with every step.
-        let step_ms = self.state.meter.take_step_ms();
         self.marks.push(self.state.clone());
-        self.state.meter.give_step_ms(step_ms);
     }
 
     /// The input of the next row.
@@ -278,7 +284,7 @@ impl Trial {
             inserted: simulation.inserted(),
             is_off: *is_off,
             is_looped: *is_looped,
-            is_hard: simulation.is_held_back(),
+            is_hard: simulation.is_at_limit(),
         }
     }
 
@@ -353,7 +359,7 @@ impl Trial {
             torque_n_mm: forces.torque_n_mm,
             retractions: state.meter.retractions,
             wrong_branches: state.meter.wrong_branches,
-            step_ms: state.meter.last_ms(ROW_STEPS as usize),
+            step_ms: self.stopwatch.last_ms(ROW_STEPS as usize),
             since,
         }
     }

@@ -36,9 +36,10 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::{Smoothing, Target};
-use crate::trial::frame::{Frame, Progress, Summary, Touch};
+use crate::trial::frame::{Frame, Progress, Touch};
 use crate::trial::log::Log;
 use crate::trial::setup::{Entry, Input, Setup};
+use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
 /// Simulated seconds a second in slow motion.

@@ -17,8 +17,8 @@ use crate::phantom::Sample;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::Target;
-use crate::trial::frame::Summary;
 use crate::trial::setup::Setup;
+use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
 /// Reduction rates in percent: of Table III, and of Table IV with the whole surface before them.
@@ -341,7 +341,7 @@ fn text(tables: &Tables) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::frame::StationResult;
+    use crate::trial::stopwatch::StationResult;
 
     #[test]
     fn frames_a_second_count_both_parts_and_the_paper_stands_beside_them() {
