@@ -9,6 +9,16 @@
 //! Units are mm, N, s, t (tonne), MPa; forces in N, moments in N mm. The step is [`STEP`] of simulated time; input is
 //! latched by step, so a log replays to the same end, to the bit on one platform.
 //!
+//! # Where things are
+//!
+//! - The place: [`wall`], [`route`] (vessel tree and routes), [`course`] (both, and where the wire stands), `proposal`.
+//! - The wire: [`wire`], [`setup`], [`placement`].
+//! - A step: [`rod`], [`contact`], `descent` (which contacts press), [`body`] (rod and contacts through a step),
+//!   [`simulation`] (the guide that feeds and rolls), [`report`] (what a step tells of itself).
+//! - A trial: [`session`], [`autopilot`], `press` (what presses the wire to the wall).
+//! - What comes of it: [`meter`], [`stopwatch`], [`felt`], [`log`], [`frame`], [`summary`], [`compare`].
+//! - [`audit`] checks walls and openness, and shares no code with the solver.
+//!
 //! # Words
 //!
 //! Of contact:
@@ -48,7 +58,6 @@ pub mod compare;
 pub mod contact;
 pub mod course;
 mod descent;
-mod elements;
 pub mod felt;
 pub mod frame;
 pub mod log;
@@ -57,7 +66,6 @@ pub mod placement;
 mod press;
 mod proposal;
 pub mod report;
-mod ridges;
 pub mod rod;
 pub mod route;
 pub mod session;
@@ -65,7 +73,6 @@ pub mod setup;
 pub mod simulation;
 pub mod stopwatch;
 pub mod summary;
-mod verdict;
 pub mod wall;
 pub mod wire;
 

@@ -1,5 +1,7 @@
 //! Guidewires: what they are made of, as numbers.
 
+mod elements;
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -72,7 +74,7 @@ const PRESETS: [Numbers; 7] = [
 ];
 
 /// Density of steel in t/mm3, and its Young's modulus in MPa.
-pub(super) const STEEL: (f64, f64) = (7.9e-9, 200_000.0);
+const STEEL: (f64, f64) = (7.9e-9, 200_000.0);
 /// The shortest element in mm.
 const SHORTEST: f64 = 0.05;
 /// The most that a wire may be bent from one element to the next, in degrees.

@@ -1,10 +1,12 @@
 //! What the wire touches: the triangles of the level, as they are.
 
+mod ridges;
+
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::ridges::ridges;
+use self::ridges::ridges;
 use crate::mesh::{PointFoot, SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops};
 use crate::pipeline::normals::{Weighting, vertex_normals};
 

@@ -5,16 +5,18 @@
 //! another order. That is the noise below which a difference says nothing about reduction: it is measured by running the
 //! unreduced surface against itself, [`SHUFFLES`] times in other orders ([`shuffled`]), and stands in the verdict.
 
+mod verdict;
+
 use std::sync::Arc;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use web_time::Instant;
 
+use self::verdict::verdict;
 use super::course::{Course, TrialError};
 use super::session::Trial;
 use super::summary::Summary;
-use super::verdict::verdict;
 use super::wall::Wall;
 use crate::mesh::{TriMesh, shuffled};
 use crate::pipeline::results::fingerprint;

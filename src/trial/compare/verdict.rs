@@ -1,7 +1,7 @@
 //! What is said of a comparison, in one sentence.
 
-use super::summary::Summary;
 use crate::pipeline::settings::reduction_percent;
+use crate::trial::summary::Summary;
 
 /// What is to be said, with the largest deviation and the largest noise in mm, and the orders that were tried.
 pub(super) fn verdict(

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::rod::Section;
-use super::wire::{STEEL, Wire};
+use super::{STEEL, Wire};
+use crate::trial::rod::Section;
 
 /// The stiffest that an edge is along itself, in N. Under a push of 1 N it gives by 0.05 %.
 const STIFFEST: f64 = 2000.0;
@@ -20,7 +20,7 @@ const BLOOD: f64 = 3e-8;
 const FINE: (f64, f64) = (10.0, 1.08);
 impl Wire {
     /// Where the nodes are, in mm from the tip: fine over the first 10 mm, coarser from there on.
-    pub(super) fn grid(&self) -> Vec<f64> {
+    pub(in crate::trial) fn grid(&self) -> Vec<f64> {
         let [fine, coarse] = self.elements_mm;
         let mut grid = vec![0.0];
         let (mut at, mut length) = (0.0, fine);
@@ -42,7 +42,7 @@ impl Wire {
     }
 
     /// The numbers of each node of a grid.
-    pub(super) fn sections(&self, grid: &[f64]) -> Vec<Section> {
+    pub(in crate::trial) fn sections(&self, grid: &[f64]) -> Vec<Section> {
         let area = PI * self.radius() * self.radius();
         let last = grid.len() - 1;
         let section = |i: usize| {
