@@ -86,28 +86,33 @@ impl Contact {
     };
 
     /// What the wall does to the rod there, in N.
+    #[inline]
     pub(super) fn force(&self) -> DVec3 {
         self.normal * self.multiplier + self.friction
     }
 
     /// Where the contact is on the rod now.
+    #[inline]
     fn place(&self, rod: &Rod, node: usize) -> DVec3 {
         let a = rod.positions[node];
         if self.along > 0.0 { a.lerp(rod.positions[node + 1], self.along) } else { a }
     }
 
     /// The gap as the rod is now, if the wall is flat there.
+    #[inline]
     pub(super) fn gap_now(&self, rod: &Rod, node: usize) -> f64 {
         self.gap + self.normal.dot(self.place(rod, node) - self.at)
     }
 
     /// The normal force in the step, as the rod is now.
+    #[inline]
     fn pressure(&self, rod: &Rod, node: usize, penalty: f64) -> f64 {
         (self.multiplier - penalty * self.gap_now(rod, node)).max(0.0)
     }
 
     /// The slip as it would be now if the contact stuck, and the direction in which the wire's surface goes when it
     /// rolls.
+    #[inline]
     pub(super) fn trial_slip(&self, rod: &Rod, node: usize, radius: f64) -> (DVec3, DVec3) {
         let edge = node.min(rod.len() - 2);
         let mut start = rod.start(node);
@@ -120,6 +125,7 @@ impl Contact {
     }
 
     /// The energy of the contact, in N mm: what the normal force and friction are the derivatives of.
+    #[inline]
     pub(super) fn potential(&self, rod: &Rod, node: usize, radius: f64, penalty: f64) -> f64 {
         let force = self.pressure(rod, node, penalty);
         let pressed = 0.5 * force * force / penalty;
@@ -138,11 +144,13 @@ impl Contact {
 
     /// Sets Coulomb's limit in the corrections that follow: by the force that those before have come to, as that where
     /// the rod is now may be far from balanced.
+    #[inline]
     pub(super) fn set_limit(&mut self, friction: [f64; 2]) {
         self.limit = friction[usize::from(self.is_sliding)] * self.found;
     }
 
     /// Notes the force that the corrections have come to.
+    #[inline]
     pub(super) fn note(&mut self, rod: &Rod, node: usize, penalty: f64) {
         self.found = self.pressure(rod, node, penalty);
     }

@@ -28,6 +28,7 @@ pub(in crate::trial) struct Spring {
     added_stiffness: (f64, [[f64; 2]; 2]),
 }
 
+#[inline]
 fn dot(a: &[f64; 7], b: &[f64; 7]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -35,27 +36,32 @@ fn dot(a: &[f64; 7], b: &[f64; 7]) -> f64 {
 impl Spring {
     /// A contact at a node and on the edge behind it: the derivative of its gap by the node, its angle and the next node,
     /// what presses in N, less than 0 where it is open, and the penalty in N/mm.
+    #[inline]
     pub(in crate::trial) fn new(node: usize, normal: [f64; 7], force: f64, penalty: f64) -> Self {
         Self { node, normal, force, penalty, ..Self::default() }
     }
 
     /// The same with friction: Coulomb's limit in N, the elastic part of the slip in mm in two directions across the
     /// normal, and the derivatives of that.
+    #[inline]
     #[must_use]
     pub(in crate::trial) fn with_friction(self, limit: f64, slip: [f64; 2], sides: [[f64; 7]; 2]) -> Self {
         Self { limit, slip, sides, ..self }
     }
 
     /// Whether it presses.
+    #[inline]
     pub(in crate::trial) fn is_closed(&self) -> bool {
         self.force > 0.0
     }
 
+    #[inline]
     fn length(slip: [f64; 2]) -> f64 {
         (slip[0] * slip[0] + slip[1] * slip[1]).sqrt()
     }
 
     /// Adds it to the equations of the next search direction.
+    #[inline]
     pub(in crate::trial) fn add(&mut self, rod: &mut Rod) {
         self.added_stiffness = (0.0, [[0.0; 2]; 2]);
         if self.is_closed() {
@@ -83,6 +89,7 @@ impl Spring {
     }
 
     /// Notes how it changes along the search direction that was found.
+    #[inline]
     pub(in crate::trial) fn look_ahead(&mut self, rod: &Rod) {
         let by = rod.direction(self.node);
         let sides = if self.limit > 0.0 { [dot(&self.sides[0], by), dot(&self.sides[1], by)] } else { [0.0; 2] };
@@ -90,11 +97,13 @@ impl Spring {
     }
 
     /// Whether it does anything between here and a part of the direction.
+    #[inline]
     pub(in crate::trial) fn is_live(&self, part: f64) -> bool {
         self.force > 0.0 || self.limit > 0.0 || self.force + part * self.change.0 > 0.0
     }
 
     /// The slope of its energy by the part of the direction, at a part.
+    #[inline]
     pub(in crate::trial) fn slope(&self, part: f64) -> f64 {
         let (change, [dx, dy]) = self.change;
         let pressed = (self.force + part * change).max(0.0) * change / self.penalty;
@@ -108,6 +117,7 @@ impl Spring {
     }
 
     /// By what the slope would change on the whole direction if it stayed as it was added.
+    #[inline]
     pub(in crate::trial) fn added(&self) -> f64 {
         let (change, [dx, dy]) = self.change;
         let (normal, [[xx, xy], [yx, yy]]) = self.added_stiffness;
@@ -116,6 +126,7 @@ impl Spring {
     }
 
     /// What the springs that were added for the direction change by on it: node, derivative, force.
+    #[inline]
     pub(in crate::trial) fn changed(&self) -> impl Iterator<Item = (usize, [f64; 7], f64)> {
         let (change, [dx, dy]) = self.change;
         let (normal, [[xx, xy], [yx, yy]]) = self.added_stiffness;
@@ -127,6 +138,7 @@ impl Spring {
     }
 
     /// Goes a part of the direction. Returns whether it opened, closed, stuck or slid there.
+    #[inline]
     pub(in crate::trial) fn go(&mut self, part: f64) -> bool {
         let state = |spring: &Self| (spring.force > 0.0, Self::length(spring.slip) * SLIP_PENALTY <= spring.limit);
         let before = state(self);
@@ -155,16 +167,19 @@ pub(in crate::trial) struct Open {
 impl Open {
     /// A contact at a part of the edge behind a node, whose gap grows along `normal`; `force` and `penalty` as in
     /// [`Spring::new`].
+    #[inline]
     pub(in crate::trial) fn new(node: usize, along: f64, normal: DVec3, force: f64, penalty: f64) -> Self {
         Self { node, along, normal, force, penalty }
     }
 
     /// By what its force changes when its edge moves so.
+    #[inline]
     fn change(&self, [ax, ay, az, _, bx, by, bz]: &[f64; 7]) -> f64 {
         let moved = DVec3::new(*ax, *ay, *az).lerp(DVec3::new(*bx, *by, *bz), self.along);
         -self.penalty * self.normal.dot(moved)
     }
 
+    #[inline]
     fn spring(&self, force: f64) -> Spring {
         Spring::new(self.node, spread(self.normal, 0.0, self.along), force, self.penalty)
     }
@@ -172,6 +187,7 @@ impl Open {
 
 /// The derivatives by a node, its angle and the next node of what moves with a place of the edge between them along `v`,
 /// and turns with the angle.
+#[inline]
 pub(in crate::trial) fn spread(v: DVec3, angle: f64, along: f64) -> [f64; 7] {
     let (a, b) = (v * (1.0 - along), v * along);
     [a.x, a.y, a.z, angle, b.x, b.y, b.z]
@@ -186,6 +202,7 @@ pub(in crate::trial) struct Springs {
 }
 
 impl Springs {
+    #[inline]
     pub(in crate::trial) fn clear(&mut self) {
         self.closed.clear();
         self.open.clear();
@@ -193,6 +210,7 @@ impl Springs {
 
     /// Closes those that press at the end of the search direction that was found; on those before it no node has moved by
     /// more than `gone` mm, on all of it none by more than `moved`.
+    #[inline]
     pub(in crate::trial) fn close(&mut self, rod: &Rod, gone: f64, moved: f64) {
         let Self { closed, open } = self;
         let reach = gone + moved;

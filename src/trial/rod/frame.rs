@@ -35,6 +35,7 @@ pub(super) struct Strain {
 impl Edge {
     /// The edge between two nodes. `frame` are the tangent and the director at the start of the step, and `spin` is how far
     /// it has turned about its tangent since, in radians.
+    #[inline]
     pub(super) fn new(from: DVec3, to: DVec3, [before, director]: [DVec3; 2], spin: f64) -> Self {
         let along = to - from;
         let length = along.length();
@@ -52,6 +53,7 @@ impl Edge {
 
 impl Strain {
     /// Between two edges; the twist is the one next to `near`.
+    #[inline]
     pub(super) fn new(a: &Edge, b: &Edge, near: f64) -> Self {
         let inverse = 1.0 / chi(a.tangent, b.tangent);
         let binormal = a.tangent.cross(b.tangent) * (2.0 * inverse);
@@ -69,11 +71,13 @@ impl Strain {
 }
 
 /// `v`, at right angles to `from`, carried to where `from` becomes `to` by the shortest turn; both of length 1.
+#[inline]
 pub(super) fn carried(v: DVec3, from: DVec3, to: DVec3) -> DVec3 {
     v - (from + to) * (to.dot(v) / chi(from, to))
 }
 
 /// The angle of a sine and a cosine, in radians.
+#[inline]
 fn angle(sine: f64, cosine: f64) -> f64 {
     if cosine < 0.87 {
         return libm::atan2(sine, cosine);
@@ -86,12 +90,14 @@ fn angle(sine: f64, cosine: f64) -> f64 {
 }
 
 /// `angle` plus the number of whole turns that brings it next to `near`.
+#[inline]
 fn unwrapped(angle: f64, near: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     if (near - angle).abs() <= PI { angle } else { angle + TAU * ((near - angle) / TAU).round() }
 }
 
 /// `1 + cos` of the turn; never 0.
+#[inline]
 fn chi(a: DVec3, b: DVec3) -> f64 {
     (1.0 + a.dot(b)).max(1e-6)
 }
