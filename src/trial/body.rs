@@ -167,7 +167,7 @@ impl Body {
                     break;
                 }
             }
-            self.contacts.note(&self.rod);
+            self.contacts.note_forces(&self.rod);
             self.detect(count);
             let is_deep = self.depth > DEPTH * radius;
             if moved < ALMOST && !is_deep && (round > 0 || !self.has_let_go) {
@@ -175,7 +175,7 @@ impl Body {
             }
             if moved < ALMOST && is_deep {
                 // It rests too deep: the forces that it needs are more than the corrections may find at once.
-                self.contacts.raise();
+                self.contacts.update_multipliers();
             }
         }
         false

@@ -47,8 +47,8 @@ pub struct Contact {
     pub(super) gap: f64,
     /// Where the rod was then.
     pub(super) at: DVec3,
-    /// The multiplier: the normal force in N at the end of the last step, or what [`Self::raise`] has made of it in this
-    /// one.
+    /// The multiplier: the normal force in N at the end of the last step, or what [`Self::update_multiplier`] has made of it
+    /// in this one.
     pub multiplier: f64,
     /// The same, at the beginning of the step.
     first: f64,
@@ -151,12 +151,12 @@ impl Contact {
 
     /// Notes the force that the corrections have come to.
     #[inline]
-    pub(super) fn note(&mut self, rod: &Rod, node: usize, penalty: f64) {
+    pub(super) fn note_force(&mut self, rod: &Rod, node: usize, penalty: f64) {
         self.found = self.pressure(rod, node, penalty);
     }
 
     /// Makes the force that the corrections have come to the multiplier of those that follow.
-    pub(super) fn raise(&mut self) {
+    pub(super) fn update_multiplier(&mut self) {
         self.multiplier = self.found;
     }
 

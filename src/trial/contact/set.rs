@@ -8,7 +8,7 @@ use super::spring::{Open, Spring, Springs, spread};
 use crate::trial::rod::Rod;
 use crate::trial::wall::Wall;
 
-/// By what the penalty grows where multipliers are raised.
+/// By what the penalty grows where multipliers are updated within a step.
 const STIFFER: f64 = 4.0;
 
 /// The contacts of a rod.
@@ -99,16 +99,16 @@ impl Contacts {
     }
 
     /// Notes the forces that the corrections have come to.
-    pub fn note(&mut self, rod: &Rod) {
+    pub fn note_forces(&mut self, rod: &Rod) {
         let penalty = self.penalty;
-        self.manifold.each(|node, contact| contact.note(rod, node, penalty));
+        self.manifold.each(|node, contact| contact.note_force(rod, node, penalty));
     }
 
     /// Lets the corrections that follow begin with the forces that those before have come to, and be stiffer: what is
     /// pushed hard into the wall would come out of it too slowly.
-    pub fn raise(&mut self) {
+    pub fn update_multipliers(&mut self) {
         self.penalty *= STIFFER;
-        self.manifold.each(|_, contact| contact.raise());
+        self.manifold.each(|_, contact| contact.update_multiplier());
     }
 
     /// Goes back to the multipliers at the beginning of the step.
