@@ -24,9 +24,8 @@ use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::course::Course;
 use lumen::trial::frame::Progress;
-use lumen::trial::press::Press;
 use lumen::trial::session::Trial;
-use lumen::trial::setup::{Entry, Input, Setup};
+use lumen::trial::setup::{Entry, Input, Press, Setup};
 use lumen::trial::wire::Wire;
 
 /// Length of the wire outside the guide, in mm.

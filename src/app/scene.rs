@@ -46,12 +46,7 @@ pub(super) struct Scene {
     before_of: Option<(u64, Keep)>,
     left_out_of: Option<(u64, Keep)>,
     normals: Vec<Vec3>,
-    views: [View; VIEWS],
-}
-
-struct View {
-    shown: WindowTarget,
-    drawn: Option<(Picture, Revision, Keep)>,
+    views: [WindowTarget<(Picture, Revision, Keep)>; VIEWS],
 }
 
 impl Scene {
@@ -62,7 +57,7 @@ impl Scene {
     pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
         let (device, queue) = (state.device.clone(), state.queue.clone());
         let surface = || GpuSurface::new(&device, &queue, &[]);
-        let view = || View { shown: WindowTarget::new(&device, &state.renderer), drawn: None };
+        let view = || WindowTarget::new(&device, &state.renderer);
         Ok(Self {
             renderer: Renderer::new(&device, &queue),
             level: surface()?,
@@ -159,11 +154,9 @@ impl Scene {
             }
         }
         let view = &mut self.views[index];
-        let drawn = (picture.clone(), self.revision, keep);
-        if view.drawn.as_ref() == Some(&drawn) {
-            return Ok(view.shown.id());
-        }
-        view.shown.resize(&self.device, picture.size);
+        let Some(target) = view.stale(&self.device, picture.size, (picture.clone(), self.revision, keep)) else {
+            return Ok(view.id());
+        };
         let main = if picture.before { &self.before } else { &self.level };
         let mut drawables = vec![Drawable { surface: main, look: picture.look, tint: None }];
         if picture.left_out {
@@ -171,10 +164,9 @@ impl Scene {
         }
         let style = Style { map: picture.style.map.filter(|_| self.has_scalars && !picture.before), ..picture.style };
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("view") });
-        self.renderer.draw(&self.device, &mut encoder, view.shown.target(), &picture.camera, &drawables, &style);
+        self.renderer.draw(&self.device, &mut encoder, target, &picture.camera, &drawables, &style);
         self.queue.submit([encoder.finish()]);
-        view.drawn = Some(drawn);
-        Ok(view.shown.id())
+        Ok(view.id())
     }
 
     /// Whether the level has scalars for a colour map.

@@ -6,32 +6,32 @@ use std::sync::Arc;
 use egui::TextureId;
 use egui::mutex::RwLock;
 
-use crate::render::ViewTarget;
+use crate::render::{Attachments, Multisampled, Target, ViewTarget};
 
 /// The window's renderer.
 pub(in crate::app) type WindowRenderer = Arc<RwLock<egui_wgpu::Renderer>>;
 
 /// A texture of ours among the window's.
-pub(in crate::app) struct WindowTexture {
+struct WindowTexture {
     window: WindowRenderer,
     id: TextureId,
 }
 
 impl WindowTexture {
     /// Gives a texture to the window.
-    pub(in crate::app) fn new(device: &wgpu::Device, window: &WindowRenderer, view: &wgpu::TextureView) -> Self {
+    fn new(device: &wgpu::Device, window: &WindowRenderer, view: &wgpu::TextureView) -> Self {
         let id = window.write().register_native_texture(device, view, wgpu::FilterMode::Linear);
         Self { window: window.clone(), id }
     }
 
     /// Gives it another in its place.
-    pub(in crate::app) fn replace(&self, device: &wgpu::Device, view: &wgpu::TextureView) {
+    fn replace(&self, device: &wgpu::Device, view: &wgpu::TextureView) {
         let filter = wgpu::FilterMode::Linear;
         self.window.write().update_egui_texture_from_wgpu_texture(device, view, filter, self.id);
     }
 
     /// What the window calls it.
-    pub(in crate::app) fn id(&self) -> TextureId {
+    fn id(&self) -> TextureId {
         self.id
     }
 }
@@ -42,29 +42,53 @@ impl Drop for WindowTexture {
     }
 }
 
-/// The target of a 3-D view that the window shows.
-pub(in crate::app) struct WindowTarget {
-    target: ViewTarget,
+/// A target that the window shows, and what its picture was drawn from: drawn again where that is another.
+pub(in crate::app) struct WindowTarget<Of, A = Multisampled> {
+    target: Target<A>,
     texture: WindowTexture,
+    drawn: Option<Of>,
 }
 
-impl WindowTarget {
-    /// A target of a pixel: [`Self::resize`] makes it what it should be.
+impl<Of: PartialEq> WindowTarget<Of> {
+    /// The target of a 3-D view, of a pixel: it has the size of what is drawn first.
     pub(in crate::app) fn new(device: &wgpu::Device, window: &WindowRenderer) -> Self {
-        let target = ViewTarget::new(device, 1, 1);
+        Self::with(device, window, ViewTarget::new(device, 1, 1))
+    }
+}
+
+impl<Of: PartialEq, A: Attachments> WindowTarget<Of, A> {
+    /// Shows this target.
+    pub(in crate::app) fn with(device: &wgpu::Device, window: &WindowRenderer, target: Target<A>) -> Self {
         let texture = WindowTexture::new(device, window, target.view());
-        Self { target, texture }
+        Self { target, texture, drawn: None }
     }
 
-    /// The target with these pixels, or as many as the device allows: then it has to be drawn anew.
-    pub(in crate::app) fn resize(&mut self, device: &wgpu::Device, [width, height]: [u32; 2]) {
-        if self.target.resize(device, width, height) {
+    /// Gives the target these pixels, or as many as the device allows; says whether it has to be drawn anew for that.
+    pub(in crate::app) fn resize(&mut self, device: &wgpu::Device, [width, height]: [u32; 2]) -> bool {
+        let is_other = self.target.resize(device, width, height);
+        if is_other {
             self.texture.replace(device, self.target.view());
         }
+        is_other
+    }
+
+    /// The target with these pixels where its picture is not one of `of`: what is drawn into it now is.
+    pub(in crate::app) fn stale(&mut self, device: &wgpu::Device, size: [u32; 2], of: Of) -> Option<&Target<A>> {
+        if self.drawn.as_ref() == Some(&of) {
+            return None;
+        }
+        self.resize(device, size);
+        self.drawn = Some(of);
+        Some(&self.target)
+    }
+
+    /// Forgets what was drawn, if that is so.
+    pub(in crate::app) fn forget_if(&mut self, is_so: impl FnOnce(&Of) -> bool) {
+        self.drawn.take_if(|of| is_so(of));
     }
 
     /// What is drawn into.
-    pub(in crate::app) fn target(&self) -> &ViewTarget {
+    pub(in crate::app) fn target(&self) -> &Target<A> {
         &self.target
     }
 

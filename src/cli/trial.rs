@@ -14,10 +14,9 @@ use crate::phantom::Sample;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::{Settings, Smoothing, Target};
 use crate::trial::course::Course;
-use crate::trial::frame::Summary;
-use crate::trial::press::Press;
 use crate::trial::session::Trial as Run;
-use crate::trial::setup::{Entry, Setup};
+use crate::trial::setup::{Entry, Press, Setup};
+use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
 /// Steers a guidewire through a surface.

@@ -12,8 +12,8 @@ use crate::io::Unit;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Target;
-use crate::trial::frame::Summary;
 use crate::trial::setup::Setup;
+use crate::trial::summary::Summary;
 
 /// The tables of a surface: Table III for the aorta, Table IV for the whole tree or a file. For the default, the aorta,
 /// both are made.

@@ -19,9 +19,9 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::phantom;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::report::Report;
-use crate::pipeline::stage::Stage;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::Settings;
+use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
 
 /// How long work on older settings may hold up newer ones.

@@ -120,7 +120,7 @@ impl Hit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::shapes::{icosphere, square};
+    use crate::mesh::shapes::icosphere;
 
     #[test]
     fn a_ray_counts_how_often_the_surface_goes_around() {

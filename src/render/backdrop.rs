@@ -1,6 +1,7 @@
 //! The background: the theme's two colours from the top of the view to its bottom, behind everything.
 
-use super::scene::{PipelineParts, SceneLayout, scene_shader};
+use super::pipeline::{PipelineParts, scene_shader};
+use super::scene::SceneLayout;
 
 /// Draws the background.
 #[derive(Debug)]

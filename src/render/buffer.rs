@@ -1,7 +1,7 @@
 //! A GPU buffer that is written again and again, as while a slider is dragged: it is made anew only when it has to
-//! grow, and then by half again.
+//! grow, and then by half again. And what is drawn from such buffers.
 
-use super::surface::SurfaceError;
+use super::error::SurfaceError;
 
 /// Sizes are multiples of this, so that small changes are no reason to grow.
 const GRANULE: u64 = 4096;
@@ -55,8 +55,13 @@ impl GrowingBuffer {
         self.used = 0;
     }
 
+    /// Whether nothing of it is in use.
+    pub(super) fn is_empty(&self) -> bool {
+        self.slice().is_none()
+    }
+
     /// The part in use; `None` for an empty buffer.
-    pub(super) fn slice(&self) -> Option<wgpu::BufferSlice<'_>> {
+    fn slice(&self) -> Option<wgpu::BufferSlice<'_>> {
         self.buffer.as_ref().filter(|_| self.used > 0).map(|buffer| buffer.slice(..self.used))
     }
 
@@ -64,6 +69,38 @@ impl GrowingBuffer {
     pub(super) fn count(&self, size: usize) -> u32 {
         (self.used / size as u64) as u32
     }
+}
+
+/// Draws all of `indices` over `vertices`, the buffers in the order of their locations; nothing where one is empty.
+pub(super) fn draw(
+    pass: &mut wgpu::RenderPass<'_>,
+    pipeline: &wgpu::RenderPipeline,
+    vertices: &[&GrowingBuffer],
+    indices: &GrowingBuffer,
+) {
+    draw_first(pass, pipeline, vertices, indices, indices.count(size_of::<u32>()));
+}
+
+/// The same of the first `count` indices.
+pub(super) fn draw_first(
+    pass: &mut wgpu::RenderPass<'_>,
+    pipeline: &wgpu::RenderPipeline,
+    vertices: &[&GrowingBuffer],
+    indices: &GrowingBuffer,
+    count: u32,
+) {
+    let Some(indices) = indices.slice().filter(|_| count > 0) else { return };
+    if vertices.iter().any(|buffer| buffer.is_empty()) {
+        return;
+    }
+    pass.set_pipeline(pipeline);
+    for (slot, buffer) in (0..).zip(vertices) {
+        if let Some(slice) = buffer.slice() {
+            pass.set_vertex_buffer(slot, slice);
+        }
+    }
+    pass.set_index_buffer(indices, wgpu::IndexFormat::Uint32);
+    pass.draw_indexed(0..count, 0, 0..1);
 }
 
 /// A buffer of uniforms that is written once.

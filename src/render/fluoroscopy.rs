@@ -1,55 +1,22 @@
 //! The fluoroscopy: what X-rays leave after lumen and wire, `I = I0 exp(-sum of mu d)` (Beer and Lambert).
 //!
-//! The lumen's thickness along each ray is the sum of the distances at which the ray leaves it less those at which it
-//! enters, by blending all walls into one target, without sorting. Contrast: 70 mg iodine in 1 ml of blood, 0.06 /mm at
-//! 60 keV (NIST XCOM); tissue is the same everywhere and part of the brightness. The target is of half floats where
-//! they can be blended (WebGPU, nearly all of WebGL2), else of bytes: then thickness is to 0.25 mm, for four walls or
-//! fewer before each other and a vessel of 500 mm or less in depth.
+//! Contrast: 70 mg iodine in 1 ml of blood, 0.06 /mm at 60 keV (NIST XCOM); tissue is the same everywhere and part of the
+//! brightness. How thick the lumen is, is added up in [`thickness`](super::thickness), and what the wire takes away in
+//! [`wire`](super::wire).
 
 use bytemuck::{Pod, Zeroable};
 
-use super::scene::{PipelineParts, SceneBindings, SceneLayout, scene_shader};
-use super::wire::{SHADOW, Wire};
-use super::{GpuSurface, GpuWire, ViewTarget, buffer};
+use super::ViewTarget;
+use super::buffer::uniforms;
+use super::target::{Attachments, Target};
+use super::texture::{attachment, begin, whole};
+use super::thickness::ThicknessFormat;
+use super::wire::SHADOW;
 
 /// Attenuation of the contrast in 1/mm.
 const CONTRAST: f32 = 0.06;
 /// Noise where all light comes through, as a part of it.
 const NOISE: f32 = 0.02;
-
-/// What a machine can add up thickness in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ThicknessFormat {
-    /// Half floats.
-    Floats,
-    /// Bytes.
-    Bytes,
-}
-
-impl ThicknessFormat {
-    /// The better one that `adapter` can blend.
-    pub fn of(adapter: &wgpu::Adapter) -> Self {
-        let can = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba16Float);
-        let blends = can.flags.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE);
-        let renders = can.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
-        if blends && renders { Self::Floats } else { Self::Bytes }
-    }
-
-    fn texture(self) -> wgpu::TextureFormat {
-        match self {
-            Self::Floats => wgpu::TextureFormat::Rgba16Float,
-            Self::Bytes => wgpu::TextureFormat::Rgba8Unorm,
-        }
-    }
-
-    /// Value of a step of 8 mm and of a mm, and what both are at first; `unit` in the shader.
-    fn unit(self) -> [f32; 4] {
-        match self {
-            Self::Floats => [1.0, 1.0, 0.0, 0.0],
-            Self::Bytes => [1.0 / 255.0, 4.0 / 255.0, 16.0 / 255.0, 128.0 / 255.0],
-        }
-    }
-}
 
 /// One exposure.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,163 +40,72 @@ struct ExposureUniforms {
     picture: [f32; 4],
 }
 
-/// What one fluoroscopy view renders to.
+/// What a fluoroscopy is made of.
 #[derive(Debug)]
-pub struct FluoroscopyTarget {
-    size: [u32; 2],
-    thickness: wgpu::TextureView,
-    shadow: wgpu::TextureView,
-    picture: wgpu::Texture,
-    view: wgpu::TextureView,
+pub struct Sums {
+    format: ThicknessFormat,
+    pub(super) thickness: wgpu::TextureView,
+    pub(super) shadow: wgpu::TextureView,
 }
 
-impl FluoroscopyTarget {
-    /// The texture with the finished picture, in [`ViewTarget::FORMAT`].
-    pub fn view(&self) -> &wgpu::TextureView {
-        &self.view
+impl Attachments for Sums {
+    const LABEL: &'static str = "fluoroscopy";
+
+    type Form = ThicknessFormat;
+
+    fn new(device: &wgpu::Device, size: [u32; 2], format: ThicknessFormat) -> Self {
+        let texture =
+            |label, format| whole(&attachment(device, label, size, 1, format, wgpu::TextureUsages::TEXTURE_BINDING));
+        Self { format, thickness: texture("thickness", format.texture()), shadow: texture("shadow", SHADOW) }
     }
 
-    /// The same, to be read back.
-    pub fn picture(&self) -> &wgpu::Texture {
-        &self.picture
-    }
-
-    /// Width and height in pixels.
-    pub fn size(&self) -> [u32; 2] {
-        self.size
+    fn form(&self) -> ThicknessFormat {
+        self.format
     }
 }
 
-/// Draws fluoroscopies.
+/// The target of a fluoroscopy.
+pub type FluoroscopyTarget = Target<Sums>;
+
+/// Takes fluoroscopies.
 #[derive(Debug)]
 pub(super) struct Fluoroscopy {
     queue: wgpu::Queue,
-    format: ThicknessFormat,
-    far: wgpu::RenderPipeline,
-    near: wgpu::RenderPipeline,
-    expose: wgpu::RenderPipeline,
+    pipeline: wgpu::RenderPipeline,
     exposure: wgpu::BindGroupLayout,
 }
 
 impl Fluoroscopy {
-    pub(super) fn new(device: &wgpu::Device, layout: &SceneLayout, format: ThicknessFormat) -> Self {
-        let module = scene_shader!(device, "thickness.wgsl");
-        let wall = |label, fragment, cull, operation| {
-            let by = |operation| wgpu::BlendComponent {
-                src_factor: wgpu::BlendFactor::One,
-                dst_factor: wgpu::BlendFactor::One,
-                operation,
-            };
-            let parts = PipelineParts {
-                fragment,
-                attributes: &[wgpu::VertexFormat::Float32x3, wgpu::VertexFormat::Float32],
-                blend: Some(wgpu::BlendState { color: by(operation), alpha: by(wgpu::BlendOperation::Add) }),
-                cull: Some(cull),
-                plain: Some(format.texture()),
-                ..PipelineParts::new(label, &module)
-            };
-            layout.pipeline(device, &parts)
-        };
-        let [far, near] = match format {
-            ThicknessFormat::Floats => ["fragment_far", "fragment_near"],
-            ThicknessFormat::Bytes => ["fragment_far_bytes", "fragment_near_bytes"],
-        };
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         let exposure = exposure_layout(device);
-        Self {
-            queue: layout.queue.clone(),
-            format,
-            far: wall("thickness, far walls", far, wgpu::Face::Front, wgpu::BlendOperation::Add),
-            near: wall("thickness, near walls", near, wgpu::Face::Back, wgpu::BlendOperation::ReverseSubtract),
-            expose: expose_pipeline(device, &exposure),
-            exposure,
-        }
+        Self { queue: queue.clone(), pipeline: expose_pipeline(device, &exposure), exposure }
     }
 
-    /// A target of `size` pixels, brought within 1 and what the device allows.
-    pub(super) fn target(&self, device: &wgpu::Device, size: [u32; 2]) -> FluoroscopyTarget {
-        use wgpu::TextureUsages as Usage;
-        let largest = device.limits().max_texture_dimension_2d;
-        let size = size.map(|side| side.clamp(1, largest));
-        let texture = |label, format, usage| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: usage | Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING,
-                view_formats: &[],
-            })
-        };
-        let whole = wgpu::TextureViewDescriptor::default();
-        let picture = texture("fluoroscopy", ViewTarget::FORMAT, Usage::COPY_SRC);
-        FluoroscopyTarget {
-            size,
-            thickness: texture("thickness", self.format.texture(), Usage::empty()).create_view(&whole),
-            shadow: texture("shadow", SHADOW, Usage::empty()).create_view(&whole),
-            view: picture.create_view(&whole),
-            picture,
-        }
-    }
-
-    /// Adds up the thickness of `body`, a closed surface whose scalars say where along the vessel each node is.
-    pub(super) fn measure(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &FluoroscopyTarget,
-        bindings: &SceneBindings,
-        body: &GpuSurface,
-    ) {
-        let [_, _, steps, rest] = self.format.unit().map(f64::from);
-        let clear = wgpu::Color { r: steps, g: rest, b: 0.0, a: 0.0 };
-        let mut pass = begin(encoder, "thickness", &target.thickness, clear);
-        if let (Some(positions), Some(places), Some(triangles)) =
-            (body.positions.slice(), body.scalars.slice(), body.triangles.slice())
-        {
-            bindings.set(&mut pass, 0);
-            pass.set_vertex_buffer(0, positions);
-            pass.set_vertex_buffer(1, places);
-            pass.set_index_buffer(triangles, wgpu::IndexFormat::Uint32);
-            // All that adds before all that takes away: bytes cannot go below nothing.
-            for pipeline in [&self.far, &self.near] {
-                pass.set_pipeline(pipeline);
-                pass.draw_indexed(0..body.triangles.count(size_of::<u32>()), 0, 0..1);
-            }
-        }
-    }
-
-    /// Takes the picture: the wire's shadow, and both turned into grey.
+    /// Turns thickness and shadow into grey.
     pub(super) fn expose(
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         target: &FluoroscopyTarget,
-        bindings: &SceneBindings,
-        (drawing, wire): (&Wire, &GpuWire),
         exposure: &Exposure,
     ) {
-        {
-            let mut pass = begin(encoder, "shadow", &target.shadow, wgpu::Color::TRANSPARENT);
-            bindings.set(&mut pass, 0);
-            drawing.draw_shadow(&mut pass, wire);
-        }
         let group = self.bind(device, target, exposure);
-        let mut pass = begin(encoder, "fluoroscopy", &target.view, wgpu::Color::BLACK);
-        pass.set_pipeline(&self.expose);
+        let mut pass = begin(encoder, Sums::LABEL, target.view(), wgpu::Color::BLACK);
+        pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
     }
 
     fn bind(&self, device: &wgpu::Device, target: &FluoroscopyTarget, exposure: &Exposure) -> wgpu::BindGroup {
-        let [width, height] = target.size.map(|side| side as f32);
+        let [width, height] = target.size().map(|side| side as f32);
+        let sums = &target.attachments;
         let roadmap = f32::from(u8::from(exposure.roadmap));
-        let uniforms = ExposureUniforms {
-            unit: self.format.unit(),
+        let values = ExposureUniforms {
+            unit: sums.format.unit(),
             contrast: [exposure.contrast_s.unwrap_or(-1.0), exposure.flow.max(1e-3), CONTRAST, roadmap],
             picture: [exposure.pulse as f32, NOISE, width, height],
         };
-        let buffer = buffer::uniforms(device, &self.queue, "exposure", bytemuck::bytes_of(&uniforms));
+        let buffer = uniforms(device, &self.queue, "exposure", bytemuck::bytes_of(&values));
         let texture =
             |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
         device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -237,8 +113,8 @@ impl Fluoroscopy {
             layout: &self.exposure,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
-                texture(1, &target.thickness),
-                texture(2, &target.shadow),
+                texture(1, &sums.thickness),
+                texture(2, &sums.shadow),
             ],
         })
     }
@@ -290,24 +166,5 @@ fn expose_pipeline(device: &wgpu::Device, exposure: &wgpu::BindGroupLayout) -> w
         }),
         multiview_mask: None,
         cache: None,
-    })
-}
-
-/// A pass over one texture, cleared first.
-fn begin<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &'static str,
-    view: &wgpu::TextureView,
-    clear: wgpu::Color,
-) -> wgpu::RenderPass<'a> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store },
-        })],
-        ..Default::default()
     })
 }

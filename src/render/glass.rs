@@ -6,7 +6,9 @@
 //! wire has pressed, the wall takes the colour of the largest force there.
 
 use super::GpuSurface;
-use super::scene::{PipelineParts, SceneLayout, scene_shader};
+use super::buffer::draw;
+use super::pipeline::{PipelineParts, scene_shader};
+use super::scene::SceneLayout;
 
 /// Draws vessels that can be seen through, and from inside.
 #[derive(Debug)]
@@ -47,25 +49,12 @@ impl Glass {
     /// scalars: forces.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, vessel: &GpuSurface) {
         for pipeline in [&self.far, &self.near] {
-            draw(pipeline, pass, vessel);
+            draw(pass, pipeline, &[&vessel.positions, &vessel.normals, &vessel.scalars], &vessel.triangles);
         }
     }
 
     /// Draws `vessel` as it is seen from inside, by a light beside the eye.
     pub(super) fn draw_inside(&self, pass: &mut wgpu::RenderPass<'_>, vessel: &GpuSurface) {
-        draw(&self.inside, pass, vessel);
-    }
-}
-
-fn draw(pipeline: &wgpu::RenderPipeline, pass: &mut wgpu::RenderPass<'_>, vessel: &GpuSurface) {
-    if let (Some(positions), Some(normals), Some(scalars), Some(triangles)) =
-        (vessel.positions.slice(), vessel.normals.slice(), vessel.scalars.slice(), vessel.triangles.slice())
-    {
-        pass.set_pipeline(pipeline);
-        pass.set_vertex_buffer(0, positions);
-        pass.set_vertex_buffer(1, normals);
-        pass.set_vertex_buffer(2, scalars);
-        pass.set_index_buffer(triangles, wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..vessel.triangles.count(size_of::<u32>()), 0, 0..1);
+        draw(pass, &self.inside, &[&vessel.positions, &vessel.normals, &vessel.scalars], &vessel.triangles);
     }
 }

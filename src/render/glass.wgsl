@@ -33,26 +33,26 @@ fn facing_normal(in: Fragment, towards_eye: vec3<f32>) -> vec3<f32> {
     return normal * select(-1.0, 1.0, dot(normal, towards_eye) >= 0.0);
 }
 
-fn wall(in: Fragment, paint: vec3<f32>, strength: f32) -> vec4<f32> {
+fn wall(in: Fragment, matte: vec3<f32>, strength: f32) -> vec4<f32> {
     let towards_eye = normalize(-in.position);
     let normal = facing_normal(in, towards_eye);
     let away = 1.0 - clamp(dot(normal, towards_eye), 0.0, 1.0);
     let light = 0.55 + 0.25 * normal.y + 0.55 * max(dot(normal, KEY), 0.0);
     let t = (in.force - scene.map.x) * scene.map.y;
     let pressed = smoothstep(0.01, 0.10, t);
-    let colour = mix(paint * light, decode(map_colour(t)) * mix(0.75, 1.0, light), pressed);
+    let colour = mix(matte * light, decode(map_colour(t)) * mix(0.75, 1.0, light), pressed);
     let opacity = mix(mix(FACING, EDGE, away * away), PRESSED, pressed) * strength;
     return vec4(encode(colour), opacity);
 }
 
 @fragment
 fn fragment_far(in: Fragment) -> @location(0) vec4<f32> {
-    return wall(in, drawn.inside.rgb, FAR);
+    return wall(in, paint.inside.rgb, FAR);
 }
 
 @fragment
 fn fragment_near(in: Fragment) -> @location(0) vec4<f32> {
-    return wall(in, drawn.surface.rgb, 1.0);
+    return wall(in, paint.surface.rgb, 1.0);
 }
 
 @fragment
@@ -63,5 +63,5 @@ fn fragment_inside(in: Fragment) -> @location(0) vec4<f32> {
     let reach = REACH / (REACH + distance);
     // Half of the cosine: a wet wall scatters light from below its surface.
     let light = (0.30 + 0.70 * clamp(dot(normal, towards_eye), 0.0, 1.0)) * reach * reach * 1.25 * (1.0 - smoothstep(0.3 * SEEN, SEEN, distance));
-    return vec4(dither(encode(drawn.surface.rgb * light), in.clip.xy), 1.0);
+    return vec4(dither(encode(paint.surface.rgb * light), in.clip.xy), 1.0);
 }

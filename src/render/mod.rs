@@ -1,14 +1,16 @@
 //! What wgpu draws: one camera, one light, a vessel shaded or as a wireframe. It knows [`mesh`](crate::mesh) alone.
 //!
-//! - A [`ViewTarget`] is what one 3-D view renders to: 4x multisampled colour and depth, and a resolved texture for
-//!   the window to show, or to read back as a [`Picture`].
+//! - A [`Target`] is what one view renders to: a picture for the window to show, or to read back as a [`Picture`], and
+//!   what it is drawn by. That of a 3-D view ([`ViewTarget`]) has 4x multisampled colour and depth.
 //! - A [`GpuSurface`] holds the positions of all nodes of a progressive mesh, uploaded once; a level brings triangles,
-//!   edges and normals.
-//! - A [`Renderer`] holds the pipelines, one file and one shader a kind of drawing: `backdrop`, `shaded`, `wireframe`.
-//!   [`Renderer::draw`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`].
-//! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel (`glass`, `wire`), from its tip, and as a
-//!   fluoroscope sees it (`fluoroscopy`, `thickness`). A [`GpuWire`] is written anew every frame.
-//! - [`DeviceHealth`] hears what goes wrong with a device; [`device_descriptor`] says what is asked of one.
+//!   edges and normals. A [`GpuWire`] is written anew every frame (`tube`).
+//! - A kind of drawing is one file with one shader: `backdrop`, `shaded`, `wireframe`, `glass`, `wire`, `thickness`,
+//!   `fluoroscopy`. Over the camera and the theme (`scene`) and a paint for each thing drawn (`paint`) it makes its
+//!   pipelines (`pipeline`) and draws from buffers (`buffer`).
+//! - A [`Renderer`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`], by all kinds for surfaces (`kind`).
+//! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel, from its tip, and as a fluoroscope sees it.
+//! - [`DeviceHealth`] hears what goes wrong with a device, [`SurfaceError`] is what does not come to it;
+//!   [`device_descriptor`] says what is asked of one.
 //! - [`pick`] finds the triangle under a [`Ray`] of the camera, on the CPU.
 //!
 //! It runs on WebGPU, on WebGL2 (no storage buffers, no compute, no wide lines, no polygon mode) and on Vulkan, Metal
@@ -27,34 +29,46 @@ mod camera;
 mod colour;
 mod colour_map;
 mod edges;
+mod error;
 mod fault;
 mod fluoroscopy;
 mod glass;
+mod kind;
 mod limits;
+mod paint;
 mod pick;
 mod picture;
+mod pipeline;
 mod renderer;
 mod scene;
 mod shaded;
+mod standard_view;
 mod style;
 mod surface;
 mod target;
+mod texture;
+mod thickness;
 mod trial;
+mod tube;
 mod wire;
 mod wireframe;
 
-pub use camera::{Camera, StandardView};
+pub use camera::Camera;
 pub use colour::{Colour, contrast};
 pub use colour_map::{ColourMap, VIRIDIS, viridis};
 pub use edges::unique_edges;
+pub use error::SurfaceError;
 pub use fault::{DeviceHealth, Fault};
-pub use fluoroscopy::{Exposure, FluoroscopyTarget, ThicknessFormat};
+pub use fluoroscopy::{Exposure, FluoroscopyTarget, Sums};
+pub use kind::{Drawable, Look};
 pub use limits::device_descriptor;
 pub use pick::{Hit, Ray, pick};
 pub use picture::{Picture, PictureError};
-pub use renderer::{Drawable, Look, Renderer};
+pub use renderer::Renderer;
+pub use standard_view::StandardView;
 pub use style::Style;
-pub use surface::{GpuSurface, SurfaceError};
-pub use target::ViewTarget;
+pub use surface::GpuSurface;
+pub use target::{Attachments, Multisampled, Target, ViewTarget};
+pub use thickness::ThicknessFormat;
 pub use trial::TrialRenderer;
-pub use wire::GpuWire;
+pub use tube::GpuWire;

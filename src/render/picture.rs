@@ -1,6 +1,6 @@
 //! Reading a finished view back from the GPU: for files, figures and tests.
 
-use super::ViewTarget;
+use super::target::{Attachments, Target};
 
 /// Pixels of a view: gamma-encoded sRGB and alpha (opaque), row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,15 +37,15 @@ impl Picture {
     /// Reads back what was submitted for `target` and hands it to `then`: in a browser by itself, elsewhere within a
     /// later `wgpu::Device::poll`.
     pub fn read(
-        target: &ViewTarget,
+        target: &Target<impl Attachments>,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         then: impl FnOnce(Result<Self, PictureError>) + wgpu::WasmNotSend + 'static,
     ) {
-        Self::read_texture(&target.resolved, device, queue, then);
+        Self::read_texture(target.picture(), device, queue, then);
     }
 
-    /// As [`Self::read`], of a texture in [`ViewTarget::FORMAT`] that can be copied from.
+    /// As [`Self::read`], of a texture in [`super::ViewTarget::FORMAT`] that can be copied from.
     fn read_texture(
         texture: &wgpu::Texture,
         device: &wgpu::Device,
@@ -87,11 +87,15 @@ impl Picture {
     /// # Errors
     /// When the GPU does not hand over the memory.
     #[cfg(not(target_arch = "wasm32"))]
-    pub fn read_now(target: &ViewTarget, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, PictureError> {
-        Self::read_texture_now(&target.resolved, device, queue)
+    pub fn read_now(
+        target: &Target<impl Attachments>,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Self, PictureError> {
+        Self::read_texture_now(target.picture(), device, queue)
     }
 
-    /// As [`Self::read_now`], of a texture in [`ViewTarget::FORMAT`] that can be copied from.
+    /// As [`Self::read_now`], of a texture in [`super::ViewTarget::FORMAT`] that can be copied from.
     ///
     /// # Errors
     /// When the GPU does not hand over the memory.

@@ -16,7 +16,7 @@ struct Scene {
     height: f32,
 }
 
-struct Drawn {
+struct Paint {
     // Linear.
     surface: vec4<f32>,
     inside: vec4<f32>,
@@ -30,7 +30,7 @@ struct Drawn {
 
 @group(0) @binding(0) var<uniform> scene: Scene;
 @group(0) @binding(1) var viridis: texture_2d<f32>;
-@group(1) @binding(0) var<uniform> drawn: Drawn;
+@group(1) @binding(0) var<uniform> paint: Paint;
 
 // IEC 61966-2-1.
 fn encode(linear: vec3<f32>) -> vec3<f32> {

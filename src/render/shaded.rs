@@ -5,8 +5,11 @@
 //! Book", Rost 2006, section 12.1) plus a Lambertian key light, and a rim after Schlick's form of Fresnel's equations
 //! (1994). No highlight: a wall has none, and highlights move where a coarse level's normals do.
 
-use super::GpuSurface;
-use super::scene::{PipelineParts, SceneLayout, scene_shader};
+use super::Style;
+use super::buffer::draw;
+use super::kind::{DrawKind, Drawable, Look, Turn};
+use super::pipeline::{PipelineParts, scene_shader};
+use super::scene::SceneLayout;
 
 /// Draws shaded surfaces.
 #[derive(Debug)]
@@ -28,24 +31,19 @@ impl Shaded {
         };
         Self { plain: layout.pipeline(device, &plain), mapped: layout.pipeline(device, &mapped) }
     }
+}
 
-    /// Draws `surface`, with its scalars as colours if `mapped` and if it has them. Its scene must be bound.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, surface: &GpuSurface, mapped: bool) {
-        let (Some(positions), Some(normals), Some(triangles)) =
-            (surface.positions.slice(), surface.normals.slice(), surface.triangles.slice())
-        else {
+impl DrawKind for Shaded {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, drawable: &Drawable<'_>, turn: Turn, style: &Style) {
+        let surface = drawable.surface;
+        if turn != Turn::Solid || !matches!(drawable.look, Look::Shaded | Look::Flat) {
             return;
-        };
-        match surface.scalars.slice().filter(|_| mapped) {
-            Some(scalars) => {
-                pass.set_pipeline(&self.mapped);
-                pass.set_vertex_buffer(2, scalars);
-            }
-            None => pass.set_pipeline(&self.plain),
         }
-        pass.set_vertex_buffer(0, positions);
-        pass.set_vertex_buffer(1, normals);
-        pass.set_index_buffer(triangles, wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..surface.triangles.count(size_of::<u32>()), 0, 0..1);
+        if style.map.is_some() && !surface.scalars.is_empty() {
+            let vertices = [&surface.positions, &surface.normals, &surface.scalars];
+            draw(pass, &self.mapped, &vertices, &surface.triangles);
+        } else {
+            draw(pass, &self.plain, &[&surface.positions, &surface.normals], &surface.triangles);
+        }
     }
 }

@@ -40,7 +40,7 @@ fn facing_normal(in: Fragment, towards_eye: vec3<f32>, front: bool) -> vec3<f32>
     let flat_normal = normalize(across) * select(-1.0, 1.0, dot(across, towards_eye) >= 0.0);
     let smooth_normal = in.normal * select(-1.0, 1.0, front);
     let length_2 = dot(smooth_normal, smooth_normal);
-    let flat_wins = drawn.shading.x > 0.5 || length_2 < 1e-12;
+    let flat_wins = paint.shading.x > 0.5 || length_2 < 1e-12;
     return select(smooth_normal * inverseSqrt(max(length_2, 1e-12)), flat_normal, flat_wins);
 }
 
@@ -59,8 +59,8 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     let towards_eye = normalize(-in.position);
     let normal = facing_normal(in, towards_eye, front);
     let lit = light(normal);
-    let outside = mix(drawn.surface.rgb * lit, drawn.rim.rgb, rim(normal, towards_eye));
-    let colour = select(drawn.inside.rgb * lit, outside, front);
+    let outside = mix(paint.surface.rgb * lit, paint.rim.rgb, rim(normal, towards_eye));
+    let colour = select(paint.inside.rgb * lit, outside, front);
     return vec4(dither(encode(colour), in.clip.xy), 1.0);
 }
 

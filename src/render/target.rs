@@ -1,86 +1,62 @@
-//! What one 3-D view renders to: multisampled colour and depth, resolved into a texture that the window shows.
+//! What is rendered to: a picture that the window shows, or that is read back, and what it takes to draw it.
+//!
+//! A target of any kind is made here, has its size changed here, and is let go of when it is dropped. On another device
+//! it is made anew, like all that stands on one.
 
-/// The render target of one view.
-#[derive(Debug)]
-pub struct ViewTarget {
-    size: [u32; 2],
-    multisampled: wgpu::TextureView,
-    depth: wgpu::TextureView,
-    pub(super) resolved: wgpu::Texture,
-    view: wgpu::TextureView,
+use super::texture::{allowed, attachment, whole};
+
+/// What a kind of target has beside its picture.
+pub trait Attachments: Sized {
+    /// What the picture is called where a device speaks of it.
+    const LABEL: &'static str;
+
+    /// What decides beside the size what they are.
+    type Form: Copy;
+
+    /// Those of a picture of `size` pixels, which the device allows.
+    fn new(device: &wgpu::Device, size: [u32; 2], form: Self::Form) -> Self;
+
+    /// What they were made by.
+    fn form(&self) -> Self::Form;
 }
 
-impl ViewTarget {
-    /// The resolved texture: gamma-encoded sRGB in a format that does not know it, opaque (see the module's notes on
-    /// colours).
-    pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-    pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-    pub(super) const SAMPLES: u32 = 4;
+/// A picture, with what it is drawn by.
+#[derive(Debug)]
+pub struct Target<A> {
+    size: [u32; 2],
+    picture: wgpu::Texture,
+    view: wgpu::TextureView,
+    pub(super) attachments: A,
+}
 
-    /// A target of `width` by `height` pixels, brought within 1 and what the device allows.
-    pub fn new(device: &wgpu::Device, width: u32, height: u32) -> Self {
-        use wgpu::TextureUsages as Usage;
-        let largest = device.limits().max_texture_dimension_2d;
-        let size = [width.clamp(1, largest), height.clamp(1, largest)];
-        let texture = |label, sample_count, format, usage| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage,
-                view_formats: &[],
-            })
-        };
-        let whole = wgpu::TextureViewDescriptor::default();
-        let multisampled = texture("view, multisampled", Self::SAMPLES, Self::FORMAT, Usage::RENDER_ATTACHMENT);
-        let depth = texture("view, depth", Self::SAMPLES, Self::DEPTH_FORMAT, Usage::RENDER_ATTACHMENT);
-        let shown = Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
-        let resolved = texture("view", 1, Self::FORMAT, shown);
-        Self {
-            size,
-            multisampled: multisampled.create_view(&whole),
-            depth: depth.create_view(&whole),
-            view: resolved.create_view(&whole),
-            resolved,
-        }
+impl<A: Attachments> Target<A> {
+    /// A target of `size` pixels, brought within 1 and what the device allows.
+    pub(super) fn of(device: &wgpu::Device, size: [u32; 2], form: A::Form) -> Self {
+        let size = allowed(device, size);
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let picture = attachment(device, A::LABEL, size, 1, ViewTarget::FORMAT, usage);
+        Self { size, view: whole(&picture), picture, attachments: A::new(device, size, form) }
     }
 
     /// Makes the target `width` by `height` pixels, brought within 1 and what the device allows. Says whether it is a
     /// new one: then [`Self::view`] is another texture, with nothing drawn yet.
     pub fn resize(&mut self, device: &wgpu::Device, width: u32, height: u32) -> bool {
-        let largest = device.limits().max_texture_dimension_2d;
-        let changes = self.size != [width.clamp(1, largest), height.clamp(1, largest)];
+        let size = [width, height];
+        let changes = self.size != allowed(device, size);
         if changes {
-            *self = Self::new(device, width, height);
+            *self = Self::of(device, size, self.attachments.form());
         }
         changes
     }
 
-    /// Begins drawing all of it anew. Something must cover all of it, and only the resolved texture is kept.
-    pub(super) fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("view"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.multisampled,
-                depth_slice: None,
-                resolve_target: Some(&self.view),
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Discard },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        })
-    }
-
-    /// The texture with the finished picture, in [`Self::FORMAT`].
+    /// The texture with the finished picture, in [`ViewTarget::FORMAT`].
     pub fn view(&self) -> &wgpu::TextureView {
         &self.view
+    }
+
+    /// The same, to be read back.
+    pub fn picture(&self) -> &wgpu::Texture {
+        &self.picture
     }
 
     /// Width and height in pixels.
@@ -91,5 +67,64 @@ impl ViewTarget {
     /// Width / height.
     pub fn aspect(&self) -> f32 {
         self.size[0] as f32 / self.size[1] as f32
+    }
+}
+
+/// What a 3-D view is drawn by: multisampled colour, resolved into the picture, and depth.
+#[derive(Debug)]
+pub struct Multisampled {
+    colour: wgpu::TextureView,
+    depth: wgpu::TextureView,
+}
+
+impl Attachments for Multisampled {
+    const LABEL: &'static str = "view";
+
+    type Form = ();
+
+    fn new(device: &wgpu::Device, size: [u32; 2], (): ()) -> Self {
+        let texture = |label, format| {
+            whole(&attachment(device, label, size, ViewTarget::SAMPLES, format, wgpu::TextureUsages::empty()))
+        };
+        Self {
+            colour: texture("view, multisampled", ViewTarget::FORMAT),
+            depth: texture("view, depth", ViewTarget::DEPTH_FORMAT),
+        }
+    }
+
+    fn form(&self) {}
+}
+
+/// The target of a 3-D view.
+pub type ViewTarget = Target<Multisampled>;
+
+impl ViewTarget {
+    /// The picture: gamma-encoded sRGB in a format that does not know it, opaque (see the module's notes on colours).
+    pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+    pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+    pub(super) const SAMPLES: u32 = 4;
+
+    /// A target of `width` by `height` pixels, brought within 1 and what the device allows.
+    pub fn new(device: &wgpu::Device, width: u32, height: u32) -> Self {
+        Self::of(device, [width, height], ())
+    }
+
+    /// Begins drawing all of it anew. Something must cover all of it, and only the picture is kept.
+    pub(super) fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("view"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.attachments.colour,
+                depth_slice: None,
+                resolve_target: Some(&self.view),
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Discard },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.attachments.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        })
     }
 }

@@ -1,13 +1,13 @@
 //! The views of a trial: the wire in the translucent vessel, what the tip sees, the fluoroscopy.
 
 use super::backdrop::Backdrop;
-use super::fluoroscopy::Fluoroscopy;
+use super::fluoroscopy::{Exposure, Fluoroscopy, FluoroscopyTarget};
 use super::glass::Glass;
+use super::paint::Paint;
 use super::scene::{SceneBindings, SceneLayout};
+use super::thickness::{Thickness, ThicknessFormat};
 use super::wire::Wire;
-use super::{
-    Camera, Drawable, Exposure, FluoroscopyTarget, GpuSurface, GpuWire, Look, Style, ThicknessFormat, ViewTarget,
-};
+use super::{Camera, GpuSurface, GpuWire, Style, ViewTarget};
 
 /// The pipelines; one serves all views of a device.
 #[derive(Debug)]
@@ -16,6 +16,7 @@ pub struct TrialRenderer {
     backdrop: Backdrop,
     glass: Glass,
     wire: Wire,
+    thickness: Thickness,
     fluoroscopy: Fluoroscopy,
 }
 
@@ -27,7 +28,8 @@ impl TrialRenderer {
             backdrop: Backdrop::new(device, &layout),
             glass: Glass::new(device, &layout),
             wire: Wire::new(device, &layout),
-            fluoroscopy: Fluoroscopy::new(device, &layout, format),
+            thickness: Thickness::new(device, &layout, format),
+            fluoroscopy: Fluoroscopy::new(device, queue),
             layout,
         }
     }
@@ -42,7 +44,7 @@ impl TrialRenderer {
         (vessel, wire): (&GpuSurface, &GpuWire),
         style: &Style,
     ) {
-        let bindings = self.bind(device, target.size(), camera, vessel, style);
+        let bindings = self.bind(device, target.size(), camera, style);
         let mut pass = target.begin(encoder);
         bindings.set(&mut pass, 0);
         self.backdrop.draw(&mut pass);
@@ -60,7 +62,7 @@ impl TrialRenderer {
         vessel: &GpuSurface,
         style: &Style,
     ) {
-        let bindings = self.bind(device, target.size(), camera, vessel, style);
+        let bindings = self.bind(device, target.size(), camera, style);
         let mut pass = target.begin(encoder);
         bindings.set(&mut pass, 0);
         self.glass.draw_inside(&mut pass, vessel);
@@ -68,7 +70,7 @@ impl TrialRenderer {
 
     /// A target for fluoroscopies of `size` pixels, brought within 1 and what the device allows.
     pub fn fluoroscopy_target(&self, device: &wgpu::Device, size: [u32; 2]) -> FluoroscopyTarget {
-        self.fluoroscopy.target(device, size)
+        FluoroscopyTarget::of(device, size, self.thickness.format())
     }
 
     /// Records a fluoroscopy of the wire in `body`, a closed surface whose scalars say where along the vessel each node
@@ -85,22 +87,16 @@ impl TrialRenderer {
         exposure: &Exposure,
         measured: bool,
     ) {
-        let bindings = self.bind(device, target.size(), camera, body, &Style::LIGHT);
+        let bindings = self.bind(device, target.size(), camera, &Style::LIGHT);
+        let sums = &target.attachments;
         if measured {
-            self.fluoroscopy.measure(encoder, target, &bindings, body);
+            self.thickness.measure(encoder, &sums.thickness, &bindings, body);
         }
-        self.fluoroscopy.expose(device, encoder, target, &bindings, (&self.wire, wire), exposure);
+        self.wire.draw_shadow(encoder, &sums.shadow, &bindings, wire);
+        self.fluoroscopy.expose(device, encoder, target, exposure);
     }
 
-    fn bind(
-        &self,
-        device: &wgpu::Device,
-        size: [u32; 2],
-        camera: &Camera,
-        surface: &GpuSurface,
-        style: &Style,
-    ) -> SceneBindings {
-        let drawable = Drawable { surface, look: Look::Shaded, tint: None };
-        self.layout.bind(device, size, camera, &[drawable], style)
+    fn bind(&self, device: &wgpu::Device, size: [u32; 2], camera: &Camera, style: &Style) -> SceneBindings {
+        self.layout.bind(device, size, camera, style, &[Paint::of(style)])
     }
 }

@@ -20,7 +20,7 @@ struct Fragment {
     @location(1) normal: vec3<f32>,
     // Distance from the tip, and radius, in mm.
     @location(2) measure: vec2<f32>,
-    // Radius over the radius that is drawn.
+    // Radius over the radius that is paint.
     @location(3) share: f32,
 }
 
@@ -42,7 +42,7 @@ fn fragment(in: Fragment) -> @location(0) vec4<f32> {
     let towards_eye = normalize(-in.position);
     let normal = normalize(in.normal);
     let is_tip = 1.0 - smoothstep(TIP - 1.0, TIP, in.measure.x);
-    let colour = mix(decode(drawn.line.rgb), TIP_COLOUR, is_tip);
+    let colour = mix(decode(paint.line.rgb), TIP_COLOUR, is_tip);
     let shine = pow(max(dot(normal, normalize(KEY + towards_eye)), 0.0), 24.0);
     let edge = clamp(dot(normal, towards_eye), 0.0, 1.0);
     let lit = colour * (0.35 + 0.75 * max(dot(normal, KEY), 0.0)) * mix(0.45, 1.0, edge) + vec3(0.55 * shine);
@@ -51,7 +51,7 @@ fn fragment(in: Fragment) -> @location(0) vec4<f32> {
 
 @fragment
 fn fragment_shadow(in: Fragment) -> @location(0) vec4<f32> {
-    // A chord of the circle, spread over the width that is drawn.
+    // A chord of the circle, spread over the width that is paint.
     let chord = 2.0 * in.measure.y * in.share * abs(dot(normalize(in.normal), normalize(in.position)));
     let mu = mix(COIL, STEEL, smoothstep(TIP - 1.0, TIP, in.measure.x));
     return vec4(mu * chord / MOST_DEPTH);

@@ -5,8 +5,11 @@
 //! to their slope (polygon offset), and lines are pulled towards the eye by the size of a pixel, along the ray through
 //! them, which leaves them where they are in the view.
 
-use super::GpuSurface;
-use super::scene::{PipelineParts, SceneLayout, scene_shader};
+use super::Style;
+use super::buffer::draw;
+use super::kind::{DrawKind, Drawable, Look, Turn};
+use super::pipeline::{PipelineParts, scene_shader};
+use super::scene::SceneLayout;
 
 /// Draws wireframes.
 #[derive(Debug)]
@@ -49,36 +52,23 @@ impl Wireframe {
             hidden: layout.pipeline(device, &hidden),
         }
     }
-
-    /// Puts the triangles of `surface` into the depth buffer. Its scene must be bound, here and below.
-    pub(super) fn draw_depth(&self, pass: &mut wgpu::RenderPass<'_>, surface: &GpuSurface) {
-        if let (Some(positions), Some(triangles)) = (surface.positions.slice(), surface.triangles.slice()) {
-            pass.set_pipeline(&self.fill);
-            pass.set_vertex_buffer(0, positions);
-            pass.set_index_buffer(triangles, wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..surface.triangles.count(size_of::<u32>()), 0, 0..1);
-        }
-    }
-
-    /// Draws the edges of `surface` that nothing in the depth buffer hides.
-    pub(super) fn draw_visible(&self, pass: &mut wgpu::RenderPass<'_>, surface: &GpuSurface) {
-        draw_edges(&self.visible, pass, surface);
-    }
-
-    /// Draws the edges of `surface` that something in the depth buffer hides, faintly.
-    pub(super) fn draw_hidden(&self, pass: &mut wgpu::RenderPass<'_>, surface: &GpuSurface) {
-        draw_edges(&self.hidden, pass, surface);
-    }
 }
 
-fn draw_edges(pipeline: &wgpu::RenderPipeline, pass: &mut wgpu::RenderPass<'_>, surface: &GpuSurface) {
-    if let (Some(positions), Some(normals), Some(edges)) =
-        (surface.positions.slice(), surface.normals.slice(), surface.edges.slice())
-    {
-        pass.set_pipeline(pipeline);
-        pass.set_vertex_buffer(0, positions);
-        pass.set_vertex_buffer(1, normals);
-        pass.set_index_buffer(edges, wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..surface.edges.count(size_of::<u32>()), 0, 0..1);
+impl DrawKind for Wireframe {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, drawable: &Drawable<'_>, turn: Turn, _: &Style) {
+        let surface = drawable.surface;
+        let edges: &[&wgpu::RenderPipeline] = match drawable.look {
+            Look::Wireframe => &[&self.visible],
+            Look::SeeThrough => &[&self.hidden, &self.visible],
+            Look::Shaded | Look::Flat => return,
+        };
+        match turn {
+            Turn::Solid => draw(pass, &self.fill, &[&surface.positions], &surface.triangles),
+            Turn::Lines => {
+                for pipeline in edges {
+                    draw(pass, pipeline, &[&surface.positions, &surface.normals], &surface.edges);
+                }
+            }
+        }
     }
 }

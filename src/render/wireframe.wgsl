@@ -32,7 +32,7 @@ fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> F
 }
 
 fn line_colour(facing: f32) -> vec3<f32> {
-    return mix(drawn.line.rgb, drawn.line_facing.rgb, smoothstep(0.1, 0.9, facing));
+    return mix(paint.line.rgb, paint.line_facing.rgb, smoothstep(0.1, 0.9, facing));
 }
 
 @fragment

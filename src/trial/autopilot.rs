@@ -74,7 +74,7 @@ pub struct Seen {
     pub is_off: bool,
     /// Whether the wire has turned back on itself.
     pub is_looped: bool,
-    /// Whether the guide holds back: it would take too much force.
+    /// Whether the push is at its limit: it would take too much force.
     pub is_hard: bool,
 }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::contact::Contacts;
-use super::descent::{Descent, Springs, descend};
+use super::contact::{Contacts, Springs};
+use super::descent::{Descent, descend};
 use super::report::StepKind;
 use super::rod::{Hessian, Rod};
 use super::wall::Wall;
@@ -14,30 +14,30 @@ use super::wall::Wall;
 const DEPTH: f64 = 0.035;
 /// The part of the radius that a node may move in a step: its middle then cannot pass the wall unseen.
 const STRIDE: f64 = 0.9;
-/// The part of its slope by which the potential must fall.
+/// The part of its slope by which the potential must fall in a line search (Armijo).
 const FALL: f64 = 1e-4;
 /// Corrections before the gaps are measured again.
 const CORRECTIONS: usize = 8;
 /// Times the gaps are measured in a step.
 const ROUNDS: usize = 6;
 /// Where the next correction would be less than this, in mm, this one is the last. What is left over is a force of
-/// [`super::contact`]'s stiffness times it in each contact: it must be small against what a floppy wire presses with, or
+/// a contact's penalty times it in each contact: it must be small against what a floppy wire presses with, or
 /// nothing slides as it should.
 const SETTLED: f64 = 3e-6;
 /// At this, in mm, a step can still be taken as done.
 const ALMOST: f64 = 2e-2;
-/// The brake, which is drag of each node when something snaps: the least, in N s/mm.
-const BRAKE: f64 = 1e-6;
+/// Artificial damping, which is drag of each node when something snaps: the least, in N s/mm.
+const DAMPING: f64 = 1e-6;
 /// By what it grows when that is too little, and falls when it was enough.
 const HARDER: f64 = 4.0;
-/// Brakes that are tried in a step.
+/// Dampings that are tried in a step.
 const ATTEMPTS: usize = 12;
-/// The brake above which what is held waits: else it would be torn away from what cannot follow.
+/// The damping above which what is fixed waits: else it would be torn away from what cannot follow.
 const PATIENCE: f64 = 1e-5;
 /// Slower than this is stillness, in mm/s.
 const STILL: f64 = 2.5;
-/// What a contact's force can rise by while the rod is braked, in N/s: the rest is what the brake does.
-const BRAKED_RISE: f64 = 2.5;
+/// What a contact's force can rise by while the rod is damped, in N/s: the rest is what the damping does.
+const DAMPED_RISE: f64 = 2.5;
 
 /// A rod, its contacts, and the wall.
 #[derive(Clone, Debug)]
@@ -51,11 +51,11 @@ pub struct Body {
     wall: Option<Arc<Wall>>,
     /// The contacts of the correction under way.
     springs: Springs,
-    /// Drag of each node beyond its own in the last step, in N s/mm.
-    brake: f64,
-    /// Whether nothing moved much in the last step: then waiting has no end, and what is held goes on.
+    /// Artificial damping in the last step, in N s/mm.
+    damping: f64,
+    /// Whether nothing moved much in the last step: then waiting has no end, and what is fixed goes on.
     is_still: bool,
-    /// Whether there was no way in the last step: in the next what is held waits.
+    /// Whether there was no way in the last step: in the next what is fixed waits.
     is_stuck: bool,
     /// Whether all forces were let go of since: friction is then found in a second round only.
     has_let_go: bool,
@@ -70,7 +70,7 @@ impl Body {
             depth: f64::NEG_INFINITY,
             wall,
             springs: Springs::default(),
-            brake: 0.0,
+            damping: 0.0,
             is_still: false,
             is_stuck: false,
             has_let_go: false,
@@ -83,14 +83,14 @@ impl Body {
     }
 
     /// Measures the gaps of the first `count` nodes.
-    pub fn look(&mut self, count: usize) {
+    pub fn detect(&mut self, count: usize) {
         self.depth = match &self.wall {
-            Some(wall) => self.contacts.look(&self.rod, count, wall),
+            Some(wall) => self.contacts.detect(&self.rod, count, wall),
             None => f64::NEG_INFINITY,
         };
     }
 
-    /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is held where it
+    /// A step of `dt` seconds, in which the first `count` nodes can touch the wall. `prepare` puts what is fixed where it
     /// should be at the end of the step; while something snaps it may have to wait where it is.
     pub fn step(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> StepKind {
         // What has gone back into the guide touches nothing.
@@ -102,35 +102,35 @@ impl Body {
     }
 
     fn attempts(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> StepKind {
-        let mut brake = self.brake / HARDER;
-        if brake < BRAKE {
-            brake = 0.0;
+        let mut damping = self.damping / HARDER;
+        if damping < DAMPING {
+            damping = 0.0;
         }
         for _ in 0..ATTEMPTS {
-            let waits = self.is_stuck || brake > PATIENCE && !self.is_still;
+            let waits = self.is_stuck || damping > PATIENCE && !self.is_still;
             if !waits {
                 prepare(&mut self.rod);
             }
             self.rod.refresh();
-            if self.try_step(dt, count, brake) {
+            if self.try_step(dt, count, damping) {
                 let moved = (0..self.rod.len()).map(|i| self.rod.positions[i].distance(self.rod.start(i)));
                 self.is_still = moved.fold(0.0, f64::max) < STILL * dt;
-                self.contacts.finish(&self.rod, if brake > 0.0 { BRAKED_RISE * dt } else { f64::INFINITY });
+                self.contacts.finish(&self.rod, if damping > 0.0 { DAMPED_RISE * dt } else { f64::INFINITY });
                 self.rod.finish(dt);
-                self.brake = brake;
+                self.damping = damping;
                 self.has_let_go = false;
-                return match brake {
+                return match damping {
                     _ if waits => StepKind::Waited,
                     0.0 => StepKind::Balanced,
                     _ => StepKind::Braked,
                 };
             }
-            brake = (brake * HARDER).max(BRAKE);
+            damping = (damping * HARDER).max(DAMPING);
             self.rod.undo();
             self.contacts.undo();
-            self.look(count);
+            self.detect(count);
         }
-        self.brake = 0.0;
+        self.damping = 0.0;
         if self.is_stuck {
             // Not even waiting helps: what forces and friction have wound up comes loose.
             self.contacts.forget();
@@ -139,25 +139,25 @@ impl Body {
         StepKind::Held
     }
 
-    fn try_step(&mut self, dt: f64, count: usize, brake: f64) -> bool {
+    fn try_step(&mut self, dt: f64, count: usize, damping: f64) -> bool {
         let radius = self.contacts.radius;
         let stride = if self.wall.is_some() { STRIDE * radius } else { f64::INFINITY };
         let strides: Vec<f64> =
             (0..self.rod.len()).map(|i| stride.max(STRIDE * self.contacts.clearance(&self.rod, i))).collect();
         let is_too_far = |rod: &Rod| {
-            // What is held is inside the guide.
-            (0..rod.len()).any(|i| !rod.held[i].position && rod.positions[i].distance(rod.start(i)) > strides[i])
+            // What is fixed is inside the guide.
+            (0..rod.len()).any(|i| !rod.fixed[i].position && rod.positions[i].distance(rod.start(i)) > strides[i])
         };
-        if brake == 0.0 {
+        if damping == 0.0 {
             self.predict(dt, count);
         }
         for round in 0..ROUNDS {
-            self.contacts.set_grip();
+            self.contacts.set_limits();
             let (mut moved, mut potential) = (f64::INFINITY, None);
             for _ in 0..CORRECTIONS {
                 let before = moved;
                 let is_whole;
-                (moved, is_whole) = self.correct(dt, brake, &mut potential);
+                (moved, is_whole) = self.correct(dt, damping, &mut potential);
                 if !moved.is_finite() || is_too_far(&self.rod) {
                     return false;
                 }
@@ -167,15 +167,15 @@ impl Body {
                     break;
                 }
             }
-            self.contacts.balance(&self.rod);
-            self.look(count);
+            self.contacts.note_forces(&self.rod);
+            self.detect(count);
             let is_deep = self.depth > DEPTH * radius;
             if moved < ALMOST && !is_deep && (round > 0 || !self.has_let_go) {
                 return true;
             }
             if moved < ALMOST && is_deep {
                 // It rests too deep: the forces that it needs are more than the corrections may find at once.
-                self.contacts.raise();
+                self.contacts.update_multipliers();
             }
         }
         false
@@ -186,25 +186,25 @@ impl Body {
         let before = self.potential(dt, 0.0);
         self.rod.predict(dt);
         if self.potential(dt, 0.0) < before {
-            self.look(count);
+            self.detect(count);
         } else {
             self.rod.predict(0.0);
         }
     }
 
     /// What a step makes least, in N mm.
-    fn potential(&self, dt: f64, brake: f64) -> f64 {
-        self.rod.potential(dt, brake) + self.contacts.potential(&self.rod)
+    fn potential(&self, dt: f64, damping: f64) -> f64 {
+        self.rod.potential(dt, damping) + self.contacts.potential(&self.rod)
     }
 
-    /// One step of Newton's method with contacts in it, made shorter until the potential falls. `potential` is what it is
-    /// now, if that is known. Returns the largest move of a node in mm, and whether the step was all that it should be.
-    fn correct(&mut self, dt: f64, brake: f64, potential: &mut Option<f64>) -> (f64, bool) {
-        let before = potential.unwrap_or_else(|| self.potential(dt, brake));
+    /// One step of Newton's method with contacts in it, made shorter until the potential falls (a backtracking line search).
+    /// `potential` is what it is now, if that is known. Returns the largest move of a node in mm, and whether the step was all that it should be.
+    fn correct(&mut self, dt: f64, damping: f64, potential: &mut Option<f64>) -> (f64, bool) {
+        let before = potential.unwrap_or_else(|| self.potential(dt, damping));
         let mut hessian = Hessian::Exact;
         let Descent { moved, fall, is_settled } = loop {
-            self.rod.assemble(dt, brake, hessian);
-            self.contacts.along(&self.rod, &mut self.springs);
+            self.rod.assemble(dt, damping, hessian);
+            self.contacts.linearise(&self.rod, &mut self.springs);
             match descend(&mut self.rod, &mut self.springs, hessian) {
                 Some(found) => break found,
                 None => hessian = hessian.safer(),
@@ -216,7 +216,7 @@ impl Body {
         let mut part = 1.0;
         loop {
             self.rod.advance(part);
-            let after = self.potential(dt, brake);
+            let after = self.potential(dt, damping);
             // What rounding leaves of the potential is no reason to stop.
             if moved * part < SETTLED || after <= before + FALL * part * fall + 1e-12 * before.abs() {
                 *potential = Some(after);
@@ -238,7 +238,7 @@ impl Body {
         self.contacts
             .pressing()
             .filter(move |(_, contact)| is_vessel(contact.triangle))
-            .map(|(node, contact)| (node, contact.point, contact.triangle, contact.force))
+            .map(|(node, contact)| (node, contact.point, contact.triangle, contact.multiplier))
     }
 }
 
@@ -246,7 +246,7 @@ impl Body {
 mod tests {
     use super::*;
     use crate::mesh::{TriMesh, Vec3};
-    use crate::trial::rod::{Held, Section};
+    use crate::trial::rod::{Fixed, Section};
 
     const DT: f64 = 0.002;
     const RADIUS: f64 = 0.178;
@@ -276,7 +276,7 @@ mod tests {
             // Without a wall a step would take it 0.4 to 400 mm to the side. The last node touches nothing.
             rod.forces.extend((0..11).map(|i| (i, DVec3::new(0.0, -1.0, 0.3) * force)));
             let mut body = Body::new(rod, RADIUS, [0.06, 0.04], Some(room()));
-            body.look(11);
+            body.detect(11);
             let mut went = 0.0_f64;
             for step in 0..150 {
                 let kind = body.step(DT, 11, |_| ());
@@ -296,10 +296,10 @@ mod tests {
         // 0.5 N on the floor, and four fifths of what friction can hold along it.
         let (weight, pull) = (0.5, 0.8 * 0.06 * 0.5);
         let mut rod = piece(-2.0 + RADIUS);
-        rod.held[0] = Held { position: false, angle: true };
+        rod.fixed[0] = Fixed { position: false, angle: true };
         rod.forces.extend((0..11).map(|i| (i, DVec3::new(pull, -weight, 0.0) / 11.0)));
         let mut body = Body::new(rod, RADIUS, [0.06, 0.04], Some(room()));
-        body.look(11);
+        body.detect(11);
         // The pull comes once it lies.
         let pulled =
             std::mem::replace(&mut body.rod.forces, (0..11).map(|i| (i, DVec3::NEG_Y * weight / 11.0)).collect());
@@ -310,7 +310,7 @@ mod tests {
             let there = body.rod.positions[5];
             for time in 0..times {
                 let kind = body.step(DT, 11, |rod| rod.turn_to(0, f64::NAN));
-                // No number has no way; after it what is held waits once.
+                // No number has no way; after it what is fixed waits once.
                 assert_eq!(kind == StepKind::Held, time % 2 == 0, "{kind:?}");
             }
             (0..20).for_each(|_| assert_ne!(body.step(DT, 11, |_| ()), StepKind::Held));

@@ -1,11 +1,9 @@
-//! What a trial shows of itself, at any moment and at its end.
+//! What a trial shows of itself at any moment.
 
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
-use super::press::Press;
 use super::report::{StepCounts, StepReport};
-use super::setup::Entry;
 
 /// A place where the wire lies against the wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
@@ -61,9 +59,9 @@ pub struct Frame {
     pub roll: f64,
     /// Speed of the feed that the input asks for now, in mm/s.
     pub feed: f32,
-    /// What it takes to hold the wire at the guide against its way in, in N: positive when it pushes back.
+    /// As in [`StepReport::push_n`].
     pub push_n: f64,
-    /// The moment about its axis at the guide, in N mm.
+    /// As in [`StepReport::torque_n_mm`].
     pub torque_n_mm: f64,
     /// Sum over the wall of the normal forces, in N.
     pub wall_force_n: f64,
@@ -89,127 +87,4 @@ pub struct Frame {
     pub steps_per_second: f32,
     /// Whether the machine is behind by more than 50 ms, so that the trial runs slower than time.
     pub is_behind: bool,
-}
-
-/// The times of single steps, in ms.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct StepTimes {
-    /// Mean.
-    pub mean: f64,
-    /// Median.
-    pub p50: f64,
-    /// 99th percentile.
-    pub p99: f64,
-    /// The longest.
-    pub max: f64,
-}
-
-/// What was measured where the tip passed one of the five stations.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct StationResult {
-    /// Arc length along the route, in mm.
-    pub arc_mm: f64,
-    /// When the tip passed it first, in simulated seconds; `None` if it never did.
-    pub time_s: Option<f64>,
-    /// Steps a second over the second of simulated time around it.
-    pub steps_per_second: Option<f64>,
-    /// Mean milliseconds of 1/60 s of simulated time around it.
-    pub simulation_ms: Option<f64>,
-}
-
-/// What came of a trial.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Summary {
-    /// Version of this list of fields.
-    pub schema: u32,
-    /// Whether the tip arrived.
-    pub success: bool,
-    /// Why it ended, as a sentence.
-    pub reason: String,
-    /// Simulated seconds.
-    pub time_s: f64,
-    /// Steps.
-    pub steps: u64,
-    /// Steps a second of the clock, over all of it.
-    pub steps_per_second: f64,
-    /// Times of single steps.
-    pub step_ms: StepTimes,
-    /// Five places at equal arc length.
-    pub stations: Vec<StationResult>,
-    /// Milliseconds of 1/60 s of simulated time, over the first simulated second.
-    pub initial_simulation_ms: f64,
-    /// Milliseconds to build the hierarchy of boxes over the wall.
-    pub wall_build_ms: f64,
-    /// Milliseconds to find the vessel tree and the route.
-    pub route_build_ms: f64,
-    /// Triangles of the wall.
-    pub triangles: usize,
-    /// A number that differs where surfaces do, in hexadecimal.
-    pub surface: String,
-    /// The wire's name.
-    pub wire: String,
-    /// Where it entered, before the seed varies that.
-    pub entry: Option<Entry>,
-    /// Where it should go, in mm.
-    pub target: Option<[f32; 3]>,
-    /// Load on each mm of the wire, in N.
-    pub load_n_per_mm: [f32; 3],
-    /// What pressed it to the wall.
-    pub press: Press,
-    /// The seed.
-    pub seed: u64,
-    /// Static and kinetic coefficient of friction, after the seed's variation.
-    pub friction: [f64; 2],
-    /// Length of the route in mm.
-    pub route_length_mm: f64,
-    /// The smallest radius of the lumen along the route, in mm.
-    pub route_smallest_radius_mm: f64,
-    /// Length over the straight distance between its ends.
-    pub route_tortuosity: f64,
-    /// Branches that the route passes.
-    pub branches_passed: usize,
-    /// Distance of the tip from the target at the end, in mm.
-    pub tip_distance_mm: f64,
-    /// Length of the tip's way over the route's length.
-    pub path_ratio: f64,
-    /// Times the wire was withdrawn.
-    pub retractions: u32,
-    /// Times the tip entered a branch off the route.
-    pub wrong_branches: u32,
-    /// Times the wire turned back on itself.
-    pub loops: u32,
-    /// Steps by kind. The forces below are of those that were balanced.
-    pub step_kinds: StepCounts,
-    /// The part of the steps that was not balanced.
-    pub unbalanced_share: f64,
-    /// The way that the input asked the feed to go, there and back, in mm.
-    pub wanted_feed_mm: f64,
-    /// What of it was fed: the rest was asked for while the guide waited, held back or was at an end of the wire.
-    pub fed_mm: f64,
-    /// By how much Newton's second law was missed at most in a balanced step, in N.
-    pub max_residual_n: f64,
-    /// Largest normal force at one place of the wall, in N.
-    pub max_wall_force_n: f64,
-    /// Mean over the balanced steps of the sum of normal forces, in N.
-    pub mean_wall_force_n: f64,
-    /// Integral over time of that sum, in N s; while a step is not balanced, that of the last one which was counts.
-    pub wall_impulse_n_s: f64,
-    /// Largest and mean force within 5 mm of the tip, in N.
-    pub max_tip_force_n: f64,
-    /// Mean of it.
-    pub mean_tip_force_n: f64,
-    /// Largest push at the guide, in N.
-    pub max_push_n: f64,
-    /// Largest moment at the guide, in N mm.
-    pub max_torque_n_mm: f64,
-    /// How far the wire ever reached into the wall, in mm.
-    pub max_penetration_mm: f64,
-    /// Largest length outside the guide, in mm.
-    pub max_inserted_mm: f64,
-    /// Largest number of nodes outside the guide.
-    pub max_nodes: usize,
-    /// Largest part of them against the wall.
-    pub max_contact_share: f64,
-    /// The sentence that stands in every report.
-    pub notice: String,
 }

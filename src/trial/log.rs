@@ -9,9 +9,11 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::STEP;
-use super::meter::{SCHEMA, SinceRow};
+use super::meter::SinceRow;
 use super::setup::{Input, Setup};
 
+/// Version of the columns of the log and of the fields of the summary.
+pub const SCHEMA: u32 = 2;
 /// The columns.
 const COLUMNS: &str = "step,time_s,feed_mm_s,roll_rad_s,inserted_mm,roll_rad,tip_x,tip_y,tip_z,tip_dx,tip_dy,tip_dz,\
 arc_mm,branch,off_route,target_mm,path_ratio,contacts,wall_force_n,max_wall_force_n,max_x,max_y,max_z,tip_force_n,\
@@ -55,9 +57,9 @@ pub struct Row {
     pub max_at: DVec3,
     /// Within 5 mm of the tip, in N.
     pub tip_force_n: f64,
-    /// At the guide, in N.
+    /// As in [`StepReport::push_n`](super::report::StepReport::push_n).
     pub push_n: f64,
-    /// At the guide, in N mm.
+    /// As in [`StepReport::torque_n_mm`](super::report::StepReport::torque_n_mm).
     pub torque_n_mm: f64,
     /// Times withdrawn.
     pub retractions: u32,

@@ -1,20 +1,10 @@
-//! What is measured of a trial while it goes on, and its summary.
+//! What is measured of a trial while it goes on.
 
 use glam::DVec3;
 
-use super::STEP;
-use super::frame::{Progress, StationResult, StepTimes, Summary};
 use super::report::{StepCounts, StepKind, StepReport};
 use super::route::Route;
-use super::session::Trial;
 use super::simulation::Simulation;
-
-/// Version of the fields of [`Summary`] and of the columns of the log.
-pub const SCHEMA: u32 = 2;
-/// Steps in a second of simulated time.
-const SECOND: usize = (1.0 / STEP + 0.5) as usize;
-/// Steps in 1/60 s of simulated time.
-const FRAME_STEPS: f64 = 1.0 / 60.0 / STEP;
 
 /// What is at the tip, in mm from it.
 const TIP: f64 = 5.0;
@@ -22,9 +12,9 @@ const TIP: f64 = 5.0;
 /// The forces of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forces {
-    /// At the guide: in N, and in N mm.
+    /// As in [`StepReport::push_n`].
     pub push_n: f64,
-    /// About the way in.
+    /// As in [`StepReport::torque_n_mm`].
     pub torque_n_mm: f64,
     /// Places where it presses against the vessel.
     pub contacts: usize,
@@ -74,11 +64,10 @@ pub struct SinceRow {
 }
 
 /// Running sums and maxima: of forces, by the steps that were balanced alone.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Meter {
-    /// Milliseconds of each step.
-    step_ms: Vec<f32>,
-    stations: Vec<(f64, Option<usize>)>,
+    /// Arc length of each station in mm, and the step at which the tip passed it first.
+    pub(super) stations: Vec<(f64, Option<usize>)>,
     /// Steps so far, by kind.
     pub counts: StepCounts,
     /// The forces of the last balanced step.
@@ -86,21 +75,21 @@ pub struct Meter {
     /// What there was since the last row of the log.
     pub since_row: SinceRow,
     /// Sums over balanced steps.
-    wall_force_sum: f64,
-    tip_force_sum: f64,
+    pub(super) wall_force_sum: f64,
+    pub(super) tip_force_sum: f64,
     /// The sum over all steps of what the last balanced one had.
-    wall_force_held_sum: f64,
-    wanted_mm: f64,
-    fed_mm: f64,
-    max_residual_n: f64,
-    max_wall_force_n: f64,
-    max_tip_force_n: f64,
-    max_push_n: f64,
-    max_torque_n_mm: f64,
-    max_depth: f64,
-    max_inserted: f64,
-    max_nodes: usize,
-    max_contact_share: f64,
+    pub(super) wall_force_kept_sum: f64,
+    pub(super) wanted_mm: f64,
+    pub(super) fed_mm: f64,
+    pub(super) max_residual_n: f64,
+    pub(super) max_wall_force_n: f64,
+    pub(super) max_tip_force_n: f64,
+    pub(super) max_push_n: f64,
+    pub(super) max_torque_n_mm: f64,
+    pub(super) max_depth: f64,
+    pub(super) max_inserted: f64,
+    pub(super) max_nodes: usize,
+    pub(super) max_contact_share: f64,
     tip: Option<DVec3>,
     /// Length of the tip's way in mm.
     pub path_mm: f64,
@@ -114,36 +103,11 @@ pub struct Meter {
 
 impl Meter {
     pub(super) fn new(route: &Route) -> Self {
-        Self {
-            step_ms: Vec::new(),
-            stations: route.stations.iter().map(|&arc| (arc, None)).collect(),
-            counts: StepCounts::default(),
-            forces: Forces::default(),
-            since_row: SinceRow::default(),
-            wall_force_sum: 0.0,
-            tip_force_sum: 0.0,
-            wall_force_held_sum: 0.0,
-            wanted_mm: 0.0,
-            fed_mm: 0.0,
-            max_residual_n: 0.0,
-            max_wall_force_n: 0.0,
-            max_tip_force_n: 0.0,
-            max_push_n: 0.0,
-            max_torque_n_mm: 0.0,
-            max_depth: 0.0,
-            max_inserted: 0.0,
-            max_nodes: 0,
-            max_contact_share: 0.0,
-            tip: None,
-            path_mm: 0.0,
-            retractions: 0,
-            wrong_branches: 0,
-            loops: 0,
-        }
+        Self { stations: route.stations.iter().map(|&arc| (arc, None)).collect(), ..Self::default() }
     }
 
-    pub(super) fn stepped(&mut self, ms: f64, report: &StepReport, simulation: &Simulation) {
-        self.step_ms.push(ms as f32);
+    /// Takes a step in.
+    pub(super) fn stepped(&mut self, report: &StepReport, simulation: &Simulation) {
         self.counts.count(report.kind);
         self.wanted_mm += report.wanted_mm.abs();
         self.fed_mm += report.fed_mm.abs();
@@ -167,11 +131,12 @@ impl Meter {
             self.max_torque_n_mm = self.max_torque_n_mm.max(forces.torque_n_mm.abs());
             self.forces = forces;
         }
-        self.wall_force_held_sum += self.forces.wall_force_n;
+        self.wall_force_kept_sum += self.forces.wall_force_n;
     }
 
+    /// Takes in where the tip was found.
     pub(super) fn looked(&mut self, simulation: &Simulation, arc: f64) {
-        let step = self.step_ms.len();
+        let step = simulation.steps() as usize;
         for (at, passed) in &mut self.stations {
             if arc >= *at && passed.is_none() {
                 *passed = Some(step);
@@ -188,126 +153,5 @@ impl Meter {
         touching.sort_unstable();
         touching.dedup();
         self.max_contact_share = self.max_contact_share.max(touching.len() as f64 / nodes.max(1) as f64);
-    }
-
-    /// The milliseconds of each step, which this then has no more.
-    pub(super) fn take_step_ms(&mut self) -> Vec<f32> {
-        std::mem::take(&mut self.step_ms)
-    }
-
-    /// Takes back the milliseconds of each step, as far as this has counted steps.
-    pub(super) fn give_step_ms(&mut self, mut step_ms: Vec<f32>) {
-        step_ms.truncate(self.counts.all() as usize);
-        self.step_ms = step_ms;
-    }
-
-    /// Mean milliseconds of the last `count` steps.
-    pub(super) fn last_ms(&self, count: usize) -> f64 {
-        mean(&self.step_ms[self.step_ms.len().saturating_sub(count)..])
-    }
-
-    /// Milliseconds of all steps together.
-    pub fn total_ms(&self) -> f64 {
-        self.step_ms.iter().map(|&ms| f64::from(ms)).sum()
-    }
-
-    fn times(&self) -> StepTimes {
-        let mut sorted = self.step_ms.clone();
-        sorted.sort_by(f32::total_cmp);
-        let at = |part: f64| sorted.get(((sorted.len() as f64 * part) as usize).min(sorted.len().max(1) - 1));
-        let at = |part: f64| at(part).map_or(0.0, |&ms| f64::from(ms));
-        StepTimes { mean: mean(&self.step_ms), p50: at(0.5), p99: at(0.99), max: at(1.0) }
-    }
-
-    fn station(&self, arc_mm: f64, passed: Option<usize>) -> StationResult {
-        let around = passed.map(|step| {
-            let from = step.saturating_sub(SECOND / 2);
-            let to = (step + SECOND / 2).min(self.step_ms.len());
-            mean(&self.step_ms[from..to])
-        });
-        StationResult {
-            arc_mm,
-            time_s: passed.map(|step| step as f64 * STEP),
-            steps_per_second: around.map(|ms| 1e3 / ms.max(1e-6)),
-            simulation_ms: around.map(|ms| ms * FRAME_STEPS),
-        }
-    }
-}
-
-fn mean(values: &[f32]) -> f64 {
-    values.iter().map(|&value| f64::from(value)).sum::<f64>() / values.len().max(1) as f64
-}
-
-impl Trial {
-    /// What came of it, up to now.
-    pub fn summary(&self) -> Summary {
-        let (meter, course, simulation) = (self.meter(), self.course(), self.simulation());
-        let steps = simulation.steps();
-        let route = &course.route;
-        let tip_distance_mm = route.distance_to_target(simulation.tip());
-        let time_s = steps as f64 * STEP;
-        let per = |sum: f64, count: u64| sum / count.max(1) as f64;
-        Summary {
-            schema: SCHEMA,
-            success: self.progress() == Progress::Arrived,
-            reason: match self.progress() {
-                Progress::Running => format!("not over yet: the tip is {tip_distance_mm:.1} mm from the target"),
-                Progress::Arrived => format!("the tip arrived after {time_s:.1} s"),
-                Progress::TimedOut => format!(
-                    "the autopilot's time of {:.0} s was over with the tip {tip_distance_mm:.1} mm from the target",
-                    self.limit_s()
-                ),
-                Progress::Over => {
-                    format!("the recorded input was over with the tip {tip_distance_mm:.1} mm from the target")
-                }
-                Progress::GaveUp => format!(
-                    "the autopilot gave up after {} retractions with the tip {tip_distance_mm:.1} mm from the target",
-                    meter.retractions
-                ),
-            },
-            time_s,
-            steps,
-            steps_per_second: 1e3 * steps as f64 / meter.total_ms().max(1e-6),
-            step_ms: meter.times(),
-            stations: meter.stations.iter().map(|&(arc, passed)| meter.station(arc, passed)).collect(),
-            initial_simulation_ms: mean(&meter.step_ms[..meter.step_ms.len().min(SECOND)]) * FRAME_STEPS,
-            wall_build_ms: course.wall_ms,
-            route_build_ms: course.route_ms,
-            triangles: course.wall.mesh().triangles.len(),
-            surface: format!("{:016x}", course.fingerprint),
-            wire: self.setup().wire.name.clone(),
-            entry: self.setup().entry,
-            target: self.setup().target,
-            load_n_per_mm: self.setup().load,
-            press: self.setup().press,
-            seed: self.setup().seed,
-            friction: self.friction(),
-            route_length_mm: route.length_mm,
-            route_smallest_radius_mm: route.smallest_radius_mm,
-            route_tortuosity: route.tortuosity,
-            branches_passed: route.branches_passed,
-            tip_distance_mm,
-            path_ratio: meter.path_mm / route.length_mm,
-            retractions: meter.retractions,
-            wrong_branches: meter.wrong_branches,
-            loops: meter.loops,
-            max_wall_force_n: meter.max_wall_force_n,
-            mean_wall_force_n: per(meter.wall_force_sum, meter.counts.balanced),
-            wall_impulse_n_s: meter.wall_force_held_sum * STEP,
-            max_tip_force_n: meter.max_tip_force_n,
-            mean_tip_force_n: per(meter.tip_force_sum, meter.counts.balanced),
-            max_push_n: meter.max_push_n,
-            max_torque_n_mm: meter.max_torque_n_mm,
-            step_kinds: meter.counts,
-            unbalanced_share: meter.counts.unbalanced_share(),
-            wanted_feed_mm: meter.wanted_mm,
-            fed_mm: meter.fed_mm,
-            max_residual_n: meter.max_residual_n,
-            max_penetration_mm: meter.max_depth.max(0.0),
-            max_inserted_mm: meter.max_inserted,
-            max_nodes: meter.max_nodes,
-            max_contact_share: meter.max_contact_share,
-            notice: "Not for clinical decisions.".to_owned(),
-        }
     }
 }

@@ -8,6 +8,48 @@
 //!
 //! Units are mm, N, s, t (tonne), MPa; forces in N, moments in N mm. The step is [`STEP`] of simulated time; input is
 //! latched by step, so a log replays to the same end, to the bit on one platform.
+//!
+//! # Where things are
+//!
+//! - The place: [`wall`], [`route`] (vessel tree and routes), [`course`] (both, and where the wire stands), `proposal`.
+//! - The wire: [`wire`], [`setup`], [`placement`].
+//! - A step: [`rod`], [`contact`], `descent` (which contacts press), [`body`] (rod and contacts through a step),
+//!   [`simulation`] (the guide that feeds and rolls), [`report`] (what a step tells of itself).
+//! - A trial: [`session`], [`autopilot`], `press` (what presses the wire to the wall).
+//! - What comes of it: [`meter`], [`stopwatch`], [`felt`], [`log`], [`frame`], [`summary`], [`compare`].
+//! - [`audit`] checks walls and openness, and shares no code with the solver.
+//!
+//! # Words
+//!
+//! Of contact:
+//!
+//! - *Gap*: distance of the rod's surface from the flat triangles of the wall; less than 0 inside of it.
+//! - *Penalty*: by what a contact's force grows with less of a gap, in N/mm, within a step.
+//! - *Multiplier*: the normal force that a contact begins a step with, and the one a step has come to; with it the gap at
+//!   rest is 0 whatever the penalty.
+//! - *Slip*: how far the rod's surface has gone across the normal; its elastic part is what friction springs back by.
+//! - *Coulomb limit*: what friction can give, `mu N`: by the static coefficient where a contact sticks, by the kinetic one
+//!   where it slides.
+//! - *Return mapping*: the slip as if the contact stuck, brought back to the Coulomb limit.
+//!
+//! Of the solver:
+//!
+//! - *Potential*: what a step makes least: energy of the rod and its contacts, loads, and what stands for inertia and drag.
+//! - *Correction*: one step of Newton's method, with all contacts in it.
+//! - *Search direction*: one solution of the equations within a correction, for the contacts as they stand.
+//! - *Line search*: how much of a direction is gone: until the slope along it is level, or the potential has fallen.
+//! - *Artificial damping*: drag that the solver adds where something snaps; such a step is
+//!   [`StepKind::Braked`](report::StepKind::Braked) in logs.
+//! - *Residual*: what is left over of all forces once a step is done, in N.
+//!
+//! Of the rod and its guide:
+//!
+//! - *Fixed*: a node or a frame that stays where it is put. Its *reaction* is what keeps it there.
+//! - *Guide*: the rigid sheath or catheter that the wire comes out of; its end is the *mouth*, and what is in it is fixed.
+//! - *Push* and *torque*: the reaction of the guide along the way in and about it. Their sign is said at
+//!   [`StepReport::push_n`](report::StepReport::push_n).
+//! - *Held*: a step that found no way on and left the rod where it was, [`StepKind::Held`](report::StepKind::Held); nothing
+//!   else is.
 
 pub mod audit;
 pub mod autopilot;
@@ -20,13 +62,17 @@ pub mod felt;
 pub mod frame;
 pub mod log;
 pub mod meter;
-pub mod press;
+pub mod placement;
+mod press;
+mod proposal;
 pub mod report;
 pub mod rod;
 pub mod route;
 pub mod session;
 pub mod setup;
 pub mod simulation;
+pub mod stopwatch;
+pub mod summary;
 pub mod wall;
 pub mod wire;
 

@@ -8,18 +8,8 @@
 //! outward, and one that crosses it is pressed to the other side from then on.
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use super::route::Route;
-
-/// How hard, and from when on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Press {
-    /// On each mm outside the guide, in N; 0 for none.
-    pub n_per_mm: f32,
-    /// While at least this much is outside, in mm: what is pressed all along is hard to feed.
-    pub from_mm: f32,
-}
 
 /// The way outward at each node of a wire, of length 1: across the route, away from its middle. `nodes` are from the tip
 /// to the guide's mouth, where the route begins.
@@ -50,7 +40,7 @@ mod tests {
     use crate::mesh::shapes::tube;
     use crate::trial::course::Course;
     use crate::trial::session::Trial;
-    use crate::trial::setup::{Entry, Setup};
+    use crate::trial::setup::{Entry, Press, Setup};
     use crate::trial::wire::Wire;
 
     #[test]

@@ -13,13 +13,13 @@ pub enum StepKind {
     /// Its forces are in balance.
     #[default]
     Balanced,
-    /// Nothing was braked, but its corrections ended before its forces were in balance.
+    /// Nothing was damped, but its corrections ended before its forces were in balance.
     Unsettled,
-    /// The rod had to be braked: something snapped.
+    /// Artificial damping was needed: something snapped.
     Braked,
-    /// It had to be braked so hard that what is held waited: nothing was fed or rolled.
+    /// It had to be damped so hard that the guide waited: nothing was fed or rolled.
     Waited,
-    /// There was no way: the rod is where it was.
+    /// The solver found no way on: the rod is where it was.
     Held,
 }
 
@@ -30,18 +30,20 @@ pub struct StepReport {
     pub kind: StepKind,
     /// What the input asked to be fed in the step, in mm; negative withdraws.
     pub wanted_mm: f64,
-    /// What was fed: less where the guide waits, holds back, or is at an end of the wire.
+    /// What was fed: less where the guide waits, its push is at its limit, or it is at an end of the wire.
     pub fed_mm: f64,
     /// What the input asked to be rolled, in radians.
     pub wanted_rad: f64,
     /// What was rolled.
     pub rolled_rad: f64,
-    /// By how much Newton's second law is missed for the wire outside the guide as a whole, in N: what the brake took, and
-    /// what was not settled.
+    /// The residual: by how much Newton's second law is missed for the wire outside the guide as a whole, in N: what
+    /// artificial damping took, and what was not settled.
     pub residual_n: f64,
-    /// What it took to hold the wire at the guide against its way in, in N: positive when it pushes back.
+    /// The push: what the guide does to the wire along the way in, in N. Positive where it pushes the wire in, which pushes
+    /// back; negative where it pulls. This is the sign of every push in frames, logs and summaries.
     pub push_n: f64,
-    /// What it took about that way, in N mm: positive when it turns back.
+    /// The torque: the moment of the guide on the wire about the way in, in N mm. Positive, right-handed, where the wire
+    /// turns back from a positive roll. This is the sign of every torque.
     pub torque_n_mm: f64,
 }
 
@@ -50,13 +52,13 @@ pub struct StepReport {
 pub struct StepCounts {
     /// In balance.
     pub balanced: u64,
-    /// Not braked, and not in balance.
+    /// Not damped, and not in balance.
     pub unsettled: u64,
-    /// Braked.
+    /// Artificially damped.
     pub braked: u64,
-    /// Braked, with the guide waiting.
+    /// Artificially damped, with the guide waiting.
     pub waited: u64,
-    /// Without a way.
+    /// Without a way on.
     pub held: u64,
 }
 

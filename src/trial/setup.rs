@@ -3,8 +3,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::press::Press;
-use super::simulation::{PlacementError, check_load};
+use super::placement::{PlacementError, check_load};
 use super::wire::Wire;
 
 /// Where the wire comes out of its sheath or guide catheter, which is rigid.
@@ -14,6 +13,15 @@ pub struct Entry {
     pub at: [f32; 3],
     /// Where it points, of length 1.
     pub direction: [f32; 3],
+}
+
+/// What presses the wire to the wall, away from the middle of the route: how hard, and from when on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Press {
+    /// On each mm outside the guide, in N; 0 for none.
+    pub n_per_mm: f32,
+    /// While at least this much is outside, in mm: what is pressed all along is hard to feed.
+    pub from_mm: f32,
 }
 
 /// All that decides a trial beside the surface and the input.

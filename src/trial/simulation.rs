@@ -7,15 +7,15 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use thiserror::Error;
 
 use super::STEP;
 use super::body::Body;
+use super::placement::{PlacementError, check_load};
 use super::report::{StepKind, StepReport};
-use super::rod::{Held, Rod, Section};
+use super::rod::{Fixed, Rod, Section};
 use super::setup::{Entry, Input};
 use super::wall::Wall;
-use super::wire::{Wire, WireError};
+use super::wire::Wire;
 
 /// Length outside the guide at the start, in elements.
 const FIRST: usize = 2;
@@ -24,41 +24,6 @@ const LEAST_CELL: f64 = 0.02;
 /// A step is balanced where Newton's second law is missed by less than this part of all that presses on the wall and the
 /// guide, and by less than this many N where nothing does.
 const SETTLED: (f64, f64) = (0.05, 1e-5);
-/// The largest load in N/mm; a setup has loads in f32.
-const MOST_LOAD: f32 = 0.1;
-
-/// Why a wire cannot be put where it should be.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum PlacementError {
-    /// The wire cannot be.
-    #[error(transparent)]
-    Wire(#[from] WireError),
-    /// A wall is too near.
-    #[error(
-        "the wire does not fit where it enters: the wall is {distance_mm:.2} mm away, the wire's radius is {radius_mm:.2} mm"
-    )]
-    Tight {
-        /// Distance of the entry from the wall.
-        distance_mm: f64,
-        /// Radius of the wire.
-        radius_mm: f64,
-    },
-    /// The direction of the entry is no direction.
-    #[error("the entry has no direction")]
-    Direction,
-    /// The load is no load, or more than a wire can bear.
-    #[error("a load of {0} N on each mm of the wire is not possible: it can be from 0 to {MOST_LOAD} N")]
-    Load(f32),
-    /// It is not in the vessel.
-    #[error("the entry is not inside the vessel")]
-    Outside,
-}
-
-/// Refuses a load of so many N on each mm that is more than a wire can bear, less than none, or no number.
-pub(super) fn check_load(n_per_mm: f64) -> Result<(), PlacementError> {
-    let is_possible = (0.0..=f64::from(MOST_LOAD)).contains(&n_per_mm);
-    if is_possible { Ok(()) } else { Err(PlacementError::Load(n_per_mm as f32)) }
-}
 
 /// Of the first `count` nodes, in N s.
 fn momentum(rod: &Rod, count: usize) -> DVec3 {
@@ -141,7 +106,7 @@ impl Simulation {
             most_push: if wire.diameter_mm < 0.6 { 3.0 } else { 10.0 },
         };
         simulation.place();
-        simulation.body.look(simulation.outside());
+        simulation.body.detect(simulation.outside());
         Ok(simulation)
     }
 
@@ -167,12 +132,12 @@ impl Simulation {
         self.body.rod.len() - 2
     }
 
-    /// Ends cells at the guide's mouth, and holds what is inside.
+    /// Ends cells at the guide's mouth, and fixes what is inside.
     fn place(&mut self) {
         let (first, inserted) = (self.outside(), self.inserted);
         let rod = &mut self.body.rod;
         for i in 0..rod.len() {
-            rod.held[i] = Held { position: i >= first, angle: i >= first };
+            rod.fixed[i] = Fixed { position: i >= first, angle: i >= first };
             if i + 3 < first || i == 0 {
                 continue;
             }
@@ -198,8 +163,9 @@ impl Simulation {
     pub fn step_by(&mut self, dt: f64, input: Input) -> StepReport {
         let input = input.limited();
         let (wanted_mm, turn) = (f64::from(input.feed) * dt, f64::from(input.roll) * dt);
-        let is_held_back = self.is_held_back() && wanted_mm * self.report.push_n > 0.0;
-        let feed = if is_held_back { 0.0 } else { wanted_mm };
+        // What would ask for more force than a hand gives is not fed; the other way it may go.
+        let is_refused = self.is_at_limit() && wanted_mm * self.report.push_n > 0.0;
+        let feed = if is_refused { 0.0 } else { wanted_mm };
         let least = f64::midpoint(self.grid[FIRST], self.grid[FIRST + 1]);
         let most = self.grid[self.grid.len() - 4];
         let before = self.inserted;
@@ -226,10 +192,10 @@ impl Simulation {
         } else {
             self.roll += turn;
         }
-        let (hold, about) = self.hold();
-        let residual_n = self.residual(hold, before_step, dt).length();
-        let pressed: f64 = self.body.contacts.pressing().map(|(_, contact)| contact.force).sum();
-        let is_settled = residual_n <= SETTLED.0 * (pressed + hold.length()) + SETTLED.1;
+        let (reaction, torque_n_mm) = self.reaction();
+        let residual_n = self.residual(reaction, before_step, dt).length();
+        let pressed: f64 = self.body.contacts.pressing().map(|(_, contact)| contact.multiplier).sum();
+        let is_settled = residual_n <= SETTLED.0 * (pressed + reaction.length()) + SETTLED.1;
         self.report = StepReport {
             kind: if kind == StepKind::Balanced && !is_settled { StepKind::Unsettled } else { kind },
             wanted_mm,
@@ -237,8 +203,8 @@ impl Simulation {
             wanted_rad: turn,
             rolled_rad: if waits { 0.0 } else { turn },
             residual_n,
-            push_n: hold.dot(self.way),
-            torque_n_mm: about,
+            push_n: reaction.dot(self.way),
+            torque_n_mm,
         };
         self.report
     }
@@ -261,22 +227,22 @@ impl Simulation {
         rod.sections[first..].copy_from_slice(&self.sections[first..count]);
     }
 
-    /// What the guide holds the wire with, now that it is where it is: a force in N, and a moment about the way in, in
-    /// N mm.
-    fn hold(&mut self) -> (DVec3, f64) {
+    /// The reaction of the guide, now that the wire is where it is: what it does to the wire, as a force in N, and as a
+    /// moment about the way in, in N mm. The rod's tangents point out of the vessel, so its moments have the other sign.
+    fn reaction(&mut self) -> (DVec3, f64) {
         let first = self.outside();
         let rod = &mut self.body.rod;
         rod.assemble_from(first.saturating_sub(2));
-        ((first..rod.len()).map(|i| rod.holding_force(i)).sum(), -rod.holding_moment(first))
+        ((first..rod.len()).map(|i| rod.reaction_force(i)).sum(), -rod.reaction_moment(first))
     }
 
-    /// What is left over of all forces on the wire outside the guide, in N, with what the guide holds it with and the
-    /// momentum that it had before a step of `dt` seconds.
-    fn residual(&self, hold: DVec3, before: DVec3, dt: f64) -> DVec3 {
+    /// What is left over of all forces on the wire outside the guide, in N, with the guide's reaction and the momentum that
+    /// it had before a step of `dt` seconds.
+    fn residual(&self, reaction: DVec3, before: DVec3, dt: f64) -> DVec3 {
         let (rod, first) = (&self.body.rod, self.outside());
         let loads: DVec3 = rod.forces.iter().map(|&(_, force)| force).sum();
         let drag: DVec3 = (0..first).map(|i| rod.velocities[i] * rod.sections[i].drag).sum();
-        hold + self.body.contacts.total() + loads - drag - (momentum(rod, first) - before) / dt
+        reaction + self.body.contacts.total() + loads - drag - (momentum(rod, first) - before) / dt
     }
 
     /// The rod and its contacts.
@@ -324,13 +290,13 @@ impl Simulation {
         self.report
     }
 
-    /// What it took in the last step to hold the wire at the guide against its way in, in N, and about it, in N mm.
+    /// [`StepReport::push_n`] and [`StepReport::torque_n_mm`] of the last step.
     pub fn push_and_torque(&self) -> [f64; 2] {
         [self.report.push_n, self.report.torque_n_mm]
     }
 
-    /// Whether the guide holds the wire back: more force would be needed than a hand gives.
-    pub fn is_held_back(&self) -> bool {
+    /// Whether the push is at its limit: more force would be needed than a hand gives.
+    pub fn is_at_limit(&self) -> bool {
         self.report.push_n.abs() > self.most_push
     }
 

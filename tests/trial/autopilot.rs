@@ -15,10 +15,9 @@ use lumen::trial::compare::{Noise, TrialComparison};
 use lumen::trial::course::{Course, TrialError};
 use lumen::trial::frame::Progress;
 use lumen::trial::log::Log;
-use lumen::trial::press::Press;
 use lumen::trial::report::StepKind;
 use lumen::trial::session::Trial;
-use lumen::trial::setup::{Entry, Input, Setup};
+use lumen::trial::setup::{Entry, Input, Press, Setup};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wire::Wire;
 

@@ -40,10 +40,10 @@ fn left_over(wire: &str, found: &mut Benchmark) -> (Vec<f64>, f64) {
         };
         let taken: DVec3 = (0..first).map(taken).sum();
         rod.assemble_from(first - 2);
-        let held: DVec3 = (first..count).map(|i| rod.holding_force(i)).sum();
+        let guide: DVec3 = (first..count).map(|i| rod.reaction_force(i)).sum();
         let wall: DVec3 = body.contacts.forces(count).into_iter().sum();
         let (pressed, _) = body.pressure();
-        let left = (wall + held - taken).length();
+        let left = (wall + guide - taken).length();
         if pressed > 1e-4 {
             parts.push(left / pressed);
             unbalanced += f64::from(u8::from(report.kind != StepKind::Balanced));

@@ -39,7 +39,7 @@ fn push(mu: f64, ei: f64, straight: f64) -> f64 {
     let section = Section { ei, gj: ei / 1.3, ea: 2000.0, mass: 1e-9, drag: 1e-6, ..Section::default() };
     let mut body = threaded(&path, offset, section, [mu, mu], wall);
     let count = body.rod.len();
-    (0..2).for_each(|i| body.rod.held[i].position = true);
+    (0..2).for_each(|i| body.rod.fixed[i].position = true);
     let [out, back] = [-path[0].1, -path[count - 1].1];
     let (mut gives, mut pushes, mut given) = (0.0, 0.0, 0.0);
     for i in 0..1000 {
@@ -50,10 +50,10 @@ fn push(mu: f64, ei: f64, straight: f64) -> f64 {
         assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble(f64::INFINITY, 0.0, Hessian::Safe);
-        gives = -(rod.holding_force(0) + rod.holding_force(1)).dot(out);
+        gives = -(rod.reaction_force(0) + rod.reaction_force(1)).dot(out);
         if i >= 500 {
             given += gives;
-            pushes += (rod.holding_force(count - 2) + rod.holding_force(count - 1)).dot(back);
+            pushes += (rod.reaction_force(count - 2) + rod.reaction_force(count - 1)).dot(back);
         }
     }
     pushes / given
@@ -100,7 +100,7 @@ fn roll(mu: f64, sides: usize) -> f64 {
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
         if i >= 800 {
-            torques.push(-rod.holding_moment(count - 2));
+            torques.push(-rod.reaction_moment(count - 2));
         }
     }
     torques.iter().sum::<f64>() / torques.len() as f64

@@ -8,11 +8,11 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use lumen::trial::rod::{Held, Rod, Section};
+use lumen::trial::rod::{Fixed, Rod, Section};
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Part;
-use crate::rods::{EI, GJ, HELD, LENGTH, settle_by, settle_with};
+use crate::rods::{CLAMPED, EI, GJ, LENGTH, settle_by, settle_with};
 
 /// What an end of a column is held by.
 #[derive(Clone, Copy, PartialEq)]
@@ -53,9 +53,9 @@ impl Column {
         };
         let positions = (0..count).map(|i| DVec3::X * ((i as f64 - first as f64) * h)).collect();
         let mut rod = Rod::new(positions, (0..count).map(section).collect(), DVec3::Y);
-        rod.held[last] = Held { position: true, angle: true };
-        rod.held[count - 1] = HELD;
-        rod.held[0].angle = true;
+        rod.fixed[last] = Fixed { position: true, angle: true };
+        rod.fixed[count - 1] = CLAMPED;
+        rod.fixed[0].angle = true;
         Self { rod, first, last, loaded, other }
     }
 
@@ -87,7 +87,7 @@ impl Column {
         } else {
             // Little by little: the turn of a step is found from where it began.
             let [from, to] = [0, if self.other == Clamped { self.last } else { self.last - 1 }];
-            rod.held[to].angle = true;
+            rod.fixed[to].angle = true;
             let loads = rod.forces.clone();
             // Edges pass on moments about themselves: at an end that is free to tilt the rest of an axial one is a couple.
             let couples = |rod: &mut Rod, moment: f64| {

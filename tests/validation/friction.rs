@@ -7,7 +7,7 @@ use glam::DVec3;
 use lumen::mesh::TriMesh;
 use lumen::trial::body::Body;
 use lumen::trial::report::StepKind;
-use lumen::trial::rod::{Held, Rod, Section};
+use lumen::trial::rod::{Fixed, Rod, Section};
 use lumen::trial::wall::Wall;
 
 use crate::benchmark::Benchmark;
@@ -38,10 +38,10 @@ pub(crate) fn threaded(
     let section = |i: usize| Section { length: lengths[i.min(count - 2)], cell: lengths[i.min(count - 2)], ..section };
     let mut rod = Rod::new(positions.clone(), (0..count).map(section).collect(), DVec3::Z);
     for node in [count - 2, count - 1] {
-        rod.held[node] = Held { position: true, angle: true };
+        rod.fixed[node] = Fixed { position: true, angle: true };
     }
     let mut body = Body::new(rod, RADIUS, friction, Some(wall));
-    body.look(count - 2);
+    body.detect(count - 2);
     body
 }
 
@@ -66,7 +66,7 @@ fn capstan(mu: f64, step: f64) -> f64 {
         assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
-        let pull = (count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().dot(path[count - 1].1);
+        let pull = (count - 2..count).map(|i| rod.reaction_force(i)).sum::<DVec3>().dot(path[count - 1].1);
         if i >= 500 {
             pulls.push(pull);
         }
@@ -110,10 +110,10 @@ fn block() -> Body {
     // The last node of a rod has no contact: here it sticks out.
     let positions = (0..NODES + 1).map(|i| DVec3::new(2.0 * i as f64 - 10.0, RADIUS, 0.0)).collect();
     let mut rod = Rod::new(positions, vec![section; NODES + 1], DVec3::Y);
-    rod.held[0].angle = true;
+    rod.fixed[0].angle = true;
     rod.forces.extend((0..NODES).map(|i| (i, DVec3::NEG_Y * (WEIGHT / NODES as f64))));
     let mut body = Body::new(rod, RADIUS, MU, Some(Arc::new(Wall::open(Arc::new(floor())))));
-    body.look(NODES);
+    body.detect(NODES);
     for _ in 0..50 {
         assert_ne!(body.step(STEP, NODES, |_| ()), StepKind::Held);
     }
@@ -151,7 +151,7 @@ fn what_sticks_stays_and_what_slides_is_held_back() {
 
     // To and fro by hand, half a millimetre each way.
     let mut body = block();
-    body.rod.held[0].position = true;
+    body.rod.fixed[0].position = true;
     let start = body.rod.positions[0];
     let (mut way, mut at) = (0.002, 0.0f64);
     let (mut there, mut back, mut loops) = (Vec::new(), Vec::new(), 0);
@@ -164,7 +164,7 @@ fn what_sticks_stays_and_what_slides_is_held_back() {
         assert_ne!(body.step(STEP, NODES, |rod| rod.positions[0] = start + DVec3::X * at), StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(0);
-        let force = rod.holding_force(0).x;
+        let force = rod.reaction_force(0).x;
         if loops > 1 {
             found.point("ours", at, force * NODES as f64 / (NODES - 1) as f64 / WEIGHT);
             if at.abs() < 0.1 {

@@ -13,7 +13,7 @@ use lumen::trial::wire::Wire;
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Within;
-use crate::rods::{EI, HELD, LENGTH, cantilever, settle};
+use crate::rods::{CLAMPED, EI, LENGTH, cantilever, settle};
 use crate::tubes::{curve, tube};
 
 /// A bent vessel.
@@ -155,8 +155,8 @@ fn loaded(turn: DQuat) -> Rod {
     let plain = cantilever(40);
     let positions = plain.positions.iter().map(|&p| turn * p).collect();
     let mut rod = Rod::new(positions, plain.sections.clone(), turn * DVec3::Y);
-    rod.held[40] = HELD;
-    rod.held[41] = HELD;
+    rod.fixed[40] = CLAMPED;
+    rod.fixed[41] = CLAMPED;
     rod.sections.iter_mut().for_each(|section| section.rest = [0.02, 0.01]);
     rod.forces.push((0, turn * DVec3::new(0.2, 0.5, -1.0) * (EI / LENGTH / LENGTH)));
     settle(&mut rod);

@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
-use lumen::trial::rod::{Held, Rod, Section};
+use lumen::trial::rod::{Fixed, Rod, Section};
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Part;
@@ -70,9 +70,9 @@ fn ring(elements: usize, angle: f64) -> f64 {
     let section = Section { length: h, cell: h, ei: EI, gj: GJ, ea: 1e5, ..Section::default() };
     let mut rod = Rod::new(positions, vec![section; elements + 2], DVec3::Z);
     for node in [0, 1, elements, elements + 1] {
-        rod.held[node] = Held { position: true, angle: node != 1 };
+        rod.fixed[node] = Fixed { position: true, angle: node != 1 };
     }
-    rod.held[elements].angle = true;
+    rod.fixed[elements].angle = true;
     // Little by little: the turn of a step is found from where it began.
     for _ in 0..20 {
         rod.turn_to(elements, angle / 20.0);
@@ -128,11 +128,11 @@ fn whip(elements: usize, own: f64, tube: f64) -> Rod {
     let positions: Vec<DVec3> = (0..elements + 2).map(at).collect();
     let side = DVec3::Y;
     let mut rod = Rod::new(positions, (0..elements + 2).map(section).collect(), side);
-    for held in &mut rod.held {
-        held.position = true;
+    for fixed in &mut rod.fixed {
+        fixed.position = true;
     }
-    rod.held[elements].angle = true;
-    rod.held[elements + 1].angle = true;
+    rod.fixed[elements].angle = true;
+    rod.fixed[elements + 1].angle = true;
     rod
 }
 

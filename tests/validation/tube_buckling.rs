@@ -43,7 +43,7 @@ fn a_pushed_wire_snakes_in_its_tube() {
     let mut body = threaded(&path, |_| DVec3::NEG_Y * CLEARANCE + DVec3::X * 5.0, section, [0.0; 2], wall);
     let count = body.rod.len();
     // The tip is held, the other end is pushed.
-    body.rod.held[0].position = true;
+    body.rod.fixed[0].position = true;
     body.rod.forces.extend((0..count - 2).map(|i| (i, (DVec3::NEG_Y + DVec3::Z * 0.02 * uneven(i)) * load * h)));
     let mut onsets = Vec::new();
     for i in 0..2000 {
@@ -55,7 +55,7 @@ fn a_pushed_wire_snakes_in_its_tube() {
         }
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
-        let push = -(count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().x / unit;
+        let push = -(count - 2..count).map(|i| rod.reaction_force(i)).sum::<DVec3>().x / unit;
         let middle = &body.rod.positions[count / 3..2 * count / 3];
         let square = 2.0 * middle.iter().map(|p| p.z.atan2(-p.y).powi(2)).sum::<f64>() / middle.len() as f64;
         found.point("ours", push, square.sqrt());
@@ -99,7 +99,7 @@ fn a_snake_goes_over_into_a_helix() {
     let section = Section { ei: EI, gj: EI / 1.3, ea: 2000.0, mass: 1e-9, drag: 1e-5, ..Section::default() };
     let mut body = threaded(&path, |_| DVec3::NEG_Y * CLEARANCE + DVec3::X * 10.0, section, [0.0; 2], wall);
     let count = body.rod.len();
-    (0..2).for_each(|i| body.rod.held[i].position = true);
+    (0..2).for_each(|i| body.rod.fixed[i].position = true);
     body.rod.forces.extend((0..count - 2).map(|i| (i, (DVec3::NEG_Y + DVec3::Z * 0.1 * uneven(i)) * load * h)));
     let mut onset = 0.0f64;
     for i in 0..1500 {
@@ -108,7 +108,7 @@ fn a_snake_goes_over_into_a_helix() {
         assert_ne!(stepped, StepKind::Held);
         let mut rod = body.rod.clone();
         rod.assemble_from(count - 5);
-        let push = -(count - 2..count).map(|i| rod.holding_force(i)).sum::<DVec3>().x / unit;
+        let push = -(count - 2..count).map(|i| rod.reaction_force(i)).sum::<DVec3>().x / unit;
         let turned = round(&body);
         if i % 20 == 19 && turned > 0.3 {
             found.point("ours", push, turned / TAU);

@@ -29,12 +29,19 @@ pub(super) struct CompareScene {
     window: WindowRenderer,
     renderer: Renderer,
     surfaces: Vec<(Arc<TriMesh>, GpuSurface)>,
-    pictures: Vec<PictureSlot>,
+    pictures: Vec<WindowTarget<Drawn>>,
 }
 
-struct PictureSlot {
-    shown: WindowTarget,
-    drawn: Option<(Arc<TriMesh>, Shot)>,
+/// What a picture was drawn from.
+struct Drawn {
+    mesh: Arc<TriMesh>,
+    shot: Shot,
+}
+
+impl PartialEq for Drawn {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.mesh, &other.mesh) && self.shot == other.shot
+    }
 }
 
 impl CompareScene {
@@ -49,8 +56,8 @@ impl CompareScene {
     pub(super) fn keep_only<'a>(&mut self, meshes: &(impl Iterator<Item = &'a Arc<TriMesh>> + Clone)) {
         let is_kept = |mesh: &Arc<TriMesh>| meshes.clone().any(|kept| Arc::ptr_eq(kept, mesh));
         self.surfaces.retain(|(mesh, _)| is_kept(mesh));
-        for slot in &mut self.pictures {
-            slot.drawn.take_if(|(mesh, _)| !is_kept(mesh));
+        for picture in &mut self.pictures {
+            picture.forget_if(|drawn| !is_kept(&drawn.mesh));
         }
     }
 
@@ -60,21 +67,18 @@ impl CompareScene {
     /// When the surface does not fit into the memory that the device allows.
     pub(super) fn draw(&mut self, index: usize, mesh: &Arc<TriMesh>, shot: &Shot) -> Result<TextureId, SurfaceError> {
         while self.pictures.len() <= index {
-            self.pictures.push(PictureSlot { shown: WindowTarget::new(&self.device, &self.window), drawn: None });
+            self.pictures.push(WindowTarget::new(&self.device, &self.window));
         }
         let surface = self.surface(mesh)?;
-        let slot = &mut self.pictures[index];
-        if slot.drawn.as_ref().is_some_and(|(drawn, of)| Arc::ptr_eq(drawn, mesh) && of == shot) {
-            return Ok(slot.shown.id());
-        }
-        slot.shown.resize(&self.device, shot.size);
+        let picture = &mut self.pictures[index];
+        let drawn = Drawn { mesh: mesh.clone(), shot: shot.clone() };
+        let Some(target) = picture.stale(&self.device, shot.size, drawn) else { return Ok(picture.id()) };
         let surface = &self.surfaces[surface].1;
         let drawables: Vec<_> = shot.looks.iter().map(|&look| Drawable { surface, look, tint: None }).collect();
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("cell") });
-        self.renderer.draw(&self.device, &mut encoder, slot.shown.target(), &shot.camera, &drawables, &shot.style);
+        self.renderer.draw(&self.device, &mut encoder, target, &shot.camera, &drawables, &shot.style);
         self.queue.submit([encoder.finish()]);
-        slot.drawn = Some((mesh.clone(), shot.clone()));
-        Ok(slot.shown.id())
+        Ok(picture.id())
     }
 
     /// The place of `mesh` among the surfaces; it is uploaded the first time.

@@ -8,13 +8,12 @@ use egui::TextureId;
 use web_time::Instant;
 
 use super::peaks::Peaks;
-use crate::app::window_texture::{WindowTarget, WindowTexture};
+use crate::app::window_texture::WindowTarget;
 use crate::engine::trial::RouteShown;
 use crate::mesh::{Topology, TriMesh, Vec3, boundary_loops};
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::render::{
-    Camera, Exposure, FluoroscopyTarget, GpuSurface, GpuWire, Style, SurfaceError, ThicknessFormat, TrialRenderer,
-    ViewTarget,
+    Camera, Exposure, GpuSurface, GpuWire, Style, Sums, SurfaceError, ThicknessFormat, TrialRenderer, ViewTarget,
 };
 
 /// Frames that are drawn to time one.
@@ -35,19 +34,14 @@ pub(super) struct TrialScene {
     /// What the vessel was made from, and the forces on it.
     of: Option<(Arc<TriMesh>, Peaks)>,
     uploaded: u64,
-    views: [View; 2],
-    picture: (FluoroscopyTarget, WindowTexture),
+    views: [WindowTarget<Drawn>; 2],
+    picture: WindowTarget<(), Sums>,
     /// The camera that the thickness is of.
     measured: Option<Camera>,
     /// Counts up whenever vessel, forces or wire change.
     changes: u64,
     /// Pictures that were drawn.
     draws: u64,
-}
-
-struct View {
-    shown: WindowTarget,
-    drawn: Option<Drawn>,
 }
 
 /// What a view was drawn from.
@@ -67,10 +61,9 @@ impl TrialScene {
     pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
         let (device, queue) = (state.device.clone(), state.queue.clone());
         let renderer = TrialRenderer::new(&device, &queue, ThicknessFormat::of(&state.adapter));
-        let view = || View { shown: WindowTarget::new(&device, &state.renderer), drawn: None };
+        let view = || WindowTarget::new(&device, &state.renderer);
         let views = [view(), view()];
-        let target = renderer.fluoroscopy_target(&device, [1, 1]);
-        let texture = WindowTexture::new(&device, &state.renderer, target.view());
+        let picture = renderer.fluoroscopy_target(&device, [1, 1]);
         Ok(Self {
             vessel: GpuSurface::new(&device, &queue, &[])?,
             body: GpuSurface::new(&device, &queue, &[])?,
@@ -80,7 +73,7 @@ impl TrialScene {
             of: None,
             uploaded: 0,
             views,
-            picture: (target, texture),
+            picture: WindowTarget::with(&device, &state.renderer, picture),
             measured: None,
             changes: 0,
             draws: 0,
@@ -147,53 +140,33 @@ impl TrialScene {
 
     /// Draws the wire in the vessel, if it would look other than it does, and gives the texture that it is in.
     pub(super) fn vessel(&mut self, camera: &Camera, size: [u32; 2], style: &Style) -> TextureId {
-        let is_other = self.is_other(0, camera, size, style);
-        let shown = &self.views[0].shown;
-        if !is_other {
-            return shown.id();
-        }
+        let of = Drawn { camera: *camera, size, style: *style, changes: self.changes };
+        let Some(target) = self.views[0].stale(&self.device, size, of) else { return self.views[0].id() };
+        self.draws += 1;
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("trial") });
-        self.renderer.draw(&self.device, &mut encoder, shown.target(), camera, (&self.vessel, &self.wire), style);
+        self.renderer.draw(&self.device, &mut encoder, target, camera, (&self.vessel, &self.wire), style);
         self.queue.submit([encoder.finish()]);
-        shown.id()
+        self.views[0].id()
     }
 
     /// Draws what the tip sees, if that is other than it was, and gives the texture that it is in.
     pub(super) fn tip(&mut self, camera: &Camera, size: [u32; 2], style: &Style) -> TextureId {
-        let is_other = self.is_other(1, camera, size, style);
-        let shown = &self.views[1].shown;
-        if !is_other {
-            return shown.id();
-        }
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("tip") });
-        self.renderer.draw_inside(&self.device, &mut encoder, shown.target(), camera, &self.vessel, style);
-        self.queue.submit([encoder.finish()]);
-        shown.id()
-    }
-
-    /// Whether view `index` has to be drawn; it has the size for it then.
-    fn is_other(&mut self, index: usize, camera: &Camera, size: [u32; 2], style: &Style) -> bool {
-        let View { shown, drawn } = &mut self.views[index];
-        let new = Drawn { camera: *camera, size, style: *style, changes: self.changes };
-        if drawn.replace(new) == Some(new) {
-            return false;
-        }
-        shown.resize(&self.device, size);
+        let of = Drawn { camera: *camera, size, style: *style, changes: self.changes };
+        let Some(target) = self.views[1].stale(&self.device, size, of) else { return self.views[1].id() };
         self.draws += 1;
-        true
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("tip") });
+        self.renderer.draw_inside(&self.device, &mut encoder, target, camera, &self.vessel, style);
+        self.queue.submit([encoder.finish()]);
+        self.views[1].id()
     }
 
     /// The texture that the fluoroscopy is in, and whether it has to be exposed anew for this size.
     pub(super) fn picture(&mut self, size: [u32; 2]) -> (TextureId, bool) {
-        let (target, texture) = &mut self.picture;
-        let largest = self.device.limits().max_texture_dimension_2d;
-        let is_other = target.size() != size.map(|side| side.clamp(1, largest));
+        let is_other = self.picture.resize(&self.device, size);
         if is_other {
-            *target = self.renderer.fluoroscopy_target(&self.device, size);
-            texture.replace(&self.device, target.view());
             self.measured = None;
         }
-        (texture.id(), is_other)
+        (self.picture.id(), is_other)
     }
 
     /// Takes a fluoroscopy: of the wire at these nodes, or without any as it was seen last.
@@ -214,7 +187,7 @@ impl TrialScene {
         let mut encoder =
             self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fluoroscopy") });
         let shown = (&self.body, &self.seen);
-        self.renderer.expose(&self.device, &mut encoder, &self.picture.0, camera, shown, exposure, is_other);
+        self.renderer.expose(&self.device, &mut encoder, self.picture.target(), camera, shown, exposure, is_other);
         self.queue.submit([encoder.finish()]);
         Ok(())
     }

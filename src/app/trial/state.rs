@@ -15,8 +15,9 @@ use crate::engine::trial::{TrialComparison, TrialReady};
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::Smoothing;
-use crate::trial::frame::{Frame, Progress, Summary, Touch};
+use crate::trial::frame::{Frame, Progress, Touch};
 use crate::trial::setup::Setup;
+use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
 /// The pass band and the iterations that are offered where smoothing leaves no room for the wire.

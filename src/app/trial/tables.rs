@@ -8,8 +8,8 @@ use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::Target;
-use crate::trial::frame::Summary;
 use crate::trial::setup::Setup;
+use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
 /// Reduction rates in percent: of Table III, and of Table IV with the whole surface before them.

@@ -163,7 +163,8 @@ fn cells(row: &Row, sample: Option<Sample>) -> [String; COLUMNS.len()] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trial::frame::{StationResult, Summary};
+    use crate::trial::stopwatch::StationResult;
+    use crate::trial::summary::Summary;
 
     #[test]
     fn frames_a_second_count_both_parts_and_the_paper_stands_beside_them() {

@@ -11,9 +11,10 @@ use crate::phantom::Sample;
 use crate::transfer::bulk;
 use crate::trial::compare::TrialComparison;
 use crate::trial::course::{Course, TrialError};
-use crate::trial::frame::{Frame, Summary, Touch};
+use crate::trial::frame::{Frame, Touch};
 use crate::trial::route::{Route, RouteError, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
+use crate::trial::summary::Summary;
 
 /// The app's end of the line to a trial.
 pub type TrialLink = dyn Link<TrialCommand, TrialEvent>;

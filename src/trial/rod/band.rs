@@ -97,8 +97,8 @@ impl Band {
         next[3][3] += angle_b;
     }
 
-    /// Holds a row of a node to 0 whatever the right-hand side.
-    pub(super) fn hold(&mut self, node: usize, row: usize) {
+    /// Fixes a row of a node to 0 whatever the right-hand side.
+    pub(super) fn fix(&mut self, node: usize, row: usize) {
         for (back, block) in self.blocks[..=node].iter_mut().rev().take(3).enumerate() {
             block.iter_mut().for_each(|other| other[back * PER_NODE + row] = 0.0);
         }
@@ -247,7 +247,7 @@ mod tests {
             band.add_square(node, &pull, 2.0);
         }
         (0..n).for_each(|i| band.add(i / 4, i % 4, 0.01));
-        band.hold(1, 1);
+        band.fix(1, 1);
         let expected: Vec<f64> = (0..n).map(|i| if i == 5 { 0.0 } else { random() }).collect();
         let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| band.entry(i, j) * expected[j]).sum()).collect();
         assert!(band.solve(&mut x));

@@ -6,7 +6,9 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Edge, Hessian, Section, Strain};
+use super::frame::{Edge, Strain};
+use super::hessian::Hessian;
+use super::section::Section;
 
 /// The first derivatives at a node, by the edges before (`a`) and behind it (`b`).
 pub(super) struct Slopes {

@@ -4,7 +4,7 @@
 //! surface --space--> distance to the wall, open ends
 //!   --balls--> overlapping balls that fill the lumen, linked where a wire fits through
 //!   --paths--> the cheapest ways, and the tree they make
-//!   --course--> smooth centrelines with radii
+//!   --centreline--> smooth centrelines with radii
 //!   --tree--> branches, ends, the branch of a point
 //!   --way--> a route from an entry to a target
 //! ```
@@ -13,7 +13,8 @@
 //! A lumen that is pinched shut is not passed, however thin the wall between.
 
 mod balls;
-mod course;
+mod centreline;
+
 mod paths;
 mod propose;
 mod space;
@@ -24,7 +25,7 @@ mod way;
 
 use thiserror::Error;
 
-pub use course::Place;
+pub use centreline::Place;
 pub use propose::{Target, phantom_task};
 pub use tree::{Branch, End, Located, Tree};
 pub use way::{CrossSection, OnRoute, Route, RoutePoint};

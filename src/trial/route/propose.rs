@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::course::direction;
+use super::centreline::direction;
 use super::paths::NONE;
 use super::tree::{Branch, End, Tree};
 use super::usual_radius;

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use super::RouteError;
 use super::balls::fill;
-use super::course::{Place, arcs, course};
+use super::centreline::{Place, arcs, centreline};
 use super::paths::{Graph, Path};
 use super::space::{Ball, Space};
 use crate::mesh::{SurfaceIndex, Topology, TriMesh, volume};
@@ -247,14 +247,14 @@ impl Tree {
         let Some(parent) = lines.get(path.parent) else {
             self.extend(&mut balls, true);
             self.extend(&mut balls, false);
-            return (course(&self.space, &balls, 0.0), None);
+            return (centreline(&self.space, &balls, 0.0), None);
         };
         let at = self.graph.balls[paths[path.parent].balls[path.joint] as usize].centre.as_dvec3();
         let joint = nearest_place(parent, at);
         let trunk = parent[joint];
         balls.insert(0, Ball { centre: trunk.at.as_vec3(), radius: trunk.radius as f32 });
         self.extend(&mut balls, false);
-        let mut line = course(&self.space, &balls, trunk.radius);
+        let mut line = centreline(&self.space, &balls, trunk.radius);
         line[0] = trunk;
         (line, Some(joint))
     }

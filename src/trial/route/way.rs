@@ -5,7 +5,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::course::{Place, course, direction};
+use super::centreline::{Place, centreline, direction};
 use super::paths::NONE;
 use super::space::Ball;
 use super::tree::{Located, Tree};
@@ -191,7 +191,7 @@ impl Tree {
             }
             self.extend(&mut balls, at_start);
         }
-        course(&self.space, &balls, 0.0)
+        centreline(&self.space, &balls, 0.0)
     }
 
     /// The branches that a line leads through: those between its ends in the tree, or, where it takes another way around
@@ -358,14 +358,14 @@ fn deepest<T>(points: &[T], p: DVec3, place: impl Fn(&T) -> (Place, f64)) -> OnR
 
 /// The place of a line next to `p`.
 fn along(line: &[Place], p: DVec3) -> OnRoute {
-    let arcs = super::course::arcs(line);
+    let arcs = super::centreline::arcs(line);
     let points: Vec<(Place, f64)> = line.iter().copied().zip(arcs).collect();
     deepest(&points, p, |&point| point)
 }
 
 /// The part of a line between two arc lengths.
 fn cut(line: &[Place], from: f64, to: f64) -> Vec<Place> {
-    let arcs = super::course::arcs(line);
+    let arcs = super::centreline::arcs(line);
     let at = |arc: f64| {
         let next = arcs.partition_point(|&a| a <= arc).clamp(1, line.len() - 1);
         let part = ((arc - arcs[next - 1]) / (arcs[next] - arcs[next - 1]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);

@@ -8,8 +8,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use lumen::app::LumenApp;
 use lumen::engine::trial::{RouteShown, TrialCommand, TrialEvent, TrialReady};
-use lumen::trial::frame::{Frame, Summary};
+use lumen::trial::frame::Frame;
 use lumen::trial::setup::{Entry, Setup};
+use lumen::trial::summary::Summary;
 
 use crate::{Memory, app, settle};
 

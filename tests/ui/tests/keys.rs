@@ -8,8 +8,8 @@ use egui_kittest::kittest::Queryable;
 use lumen::app::PlatformEvent;
 use lumen::engine::trial::{TrialCommand, TrialEvent};
 use lumen::pipeline::settings::Target;
-use lumen::trial::frame::Summary;
 use lumen::trial::setup::Input;
+use lumen::trial::summary::Summary;
 use lumen_ui_tests::told::{App, DESKTOP, asked, choose, on, press, says};
 use lumen_ui_tests::{app, app_at, hide, settle};
 

@@ -12,9 +12,11 @@ use lumen::io::import_mesh;
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Settings, Smoothing};
 use lumen::trial::course::Course;
-use lumen::trial::frame::{Frame, Progress, StationResult, Summary, Touch};
+use lumen::trial::frame::{Frame, Progress, Touch};
 use lumen::trial::report::{StepCounts, StepKind, StepReport};
 use lumen::trial::setup::{Entry, Input, Setup};
+use lumen::trial::stopwatch::StationResult;
+use lumen::trial::summary::Summary;
 use lumen::trial::wire::Wire;
 use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, PHONE, asked, at_entry, choose, ended, frame, id_of_start, now, on, open_coronary, press,

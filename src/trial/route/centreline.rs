@@ -32,17 +32,17 @@ pub struct Place {
     pub radius: f64,
 }
 
-/// The centreline through the middles of `balls`. What lies within `held` mm of the first is only smoothed. The ends
+/// The centreline through the middles of `balls`. What lies within `fixed` mm of the first is only smoothed. The ends
 /// stay.
-pub(super) fn course(space: &Space, balls: &[Ball], held: f64) -> Vec<Place> {
+pub(super) fn centreline(space: &Space, balls: &[Ball], fixed: f64) -> Vec<Place> {
     let mut points = divided(balls);
     let origin = points[0].at;
     for _ in 0..ROUNDS {
         let count = points.len();
         let moved = parallel::map_ranges(count, PIECE, |piece| {
             let one = |i: usize| {
-                let is_held = i == 0 || points[i].at.distance(origin) <= held;
-                if is_held { points[i].at } else { centred(space, &points, i) }
+                let is_fixed = i == 0 || points[i].at.distance(origin) <= fixed;
+                if is_fixed { points[i].at } else { centred(space, &points, i) }
             };
             piece.map(one).collect::<Vec<_>>()
         });

@@ -1,36 +1,17 @@
-//! Contact of a rod with the wall, with Coulomb friction.
+//! Where a rod is near the wall, kept from step to step: the manifold of its contacts.
 //!
 //! A node touches the wall where it is nearest, and where it was nearest before as long as that is another facet at hand:
 //! in a corner it rests on both, and slides from the one to the other without a jolt. So does the inside of an edge
 //! where that comes nearer than both of its ends: at a ridge or on the inside of a bend. The gap is the distance from
-//! the flat triangles less the radius, and the force acts the way the gap grows: a force along an interpolated normal
-//! would do work as the wire slides over a facet, and never settle. A contact's force is found with the step itself, as
-//! an augmented Lagrangian (Hestenes 1969; Powell 1969):
-//!
-//! ```text
-//! N = max(0, N_before - k gap)
-//! ```
-//!
-//! so that what lies still against the wall lies at a gap of 0, however hard it is pressed; which contacts press is found
-//! in `descent`. Friction is a spring across the normal that begins where the contact last stuck and gives no more than
-//! `mu N` (return mapping, as in plasticity: Simo and Laursen 1992); the way it is stretched by has the roll of the
-//! wire's surface in it, so that turning and pushing share one cone.
+//! the flat triangles less the radius.
 
 use glam::DVec3;
 
-use super::descent::{Open, Spring, Springs, spread};
-use super::rod::Rod;
-use super::wall::Wall;
+use super::law::{Contact, PENALTY};
 use crate::mesh::{PointFoot, SegmentFoot};
+use crate::trial::rod::Rod;
+use crate::trial::wall::Wall;
 
-/// Stiffness of a contact in N/mm: how much its force changes before the next step corrects the gap. A wire gives way
-/// across itself by 0.01 to 10 N/mm; the farther above that this is, the more ways a correction takes, and what is left
-/// unsettled is felt as force (`tests/validation/balance.rs`).
-const STIFFNESS: f64 = 4.0;
-/// By what the stiffness grows where forces are raised.
-const STIFFER: f64 = 4.0;
-/// Stiffness of what sticks, in N/mm.
-pub(super) const GRIP: f64 = 4.0;
 /// A gap of less than this, in mm, is looked after in the step from its beginning; others once they have closed.
 const REACH: f64 = 0.1;
 /// A gap that is looked after is measured anew once less than this part of it may be left. Until then what was measured
@@ -90,63 +71,28 @@ impl Inside {
     }
 }
 
-/// A place where the rod touches, or nearly does.
+/// Of which node or edge a contact is, and which of its contacts.
 #[derive(Clone, Copy, Debug)]
-pub struct Contact {
-    /// Whether it takes part in the step.
-    is_near: bool,
-    /// The leaf of the index that it is with.
-    slot: u32,
-    /// Where on the edge that begins at its node: 0 at the node.
-    along: f64,
-    /// The nearest point of the wall, in mm.
-    pub point: DVec3,
-    /// Its triangle.
-    pub triangle: u32,
-    /// From the wall to the rod, of length 1.
-    pub normal: DVec3,
-    /// The interpolated normal of the wall: friction acts at right angles to it, so that facets do not change it.
-    smooth: DVec3,
-    gap: f64,
-    /// Where the rod was when the gap was measured.
-    at: DVec3,
-    /// Normal force in N at the end of the last step, or what [`Contacts::raise`] has made of it in this one.
-    pub force: f64,
-    /// The same, at the beginning of the step.
-    first: f64,
-    /// The one that the corrections have come to, from the gap as it was measured before them; before the first, that of
-    /// the step's beginning.
-    balanced: f64,
-    /// How far what sticks is stretched, in mm.
-    stretch: DVec3,
-    /// What friction does to the rod, in N.
-    pub friction: DVec3,
-    /// Whether it slides.
-    pub is_sliding: bool,
-    /// What friction can give in the step, in N.
-    grip: f64,
+enum Place {
+    Node(usize, usize),
+    Edge(usize, usize),
+}
+
+/// The contacts of a rod, each in its slot from when it comes near until it is let go of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Manifold {
+    clearances: Vec<Clearance>,
+    /// How far the inside of each edge is.
+    insides: Vec<Inside>,
+    /// Of each node. In a corner between facets it touches several.
+    nodes: Vec<[Contact; FACETS]>,
+    /// Of the inside of each edge.
+    edges: Vec<[Contact; RIDGES]>,
+    /// Those of them that take part in the step.
+    places: Vec<Place>,
 }
 
 impl Contact {
-    const NONE: Self = Self {
-        is_near: false,
-        slot: u32::MAX,
-        along: 0.0,
-        point: DVec3::ZERO,
-        triangle: 0,
-        normal: DVec3::Z,
-        smooth: DVec3::Z,
-        gap: 0.0,
-        at: DVec3::ZERO,
-        force: 0.0,
-        first: 0.0,
-        balanced: 0.0,
-        stretch: DVec3::ZERO,
-        friction: DVec3::ZERO,
-        is_sliding: false,
-        grip: 0.0,
-    };
-
     /// Is with this foot from now on, with the force that it had.
     fn meet(&mut self, wall: &Wall, p: DVec3, along: f64, foot: &PointFoot, radius: f64) {
         if !self.is_near || (along - self.along).abs() > 0.3 {
@@ -162,84 +108,12 @@ impl Contact {
         self.gap = foot.distance - radius;
         self.at = p;
     }
-
-    /// Where the contact is on the rod now.
-    fn place(&self, rod: &Rod, node: usize) -> DVec3 {
-        let a = rod.positions[node];
-        if self.along > 0.0 { a.lerp(rod.positions[node + 1], self.along) } else { a }
-    }
-
-    /// The normal force in the step, as the rod is now.
-    fn pressure(&self, rod: &Rod, node: usize, stiffness: f64) -> f64 {
-        (self.force - stiffness * self.gap_now(rod, node)).max(0.0)
-    }
-
-    /// The gap as the rod is now, if the wall is flat there.
-    fn gap_now(&self, rod: &Rod, node: usize) -> f64 {
-        self.gap + self.normal.dot(self.place(rod, node) - self.at)
-    }
-
-    /// How far what sticks would be stretched now, and the direction in which the wire's surface goes when it rolls.
-    fn trial(&self, rod: &Rod, node: usize, radius: f64) -> (DVec3, DVec3) {
-        let edge = node.min(rod.len() - 2);
-        let mut start = rod.start(node);
-        if self.along > 0.0 {
-            start = start.lerp(rod.start(node + 1), self.along);
-        }
-        let roll = rod.tangent(edge).cross(self.smooth) * -radius;
-        let way = self.place(rod, node) - start + roll * rod.spin(edge);
-        ((self.stretch + way).reject_from_normalized(self.smooth), roll)
-    }
-
-    /// The energy of the contact, in N mm: what the normal force and friction are the derivatives of.
-    fn potential(&self, rod: &Rod, node: usize, radius: f64, stiffness: f64) -> f64 {
-        let force = self.pressure(rod, node, stiffness);
-        let pressed = 0.5 * force * force / stiffness;
-        if self.grip <= 0.0 {
-            return pressed;
-        }
-        let length = self.trial(rod, node, radius).0.length();
-        let most = self.grip / GRIP;
-        pressed + if length > most { self.grip * (length - 0.5 * most) } else { 0.5 * GRIP * length * length }
-    }
 }
 
-/// Of which node or edge a contact is, and which of its contacts.
-#[derive(Clone, Copy, Debug)]
-enum Place {
-    Node(usize, usize),
-    Edge(usize, usize),
-}
-
-/// The contacts of a rod.
-#[derive(Clone, Debug, Default)]
-pub struct Contacts {
-    clearances: Vec<Clearance>,
-    /// How far the inside of each edge is.
-    insides: Vec<Inside>,
-    /// Of each node. In a corner between facets it touches several.
-    nodes: Vec<[Contact; FACETS]>,
-    /// Of the inside of each edge.
-    edges: Vec<[Contact; RIDGES]>,
-    /// Those of them that take part in the step.
-    places: Vec<Place>,
-    /// Radius of the rod in mm.
-    pub radius: f64,
-    /// Coefficients of friction, sticking and sliding.
-    pub friction: [f64; 2],
-    /// Stiffness of each contact in the corrections that follow, in N/mm.
-    stiffness: f64,
-}
-
-impl Contacts {
-    /// None yet, for a rod of this radius in mm and these coefficients of friction.
-    pub fn new(radius: f64, friction: [f64; 2]) -> Self {
-        Self { radius, friction, stiffness: STIFFNESS, ..Self::default() }
-    }
-
+impl Manifold {
     /// Measures the gaps of the first `count` nodes, the last one excepted, and of the edges between them. Returns how far
-    /// the rod reaches into the wall, in mm; less than 0 where it is clear of it by more.
-    pub fn look(&mut self, rod: &Rod, count: usize, wall: &Wall) -> f64 {
+    /// the rod, of this radius in mm, reaches into the wall, in mm; less than 0 where it is clear of it by more.
+    pub(super) fn detect(&mut self, rod: &Rod, count: usize, wall: &Wall, radius: f64) -> f64 {
         // A contact pulls at the edge behind its node, and the last has none.
         let count = count.min(rod.len() - 1);
         self.clearances.resize(count, Clearance::UNKNOWN);
@@ -249,18 +123,18 @@ impl Contacts {
         let mut deepest = f64::NEG_INFINITY;
         // An edge right after its ends, whose triangles are at hand then.
         for i in 0..count {
-            let mut distance = self.look_at_node(rod.positions[i], i, wall);
+            let mut distance = self.detect_at_node(rod.positions[i], i, wall, radius);
             if i > 0 {
-                distance = distance.min(self.look_at_edge(rod, i - 1, wall));
+                distance = distance.min(self.detect_at_edge(rod, i - 1, wall, radius));
             }
-            deepest = deepest.max(self.radius - distance);
+            deepest = deepest.max(radius - distance);
         }
         self.list();
         deepest
     }
 
     /// Lets go of the contacts of all but the first `count` nodes and the edges between them.
-    pub fn keep(&mut self, count: usize) {
+    pub(super) fn keep(&mut self, count: usize) {
         if count < self.nodes.len() {
             self.clearances.truncate(count);
             self.nodes.truncate(count);
@@ -270,15 +144,9 @@ impl Contacts {
         }
     }
 
-    /// What the wall does to the rod in all, in N.
-    pub fn total(&self) -> DVec3 {
-        self.near().map(|(_, contact)| contact.normal * contact.force + contact.friction).sum()
-    }
-
     /// Measures the gaps of a node. Returns a distance from the wall that it has at least, in mm.
-    fn look_at_node(&mut self, p: DVec3, i: usize, wall: &Wall) -> f64 {
-        let (radius, known) = (self.radius, &mut self.clearances[i]);
-        let contacts = &mut self.nodes[i];
+    fn detect_at_node(&mut self, p: DVec3, i: usize, wall: &Wall, radius: f64) -> f64 {
+        let (known, contacts) = (&mut self.clearances[i], &mut self.nodes[i]);
         if stands(known.distance - radius, known.at_least(p) - radius, REACH) {
             return known.at_least(p);
         }
@@ -318,16 +186,16 @@ impl Contacts {
 
     /// Measures the gap of the inside of an edge. Returns a distance from the wall that it has at least, in mm, unless
     /// its ends are nearer.
-    fn look_at_edge(&mut self, rod: &Rod, i: usize, wall: &Wall) -> f64 {
+    fn detect_at_edge(&mut self, rod: &Rod, i: usize, wall: &Wall, radius: f64) -> f64 {
         let (a, b) = (rod.positions[i], rod.positions[i + 1]);
         let known = &self.insides[i];
-        if stands(known.distance - self.radius, known.at_least(a, b) - self.radius, EDGE_REACH) {
+        if stands(known.distance - radius, known.at_least(a, b) - radius, EDGE_REACH) {
             return known.at_least(a, b);
         }
         let (near_a, near_b) = (self.clearances[i].at_least(a), self.clearances[i + 1].at_least(b));
-        let within = (near_a.min(near_b) - DEEPER * self.radius).min(self.radius + EDGE_REACH);
+        let within = (near_a.min(near_b) - DEEPER * radius).min(radius + EDGE_REACH);
         let bound = between(near_a, near_b, a.distance(b));
-        let (radius, contacts) = (self.radius, &mut self.edges[i]);
+        let contacts = &mut self.edges[i];
         let mut least = f64::INFINITY;
         for contact in contacts.iter_mut().filter(|contact| contact.is_near) {
             match wall.index().segment_foot_in(contact.slot, a, b, radius + EDGE_REACH) {
@@ -363,7 +231,7 @@ impl Contacts {
     }
 
     /// How far the wall is at least from a node and the edges beside it, in mm; 0 where that is not known.
-    pub fn clearance(&self, rod: &Rod, node: usize) -> f64 {
+    pub(super) fn clearance(&self, rod: &Rod, node: usize) -> f64 {
         let at_least = |i: usize| self.clearances.get(i).map_or(0.0, |known| known.at_least(rod.start(i)));
         let edge = |i: usize| (at_least(i) + at_least(i + 1) - rod.start(i).distance(rod.start(i + 1))) / 2.0;
         let before = if node > 0 { edge(node - 1) } else { f64::INFINITY };
@@ -372,7 +240,7 @@ impl Contacts {
     }
 
     /// Every contact that takes part in the step, with the node at which its edge begins.
-    pub fn near(&self) -> impl Iterator<Item = (usize, &Contact)> {
+    pub(super) fn near(&self) -> impl Iterator<Item = (usize, &Contact)> {
         let contact = |place: &Place| match *place {
             Place::Node(i, k) => (i, &self.nodes[i][k]),
             Place::Edge(i, k) => (i, &self.edges[i][k]),
@@ -381,7 +249,7 @@ impl Contacts {
     }
 
     /// Does something to each of those.
-    fn each(&mut self, mut visit: impl FnMut(usize, &mut Contact)) {
+    pub(super) fn each(&mut self, mut visit: impl FnMut(usize, &mut Contact)) {
         for place in &self.places {
             let (node, contact) = match *place {
                 Place::Node(i, k) => (i, &mut self.nodes[i][k]),
@@ -404,118 +272,6 @@ impl Contacts {
             let near = (0..RIDGES).filter(|&k| contacts[k].is_near);
             self.places.extend(near.map(|k| Place::Edge(i, k)));
         }
-    }
-
-    /// Sets what friction can give in the corrections that follow: by the forces that those before have come to, as those
-    /// where the rod is now may be far from balanced.
-    pub fn set_grip(&mut self) {
-        let friction = self.friction;
-        self.each(|_, contact| {
-            contact.grip = friction[usize::from(contact.is_sliding)] * contact.balanced;
-        });
-    }
-
-    /// Notes the forces that the corrections have come to.
-    pub fn balance(&mut self, rod: &Rod) {
-        let stiffness = self.stiffness;
-        self.each(|node, contact| contact.balanced = contact.pressure(rod, node, stiffness));
-    }
-
-    /// Begins a step.
-    pub fn begin(&mut self) {
-        self.stiffness = STIFFNESS;
-        self.each(|_, contact| (contact.first, contact.balanced) = (contact.force, contact.force));
-    }
-
-    /// Lets the corrections that follow begin with the forces that those before have come to, and be stiffer: what is
-    /// pushed hard into the wall would come out of it too slowly.
-    pub fn raise(&mut self) {
-        self.stiffness *= STIFFER;
-        self.each(|_, contact| contact.force = contact.balanced);
-    }
-
-    /// Goes back to the forces at the beginning of the step.
-    pub fn undo(&mut self) {
-        self.stiffness = STIFFNESS;
-        self.each(|_, contact| (contact.force, contact.balanced) = (contact.first, contact.first));
-    }
-
-    /// The energy of all contacts, in N mm.
-    pub fn potential(&self, rod: &Rod) -> f64 {
-        self.near().map(|(node, contact)| contact.potential(rod, node, self.radius, self.stiffness)).sum()
-    }
-
-    /// The contacts as they are along a straight change of the rod from where it is now.
-    pub(super) fn along(&self, rod: &Rod, springs: &mut Springs) {
-        springs.clear();
-        for (node, contact) in self.near() {
-            let force = contact.force - self.stiffness * contact.gap_now(rod, node);
-            if contact.grip <= 0.0 && force <= 0.0 {
-                springs.open.push(Open::new(node, contact.along, contact.normal, force, self.stiffness));
-                continue;
-            }
-            let spring = Spring::new(node, spread(contact.normal, 0.0, contact.along), force, self.stiffness);
-            springs.closed.push(if contact.grip > 0.0 {
-                self.with_friction(spring, rod, node, contact)
-            } else {
-                spring
-            });
-        }
-    }
-
-    fn with_friction(&self, spring: Spring, rod: &Rod, node: usize, contact: &Contact) -> Spring {
-        let (stretch, roll) = contact.trial(rod, node, self.radius);
-        let first = contact.smooth.any_orthonormal_vector();
-        let sides = [first, contact.smooth.cross(first)];
-        let by_sides = sides.map(|side| spread(side, side.dot(roll), contact.along));
-        spring.with_friction(contact.grip, sides.map(|side| side.dot(stretch)), by_sides)
-    }
-
-    /// Lets go of all forces: the next step finds them anew.
-    pub fn forget(&mut self) {
-        self.each(|_, contact| (contact.force, contact.stretch, contact.friction) = (0.0, DVec3::ZERO, DVec3::ZERO));
-    }
-
-    /// Ends a step: the forces are now those of the next step's start, none by more than `rise` N above what it was.
-    pub fn finish(&mut self, rod: &Rod, rise: f64) {
-        let (radius, friction) = (self.radius, self.friction);
-        self.each(|node, contact| {
-            let force = contact.balanced.min(contact.first + rise);
-            if force <= 0.0 {
-                contact.force = 0.0;
-                contact.stretch = DVec3::ZERO;
-                contact.friction = DVec3::ZERO;
-                contact.is_sliding = false;
-                return;
-            }
-            let (stretch, _) = contact.trial(rod, node, radius);
-            let most = friction[usize::from(contact.is_sliding)] * force / GRIP;
-            let length = stretch.length();
-            contact.is_sliding = length > most;
-            contact.stretch = if length > most { stretch * (most / length) } else { stretch };
-            contact.friction = contact.stretch * -GRIP;
-            contact.force = force;
-        });
-    }
-
-    /// What the wall does to each of the first `count` nodes, in N.
-    pub fn forces(&self, count: usize) -> Vec<DVec3> {
-        let mut forces = vec![DVec3::ZERO; count];
-        for (node, contact) in self.near() {
-            let force = contact.normal * contact.force + contact.friction;
-            if let Some(entry) = forces.get_mut(node) {
-                *entry += force * (1.0 - contact.along);
-            }
-            if let Some(entry) = forces.get_mut(node + 1) {
-                *entry += force * contact.along;
-            }
-        }
-        forces
-    }
-
-    /// The contacts that press, each with its node.
-    pub fn pressing(&self) -> impl Iterator<Item = (usize, &Contact)> {
-        self.near().filter(|(_, contact)| contact.force > 0.0)
     }
 }
 
@@ -544,7 +300,7 @@ fn between(a: f64, b: f64, length: f64) -> f64 {
 
 /// How much a contact matters, in N: by what it presses with and how near it is; none at all the least.
 fn rank(contact: &Contact) -> f64 {
-    if contact.is_near { contact.force - STIFFNESS * contact.gap } else { f64::NEG_INFINITY }
+    if contact.is_near { contact.multiplier - PENALTY * contact.gap } else { f64::NEG_INFINITY }
 }
 
 #[cfg(test)]
@@ -586,18 +342,18 @@ mod tests {
 
     /// The forces of the contacts at these places, in N.
     fn forces(contacts: &[Contact]) -> Vec<f64> {
-        contacts.iter().filter(|contact| contact.is_near).map(|contact| contact.force).collect()
+        contacts.iter().filter(|contact| contact.is_near).map(|contact| contact.multiplier).collect()
     }
 
     #[test]
     fn the_nearest_contact_of_a_node_keeps_its_force_as_it_opens() {
         let wall = room();
-        let mut contacts = Contacts::new(0.2, [0.0; 2]);
-        contacts.look(&rod_from(DVec3::new(0.0, 1.8, 0.0)), 1, &wall);
-        contacts.each(|_, contact| contact.force = 0.25);
+        let mut contacts = Manifold::default();
+        contacts.detect(&rod_from(DVec3::new(0.0, 1.8, 0.0)), 1, &wall, 0.2);
+        contacts.each(|_, contact| contact.multiplier = 0.25);
         // Farther than what is kept in a corner, and so far that it is measured again.
         let opened = CORNER + 0.03;
-        contacts.look(&rod_from(DVec3::new(0.0, 1.8 - opened, 0.0)), 1, &wall);
+        contacts.detect(&rod_from(DVec3::new(0.0, 1.8 - opened, 0.0)), 1, &wall, 0.2);
         assert_eq!(forces(&contacts.nodes[0]), [0.25]);
         assert!((contacts.nodes[0][0].gap - opened).abs() < 1e-6);
     }
@@ -605,12 +361,12 @@ mod tests {
     #[test]
     fn the_nearest_contact_of_an_edge_keeps_its_force_as_it_opens() {
         let wall = ridge();
-        let mut contacts = Contacts::new(0.2, [0.0; 2]);
-        contacts.look(&rod_from(DVec3::new(-0.5, 0.2, 0.0)), 2, &wall);
-        contacts.each(|_, contact| contact.force = 0.25);
+        let mut contacts = Manifold::default();
+        contacts.detect(&rod_from(DVec3::new(-0.5, 0.2, 0.0)), 2, &wall, 0.2);
+        contacts.each(|_, contact| contact.multiplier = 0.25);
         assert_eq!(forces(&contacts.edges[0]), [0.25]);
         let opened = CORNER + 0.02;
-        contacts.look(&rod_from(DVec3::new(-0.5, 0.2 + opened, 0.0)), 2, &wall);
+        contacts.detect(&rod_from(DVec3::new(-0.5, 0.2 + opened, 0.0)), 2, &wall, 0.2);
         assert_eq!(forces(&contacts.edges[0]), [0.25]);
         assert!((contacts.edges[0][0].gap - opened).abs() < 1e-6);
     }
@@ -620,11 +376,11 @@ mod tests {
         let wall = room();
         let section = Section { length: 1.0, cell: 1.0, ..Section::default() };
         let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
-        let mut contacts = Contacts::new(1.97, [0.0; 2]);
+        let mut contacts = Manifold::default();
         // Nearest to the sides +y, -x, +z and +x: all four are at hand in the end, and three can be kept.
         for tip in [at(0.0, 0.05, 0.0), at(-0.06, 0.05, 0.0), at(0.0, 0.05, 0.055), at(0.06, 0.05, 0.04)] {
             let rod = Rod::new(vec![tip, tip + DVec3::X * 0.1], vec![section; 2], DVec3::Y);
-            contacts.look(&rod, 1, &wall);
+            contacts.detect(&rod, 1, &wall, 1.97);
         }
         let near = contacts.nodes[0].iter().filter(|contact| contact.is_near);
         let gaps: Vec<f64> = near.map(|contact| contact.gap).collect();

@@ -1,5 +1,7 @@
 //! A trial: a wire on its way through a vessel, what it is told, and what is measured of it.
 
+mod shown;
+
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -9,14 +11,15 @@ use super::STEP;
 use super::autopilot::{Autopilot, DECISION, FEED, Seen};
 use super::course::{Course, TrialError};
 use super::felt::Felt;
-use super::frame::{Frame, Progress, Touch};
-use super::log::{Log, Row};
+use super::frame::{Progress, Touch};
+use super::log::Log;
 use super::meter::{Meter, SinceRow};
 use super::press::outward;
 use super::report::StepKind;
 use super::route::Located;
 use super::setup::{Input, Setup};
 use super::simulation::Simulation;
+use super::stopwatch::Stopwatch;
 use crate::pipeline::task::milliseconds;
 
 /// Steps between two rows of the log, and between two decisions.
@@ -57,6 +60,8 @@ pub struct Trial {
     friction: [f64; 2],
     state: State,
     marks: Vec<State>,
+    /// How long steps took: kept once, and not with each mark, as it grows with every step.
+    stopwatch: Stopwatch,
     log: Log,
     is_steered: bool,
     /// What the operator does from the next row of the log on.
@@ -95,6 +100,7 @@ impl Trial {
             friction,
             state,
             marks: Vec::new(),
+            stopwatch: Stopwatch::default(),
             log,
             is_steered: false,
             wanted: Input::default(),
@@ -141,6 +147,11 @@ impl Trial {
         &self.state.meter
     }
 
+    /// How long its steps took so far.
+    pub(super) fn stopwatch(&self) -> &Stopwatch {
+        &self.stopwatch
+    }
+
     /// What was logged so far.
     pub fn log(&self) -> &Log {
         &self.log
@@ -183,7 +194,8 @@ impl Trial {
         self.press();
         let state = &mut self.state;
         let report = state.simulation.step(state.input);
-        state.meter.stepped(milliseconds(start), &report, &state.simulation);
+        self.stopwatch.stepped(milliseconds(start));
+        state.meter.stepped(&report, &state.simulation);
         if report.kind == StepKind::Balanced {
             state.felt.take(touches(&state.simulation));
         }
@@ -228,9 +240,8 @@ impl Trial {
             self.marks.pop();
         }
         if let Some(mark) = self.marks.last() {
-            let step_ms = self.state.meter.take_step_ms();
             self.state = mark.clone();
-            self.state.meter.give_step_ms(step_ms);
+            self.stopwatch.keep(self.state.simulation.steps() as usize);
             self.wanted = Input::default();
             self.log.rows.truncate(self.state.rows);
         }
@@ -241,10 +252,7 @@ impl Trial {
             self.marks.remove(1);
         }
         self.state.rows = self.log.rows.len();
-        // How long steps took is kept once, and not with each mark: it grows with every step.
-        let step_ms = self.state.meter.take_step_ms();
         self.marks.push(self.state.clone());
-        self.state.meter.give_step_ms(step_ms);
     }
 
     /// The input of the next row.
@@ -278,7 +286,7 @@ impl Trial {
             inserted: simulation.inserted(),
             is_off: *is_off,
             is_looped: *is_looped,
-            is_hard: simulation.is_held_back(),
+            is_hard: simulation.is_at_limit(),
         }
     }
 
@@ -328,36 +336,6 @@ impl Trial {
         }
     }
 
-    fn row(&self) -> Row {
-        let state = &self.state;
-        let simulation = &state.simulation;
-        let (forces, since) = (state.meter.forces, state.meter.since_row);
-        Row {
-            step: simulation.steps(),
-            input: state.input,
-            inserted_mm: simulation.inserted(),
-            roll: simulation.roll(),
-            tip: simulation.tip(),
-            tip_direction: simulation.tip_direction(),
-            arc_mm: state.arc,
-            branch: state.located.map_or(0, |located| located.branch),
-            is_off: state.is_off,
-            target_mm: self.course.route.distance_to_target(simulation.tip()),
-            path_ratio: state.meter.path_mm / self.course.route.length_mm,
-            contacts: forces.contacts,
-            wall_force_n: forces.wall_force_n,
-            max_wall_force_n: since.max_wall_force_n,
-            max_at: if since.max_wall_force_n > 0.0 { since.max_at } else { simulation.tip() },
-            tip_force_n: forces.tip_force_n,
-            push_n: forces.push_n,
-            torque_n_mm: forces.torque_n_mm,
-            retractions: state.meter.retractions,
-            wrong_branches: state.meter.wrong_branches,
-            step_ms: state.meter.last_ms(ROW_STEPS as usize),
-            since,
-        }
-    }
-
     /// What the wall has felt so far.
     pub fn felt(&self) -> &Felt {
         &self.state.felt
@@ -366,42 +344,6 @@ impl Trial {
     /// The same, to be told.
     pub fn felt_mut(&mut self) -> &mut Felt {
         &mut self.state.felt
-    }
-
-    /// The wire and all that is told of it now; what depends on the clock is filled in by the caller.
-    pub fn frame(&self) -> Frame {
-        let state = &self.state;
-        let simulation = &state.simulation;
-        let plain = |v: DVec3| v.as_vec3().to_array();
-        let forces = state.meter.forces;
-        let [direction, side] = self.tip_side();
-        Frame {
-            step: simulation.steps(),
-            time_s: simulation.steps() as f64 * STEP,
-            nodes: simulation.nodes().map(plain).collect(),
-            report: simulation.report(),
-            step_kinds: state.meter.counts,
-            contacts: forces.contacts,
-            tip_direction: plain(direction),
-            tip_side: plain(side.reject_from(direction).normalize_or(side)),
-            inserted_mm: simulation.inserted(),
-            roll: simulation.roll(),
-            feed: state.input.feed,
-            push_n: forces.push_n,
-            torque_n_mm: forces.torque_n_mm,
-            wall_force_n: forces.wall_force_n,
-            max_wall_force_n: forces.max_wall_force_n,
-            tip_force_n: forces.tip_force_n,
-            arc_mm: state.arc,
-            target_mm: self.course.route.distance_to_target(simulation.tip()),
-            branch: state.located.map_or(0, |located| located.branch),
-            is_wrong_branch: state.is_off,
-            is_looped: state.is_looped,
-            progress: state.progress,
-            doing: if self.is_steered { state.autopilot.words().to_owned() } else { String::new() },
-            steps_per_second: 0.0,
-            is_behind: false,
-        }
     }
 }
 
