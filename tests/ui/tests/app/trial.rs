@@ -692,48 +692,47 @@ fn another_surface_closes_the_tables_and_forgets_the_places_of_the_last() {
     assert_eq!((setup.entry, setup.target), (None, None), "places in one vessel are nowhere in another");
 }
 
-/// Leaves pictures to look at in the target folder's `tmp`.
+/// Leaves pictures to look at in the target folder's `tmp`: all of them with `cargo xtask test --long`, else the phone's.
 #[test]
 fn pictures_of_the_trial() {
-    for (size, name) in [(DESKTOP, "desktop"), (PHONE, "phone")] {
-        for sample in if size == PHONE { &Sample::ALL[..1] } else { &Sample::ALL[..] } {
-            let sample = *sample;
-            let (mut harness, memory) = app(size);
-            settle(&mut harness);
-            if sample == Sample::Coronary {
-                open_coronary(&mut harness);
-            }
-            memory.borrow_mut().trial_runs = true;
-            start(&mut harness);
-            harness.run_steps(5);
-            if sample == Sample::Coronary {
-                save(&mut harness, &format!("trial-{name}-{sample}-refused"));
-                press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
-                wait(&mut harness, |harness| harness.state().trial().session().is_some());
-            }
-            press(&mut harness, "Autopilot");
-            harness.run_steps(600);
-            save(&mut harness, &format!("trial-{name}-{sample}-on"));
-            harness.key_press(Key::C);
-            harness.key_press(Key::Num4);
-            harness.run_steps(8);
-            save(&mut harness, &format!("trial-{name}-{sample}-contrast"));
-            harness.get_by_role_and_label(Role::CheckBox, "Roadmap").scroll_to_me();
-            harness.run_steps(12);
-            harness.get_by_role_and_label(Role::CheckBox, "Roadmap").click();
-            harness.ctx.set_theme(egui::Theme::Light);
-            harness.run_steps(60);
-            save(&mut harness, &format!("trial-{name}-{sample}-roadmap"));
-            press(&mut harness, "Compare with the unreduced surface");
-            harness.run_steps(5);
-            save(&mut harness, &format!("trial-{name}-{sample}-comparing"));
-            wait(&mut harness, |harness| !harness.state().trial().is_busy());
-            harness.run_steps(5);
-            save(&mut harness, &format!("trial-{name}-{sample}-compared"));
-            press(&mut harness, "Tables III and IV");
-            harness.run_steps(60);
-            save(&mut harness, &format!("trial-{name}-{sample}-tables"));
+    let phone = [(PHONE, "phone", Sample::Aorta)].into_iter();
+    let desktop = Sample::ALL.map(|sample| (DESKTOP, "desktop", sample)).into_iter();
+    for (size, name, sample) in phone.chain(desktop.filter(|_| std::env::var_os("LUMEN_LONG").is_some())) {
+        let (mut harness, memory) = app(size);
+        settle(&mut harness);
+        if sample == Sample::Coronary {
+            open_coronary(&mut harness);
         }
+        memory.borrow_mut().trial_runs = true;
+        start(&mut harness);
+        harness.run_steps(5);
+        if sample == Sample::Coronary {
+            save(&mut harness, &format!("trial-{name}-{sample}-refused"));
+            press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+            wait(&mut harness, |harness| harness.state().trial().session().is_some());
+        }
+        press(&mut harness, "Autopilot");
+        harness.run_steps(600);
+        save(&mut harness, &format!("trial-{name}-{sample}-on"));
+        harness.key_press(Key::C);
+        harness.key_press(Key::Num4);
+        harness.run_steps(8);
+        save(&mut harness, &format!("trial-{name}-{sample}-contrast"));
+        harness.get_by_role_and_label(Role::CheckBox, "Roadmap").scroll_to_me();
+        harness.run_steps(12);
+        harness.get_by_role_and_label(Role::CheckBox, "Roadmap").click();
+        harness.ctx.set_theme(egui::Theme::Light);
+        harness.run_steps(60);
+        save(&mut harness, &format!("trial-{name}-{sample}-roadmap"));
+        press(&mut harness, "Compare with the unreduced surface");
+        harness.run_steps(5);
+        save(&mut harness, &format!("trial-{name}-{sample}-comparing"));
+        wait(&mut harness, |harness| !harness.state().trial().is_busy());
+        harness.run_steps(5);
+        save(&mut harness, &format!("trial-{name}-{sample}-compared"));
+        press(&mut harness, "Tables III and IV");
+        harness.run_steps(60);
+        save(&mut harness, &format!("trial-{name}-{sample}-tables"));
     }
 }
 

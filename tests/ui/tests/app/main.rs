@@ -1,0 +1,7 @@
+//! The app without a window: its controls, keys, views and trial, driven as assistive tools drive them.
+
+mod compare;
+mod controls;
+mod device;
+mod keys;
+mod trial;
