@@ -247,6 +247,22 @@ fn halves(range: &Range, items: &mut [Item], axis: usize) -> [Range; 2] {
     })
 }
 
+impl SurfaceIndex {
+    /// Builds the index in O(n log n). Triangles with a coordinate that is not finite are left out. To build in
+    /// slices, use [`IndexBuild`].
+    ///
+    /// # Panics
+    /// When an index of a triangle is out of range.
+    pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+        let mut build = IndexBuild::new();
+        loop {
+            if let Poll::Ready(index) = build.advance(positions, triangles, usize::MAX) {
+                return index;
+            }
+        }
+    }
+}
+
 impl IndexBuild {
     /// Nothing built yet.
     pub fn new() -> Self {

@@ -7,15 +7,12 @@
 //! Boxes are compared in f32 with a margin, triangles in f64 (`closest_point.rs`). Of triangles at the same distance
 //! the one of the least number wins, so the answer depends neither on the order of the visit nor on a hint or bound.
 
-use std::task::Poll;
-
 use glam::{Vec3, Vec4};
 
 use super::closest_point::{Foot, foot_on_sliver, foot_on_triangle};
-use super::index_build::IndexBuild;
 use super::planes::plane;
 
-/// Room for the nodes still to visit: at most three per level, and [`IndexBuild`] makes at most 32 levels.
+/// Room for the nodes still to visit: at most three per level, and [`IndexBuild`](super::IndexBuild) makes at most 32 levels.
 pub(super) const STACK: usize = 100;
 
 /// Relative allowance for the rounding of a squared distance to a box in f32.
@@ -143,20 +140,6 @@ impl Best {
 }
 
 impl SurfaceIndex {
-    /// Builds the index in O(n log n). Triangles with a coordinate that is not finite are left out. To build in
-    /// slices, use [`IndexBuild`].
-    ///
-    /// # Panics
-    /// When an index of a triangle is out of range.
-    pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
-        let mut build = IndexBuild::new();
-        loop {
-            if let Poll::Ready(index) = build.advance(positions, triangles, usize::MAX) {
-                return index;
-            }
-        }
-    }
-
     /// Number of triangles in the index.
     pub fn len(&self) -> usize {
         self.triangles
@@ -283,12 +266,14 @@ fn bounded(distance: f32) -> Option<Best> {
 
 #[cfg(test)]
 mod tests {
+    use std::task::Poll;
+
     use proptest::prelude::*;
 
     use super::*;
-    use crate::mesh::TriMesh;
     use crate::mesh::closest_point::is_sliver;
     use crate::mesh::shapes::{icosphere, sagitta, square};
+    use crate::mesh::{IndexBuild, TriMesh};
 
     fn index(mesh: &TriMesh) -> SurfaceIndex {
         SurfaceIndex::new(&mesh.positions, &mesh.triangles)

@@ -7,7 +7,9 @@ use std::time::Duration;
 use lumen::mesh::{TriMesh, Vec3};
 use lumen::pipeline::report::Report;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Boundary, Keep, Method, Settings, SettingsError, Target, Window};
+use lumen::pipeline::settings::{Boundary, Keep, Method, Settings, SettingsError, Smoothing, Target, Window};
+
+use crate::long::is_long;
 
 /// What one surface may take through all stages under all settings tried; most take milliseconds.
 const LIMIT: Duration = Duration::from_secs(120);
@@ -272,4 +274,51 @@ fn settings_that_are_no_numbers_are_refused_wherever_they_come_in() {
     }
     let mut none = Pipeline::new(surface, Settings { keep: Keep::Component(7), ..Settings::default() });
     assert!(matches!(none.finish(), Err(SettingsError::Component { wanted: 7, count: 1 })));
+}
+
+/// `count` triangles over as many random places of a box: nearly all run into each other.
+fn tangle(count: u32) -> TriMesh {
+    let mut state = 7u32;
+    let mut next = |below: u32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((u64::from(state) * u64::from(below)) >> 32) as u32
+    };
+    let positions = (0..count).map(|_| Vec3::from([(); 3].map(|()| next(1 << 20) as f32 * 1e-4))).collect();
+    let triangles = (0..count).map(|_| [(); 3].map(|()| next(count)));
+    let is_whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+    TriMesh { positions, triangles: triangles.filter(is_whole).collect() }
+}
+
+/// A cylinder of `sides`, each end a fan around its middle.
+fn cylinder(sides: u32) -> TriMesh {
+    let at = |i: u32, z: f32| {
+        let angle = f64::from(i) / f64::from(sides) * std::f64::consts::TAU;
+        Vec3::new(10.0 * angle.cos() as f32, 10.0 * angle.sin() as f32, z)
+    };
+    let mut positions: Vec<Vec3> = [0.0, 40.0].iter().flat_map(|&z| (0..sides).map(move |i| at(i, z))).collect();
+    positions.extend([Vec3::ZERO, Vec3::Z * 40.0]);
+    let around = |i: u32| {
+        let j = (i + 1) % sides;
+        [[i, j, sides + j], [i, sides + j, sides + i], [2 * sides, j, i], [2 * sides + 1, sides + i, sides + j]]
+    };
+    TriMesh { positions, triangles: (0..sides).flat_map(around).collect() }
+}
+
+/// What the files that ate the machine were: 20,000 random triangles asked for 17 GB, a fan of 30,000 sides did not end.
+#[test]
+fn tangles_and_hubs_go_through_every_stage() {
+    let (triangles, sides) = if is_long() { (20_000, 100_000) } else { (3_000, 10_000) };
+    let rough = Smoothing { iterations: 0, ..Smoothing::default() };
+    for (name, mesh) in [("a tangle", tangle(triangles)), ("a hub", cylinder(sides))] {
+        let count = mesh.triangles.len();
+        in_time(name, move || {
+            let settings = Settings { keep: Keep::All, smoothing: rough, ..Settings::default() };
+            let mut pipeline = Pipeline::new(Arc::new(mesh), settings);
+            pipeline.finish().unwrap();
+            let report = Report::new("surface", &pipeline).unwrap();
+            assert_eq!(report.after_connectivity.triangles, count);
+            let faces = report.smoothed_shape.unwrap().self_intersecting_faces;
+            assert!(if name == "a hub" { faces == 0 } else { faces > count * 9 / 10 }, "{name}: {faces} of {count}");
+        });
+    }
 }

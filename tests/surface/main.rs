@@ -2,6 +2,8 @@
 
 #[path = "../common/crossings.rs"]
 mod crossings;
+#[path = "../common/long.rs"]
+mod long;
 #[path = "../common/promises.rs"]
 mod promises;
 #[path = "../common/shape.rs"]

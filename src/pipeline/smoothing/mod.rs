@@ -16,6 +16,7 @@
 //! another filter of the same degree or less is then but another sum of them.
 
 mod kept_terms;
+mod layout;
 mod order;
 mod stencil;
 mod strip;
@@ -27,6 +28,7 @@ use std::ops::Deref;
 use glam::{Vec3, Vec4};
 
 pub(crate) use self::kept_terms::{KeptTerms, Preparation, keeping, kept_terms};
+use self::layout::Layout;
 use self::order::Order;
 use self::stencil::Stencil;
 use self::strip::{Strip, Wave};
@@ -46,15 +48,6 @@ const CACHE: usize = 1 << 20;
 
 /// Bytes of a vertex and its row that a pass touches.
 const BYTES_A_VERTEX: usize = 3 * 16 + 6 * 4;
-
-/// What the strips are made from.
-struct Layout<T> {
-    order: Order,
-    stencil: Stencil<T>,
-    /// Three numbers at each vertex, and the middle of them, strays not counted.
-    values: Vec<Vec3>,
-    centre: Vec3,
-}
 
 /// A smoothing run in slices; `T` is any pointer to the topology.
 pub struct SmoothingTask<T> {

@@ -9,7 +9,7 @@ use std::ops::{Deref, Range};
 
 use glam::Vec4;
 
-use super::Layout;
+use super::layout::Layout;
 use super::order::Order;
 use crate::mesh::Topology;
 use crate::pipeline::task::Budget;

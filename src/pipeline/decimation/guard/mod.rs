@@ -26,7 +26,7 @@ use glam::Vec3A;
 
 use self::crossings::Crossings;
 use self::pairs::Pairs;
-use self::sheet::{Sheet, faces, turned};
+use self::sheet::{FACING, Sheet, faces, turned};
 use self::tree::{Leaves, Patch, SLACK, Tree, angle};
 use super::rings::{Rings, SIZE, neighbour};
 use super::star::Star;
@@ -35,8 +35,6 @@ use crate::mesh::crossing::Face;
 
 /// Room for a leaf to grow, in mean edge lengths.
 const MARGIN: f32 = 1.5;
-/// The cosine of a little less than a right angle.
-const FACING: f32 = 0.07;
 /// Most leaves, and most triangles, that a collapse is tested against.
 const MOST_NEAR: usize = 1 << 15;
 /// A vertex beside one at which more triangles meet than this stays: each would have to be asked.

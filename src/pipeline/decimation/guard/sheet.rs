@@ -5,8 +5,10 @@
 use glam::Vec3A;
 
 use super::super::rings::{Rings, neighbour};
-use super::FACING;
 use super::tree::{Leaves, Patch, Tree};
+
+/// The cosine of a little less than a right angle.
+pub(super) const FACING: f32 = 0.07;
 
 /// Triangles of a sheet that are followed around a collapse, and leaves beside a leaf; beyond them what looks the same
 /// way is tested.

@@ -1,0 +1,15 @@
+//! What is laid out in strips: the surface in the order of the passes.
+
+use glam::Vec3;
+
+use super::order::Order;
+use super::stencil::Stencil;
+
+/// What the strips are made from.
+pub(super) struct Layout<T> {
+    pub(super) order: Order,
+    pub(super) stencil: Stencil<T>,
+    /// Three numbers at each vertex, and the middle of them, strays not counted.
+    pub(super) values: Vec<Vec3>,
+    pub(super) centre: Vec3,
+}
