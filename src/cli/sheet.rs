@@ -252,7 +252,10 @@ fn no_rows(out: &mut String) {
 
 /// A note as a point of a list, wrapped.
 fn bullet(out: &mut String, note: &str) {
-    let options = textwrap::Options::new(100).initial_indent("- ").subsequent_indent("  ");
+    // Names of files stay whole.
+    let splitter = textwrap::WordSplitter::NoHyphenation;
+    let options = textwrap::Options::new(100).word_splitter(splitter).break_words(false);
+    let options = options.initial_indent("- ").subsequent_indent("  ");
     *out += &format!("{}\n", textwrap::fill(note, options));
 }
 

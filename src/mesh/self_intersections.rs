@@ -69,7 +69,7 @@ impl SurfaceIndex {
     }
 
     /// Marks the triangles that run into one another, where one of them is in `slots` and in no slot before;
-    /// returns how many pairs were looked at. `triangles` are those of the index.
+    /// returns how many pairs were looked at, about. `triangles` are those of the index.
     pub(crate) fn mark_crossings(&self, triangles: &[[u32; 3]], slots: Range<usize>, crossing: &Crossing) -> usize {
         let mut looks = 0;
         for leaf in self.leaves[slots].iter().filter(|leaf| crossing.is_new(leaf.triangle)) {
@@ -277,9 +277,37 @@ mod tests {
         })
     }
 
+    /// Triangles around one of two hubs, over both, and over none; some twice, some thin.
+    fn two_hubs() -> impl Strategy<Value = TriMesh> {
+        let positions = prop::collection::vec(prop::array::uniform3(-4.0f32..4.0).prop_map(Vec3::from), 8..24);
+        positions.prop_flat_map(|positions| {
+            let count = positions.len() as u32;
+            let triangle = (0u32..4, prop::array::uniform3(2..count)).prop_map(|(kind, [a, b, c])| match kind {
+                0 => [0, a, b],
+                1 => [1, b, c],
+                2 => [0, 1, a],
+                _ => [a, b, c],
+            });
+            prop::collection::vec(triangle, 20..120).prop_map(move |triangles| {
+                let whole = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+                let mut triangles: Vec<_> = triangles.into_iter().filter(whole).collect();
+                triangles.extend_from_within(..triangles.len() / 9);
+                let mut positions = positions.clone();
+                // The hubs near each other, so that triangles over both are slivers.
+                positions[1] = positions[0] + Vec3::new(0.01, 0.002, 0.003);
+                TriMesh { positions, triangles }
+            })
+        })
+    }
+
     proptest! {
         #[test]
         fn the_boxes_miss_no_pair(mesh in soup()) {
+            prop_assert_eq!(self_intersections(&mesh), one_by_one(&mesh));
+        }
+
+        #[test]
+        fn around_two_hubs_no_pair_is_missed(mesh in two_hubs()) {
             prop_assert_eq!(self_intersections(&mesh), one_by_one(&mesh));
         }
 

@@ -1,7 +1,6 @@
 //! The stages of the pipeline: their order, what each rests on, and what of the settings decides it.
 //!
-//! Everything that [`run`](super::run) does by itself (what is stale after a change, what comes next, what a cancel stops)
-//! follows from this table; what a stage does is its file in `stages/`, and what it leaves its slot in
+//! What [`run`](super::run) does by itself (what is stale after a change, what comes next) follows from this table; what a stage does is its file in `stages/`, and what it leaves its slot in
 //! [`results`](super::results).
 
 use serde::{Deserialize, Serialize};

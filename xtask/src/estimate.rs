@@ -53,13 +53,11 @@ impl Estimate {
         })
     }
 
-    /// Keeps the times for the next run; parts that this one did not have stay as they were.
+    /// Keeps the times for the next run.
     pub(crate) fn keep(mut self) {
         self.end();
-        let mut all = std::mem::take(&mut self.last);
-        all.append(&mut self.now);
         // Without them the next run has no estimate, which is no harm.
-        let _ = serde_json::to_vec(&all).map(|bytes| std::fs::write(&self.file, bytes));
+        let _ = serde_json::to_vec(&self.now).map(|bytes| std::fs::write(&self.file, bytes));
     }
 }
 

@@ -32,7 +32,10 @@ struct Counts {
 /// sample is.
 pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
     let wanted = |suite| only.is_empty() || only.contains(&suite);
-    let mut estimate = Estimate::new(if long { "long-test" } else { "test" });
+    let suites =
+        [(Suite::Native, "native"), (Suite::Browser, "browser")].into_iter().filter(|(suite, _)| wanted(*suite));
+    let names: Vec<&str> = long.then_some("long").into_iter().chain(suites.map(|(_, name)| name)).collect();
+    let mut estimate = Estimate::new(&names.join("-"));
     let mut total = Counts::default();
     let mut sound = true;
     let mut add = |(counts, ended_well): (Counts, bool)| {
@@ -41,20 +44,22 @@ pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
         total.ignored += counts.ignored;
         sound &= ended_well;
     };
-    std::thread::scope(|scope| {
+    let done = std::thread::scope(|scope| {
         // Linking and wasm-opt are one thread for minutes: they go on beside the native tests.
         let dist = wanted(Suite::Browser).then(|| scope.spawn(build::build));
-        if wanted(Suite::Native) {
-            add(native(long, &mut estimate)?);
-        }
-        if let Some(dist) = dist {
-            let dist = dist.join().map_err(|_| anyhow!("the build of the browser app panicked"))??;
-            add(browser(&dist, &mut estimate)?);
-        }
-        anyhow::Ok(())
-    })?;
+        let native = if wanted(Suite::Native) { native(long, &mut estimate).map(&mut add) } else { Ok(()) };
+        estimate.end();
+        let browser = match dist.map(std::thread::ScopedJoinHandle::join) {
+            None => Ok(()),
+            Some(Ok(Ok(dist))) => browser(&dist, &mut estimate).map(&mut add),
+            Some(Ok(Err(error))) => Err(error),
+            Some(Err(_)) => Err(anyhow!("the build of the browser app panicked")),
+        };
+        native.and(browser)
+    });
     estimate.keep();
     println!("{} passed, {} failed, {} skipped", total.passed, total.failed, total.ignored);
+    done?;
     if total.failed > 0 || !sound {
         bail!("not every test passed");
     }
@@ -87,9 +92,11 @@ fn native(long: bool, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     step("Run the native tests", || count(&mut command, cargo_counts, cargo_part, estimate))
 }
 
-/// "     Running tests/real/main.rs (target/debug/deps/real-14627fb9)", on the error output: what is run.
+/// "     Running tests/real/main.rs (target/debug/deps/real-14627fb9)", on the error output: the binary that is run,
+/// without its hash.
 fn cargo_part(line: &str) -> Option<&str> {
-    line.trim_start().strip_prefix("Running ").and_then(|rest| rest.rsplit_once(" (")).map(|(what, _)| what)
+    let (_, binary) = line.trim_start().strip_prefix("Running ")?.trim_end_matches(')').rsplit_once(['/', '\\'])?;
+    binary.rsplit_once('-').map(|(name, _)| name)
 }
 
 /// "test result: ok. 12 passed; 0 failed; 1 ignored; ..."
@@ -168,7 +175,10 @@ fn count(
     std::thread::scope(|scope| {
         // Both have to be read, or the one that is not fills up and the runner waits.
         scope.spawn(|| {
-            for line in errors.into_iter().flat_map(|errors| BufReader::new(errors).lines()).map_while(Result::ok) {
+            let lines = errors.into_iter().flat_map(|errors| BufReader::new(errors).split(b'\n')).map_while(Result::ok);
+            for line in lines {
+                // A driver may print what is no text.
+                let line = String::from_utf8_lossy(&line);
                 eprintln!("{line}");
                 if let Some(part) = part(&line) {
                     estimate.begin(part);
@@ -203,7 +213,7 @@ mod tests {
         node_counts("    pass the file to the chooser", &mut counts);
         assert_eq!((counts.passed, counts.failed, counts.ignored), (20, 3, 1));
         let part = cargo_part("     Running unittests src/lib.rs (target/debug/deps/lumen-189a92ad)");
-        assert_eq!(part, Some("unittests src/lib.rs"));
+        assert_eq!(part, Some("lumen"));
         assert_eq!(cargo_part("   Compiling lumen v0.1.0 (folder)"), None);
     }
 }
