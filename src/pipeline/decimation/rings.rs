@@ -53,6 +53,8 @@ pub(super) struct Rings {
     /// For the slots of cut vertices, `(node, slot)`, ascending.
     cut: Vec<(u32, u32)>,
     scratch: Vec<u32>,
+    /// No ring is longer.
+    widest: u32,
     /// Until all slots have a ring: the slot of each vertex, and the slots found at which the surface is no fan.
     slots: Vec<u32>,
     complex: Vec<u32>,
@@ -92,6 +94,7 @@ impl Rings {
             made: Vec::new(),
             cut: Vec::new(),
             scratch: Vec::new(),
+            widest: 0,
             slots,
             complex: Vec::new(),
             fan: Fan::default(),
@@ -408,6 +411,12 @@ impl Rings {
             }
         }
         self.heads[u as usize].length = length as u32;
+        self.widest = self.widest.max(length as u32);
+    }
+
+    /// A length that no ring exceeds, once they are numbered.
+    pub(super) fn widest(&self) -> usize {
+        self.widest as usize
     }
 
     /// Renumbers the slots that are left, in their order, and returns those that were kept.
@@ -423,6 +432,7 @@ impl Rings {
             let head = self.heads[v as usize];
             heads.push(Head { start, room: head.length, ..head });
         }
+        self.widest = heads.iter().map(|head| head.length).max().unwrap_or(0);
         (self.entries, self.heads) = (entries, heads);
         self.positions = gather(&self.positions, &kept);
         self.nodes = gather(&self.nodes, &kept);
@@ -437,6 +447,7 @@ impl Rings {
         for v in slots {
             let ring: Vec<u32> = self.around(v).iter().map(|&entry| neighbour(entry)).collect();
             assert!(ring.iter().all(|&n| !self.is_gone(n) && n != v));
+            assert!(ring.len() <= self.widest());
             if !self.stays(v) {
                 let least = if self.is_open(v) { 2 } else { 3 };
                 assert!(ring.len() >= least, "{} around {v}", ring.len());

@@ -231,7 +231,8 @@ impl Guard {
     /// Whether the collapse makes no crossing that was not there.
     pub(super) fn allows(&mut self, rings: &Rings, mesh: &TriMesh, planned: &Planned) -> bool {
         let Planned { v, u, star, .. } = *planned;
-        if star.entries().iter().any(|&entry| rings.around(neighbour(entry)).len() > MOST_FAN) {
+        let is_wide = |&entry: &u32| rings.around(neighbour(entry)).len() > MOST_FAN;
+        if rings.widest() > MOST_FAN && star.entries().iter().any(is_wide) {
             return false;
         }
         let p = rings.at(v);
