@@ -35,6 +35,7 @@ fn settings() -> impl Strategy<Value = Smoothing> {
         iterations,
         boundary,
         preserve_volume: false,
+        adapt: false,
     })
 }
 
@@ -225,6 +226,89 @@ fn a_wave_on_a_flat_lattice_is_damped_as_the_response_says() {
             }
         }
     }
+}
+
+/// A surface of revolution about the z axis over rings `edge` mm apart, its edges about as long, with radii `radius(z)` and a
+/// saw of `teeth` mm from ring to ring.
+fn turned(length: f64, edge: f64, teeth: f64, sides: u32, radius: impl Fn(f64) -> f64) -> TriMesh {
+    let rings = (length / edge) as u32;
+    let positions = (0..=rings * sides + sides - 1).map(|i| {
+        let (row, side) = (i / sides, i % sides);
+        let z = f64::from(row) * edge;
+        let angle = (f64::from(side) + 0.5 * f64::from(row % 2)) / f64::from(sides) * 2.0 * PI;
+        let r = radius(z) + if (row + side) % 2 == 0 { teeth } else { -teeth } / 2.0;
+        Vec3::new((r * angle.cos()) as f32, (r * angle.sin()) as f32, z as f32)
+    });
+    let triangles = (0..rings * sides).flat_map(|i| {
+        let (row, side) = (i / sides, i % sides);
+        let next = (side + 1) % sides;
+        let [a, b] = [row * sides + side, row * sides + next];
+        let [c, d] = [a + sides, b + sides];
+        // Every second ring stands half a side on.
+        if row % 2 == 0 { [[a, b, c], [b, d, c]] } else { [[a, b, d], [a, d, c]] }
+    });
+    TriMesh { positions: positions.collect(), triangles: triangles.collect() }
+}
+
+/// Mean and spread of the radius between two heights.
+fn radius_within(mesh: &TriMesh, from: f32, to: f32) -> (f64, f64) {
+    let within = mesh.positions.iter().filter(|p| (from..to).contains(&p.z));
+    let radii: Vec<f64> = within.map(|p| f64::from(p.truncate().length())).collect();
+    let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+    let squares = radii.iter().map(|r| (r - mean) * (r - mean)).sum::<f64>();
+    (mean, (squares / radii.len() as f64).sqrt())
+}
+
+#[test]
+fn thin_vessels_keep_their_calibre_and_lose_their_teeth_where_the_pass_band_adapts() {
+    for radius in [1.0, 1.5, 2.5, 5.0] {
+        let edge = 0.6;
+        let sides = (2.0 * PI * radius / edge).round() as u32;
+        let mesh = turned(40.0, edge, 0.1, sides, |_| radius);
+        let smoothing = Smoothing { adapt: true, ..Smoothing::default() };
+        let made = |smoothing| {
+            let mut pipeline = Pipeline::new(Arc::new(mesh.clone()), all_pieces(smoothing));
+            let (mean, spread) = radius_within(&smoothed(&mut pipeline).mesh, 12.0, 28.0);
+            (mean / radius - 1.0, spread)
+        };
+        let ((adapted, rough), (plain, _)) = (made(smoothing), made(Smoothing::default()));
+        // A saw of 0.1 mm has a root mean square of 0.05.
+        assert!(adapted.abs() < 0.01 && rough < 0.005, "{radius} mm: {adapted:+.4}, {rough:.4} mm rough");
+        assert!(radius > 2.0 || plain < -0.1, "{radius} mm: the paper's filter takes {plain:+.3}");
+    }
+}
+
+#[test]
+fn a_vessel_that_narrows_keeps_both_its_calibres() {
+    let radius = |z: f64| if z < 30.0 { 6.0 } else { 6.0 - 5.0 * ((z - 30.0) / 15.0).min(1.0) };
+    let mesh = Arc::new(turned(90.0, 0.6, 0.0, 40, radius));
+    let smoothing = Smoothing { adapt: true, ..Smoothing::default() };
+    let mut pipeline = Pipeline::new(mesh.clone(), all_pieces(smoothing));
+    let after = smoothed(&mut pipeline).mesh.clone();
+    for (from, to) in [(8.0, 26.0), (32.0, 43.0), (48.0, 80.0)] {
+        let ([(before, _), (after, _)], place) = ([&*mesh, &*after].map(|mesh| radius_within(mesh, from, to)), from);
+        assert!((after / before - 1.0).abs() < 0.01, "from {place} mm: {before} to {after}");
+    }
+}
+
+#[test]
+fn where_no_wall_faces_another_the_adapted_filter_is_the_plain_one_to_the_bit() {
+    let flat = turned(20.0, 0.6, 0.0, 40, |_| 6.0);
+    // Rolled out: the same triangles on a plane, with a saw.
+    let flat = TriMesh {
+        positions: flat
+            .positions
+            .iter()
+            .enumerate()
+            .map(|(i, p)| Vec3::new((i % 40) as f32 * 0.9, p.z, (i % 3) as f32 * 0.1))
+            .collect(),
+        triangles: flat.triangles.into_iter().filter(|t| t.iter().map(|v| v % 40).max() != Some(39)).collect(),
+    };
+    let [plain, adapted] = [false, true].map(|adapt| {
+        let smoothing = Smoothing { adapt, ..Smoothing::default() };
+        smoothed(&mut Pipeline::new(Arc::new(flat.clone()), all_pieces(smoothing))).mesh.positions.clone()
+    });
+    assert!(plain == adapted);
 }
 
 /// A tube about the z axis with a noisy wall and open, round ends.
