@@ -169,6 +169,10 @@ fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
     });
     let hold = ui.checkbox(&mut smoothing.preserve_volume, "Preserve volume");
     hold.on_hover_text("Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.");
+    let adapt = ui.checkbox(&mut smoothing.adapt, "Adapt to calibre");
+    adapt.on_hover_text(
+        "Smooths thin vessels less, so that each keeps its calibre. The pass band is that of the wide ones.",
+    );
     let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
     response::show(ui, smoothing, edge_length);
     let Some(report) = report.filter(|report| report.settings.smoothing == *smoothing) else { return };

@@ -39,6 +39,9 @@ pub struct Optimise {
     /// Hold the volume to 0.01 % of what it is before smoothing, open ends capped
     #[arg(long)]
     preserve_volume: bool,
+    /// Smooth each vessel by a pass band that leaves it its calibre; --pass-band is then the least
+    #[arg(long)]
+    adapt: bool,
     /// The part of the triangles to remove, in percent, 0 to 99.9 (90 or 90%)
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value = "90", conflicts_with = "triangles")]
     reduction: f64,
@@ -118,6 +121,7 @@ impl Optimise {
                 iterations: self.iterations,
                 boundary: Boundary::default(),
                 preserve_volume: self.preserve_volume,
+                adapt: self.adapt,
             },
             decimation: Decimation { method: self.method, feature_angle: self.feature_angle },
             target: match (self.triangles, self.max_deviation) {

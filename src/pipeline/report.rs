@@ -208,6 +208,9 @@ impl Report {
     }
 }
 
+/// What smoothing does to vessels whose circumference is shorter than the waves that it stops.
+const TOO_NARROW: &str = "the pass band is too narrow for vessels as thin as these";
+
 /// A change of volume, in percent, above which a report warns.
 const LARGE_CHANGE: f64 = 10.0;
 
@@ -216,7 +219,12 @@ impl Report {
     pub fn volume_warning(&self) -> Option<String> {
         let change = self.volume_change_percent.filter(|change| change.abs() > LARGE_CHANGE)?;
         let cause = volume_cause(change, self.volume_change_from_smoothed_percent.unwrap_or(0.0));
-        Some(format!("The volume changed by {change:+.1} %: {cause}."))
+        let remedy = if cause == TOO_NARROW && !self.settings.smoothing.adapt {
+            " Adapt to calibre (--adapt) keeps their calibre."
+        } else {
+            ""
+        };
+        Some(format!("The volume changed by {change:+.1} %: {cause}.{remedy}"))
     }
 }
 
@@ -224,11 +232,7 @@ impl Report {
 /// the smoothed surface's volume.
 fn volume_cause(change: f64, reduction: f64) -> &'static str {
     let smoothing = ((1.0 + change / 100.0) / (1.0 + reduction / 100.0) - 1.0) * 100.0;
-    if smoothing.abs() >= (change - smoothing).abs() {
-        "the pass band is too narrow for vessels as thin as these"
-    } else {
-        "so few triangles do not carry this shape"
-    }
+    if smoothing.abs() >= (change - smoothing).abs() { TOO_NARROW } else { "so few triangles do not carry this shape" }
 }
 
 /// Change of volume and area in percent of `before`; `None` where there is nothing to compare with.

@@ -41,6 +41,9 @@ pub struct Smoothing {
     /// Whether the volume enclosed, open ends capped, is held to 0.01 % of what it was.
     #[serde(default)]
     pub preserve_volume: bool,
+    /// Whether each vessel is smoothed by a pass band that leaves it its calibre: nowhere less than [`Self::pass_band`].
+    #[serde(default)]
+    pub adapt: bool,
 }
 
 impl Smoothing {
@@ -59,6 +62,7 @@ impl Default for Smoothing {
             iterations: 100,
             boundary: Boundary::Loop,
             preserve_volume: false,
+            adapt: false,
         }
     }
 }

@@ -26,7 +26,9 @@ fn parts(settings: &Settings) -> [String; PARTS] {
         Target::Deviation(micrometres) => format!("deviation up to {} mm", f64::from(micrometres) / 1000.0),
     };
     let holds_volume = smoothing.preserve_volume && smoothing.iterations > 0;
-    let volume = if holds_volume { "volume preserved".to_owned() } else { String::new() };
+    let adapts = smoothing.adapt && smoothing.iterations > 0;
+    let volume = [(holds_volume, "volume preserved"), (adapts, "adapted to calibre")];
+    let volume = volume.into_iter().filter(|(is_on, _)| *is_on).map(|(_, name)| name).collect::<Vec<_>>().join(", ");
     let decimation = &settings.decimation;
     let method = format!("{} method", decimation.method.name());
     // The method of least error has no use for it.

@@ -23,7 +23,10 @@ impl KeptTerms {
     /// Whether another filter for `settings` on `kept` is but a sum of these.
     pub(crate) fn suit(&self, kept: &Arc<Surface>, settings: &Smoothing) -> bool {
         let degree = settings.iterations as usize;
-        Arc::ptr_eq(&self.of, kept) && self.boundary == settings.boundary && degree <= self.terms.degree()
+        !settings.adapt
+            && Arc::ptr_eq(&self.of, kept)
+            && self.boundary == settings.boundary
+            && degree <= self.terms.degree()
     }
 
     /// The surface that `filter` makes.
@@ -34,6 +37,7 @@ impl KeptTerms {
     /// Whether the terms of `kept` for `settings` are few enough to be kept.
     pub(crate) fn would_fit(kept: &Surface, settings: &Smoothing) -> bool {
         settings.iterations > 0
+            && !settings.adapt
             && Terms::bytes(kept.mesh.positions.len(), settings.iterations as usize) <= TERMS_BYTES as u64
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::gains::Mix;
 use super::order::Order;
 use super::stencil::Stencil;
 
@@ -12,4 +13,6 @@ pub(super) struct Layout<T> {
     /// Three numbers at each vertex, and the middle of them, strays not counted.
     pub(super) values: Vec<Vec3>,
     pub(super) centre: Vec3,
+    /// The place of each vertex in the row of filters; empty where there is one filter.
+    pub(super) mixes: Vec<Mix>,
 }

@@ -15,6 +15,8 @@
 //! comes out depends on neither: each vertex's sums have one order. The `terms` `x_n` are kept where they are few:
 //! another filter of the same degree or less is then but another sum of them.
 
+mod calibre;
+mod gains;
 mod kept_terms;
 mod layout;
 mod order;
@@ -27,6 +29,8 @@ use std::ops::Deref;
 
 use glam::{Vec3, Vec4};
 
+pub(crate) use self::calibre::{LeastPassBands, least_pass_bands};
+use self::gains::{Gains, Mix};
 pub(crate) use self::kept_terms::{KeptTerms, Preparation, keeping, kept_terms};
 use self::layout::Layout;
 use self::order::Order;
@@ -35,7 +39,7 @@ use self::strip::{Strip, Wave};
 pub use self::terms::Terms;
 pub(crate) use self::volume::{Before, VolumeTask};
 use super::filter::Filter;
-use super::settings::Boundary;
+use super::settings::{Boundary, Smoothing};
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{Bounds, Topology};
 use crate::parallel;
@@ -54,7 +58,7 @@ pub struct SmoothingTask<T> {
     /// Until the strips are laid out.
     layout: Option<Layout<T>>,
     strips: Vec<Strip>,
-    coefficients: Vec<f32>,
+    gains: Gains,
     placement: Placement,
     /// `f(0)`.
     gain: f64,
@@ -72,8 +76,27 @@ impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
         Self::of_field(positions.to_vec(), &topology, stencil, filter)
     }
 
+    /// Starts smoothing each vertex with a pass band of its own; the rest is as `settings` say.
+    pub fn varying(positions: &[Vec3], topology: T, settings: &Smoothing, pass_bands: &[f32]) -> Self {
+        let stencil = Stencil::new(positions, topology.clone(), settings.boundary);
+        let (gains, mixes) = Gains::varying(settings, pass_bands);
+        Self::with_gains(positions.to_vec(), &topology, stencil, gains, mixes, 1.0)
+    }
+
     /// Starts smoothing any three numbers at each vertex.
     fn of_field(values: Vec<Vec3>, topology: &Topology, stencil: Stencil<T>, filter: &Filter) -> Self {
+        Self::with_gains(values, topology, stencil, Gains::of(filter), Vec::new(), filter.dc_gain())
+    }
+
+    /// `mixes` is empty where the gains are the same everywhere; `gain` is `f(0)`.
+    fn with_gains(
+        values: Vec<Vec3>,
+        topology: &Topology,
+        stencil: Stencil<T>,
+        gains: Gains,
+        mixes: Vec<Mix>,
+        gain: f64,
+    ) -> Self {
         let centre = Bounds::of_most(&values).centre();
         let mut order = Order::new(topology, &stencil);
         let chunks = order.chunks.len() - 1;
@@ -85,10 +108,10 @@ impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
         let fixed = fixed.map(|v| (v, values[v as usize])).collect();
         Self {
             strips: (0..count).map(|i| Strip::new(&order, own(i), depth)).collect(),
-            coefficients: filter.coefficients.iter().map(|&c| c as f32).collect(),
+            gains,
             placement: Placement { fixed, places: std::mem::take(&mut order.places), centre },
-            layout: Some(Layout { order, stencil, values, centre }),
-            gain: filter.dc_gain(),
+            layout: Some(Layout { order, stencil, values, centre, mixes }),
+            gain,
             keeps_terms: false,
             wave: Wave { first: 1, count: 0 },
             depth,
@@ -98,7 +121,7 @@ impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
     /// Keeps the terms, for [`Self::into_terms`], if they take no more than `bytes`.
     #[must_use]
     pub fn keeping_terms(mut self, bytes: usize) -> Self {
-        let degree = self.coefficients.len() - 1;
+        let degree = self.gains.degree();
         self.keeps_terms = Terms::bytes(self.placement.places.len(), degree) <= bytes as u64;
         self
     }
@@ -106,15 +129,15 @@ impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
     /// Lays out the strips; whether they are.
     fn lay_out(&mut self, budget: Budget) -> bool {
         let Some(layout) = &self.layout else { return true };
-        let (c0, places) = (self.coefficients[0], &self.placement.places);
+        let (gains, places) = (&self.gains, &self.placement.places);
         let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
-        let done = parallel::map(strips, |strip| strip.lay_out(layout, places, c0, budget));
+        let done = parallel::map(strips, |strip| strip.lay_out(layout, places, gains, budget));
         if !done.into_iter().all(|done| done) {
             return false;
         }
         self.layout = None;
         if self.keeps_terms {
-            let degree = self.coefficients.len() - 1;
+            let degree = self.gains.degree();
             self.strips.iter_mut().for_each(|strip| strip.keep_terms(degree));
         }
         self.next_wave(1);
@@ -122,20 +145,20 @@ impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
     }
 
     fn next_wave(&mut self, first: usize) {
-        self.wave = Wave { first, count: self.depth.min(self.coefficients.len() - first) };
+        self.wave = Wave { first, count: self.depth.min(self.gains.degree() + 1 - first) };
         self.strips.iter_mut().for_each(Strip::rewind);
     }
 
     fn progress(&self) -> f32 {
         let strips = self.strips.iter().map(|strip| strip.progress(self.wave)).sum::<f32>() / self.strips.len() as f32;
         let passes = (self.wave.first - 1) as f32 + strips * self.wave.count as f32;
-        passes / (self.coefficients.len() - 1).max(1) as f32
+        passes / self.gains.degree().max(1) as f32
     }
 
     /// What was kept of a run that is done.
     pub fn into_terms(self) -> Option<Terms> {
         let blocks = self.strips.into_iter().map(|strip| strip.terms).collect();
-        self.keeps_terms.then(|| Terms::new(blocks, self.coefficients.len() - 1, self.placement))
+        self.keeps_terms.then(|| Terms::new(blocks, self.gains.degree(), self.placement))
     }
 }
 
@@ -147,9 +170,9 @@ impl<T: Deref<Target = Topology> + Clone + Sync> Task for SmoothingTask<T> {
             return Progress::Working(0.0);
         }
         while self.wave.count > 0 {
-            let (wave, coefficients) = (self.wave, &self.coefficients);
+            let (wave, gains) = (self.wave, &self.gains);
             let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
-            let done = parallel::map(strips, |strip| strip.advance(wave, coefficients, budget));
+            let done = parallel::map(strips, |strip| strip.advance(wave, gains, budget));
             if !done.into_iter().all(|done| done) {
                 return Progress::Working(self.progress());
             }
@@ -235,7 +258,6 @@ impl Placement {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::settings::Smoothing;
 
     /// A flat n x n grid of quads split in two, spacing 1 mm.
     fn grid(n: u32, z: impl Fn(u32, u32) -> f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {

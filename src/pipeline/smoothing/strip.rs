@@ -9,6 +9,7 @@ use std::ops::{Deref, Range};
 
 use glam::Vec4;
 
+use super::gains::{Gain, Gains, Mix, Mixed, Term};
 use super::layout::Layout;
 use super::order::Order;
 use crate::mesh::Topology;
@@ -42,6 +43,8 @@ pub(super) struct Strip {
     values: [Vec<Vec4>; 2],
     /// The sum of `c_n x_n` so far.
     sum: Vec<Vec4>,
+    /// By place, like the sum; empty where the coefficients are the same everywhere.
+    mixes: Vec<Mix>,
     /// `x_0`, `x_1` and so on of the strip's own vertices, one after another, where they are kept.
     pub terms: Vec<f32>,
     /// The step of the wave that comes next.
@@ -69,6 +72,7 @@ impl Strip {
             halo: [all.start < own.start, own.end < all.end],
             values: [Vec::with_capacity(places.len()), Vec::new()],
             sum: Vec::with_capacity(places.len()),
+            mixes: Vec::new(),
             terms: Vec::new(),
             step: 0,
             places,
@@ -78,16 +82,24 @@ impl Strip {
 
     /// Lays out chunk after chunk; `places` says where each vertex is in the order, and the sum begins with `c0 x_0`.
     /// Returns whether all are.
-    pub(super) fn lay_out<T>(&mut self, layout: &Layout<T>, places: &[u32], c0: f32, budget: Budget) -> bool
+    pub(super) fn lay_out<T>(&mut self, layout: &Layout<T>, places: &[u32], gains: &Gains, budget: Budget) -> bool
     where
         T: Deref<Target = Topology>,
     {
-        let Layout { order, values, centre, .. } = layout;
+        let Layout { order, values, centre, mixes, .. } = layout;
         for chunk in self.all.start + self.chunks.len()..self.all.end {
             let own = order.chunks[chunk] as usize..order.chunks[chunk + 1] as usize;
             let x = order.vertices[own.clone()].iter().map(|&v| (values[v as usize] - *centre).extend(0.0));
             self.values[0].extend(x.clone());
-            self.sum.extend(x.map(|x| x * c0));
+            match gains.term(0) {
+                Term::Same(c) => self.sum.extend(x.map(|x| x * c)),
+                Term::Row(row) => {
+                    let first = self.mixes.len();
+                    self.mixes.extend(order.vertices[own.clone()].iter().map(|&v| mixes[v as usize]));
+                    let gain = Mixed { row, mixes: &self.mixes[first..] };
+                    self.sum.extend(x.enumerate().map(|(i, x)| x * gain.at(i)));
+                }
+            }
             self.add_chunk(layout, places, own);
             if chunk % 4 == 0 && chunk + 1 < self.all.end && budget.is_spent() {
                 return false;
@@ -132,7 +144,7 @@ impl Strip {
     }
 
     /// Goes on with a wave; whether it is done.
-    pub(super) fn advance(&mut self, wave: Wave, coefficients: &[f32], budget: Budget) -> bool {
+    pub(super) fn advance(&mut self, wave: Wave, gains: &Gains, budget: Budget) -> bool {
         let steps = self.chunks.len() + wave.count - 1;
         while self.step < steps {
             for pass in 0..wave.count.min(self.step + 1) {
@@ -141,7 +153,7 @@ impl Strip {
                 let first = if self.halo[0] { pass + 1 } else { 0 };
                 let end = self.chunks.len() - if self.halo[1] { pass + 1 } else { 0 };
                 if (first..end).contains(&chunk) {
-                    self.pass(wave.first + pass, chunk, coefficients);
+                    self.pass(wave.first + pass, chunk, gains);
                 }
             }
             self.step += 1;
@@ -163,18 +175,17 @@ impl Strip {
     }
 
     /// Computes `x_n` on a chunk from `x_{n-1}` and `x_{n-2}`, which it overwrites.
-    fn pass(&mut self, n: usize, chunk: usize, coefficients: &[f32]) {
+    fn pass(&mut self, n: usize, chunk: usize, gains: &Gains) {
         let [even, odd] = &mut self.values;
         let (current, previous) = if n.is_multiple_of(2) { (odd, even) } else { (even, odd) };
         for run in &self.runs[self.chunks[chunk].clone()] {
             let rows = &self.rows[run.rows..run.rows + run.count * run.valence];
             let places = run.first..run.first + run.count;
             let (next, sum) = (&mut previous[places.clone()], &mut self.sum[places.clone()]);
-            let work = Work { rows, current, own: &current[places], c: coefficients[n] };
-            if n == 1 {
-                work.dispatch::<true>(run.valence, next, sum);
-            } else {
-                work.dispatch::<false>(run.valence, next, sum);
+            let work = Work { rows, current, own: &current[places.clone()] };
+            match gains.term(n) {
+                Term::Same(c) => work.run(n, run.valence, next, sum, c),
+                Term::Row(row) => work.run(n, run.valence, next, sum, Mixed { row, mixes: &self.mixes[places] }),
             }
         }
         if !self.terms.is_empty() {
@@ -216,41 +227,50 @@ struct Work<'a> {
     rows: &'a [u32],
     current: &'a [Vec4],
     own: &'a [Vec4],
-    c: f32,
 }
 
 impl Work<'_> {
-    fn dispatch<const FIRST: bool>(self, valence: usize, next: &mut [Vec4], sum: &mut [Vec4]) {
+    /// Term `n`, by the coefficients that `gain` has.
+    fn run(self, n: usize, valence: usize, next: &mut [Vec4], sum: &mut [Vec4], gain: impl Gain) {
+        if n == 1 {
+            self.dispatch::<true>(valence, next, sum, gain);
+        } else {
+            self.dispatch::<false>(valence, next, sum, gain);
+        }
+    }
+
+    fn dispatch<const FIRST: bool>(self, valence: usize, next: &mut [Vec4], sum: &mut [Vec4], gain: impl Gain) {
         match valence {
-            1 => self.fixed::<1, FIRST>(next, sum),
-            2 => self.fixed::<2, FIRST>(next, sum),
-            3 => self.fixed::<3, FIRST>(next, sum),
-            4 => self.fixed::<4, FIRST>(next, sum),
-            5 => self.fixed::<5, FIRST>(next, sum),
-            6 => self.fixed::<6, FIRST>(next, sum),
-            7 => self.fixed::<7, FIRST>(next, sum),
-            8 => self.fixed::<8, FIRST>(next, sum),
-            9 => self.fixed::<9, FIRST>(next, sum),
-            _ => self.any::<FIRST>(valence, next, sum),
+            1 => self.fixed::<1, FIRST>(next, sum, gain),
+            2 => self.fixed::<2, FIRST>(next, sum, gain),
+            3 => self.fixed::<3, FIRST>(next, sum, gain),
+            4 => self.fixed::<4, FIRST>(next, sum, gain),
+            5 => self.fixed::<5, FIRST>(next, sum, gain),
+            6 => self.fixed::<6, FIRST>(next, sum, gain),
+            7 => self.fixed::<7, FIRST>(next, sum, gain),
+            8 => self.fixed::<8, FIRST>(next, sum, gain),
+            9 => self.fixed::<9, FIRST>(next, sum, gain),
+            _ => self.any::<FIRST>(valence, next, sum, gain),
         }
     }
 
     /// Rows of `D` neighbours.
-    fn fixed<const D: usize, const FIRST: bool>(self, next: &mut [Vec4], sum: &mut [Vec4]) {
+    fn fixed<const D: usize, const FIRST: bool>(self, next: &mut [Vec4], sum: &mut [Vec4], gain: impl Gain) {
         let weight = 1.0 / D as f32;
         let rows = self.rows.as_chunks::<D>().0;
-        for (((row, &x), next), sum) in rows.iter().zip(self.own).zip(next).zip(sum) {
+        for (i, (((row, &x), next), sum)) in rows.iter().zip(self.own).zip(next).zip(sum).enumerate() {
             let total = row.iter().fold(Vec4::ZERO, |total, &n| total + self.current[n as usize]);
-            step::<FIRST>(x, total * weight, self.c, next, sum);
+            step::<FIRST>(x, total * weight, gain.at(i), next, sum);
         }
     }
 
     /// Rows of `valence` neighbours.
-    fn any<const FIRST: bool>(self, valence: usize, next: &mut [Vec4], sum: &mut [Vec4]) {
+    fn any<const FIRST: bool>(self, valence: usize, next: &mut [Vec4], sum: &mut [Vec4], gain: impl Gain) {
         let weight = 1.0 / valence as f32;
-        for (((row, &x), next), sum) in self.rows.chunks_exact(valence).zip(self.own).zip(next).zip(sum) {
+        let rows = self.rows.chunks_exact(valence);
+        for (i, (((row, &x), next), sum)) in rows.zip(self.own).zip(next).zip(sum).enumerate() {
             let total = row.iter().fold(Vec4::ZERO, |total, &n| total + self.current[n as usize]);
-            step::<FIRST>(x, total * weight, self.c, next, sum);
+            step::<FIRST>(x, total * weight, gain.at(i), next, sum);
         }
     }
 }

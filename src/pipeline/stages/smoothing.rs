@@ -10,7 +10,10 @@ use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, edge_length};
 use crate::pipeline::results::{Part, Smoothed, Surface, Times};
 use crate::pipeline::settings::{SettingsError, Smoothing};
-use crate::pipeline::smoothing::{Before, SmoothingTask, VolumeTask, keeping, kept_terms};
+use crate::pipeline::shape::ShapeTask;
+use crate::pipeline::smoothing::{
+    Before, LeastPassBands, SmoothingTask, VolumeTask, keeping, kept_terms, least_pass_bands,
+};
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
 
@@ -24,6 +27,9 @@ pub(super) struct Filtering {
 enum Step {
     /// No iterations.
     Skipped,
+    /// How wide the vessels are, and by what each may be smoothed.
+    Calibre(Box<ShapeTask<Arc<TriMesh>, Arc<Topology>>>),
+    Bands(Box<LeastPassBands<Arc<TriMesh>, Arc<Topology>>>),
     Filter(Box<SmoothingTask<Arc<Topology>>>),
     Volume(Box<VolumeTask>),
     Done(Vec<Vec3>, Option<bool>),
@@ -36,7 +42,13 @@ impl Filtering {
         let settings = store.now.settings.smoothing;
         let filter = Filter::new(&settings);
         let mut stage = Self { kept: kept.clone(), settings, filter, step: Step::Skipped };
-        if settings.iterations > 0 {
+        if settings.iterations > 0 && settings.adapt {
+            let task = ShapeTask::radii_only(kept.mesh.clone(), kept.topology.clone());
+            stage.step = Step::Calibre(Box::new(match &store.now.indices.kept {
+                Some(index) => task.with_index(kept.mesh.clone(), index.clone()),
+                None => task,
+            }));
+        } else if settings.iterations > 0 {
             stage.step = match store.terms.as_ref().filter(|terms| terms.suit(kept, &settings)) {
                 Some(known) => stage.after_filter(known.smooth(&stage.filter)),
                 None if store.is_smoothed_again => Step::Filter(Box::new(keeping(kept, &settings, &stage.filter))),
@@ -92,10 +104,37 @@ impl Run for Filtering {
                     store.now.smoothed = Some(Arc::new(self.unchanged()));
                     return Ok(Progress::Done(()));
                 }
+                Step::Calibre(mut task) => match task.advance(budget) {
+                    Progress::Working(fraction) => {
+                        self.step = Step::Calibre(task);
+                        return Ok(Progress::Working(0.5 * fraction * share));
+                    }
+                    Progress::Done(measured) => {
+                        store.now.indices.kept = task.index().cloned();
+                        let Surface { mesh, topology, .. } = &*self.kept;
+                        let bands = least_pass_bands(mesh.clone(), topology.clone(), measured.balls.radii);
+                        Step::Bands(Box::new(bands))
+                    }
+                },
+                Step::Bands(mut task) => match task.advance(budget) {
+                    Progress::Working(fraction) => {
+                        self.step = Step::Bands(task);
+                        return Ok(Progress::Working((0.5 + 0.1 * fraction) * share));
+                    }
+                    Progress::Done(mut bands) => {
+                        let Smoothing { pass_band, .. } = self.settings;
+                        bands.iter_mut().for_each(|band| *band = band.max(pass_band as f32));
+                        let Surface { mesh, topology, .. } = &*self.kept;
+                        let (positions, topology) = (&mesh.positions, topology.clone());
+                        let task = SmoothingTask::varying(positions, topology, &self.settings, &bands);
+                        Step::Filter(Box::new(task))
+                    }
+                },
                 Step::Filter(mut task) => match task.advance(budget) {
                     Progress::Working(fraction) => {
                         self.step = Step::Filter(task);
-                        return Ok(Progress::Working(fraction * share));
+                        let done = if self.settings.adapt { 0.6 + 0.4 * fraction } else { fraction };
+                        return Ok(Progress::Working(done * share));
                     }
                     Progress::Done(positions) => {
                         let terms = kept_terms(*task, self.kept.clone(), self.settings.boundary);

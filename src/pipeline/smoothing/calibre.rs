@@ -1,0 +1,176 @@
+//! The least pass band at each vertex that leaves its vessel the calibre that it has.
+//!
+//! Around a round vessel of radius `r` the coordinates of its wall are waves of length `2 pi r`, one around: on edges of
+//! length `h` they have the eigenvalue `k = 1 - J0(h / r)` (`pipeline::response`). A filter that stops them draws the vessel
+//! shut, one whose pass band holds them leaves it as wide as it is. At an open end the rim is smoothed along itself, where
+//! the same wave has `k = 1 - cos(h / r)`.
+//!
+//! `r` is the inner ball's radius at the vertex (`mesh::inner_ball`), as the median of its ring, for single vertices have
+//! bad normals. From a thin vessel the radius grows by no more than the way along the surface: so the pass band has no
+//! jumps, and a narrow place keeps the surface beside it.
+
+use std::ops::Deref;
+
+use crate::mesh::{Topology, TriMesh, Vec3};
+use crate::pipeline::narrowest::ring_median;
+use crate::pipeline::settings::Smoothing;
+use crate::pipeline::task::{Budget, Progress, Task};
+
+/// By what the pass band is wider than the wave around the vessel needs.
+const MARGIN: f64 = 1.2;
+/// By what the radius may grow from vertex to vertex: of the edge between them.
+const SLOPE: f32 = 1.0;
+/// Largest part of a radius that an edge may be: beyond it a vessel has no shape to keep.
+const COARSEST: f64 = 3.0;
+/// Vertices between two looks at the clock.
+const VERTICES: usize = 4096;
+/// Sweeps at most: each goes all the way in one direction.
+const SWEEPS: usize = 12;
+
+/// The pass bands of `mesh`, worked out in slices; `M` and `T` are any pointers to a mesh and its topology.
+pub(crate) struct LeastPassBands<M, T> {
+    mesh: M,
+    topology: T,
+    /// Of the inner balls, in mm.
+    radii: Vec<f32>,
+    /// The medians of their rings, and then no steeper than [`SLOPE`].
+    widths: Vec<f32>,
+    bands: Vec<f32>,
+    step: Step,
+    next: usize,
+    has_changed: bool,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Step {
+    Medians,
+    Sweep(usize),
+    Bands,
+}
+
+/// The pass bands of `mesh`, whose inner balls have these `radii`; see [`LeastPassBands`].
+pub(crate) fn least_pass_bands<M, T>(mesh: M, topology: T, radii: Vec<f32>) -> LeastPassBands<M, T>
+where
+    M: Deref<Target = TriMesh>,
+    T: Deref<Target = Topology>,
+{
+    let count = radii.len();
+    let (widths, bands) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    LeastPassBands { mesh, topology, radii, widths, bands, step: Step::Medians, next: 0, has_changed: false }
+}
+
+impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, T> {
+    fn at(&self, v: u32) -> Vec3 {
+        self.mesh.positions[v as usize]
+    }
+
+    /// The next vertices of the step; whether the last step is done.
+    fn advance_some(&mut self) -> bool {
+        let count = self.radii.len();
+        let end = count.min(self.next + VERTICES);
+        match self.step {
+            Step::Medians => {
+                let mut ring = Vec::new();
+                for v in self.next..end {
+                    self.widths.push(ring_median(&self.topology, &self.radii, v as u32, &mut ring));
+                }
+            }
+            Step::Sweep(sweep) => {
+                for i in self.next..end {
+                    self.relax(if sweep % 2 == 0 { i } else { count - 1 - i });
+                }
+            }
+            Step::Bands => {
+                for v in self.next..end {
+                    self.bands.push(self.band(v as u32));
+                }
+            }
+        }
+        self.next = end;
+        if end < count {
+            return false;
+        }
+        self.next = 0;
+        self.step = match self.step {
+            Step::Medians => Step::Sweep(0),
+            Step::Sweep(sweep) if std::mem::take(&mut self.has_changed) && sweep + 1 < SWEEPS => Step::Sweep(sweep + 1),
+            Step::Sweep(_) => Step::Bands,
+            Step::Bands => return true,
+        };
+        false
+    }
+
+    /// Lowers the width at `v` to what its neighbours leave it.
+    fn relax(&mut self, v: usize) {
+        let p = self.mesh.positions[v];
+        let reach = |&n: &u32| self.widths[n as usize] + SLOPE * p.distance(self.at(n));
+        let least = self.topology.neighbours(v as u32).iter().map(reach).fold(f32::INFINITY, f32::min);
+        if least < self.widths[v] {
+            self.widths[v] = least;
+            self.has_changed = true;
+        }
+    }
+
+    /// The least pass band at `v`.
+    fn band(&self, v: u32) -> f32 {
+        let neighbours = self.topology.neighbours(v);
+        let squares = neighbours.iter().map(|&n| f64::from(self.at(v).distance_squared(self.at(n))));
+        let edge = (squares.sum::<f64>() / neighbours.len().max(1) as f64).sqrt();
+        let ratio = (edge / f64::from(self.widths[v as usize])).min(COARSEST);
+        let is_rim = self.topology.edge_uses(v).iter().any(|edge| edge.is_boundary());
+        let k = if is_rim { 1.0 - libm::cos(ratio) } else { 1.0 - libm::j0(ratio) };
+        (MARGIN * k).min(*Smoothing::PASS_BAND.end()) as f32
+    }
+}
+
+impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for LeastPassBands<M, T> {
+    type Output = Vec<f32>;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Vec<f32>> {
+        while !self.advance_some() {
+            if budget.is_spent() {
+                let step = match self.step {
+                    Step::Medians => 0.0,
+                    Step::Sweep(sweep) => 0.2 + 0.6 * sweep as f32 / SWEEPS as f32,
+                    Step::Bands => 0.9,
+                };
+                return Progress::Working(step);
+            }
+        }
+        Progress::Done(std::mem::take(&mut self.bands))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shapes::{square, tube};
+    use crate::mesh::{SurfaceIndex, inner_radii};
+    use crate::pipeline::response::{edge_length, eigenvalue};
+
+    fn bands(mesh: &TriMesh) -> Vec<f32> {
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        let radii = inner_radii(mesh, &topology, &index).radii;
+        least_pass_bands(mesh, &topology, radii).finish()
+    }
+
+    #[test]
+    fn in_a_tube_it_is_that_of_the_wave_around_it() {
+        for radius in [1.5, 3.0, 8.0] {
+            let mesh = tube(48, 60, 60.0 * radius * 0.13, |_| radius);
+            let k = eigenvalue(2.0 * std::f64::consts::PI * f64::from(radius), edge_length(&mesh));
+            let found = bands(&mesh);
+            // Away from the rims, whose waves are of another kind.
+            let inside = &found[48 * 20..48 * 40];
+            let (low, high) =
+                inside.iter().fold((f32::MAX, 0.0f32), |(low, high), &band| (low.min(band), high.max(band)));
+            assert!(f64::from(low) > k && f64::from(high) < 1.5 * k, "{radius}: {low} to {high}, the wave {k}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_vessel_asks_for_nothing() {
+        assert!(bands(&square(20, 10.0, 0.0)).iter().all(|&band| band == 0.0));
+    }
+}

@@ -1,0 +1,147 @@
+//! What each vertex takes of each term: the coefficients of one filter, or of its own.
+//!
+//! A filtered surface is `sum of c_n x_n`, and the terms `x_n` do not depend on the filter. So every vertex can have
+//! coefficients of its own at no further pass over the surface: those of a filter whose pass band suits the place. Filters
+//! are made for a row of pass bands, a constant factor apart, and a vertex takes the weighted mean of the two around its
+//! own. Each lets a constant through unchanged, and so does any mean of them.
+
+use crate::pipeline::filter::Filter;
+use crate::pipeline::settings::Smoothing;
+
+/// Pass bands of neighbouring filters are this factor apart.
+const STEP: f64 = 1.15;
+
+/// Where a vertex stands in the row of filters: `part` of the way from one to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Mix {
+    filter: u32,
+    part: f32,
+}
+
+/// The coefficients.
+pub(super) enum Gains {
+    /// `c_n`, the same everywhere.
+    Same(Vec<f32>),
+    /// Of several filters: `c_n` of each, and then the next n.
+    Row { filters: usize, coefficients: Vec<f32> },
+}
+
+impl Gains {
+    /// Those of `filter`, everywhere.
+    pub(super) fn of(filter: &Filter) -> Self {
+        Self::Same(filter.coefficients.iter().map(|&c| c as f32).collect())
+    }
+
+    /// Those of filters as `settings` ask for, but with pass bands of their own, one for each vertex; and where each stands
+    /// in their row.
+    pub(super) fn varying(settings: &Smoothing, pass_bands: &[f32]) -> (Self, Vec<Mix>) {
+        let bounds = pass_bands.iter().fold((f32::INFINITY, 0.0f32), |(low, high), &k| (low.min(k), high.max(k)));
+        let [low, high] = [bounds.0, bounds.1].map(f64::from);
+        let steps = if high > low { (libm::log(high / low) / libm::log(STEP)).ceil() } else { 0.0 };
+        let count = steps as usize + 2;
+        let band = |i: usize| {
+            (low * libm::pow(STEP, i as f64)).clamp(*Smoothing::PASS_BAND.start(), *Smoothing::PASS_BAND.end())
+        };
+        let filters: Vec<Filter> =
+            (0..count).map(|i| Filter::new(&Smoothing { pass_band: band(i), ..*settings })).collect();
+        let degree = settings.iterations as usize;
+        let coefficients = (0..=degree).flat_map(|n| filters.iter().map(move |filter| filter.coefficients[n] as f32));
+        let scale = (1.0 / libm::log(STEP)) as f32;
+        let mix = |&k: &f32| {
+            let at = libm::logf(k / bounds.0) * scale;
+            let filter = (at as u32).min(count as u32 - 2);
+            Mix { filter, part: (at - filter as f32).clamp(0.0, 1.0) }
+        };
+        let gains = Self::Row { filters: count, coefficients: coefficients.collect() };
+        (gains, pass_bands.iter().map(mix).collect())
+    }
+
+    /// The number of terms less one.
+    pub(super) fn degree(&self) -> usize {
+        match self {
+            Self::Same(coefficients) => coefficients.len() - 1,
+            Self::Row { filters, coefficients } => coefficients.len() / filters - 1,
+        }
+    }
+
+    /// `c_n`, where it is the same everywhere; else those of the row.
+    #[inline]
+    pub(super) fn term(&self, n: usize) -> Term<'_> {
+        match self {
+            Self::Same(coefficients) => Term::Same(coefficients[n]),
+            Self::Row { filters, coefficients } => Term::Row(&coefficients[n * filters..(n + 1) * filters]),
+        }
+    }
+}
+
+/// The coefficients of one term.
+#[derive(Clone, Copy)]
+pub(super) enum Term<'a> {
+    Same(f32),
+    Row(&'a [f32]),
+}
+
+/// The coefficients of one term for a run of vertices.
+pub(super) trait Gain: Copy {
+    /// That of the `i`-th.
+    fn at(self, i: usize) -> f32;
+}
+
+impl Gain for f32 {
+    #[inline(always)]
+    fn at(self, _: usize) -> f32 {
+        self
+    }
+}
+
+/// Each vertex by its place in the row.
+#[derive(Clone, Copy)]
+pub(super) struct Mixed<'a> {
+    pub(super) row: &'a [f32],
+    pub(super) mixes: &'a [Mix],
+}
+
+impl Gain for Mixed<'_> {
+    #[inline(always)]
+    fn at(self, i: usize) -> f32 {
+        let Mix { filter, part } = self.mixes[i];
+        let (c, next) = (self.row[filter as usize], self.row[filter as usize + 1]);
+        c + part * (next - c)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constant_passes_whatever_the_mean_of_filters() {
+        let bands = [0.01, 0.013, 0.2, 1.7];
+        let (gains, mixes) = Gains::varying(&Smoothing::default(), &bands);
+        for i in 0..bands.len() {
+            let sum: f32 = (0..=gains.degree())
+                .map(|n| match gains.term(n) {
+                    Term::Row(row) => Mixed { row, mixes: &mixes }.at(i),
+                    Term::Same(c) => c,
+                })
+                .sum();
+            assert!((sum - 1.0).abs() < 1e-5, "{}: {sum}", bands[i]);
+        }
+    }
+
+    #[test]
+    fn a_vertex_has_the_filter_of_its_own_pass_band() {
+        let bands = [0.004, 0.05, 0.31];
+        let settings = Smoothing::default();
+        let (gains, mixes) = Gains::varying(&settings, &bands);
+        for (i, &band) in bands.iter().enumerate() {
+            let own = Filter::new(&Smoothing { pass_band: f64::from(band), ..settings });
+            let worst = (0..=gains.degree()).map(|n| {
+                let Term::Row(row) = gains.term(n) else { panic!("a row") };
+                (f64::from(Mixed { row, mixes: &mixes }.at(i)) - own.coefficients[n]).abs()
+            });
+            let worst = worst.fold(0.0, f64::max);
+            assert!(worst < 2e-3, "{band}: a coefficient is {worst} off");
+        }
+    }
+}
