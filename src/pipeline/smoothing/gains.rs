@@ -118,14 +118,14 @@ mod tests {
     fn a_constant_passes_whatever_the_mean_of_filters() {
         let bands = [0.01, 0.013, 0.2, 1.7];
         let (gains, mixes) = Gains::varying(&Smoothing::default(), &bands);
-        for i in 0..bands.len() {
+        for (i, band) in bands.iter().enumerate() {
             let sum: f32 = (0..=gains.degree())
                 .map(|n| match gains.term(n) {
                     Term::Row(row) => Mixed { row, mixes: &mixes }.at(i),
                     Term::Same(c) => c,
                 })
                 .sum();
-            assert!((sum - 1.0).abs() < 1e-5, "{}: {sum}", bands[i]);
+            assert!((sum - 1.0).abs() < 1e-5, "{band}: {sum}");
         }
     }
 
