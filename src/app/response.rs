@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, settings: &Smoothing, edge_length: Option<f64>) 
     }
     let filter = filter(ui, settings);
     let response = SmoothingResponse::new(&filter, settings.pass_band, edge_length.unwrap_or(0.0));
-    let text = sentence(&response);
+    let text = sentence(&response, settings.adapt);
     ui.add(Label::new(RichText::new(&text).small()).wrap());
     let head = CollapsingHeader::new("Response").show_unindented(ui, |ui| {
         let plot = picture(ui, &filter, &response, edge_length);
@@ -48,8 +48,11 @@ fn filter(ui: &Ui, settings: &Smoothing) -> Arc<Filter> {
     filter
 }
 
-fn sentence(response: &SmoothingResponse) -> String {
+fn sentence(response: &SmoothingResponse, adapts: bool) -> String {
     match (response.half_gain_text(), response.wavelength_mm_at_half_gain) {
+        (Some(text), Some(_)) if adapts => {
+            format!("Half gain at {text}; shorter ones are smoothed away, in thin vessels less.")
+        }
         (Some(text), Some(_)) => format!("Half gain at {text}; shorter ones are smoothed away."),
         (Some(text), None) => format!("Half gain at {text}."),
         (None, _) => "Nothing is smoothed away: everything passes.".to_owned(),
@@ -165,7 +168,7 @@ mod tests {
     #[test]
     fn the_sentence_says_what_is_smoothed_away() {
         let of = |smoothing: Smoothing, edge| {
-            sentence(&SmoothingResponse::new(&Filter::new(&smoothing), smoothing.pass_band, edge))
+            sentence(&SmoothingResponse::new(&Filter::new(&smoothing), smoothing.pass_band, edge), smoothing.adapt)
         };
         let text = of(Smoothing::default(), 0.967);
         assert!(text.starts_with("Half gain at k = 0.025") && text.contains("waves of 19."), "{text}");
