@@ -9,8 +9,8 @@ use glam::Vec3;
 
 use super::nearest::SurfaceIndex;
 
-/// A vertex of more triangles is a hub; in tests few are enough, so that small random surfaces have some.
-const MANY: u32 = if cfg!(test) { 4 } else { 64 };
+/// A vertex of more triangles is a hub; in tests fewer are enough, so that small random surfaces have some.
+const MANY: u32 = if cfg!(test) { 12 } else { 64 };
 
 /// No hub.
 const NONE: u32 = u32::MAX;

@@ -6,8 +6,8 @@
 // of these there are. What the wall says is told beside it.
 //
 // A surface that arrives is taken over in one task: its bytes are copied out of the message and into graphics memory. That
-// is told apart (the page's messages are marked in the trace) and has a bound of its own: 75 to 84 ms were seen on two
-// cores of a server.
+// is told apart (the page's messages are marked in the trace) and has a bound of its own, that of an answer that seems
+// immediate: 100 ms (Miller 1968).
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
@@ -23,11 +23,11 @@ import { eventually, launch, openApp, press, program, texts, twin } from "./brow
 const TRIANGLES = 1_000_000;
 /** Bounds, in milliseconds. */
 const LONGEST_TASK = 16;
-const LONGEST_ARRIVAL = 150;
-/** Of the Worker, at a million triangles: measuring ends in one piece (src/pipeline/{shape,measuring}.rs say so). */
-const LONGEST_SLICE = 1000;
-/** From pressing it to the answer, by the wall, at worst: what seems immediate (Miller 1968). */
-const LONGEST_CANCEL = 100;
+const LONGEST_ARRIVAL = 100;
+/** Of the Worker, at a million triangles: some sums of the measures are one piece each (src/pipeline/shape.rs says so). */
+const LONGEST_SLICE = 500;
+/** From pressing it to the answer, by the wall, at worst. */
+const LONGEST_CANCEL = 50;
 /** What the status bar says while the engine works. */
 const WORKING = "^(Finding pieces|Smoothing|Reducing|Taking the level|Measuring deviation) \\d+ %$";
 
@@ -158,11 +158,18 @@ test("a million triangles are worked on beside a page that stays responsive", { 
   });
 
   const answers = [];
-  for (let i = 0; i < 5; i++) {
+  for (let tries = 0; answers.length < 5; tries++) {
+    assert(tries < 15, `the work was over before it could be cancelled, ${tries - answers.length} times of ${tries}`);
     await step(page);
     await working();
     await press(page, "button", "Cancel");
-    const heard = await eventually(() => worker.evaluate(() => self.cancelHeard), (at) => at > 0, { what: "the answer to cancel" });
+    const { heard } = await eventually(
+      async () => ({ isBusy: await twin(page, "button", "Cancel").count(), heard: await worker.evaluate(() => self.cancelHeard) }),
+      ({ isBusy, heard }) => heard > 0 || !isBusy,
+      { what: "the answer to cancel" },
+    );
+    // The work was over before the button was hit.
+    if (!(heard > 0)) continue;
     answers.push(heard - (await page.evaluate(() => window.cancelSent)));
     await worker.evaluate(() => (self.cancelHeard = 0));
     await settled(page);

@@ -19,18 +19,16 @@ pub(super) struct Strictness {
     /// By what the distance of a vertex counts that is held to no more than this: it waits until the others have come
     /// as far.
     pub(super) price: f32,
-    /// The price of the next.
-    next_price: Option<f32>,
 }
 
 /// A vertex that does not pass is tried again under the next, at its price. The last lets a triangle swing round as
 /// the end of a branch does that is drawn in, but not fold over, and no longer heeds feature edges. The quality of the
 /// first is the method's ([`method::Method::fair_quality`]).
 pub(super) const STRICTNESS: [Strictness; 4] = [
-    Strictness { turn: 0.5, quality: 1.0, price: 1.0, next_price: Some(2.0) },
-    Strictness { turn: 0.2, quality: 0.03, price: 2.0, next_price: Some(8.0) },
-    Strictness { turn: 0.0, quality: 1e-3, price: 8.0, next_price: Some(64.0) },
-    Strictness { turn: -0.8, quality: 1e-4, price: 64.0, next_price: None },
+    Strictness { turn: 0.5, quality: 1.0, price: 1.0 },
+    Strictness { turn: 0.2, quality: 0.03, price: 2.0 },
+    Strictness { turn: 0.0, quality: 1e-3, price: 8.0 },
+    Strictness { turn: -0.8, quality: 1e-4, price: 64.0 },
 ];
 
 /// The last of them.
@@ -144,12 +142,6 @@ impl Surface {
                 let key = self.method.priority(tip) * limits.price;
                 if key > threshold {
                     return Err(Refusal::Later(key));
-                }
-                // A worse way than the best: it waits, unless the best may go sooner if it is held to less.
-                let key = candidate.priority * limits.price;
-                if key > threshold {
-                    let is_best_sooner = limits.next_price.is_some_and(|price| judged.priority * price < key);
-                    return Err(if is_best_sooner { Refusal::Stuck(Stuck::Geometry) } else { Refusal::Later(key) });
                 }
                 if self.is_clear(mesh, v, u, &candidate, at) {
                     return Ok((candidate, tip));

@@ -31,8 +31,6 @@ impl Judged {
 pub(super) struct Candidate {
     /// Distance by which the surface would suffer, in the unit of the rings.
     pub(super) distance: f32,
-    /// What it is ordered by: the vertex waits for it where it is more than the best one's.
-    pub(super) priority: f32,
     /// What it costs, without the triangles' shape; infinite once it has been tried.
     pub(super) cost: f32,
     /// The neighbour that takes over, by its place in the ring.

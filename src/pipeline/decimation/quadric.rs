@@ -161,16 +161,15 @@ impl Method for Quadric {
             let candidate = |place: Option<DVec3>| {
                 let cost = form.at(place.unwrap_or(way));
                 let distance = if form.area > 0.0 { (cost / form.area).sqrt() as f32 } else { 0.0 };
-                let (priority, place) = (cost.sqrt() as f32, place.map(DVec3::as_vec3a));
-                Candidate { distance, priority, cost: cost as f32, to, place }
+                (cost.sqrt() as f32, Candidate { distance, cost: cost as f32, to, place: place.map(DVec3::as_vec3a) })
             };
-            let best = candidate(place);
+            let (priority, best) = candidate(place);
             self.candidates.push(best);
             if is_last && place.is_some() {
-                self.candidates.push(candidate(None));
+                self.candidates.push(candidate(None).1);
             }
-            if best.priority < judged.priority {
-                (judged.priority, judged.distance) = (best.priority, best.distance);
+            if priority < judged.priority {
+                (judged.priority, judged.distance) = (priority, best.distance);
             }
         }
         judged
