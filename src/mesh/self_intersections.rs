@@ -99,7 +99,16 @@ impl SurfaceIndex {
             });
             for corner in hubs.corners(vertices) {
                 let (min, max) = half_way_box(leaf.corners, corner);
-                self.overlapping(min, max, |_, lanes| lanes, |slots| self.leaves[slots].iter().for_each(&mut look));
+                // What lacks the hub was found above, or finds this one.
+                let is_of_it = |other: &&Leaf| triangles[other.triangle as usize].contains(&vertices[corner]);
+                self.overlapping(
+                    min,
+                    max,
+                    |_, lanes| lanes,
+                    |slots| {
+                        self.leaves[slots].iter().filter(is_of_it).for_each(&mut look);
+                    },
+                );
             }
         }
         looks
