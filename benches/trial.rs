@@ -83,7 +83,7 @@ fn main() {
 /// The sample of so many triangles, smoothed as the trial needs it.
 fn smoothed(count: usize) -> Pipeline {
     let mesh = Arc::new(import_mesh(generate(Sample::Coronary, count).expect("a sample"), "sample").mesh);
-    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::PAPER };
     Pipeline::new(mesh, Settings { smoothing, ..Settings::default() }).without_measures()
 }
 

@@ -14,7 +14,7 @@ import open3d as o3d
 import trimesh
 from surfaces import area, distance, facts, read, self_intersections, shape, volume
 
-SETTINGS = ["--pass-band", "0.1", "--iterations", "60"]
+SETTINGS = ["--smoothing", "paper", "--pass-band", "0.1", "--iterations", "60"]
 
 
 def lumen(*arguments):

@@ -52,8 +52,8 @@ class Lumen:
         # A process of its own in between: what one forks from counts as its own memory, and this one is large.
         between = [sys.executable, "-c", PEAK]
         output, report = self.folder / name, self.folder / "report.json"
-        command = [self.program, "optimise", file, "-o", output, "--report", report, "--pass-band", str(pass_band),
-                   "--iterations", str(iterations), "--reduction", str(rate), "--window", "hamming"]
+        command = [self.program, "optimise", file, "-o", output, "--report", report, "--smoothing", "paper",
+                   "--pass-band", str(pass_band), "--iterations", str(iterations), "--reduction", str(rate), "--window", "hamming"]
         command += ["--method", method] if len(self.methods) > 1 else []
         done = subprocess.run(between + command, capture_output=True, text=True)
         if done.returncode:

@@ -15,7 +15,7 @@ use crate::digits::grouped;
 use crate::engine::Source;
 use crate::io::Unit;
 use crate::pipeline::report::Report;
-use crate::pipeline::settings::{Keep, Method, Settings, Smoothing, Target, Window, reduction_percent};
+use crate::pipeline::settings::{Keep, Method, Preset, Settings, Smoothing, Target, Window, reduction_percent};
 
 /// A step of the method: shows its controls, and says what they ask for.
 type Step = fn(&mut Ui, &State, &Views, &mut Vec<Action>);
@@ -131,8 +131,28 @@ fn smooth(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
     set(settings, state, asked);
 }
 
+/// The settings that have a name.
+fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
+    let help = "Suits this surface: as the paper, and nowhere so much that a vessel loses its calibre or triangles cross. \
+                The paper's: pass band 0.01, 100 iterations, the same everywhere.";
+    row(ui, "Strength", help, |ui| {
+        let chosen = Preset::of(smoothing);
+        let list = ComboBox::from_id_salt("preset").selected_text(chosen.map_or("Own", Preset::label));
+        let response = list.show_ui(ui, |ui| {
+            for preset in Preset::ALL {
+                if ui.selectable_label(chosen == Some(preset), preset.label()).clicked() {
+                    *smoothing = Smoothing { preserve_volume: smoothing.preserve_volume, ..preset.smoothing() };
+                    ui.close();
+                }
+            }
+        });
+        name(&response.response, Role::ComboBox, "Strength");
+    });
+}
+
 fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
     step(ui, 2, "Smooth", "Takes off the stair-steps of the scan.");
+    preset_list(ui, smoothing);
     let default = Smoothing::default();
     let pass_band = Setting {
         name: "Pass band",
@@ -173,14 +193,22 @@ fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
     adapt.on_hover_text(
         "Smooths thin vessels less, so that each keeps its calibre. The pass band is that of the wide ones.",
     );
+    let guard = ui.checkbox(&mut smoothing.guard, "Let no triangles cross");
+    guard.on_hover_text("Smooths less where folds, or vessels that nearly touch, would be drawn through each other.");
     let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
-    response::show(ui, smoothing, edge_length);
+    let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
+    let thinnest = lumen.map(|lumen| lumen.diameter_mm);
+    response::show(ui, smoothing, response::Scale { edge_length, thinnest });
     let Some(report) = report.filter(|report| report.settings.smoothing == *smoothing) else { return };
     if report.pass_band_missed {
         remark(ui, "Too few iterations for this pass band: more are needed to smooth.");
     }
     if let Some(warning) = report.volume_held_warning() {
         remark(ui, &warning);
+    }
+    if let Some(weakened) = report.smoothing_weakened {
+        let (vertices, triangles) = (grouped(weakened.vertices), grouped(weakened.triangles_spared));
+        remark(ui, &format!("Smoothed less at {vertices} vertices, where {triangles} triangles would cross."));
     }
 }
 

@@ -20,17 +20,34 @@ const RANGE: (f64, f64) = (-3.3, 0.301);
 /// Lengths of waves that the axis names, in mm.
 const LENGTHS: [f64; 12] = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
 
-/// Shows what `settings` let through on a surface with edges of `edge_length` mm, if that is known.
-pub(super) fn show(ui: &mut Ui, settings: &Smoothing, edge_length: Option<f64>) {
+/// What is known of the surface that is open.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Scale {
+    /// Root mean square of the edge lengths in mm.
+    pub(super) edge_length: Option<f64>,
+    /// Diameter of the thinnest vessel in mm.
+    pub(super) thinnest: Option<f64>,
+}
+
+impl Scale {
+    /// The eigenvalue of the wave around the thinnest vessel, and its length in mm.
+    fn around_thinnest(self) -> Option<(f64, f64)> {
+        let around = std::f64::consts::PI * self.thinnest?;
+        Some((eigenvalue(around, self.edge_length?), around)).filter(|&(k, _)| k > 0.0)
+    }
+}
+
+/// Shows what `settings` let through on a surface of that scale.
+pub(super) fn show(ui: &mut Ui, settings: &Smoothing, scale: Scale) {
     if settings.iterations == 0 {
         return;
     }
     let filter = filter(ui, settings);
-    let response = SmoothingResponse::new(&filter, settings.pass_band, edge_length.unwrap_or(0.0));
+    let response = SmoothingResponse::new(&filter, settings.pass_band, scale.edge_length.unwrap_or(0.0));
     let text = sentence(&response, settings.adapt);
     ui.add(Label::new(RichText::new(&text).small()).wrap());
     let head = CollapsingHeader::new("Response").show_unindented(ui, |ui| {
-        let plot = picture(ui, &filter, &response, edge_length);
+        let plot = picture(ui, &filter, &response, scale);
         plot.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
     });
     head.header_response.on_hover_text("How much of a wave on the surface is left, by its length");
@@ -59,12 +76,8 @@ fn sentence(response: &SmoothingResponse, adapts: bool) -> String {
     }
 }
 
-fn picture(
-    ui: &mut Ui,
-    filter: &Arc<Filter>,
-    response: &SmoothingResponse,
-    edge_length: Option<f64>,
-) -> egui::Response {
+fn picture(ui: &mut Ui, filter: &Arc<Filter>, response: &SmoothingResponse, scale: Scale) -> egui::Response {
+    let edge_length = scale.edge_length;
     let visuals = ui.visuals();
     let (accent, weak) = (visuals.hyperlink_color, visuals.weak_text_color());
     let ink = visuals.text_color();
@@ -110,6 +123,13 @@ fn picture(
         plot.set_plot_bounds_x(RANGE.0..=RANGE.1);
         plot.set_plot_bounds_y(-0.12..=1.15);
         plot.vline(VLine::new("", band).color(weak).style(LineStyle::dashed_dense()).allow_hover(false));
+        if let Some((k, around)) = scale.around_thinnest() {
+            let at = libm::log10(k);
+            plot.vline(VLine::new("", at).color(ink).style(LineStyle::dotted_loose()).allow_hover(false));
+            let (side, gap) = if at > -1.6 { (Align2::RIGHT_TOP, -0.05) } else { (Align2::LEFT_TOP, 0.05) };
+            let label = small(format!("around the thinnest: {}", in_mm(around))).color(ink);
+            plot.text(Text::new("", PlotPoint::new(at + gap, 1.13), label).anchor(side).allow_hover(false));
+        }
         plot.line(curve);
         let (side, gap) = if band > -2.2 { (Align2::RIGHT_BOTTOM, -0.05) } else { (Align2::LEFT_BOTTOM, 0.05) };
         let label = small("pass band".to_owned()).color(weak);

@@ -44,7 +44,7 @@ impl Figures {
         let imported = source::read(&self.file, self.unit)?;
         std::fs::create_dir_all(&self.output).with_context(|| format!("cannot make {}", self.output.display()))?;
         let (name, axes) = (shown_name(&self.file), imported.report.axes);
-        let settings = Settings { keep: Keep::Largest, ..Settings::default() };
+        let settings = paper::reduced(0, Keep::Largest);
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         let figures = [
             // The last of these is smoothed as those of Figure 7 are.

@@ -14,8 +14,9 @@ use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
+use crate::pipeline::results::Adapted;
 use crate::pipeline::run::{Advance, Pipeline};
-use crate::pipeline::settings::{Boundary, Decimation, Keep, Method, Settings, Smoothing, Target, Window};
+use crate::pipeline::settings::{Decimation, Keep, Method, Preset, Settings, Smoothing, Target, Window};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
 
@@ -27,21 +28,28 @@ pub struct Optimise {
     /// Where to write: .stl, .ply, .obj or .glb
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Pass band of the smoothing filter, 0.001 to 2
-    #[arg(long, value_name = "F", default_value_t = Smoothing::default().pass_band)]
-    pass_band: f64,
-    /// Iterations of the smoothing filter, 0 to 200; 0 skips smoothing
-    #[arg(long, value_name = "N", default_value_t = Smoothing::default().iterations)]
-    iterations: u32,
-    /// Window of the smoothing filter
-    #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Window::default())]
-    window: Window,
+    /// How to smooth: auto leaves every vessel its calibre and makes no triangles cross; paper is 0.01 and 100 iterations
+    /// everywhere
+    #[arg(long, value_name = "NAME", value_enum, ignore_case = true, default_value_t = Preset::default())]
+    smoothing: Preset,
+    /// Pass band of the smoothing filter, 0.001 to 2; with auto that of wide vessels [auto and paper: 0.01]
+    #[arg(long, value_name = "F")]
+    pass_band: Option<f64>,
+    /// Iterations of the smoothing filter, 0 to 200; 0 skips smoothing [auto and paper: 100]
+    #[arg(long, value_name = "N")]
+    iterations: Option<u32>,
+    /// Window of the smoothing filter [hamming]
+    #[arg(long, value_name = "NAME", value_enum, ignore_case = true)]
+    window: Option<Window>,
     /// Hold the volume to 0.01 % of what it is before smoothing, open ends capped
     #[arg(long)]
     preserve_volume: bool,
-    /// Smooth each vessel by a pass band that leaves it its calibre; --pass-band is then the least
+    /// Smooth all vessels by the same pass band, though thin ones lose their calibre
     #[arg(long)]
-    adapt: bool,
+    no_adapt: bool,
+    /// Let smoothing make triangles cross
+    #[arg(long)]
+    no_guard: bool,
     /// The part of the triangles to remove, in percent, 0 to 99.9 (90 or 90%)
     #[arg(long, value_name = "PERCENT", value_parser = percent, default_value = "90", conflicts_with = "triangles")]
     reduction: f64,
@@ -79,6 +87,20 @@ impl ValueEnum for Window {
     }
 }
 
+impl ValueEnum for Preset {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        Some(clap::builder::PossibleValue::new(match self {
+            Self::Auto => "auto",
+            Self::Paper => "paper",
+            Self::None => "none",
+        }))
+    }
+}
+
 impl ValueEnum for Method {
     fn value_variants<'a>() -> &'a [Self] {
         &Self::ALL
@@ -112,17 +134,24 @@ fn micrometres(text: &str) -> Result<u32, String> {
 }
 
 impl Optimise {
+    /// The preset, with what else was asked for.
+    fn smoothing(&self) -> Smoothing {
+        let preset = self.smoothing.smoothing();
+        Smoothing {
+            window: self.window.unwrap_or(preset.window),
+            pass_band: self.pass_band.unwrap_or(preset.pass_band),
+            iterations: self.iterations.unwrap_or(preset.iterations),
+            boundary: preset.boundary,
+            preserve_volume: self.preserve_volume,
+            adapt: preset.adapt && !self.no_adapt,
+            guard: preset.guard && !self.no_guard,
+        }
+    }
+
     fn settings(&self) -> Settings {
         Settings {
             keep: if self.keep_all_components { Keep::All } else { Keep::Largest },
-            smoothing: Smoothing {
-                window: self.window,
-                pass_band: self.pass_band,
-                iterations: self.iterations,
-                boundary: Boundary::default(),
-                preserve_volume: self.preserve_volume,
-                adapt: self.adapt,
-            },
+            smoothing: self.smoothing(),
             decimation: Decimation { method: self.method, feature_angle: self.feature_angle },
             target: match (self.triangles, self.max_deviation) {
                 (Some(count), _) => Target::Triangles(count),
@@ -187,6 +216,18 @@ impl Optimise {
         }
         if let Some(text) = report.smoothing_response.and_then(|response| response.half_gain_text()) {
             row("smoothing, half gain", text);
+        }
+        if let Some(Adapted { vertices_percent, widest_pass_band }) = report.smoothing_adapted {
+            row(
+                "adapted to the calibre",
+                format!("{vertices_percent:.1} % of the vertices, up to k = {widest_pass_band:.3}"),
+            );
+        }
+        if let Some(weakened) = report.smoothing_weakened {
+            row(
+                "smoothing, weakened",
+                format!("at {} vertices: {} triangles would cross", weakened.vertices, weakened.triangles_spared),
+            );
         }
         if let Some(deviation) = report.deviation_mm {
             row("deviation, mean", format!("{:.4} mm", deviation.mean));

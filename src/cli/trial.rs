@@ -111,7 +111,7 @@ pub(super) fn surface(
 
 /// The pipeline at settings for a trial.
 pub(super) fn settings(smoothing: (f64, u32), target: Target) -> Settings {
-    let smoothing = Smoothing { pass_band: smoothing.0, iterations: smoothing.1, ..Smoothing::default() };
+    let smoothing = Smoothing { pass_band: smoothing.0, iterations: smoothing.1, ..Smoothing::PAPER };
     Settings { smoothing, target, ..Settings::default() }
 }
 

@@ -114,6 +114,16 @@ impl SurfaceIndex {
         looks
     }
 
+    /// Calls `each` with the triangles that may come near the box from `min` to `max`, some more than once.
+    pub(crate) fn for_each_near(&self, min: Vec3, max: Vec3, mut each: impl FnMut(u32)) {
+        self.overlapping(
+            min,
+            max,
+            |_, lanes| lanes,
+            |slots| self.leaves[slots].iter().for_each(|leaf| each(leaf.triangle)),
+        );
+    }
+
     /// Visits the leaves whose boxes overlap the one from `min` to `max`, by those lanes of each node that `keep` leaves of
     /// the overlapping ones.
     fn overlapping(&self, min: Vec3, max: Vec3, keep: impl Fn(u32, u32) -> u32, mut visit: impl FnMut(Range<usize>)) {

@@ -166,7 +166,7 @@ mod tests {
     fn every_window_has_unit_gain_and_meets_its_pass_band() {
         for window in Window::ALL {
             for (pass_band, iterations) in [(0.1, 30), (0.1, 100), (0.01, 30), (0.01, 60), (0.01, 100), (0.5, 20)] {
-                let settings = Smoothing { window, pass_band, iterations, ..Smoothing::default() };
+                let settings = Smoothing { window, pass_band, iterations, ..Smoothing::PAPER };
                 let filter = Filter::new(&settings);
                 assert!((filter.dc_gain() - 1.0).abs() < 1e-12);
                 assert!(filter.reaches_pass_band, "{settings:?} {filter:?}");
@@ -195,7 +195,7 @@ mod tests {
             // A pass band of 2 ends at a right angle: without the window c_1 = 2/pi. Of one iteration the window's
             // place is pi/2, of two pi/3.
             for (iterations, value) in [(1, values[2]), (2, values[1])] {
-                let settings = Smoothing { window, pass_band: 2.0, iterations, ..Smoothing::default() };
+                let settings = Smoothing { window, pass_band: 2.0, iterations, ..Smoothing::PAPER };
                 let c = Filter::with_sigma(&settings, 0.0).coefficients;
                 assert!((c[0] - 0.5).abs() < 1e-12 && (c[1] * PI / 2.0 - value).abs() < 1e-12, "{window:?}: {c:?}");
             }
@@ -205,7 +205,7 @@ mod tests {
     #[test]
     fn a_filter_that_lets_nearly_everything_through_says_so() {
         for (iterations, pass_band, keeps) in [(1, 0.1, false), (3, 0.1, false), (6, 0.1, true), (100, 0.01, true)] {
-            let filter = Filter::new(&Smoothing { pass_band, iterations, ..Smoothing::default() });
+            let filter = Filter::new(&Smoothing { pass_band, iterations, ..Smoothing::PAPER });
             assert_eq!(filter.keeps_promise(pass_band), keeps, "{iterations} {}", filter.response(2.0));
         }
     }
@@ -214,19 +214,19 @@ mod tests {
     fn the_response_is_a_half_at_the_half_gain_and_no_less_before() {
         for window in Window::ALL {
             for (pass_band, iterations) in [(0.001, 200), (0.01, 30), (0.01, 100), (0.1, 20), (0.5, 20), (1.0, 60)] {
-                let filter = Filter::new(&Smoothing { window, pass_band, iterations, ..Smoothing::default() });
+                let filter = Filter::new(&Smoothing { window, pass_band, iterations, ..Smoothing::PAPER });
                 let k = filter.half_gain().unwrap();
                 assert!(k > pass_band && (filter.response(k) - 0.5).abs() < 1e-9, "{window:?} {pass_band} {k}");
                 assert!((0..1000).all(|part| filter.response(k * f64::from(part) / 1000.0) > 0.5));
             }
-            let all = Filter::new(&Smoothing { window, pass_band: 2.0, ..Smoothing::default() });
+            let all = Filter::new(&Smoothing { window, pass_band: 2.0, ..Smoothing::PAPER });
             assert_eq!(all.half_gain(), None);
         }
     }
 
     #[test]
     fn sigma_is_the_smallest() {
-        let settings = Smoothing::default();
+        let settings = Smoothing::PAPER;
         let filter = Filter::new(&settings);
         for part in 0..1000 {
             let narrower = Filter::with_sigma(&settings, filter.sigma * 0.999 * f64::from(part) / 1000.0);
@@ -239,7 +239,7 @@ mod tests {
     fn a_filter_of_few_terms_says_that_it_misses_the_pass_band() {
         for iterations in [0, 1, 2, 200] {
             for pass_band in [0.001, 2.0] {
-                let filter = Filter::new(&Smoothing { pass_band, iterations, ..Smoothing::default() });
+                let filter = Filter::new(&Smoothing { pass_band, iterations, ..Smoothing::PAPER });
                 assert!(filter.coefficients.iter().all(|c| c.is_finite()));
                 assert!((filter.dc_gain() - 1.0).abs() < 1e-12);
                 let reached = (filter.response(pass_band) - 1.0).abs() <= TOLERANCE * 1.000_001;

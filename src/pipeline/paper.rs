@@ -48,13 +48,13 @@ pub const FIGURE_7: [u32; 3] = [10, 90, 99];
 
 /// The paper's settings at a reduction rate in percent: Hamming window, pass band 0.01, 100 iterations.
 pub fn reduced(percent: u32, keep: Keep) -> Settings {
-    Settings { keep, target: Target::Reduction(percent * 10), ..Settings::default() }
+    Settings { keep, smoothing: Smoothing::PAPER, target: Target::Reduction(percent * 10), ..Settings::default() }
 }
 
 /// The settings of Figure 6: smoothed in six ways, not reduced.
 pub fn figure_6(keep: Keep) -> Vec<Settings> {
     let smoothed = |(pass_band, iterations)| Settings {
-        smoothing: Smoothing { pass_band, iterations, ..Smoothing::default() },
+        smoothing: Smoothing { pass_band, iterations, ..Smoothing::PAPER },
         ..reduced(0, keep)
     };
     FIGURE_6.into_iter().map(smoothed).collect()
@@ -75,7 +75,7 @@ mod tests {
         let found: Vec<_> = six.iter().map(|s| (s.smoothing.pass_band, s.smoothing.iterations)).collect();
         assert_eq!(found, FIGURE_6);
         assert!(six.iter().all(|s| s.check().is_ok() && s.target == Target::Reduction(0)));
-        let chosen = Settings::default().smoothing;
+        let chosen = Smoothing::PAPER;
         assert!(figure_7(Keep::All).iter().all(|s| s.smoothing == chosen && s.keep == Keep::All));
     }
 }

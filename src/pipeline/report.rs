@@ -7,7 +7,7 @@ use super::lumen::{Narrowing, SHUT};
 use super::pinch::Pinch;
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
-use super::results::StageTimes;
+use super::results::{Adapted, StageTimes};
 use super::run::Pipeline;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
@@ -47,6 +47,15 @@ pub struct BoundReport {
     pub next_coarser_mm: Option<f64>,
 }
 
+/// Where the filter was weakened, in numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WeakenedReport {
+    /// Triangles that the filter alone would have made cross.
+    pub triangles_spared: usize,
+    /// Vertices that were put back, in part or whole.
+    pub vertices: usize,
+}
+
 /// What the pipeline made of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
@@ -83,6 +92,12 @@ pub struct Report {
     /// smoothed as if it had not been asked for.
     #[serde(default)]
     pub volume_held: Option<bool>,
+    /// What adapting to the calibre came to; null where no vessel asked for a wider pass band, or was not asked.
+    #[serde(default)]
+    pub smoothing_adapted: Option<Adapted>,
+    /// Where the filter was weakened, so that no triangles cross; null where it was nowhere.
+    #[serde(default)]
+    pub smoothing_weakened: Option<WeakenedReport>,
     /// Milliseconds a stage.
     pub stages_ms: StageTimes,
     /// Two-sided distance between output and smoothed surface; null where one has no area.
@@ -144,6 +159,11 @@ impl Report {
             pass_band_missed: smoothed.filter.as_ref().is_some_and(|filter| !filter.keeps_promise(pass_band)),
             smoothing_response: smoothed.response,
             volume_held: smoothed.volume_held,
+            smoothing_adapted: smoothed.adapted,
+            smoothing_weakened: smoothed.weakened.as_ref().map(|weakened| WeakenedReport {
+                triangles_spared: weakened.spared,
+                vertices: weakened.parts.iter().filter(|&&part| part > 0.0).count(),
+            }),
             stages_ms: pipeline.times(),
             deviation_mm: comparison(true),
             deviation_from_original_mm: comparison(false),
@@ -220,7 +240,7 @@ impl Report {
         let change = self.volume_change_percent.filter(|change| change.abs() > LARGE_CHANGE)?;
         let cause = volume_cause(change, self.volume_change_from_smoothed_percent.unwrap_or(0.0));
         let remedy = if cause == TOO_NARROW && !self.settings.smoothing.adapt {
-            " Adapt to calibre (--adapt) keeps their calibre."
+            " Adapt to calibre (--smoothing auto) keeps it."
         } else {
             ""
         };

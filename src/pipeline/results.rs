@@ -212,8 +212,42 @@ pub struct Smoothed {
     pub response: Option<SmoothingResponse>,
     /// Whether the volume was held to 0.01 %; `None` where that was not asked for.
     pub volume_held: Option<bool>,
+    /// Where vessels asked for a wider pass band than the settings'; `None` where none did, or was not asked.
+    pub adapted: Option<Adapted>,
+    /// Where the filter was weakened, so that no triangles cross; `None` where it was nowhere.
+    pub weakened: Option<Weakened>,
+    /// Whether it is known that no triangle crosses another.
+    pub crosses_nothing: bool,
     /// Its area and volume.
     pub measures: Measures,
+}
+
+/// What adapting to the calibre came to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Adapted {
+    /// The part of the vertices with a wider pass band than the settings', in percent.
+    pub vertices_percent: f64,
+    /// The widest pass band, that of the thinnest vessel.
+    pub widest_pass_band: f64,
+}
+
+impl Adapted {
+    /// Sums up the pass bands that vessels ask for, where the settings have `pass_band`.
+    pub(super) fn of(bands: &[f32], pass_band: f64) -> Option<Self> {
+        let wider = bands.iter().filter(|&&band| f64::from(band) > pass_band).count();
+        let widest = bands.iter().fold(0.0f32, |widest, &band| widest.max(band));
+        let vertices_percent = 100.0 * wider as f64 / bands.len() as f64;
+        (wider > 0).then_some(Self { vertices_percent, widest_pass_band: f64::from(widest) })
+    }
+}
+
+/// Where the filter was weakened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weakened {
+    /// The part of its way by which each vertex was put back, 0 to 1.
+    pub parts: Vec<f32>,
+    /// Triangles that the filter alone would have made cross.
+    pub spared: usize,
 }
 
 /// A level as a surface of its own.

@@ -44,6 +44,9 @@ pub struct Smoothing {
     /// Whether each vessel is smoothed by a pass band that leaves it its calibre: nowhere less than [`Self::pass_band`].
     #[serde(default)]
     pub adapt: bool,
+    /// Whether the filter is weakened where it would make triangles cross that did not.
+    #[serde(default)]
+    pub guard: bool,
 }
 
 impl Smoothing {
@@ -51,19 +54,30 @@ impl Smoothing {
     pub const PASS_BAND: std::ops::RangeInclusive<f64> = 0.001..=2.0;
     /// The largest number of iterations.
     pub const MAX_ITERATIONS: u32 = 200;
+
+    /// The setting that the paper chose: Hamming window, pass band 0.01, 100 iterations, the same everywhere.
+    pub const PAPER: Self = Self {
+        window: Window::Hamming,
+        pass_band: 0.01,
+        iterations: 100,
+        boundary: Boundary::Loop,
+        preserve_volume: false,
+        adapt: false,
+        guard: false,
+    };
+
+    /// What suits a surface whatever its calibres: as [`Self::PAPER`] where vessels are wide, and nowhere so much that a
+    /// vessel loses its calibre or triangles cross.
+    pub const AUTO: Self = Self { adapt: true, guard: true, ..Self::PAPER };
+
+    /// No smoothing.
+    pub const NONE: Self = Self { iterations: 0, ..Self::AUTO };
 }
 
 impl Default for Smoothing {
-    /// The setting that the paper chose: Hamming window, pass band 0.01, 100 iterations.
+    /// [`Self::AUTO`].
     fn default() -> Self {
-        Self {
-            window: Window::Hamming,
-            pass_band: 0.01,
-            iterations: 100,
-            boundary: Boundary::Loop,
-            preserve_volume: false,
-            adapt: false,
-        }
+        Self::AUTO
     }
 }
 
@@ -71,6 +85,46 @@ impl Smoothing {
     /// Whether these make the same surface: without iterations, the rest does not matter.
     pub fn gives_same(&self, other: &Self) -> bool {
         self == other || (self.iterations == 0 && other.iterations == 0)
+    }
+}
+
+/// Settings of the filter that have a name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// [`Smoothing::AUTO`].
+    #[default]
+    Auto,
+    /// [`Smoothing::PAPER`].
+    Paper,
+    /// [`Smoothing::NONE`].
+    None,
+}
+
+impl Preset {
+    /// All, the default first.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Paper, Self::None];
+
+    /// What it is called where a user chooses.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Auto => "Suits this surface",
+            Self::Paper => "The paper's",
+            Self::None => "None",
+        }
+    }
+
+    /// The settings.
+    pub fn smoothing(self) -> Smoothing {
+        match self {
+            Self::Auto => Smoothing::AUTO,
+            Self::Paper => Smoothing::PAPER,
+            Self::None => Smoothing::NONE,
+        }
+    }
+
+    /// The one that makes the same surface as `smoothing`, if one does.
+    pub fn of(smoothing: &Smoothing) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.smoothing().gives_same(smoothing))
     }
 }
 

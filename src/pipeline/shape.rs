@@ -37,6 +37,18 @@ pub struct Measured {
     pub shape: Shape,
     /// The inner balls.
     pub balls: InnerRadii,
+    /// The triangles that run into others, in the numbering of the index; ascending.
+    pub crossing: Vec<u32>,
+}
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wanted {
+    All,
+    /// All, and nothing runs into anything.
+    AllButCrossings,
+    Radii,
+    Crossings,
 }
 
 /// The shape of `mesh`, whose triangles must not repeat a vertex.
@@ -68,8 +80,7 @@ pub struct ShapeTask<M, T> {
     index: Option<Arc<SurfaceIndex>>,
     build: IndexBuild,
     stage: Stage,
-    /// Whether everything is measured, not the radii alone.
-    wants_all: bool,
+    wanted: Wanted,
     next: usize,
     angles: AngleCounts,
     bends: Vec<f32>,
@@ -103,7 +114,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             index: None,
             build: IndexBuild::new(),
             stage: Stage::Index,
-            wants_all: true,
+            wanted: Wanted::All,
             next: 0,
             angles: AngleCounts::default(),
             bends: Vec::new(),
@@ -117,7 +128,19 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
     /// The radii of the inner balls alone; the rest of the shape stays empty.
     #[must_use]
     pub(super) fn radii_only(mesh: M, topology: T) -> Self {
-        Self { wants_all: false, ..Self::new(mesh, topology) }
+        Self { wanted: Wanted::Radii, ..Self::new(mesh, topology) }
+    }
+
+    /// The triangles that run into others alone; the rest of the shape stays empty.
+    #[must_use]
+    pub(super) fn crossings_only(mesh: M, topology: T) -> Self {
+        Self { wanted: Wanted::Crossings, ..Self::new(mesh, topology) }
+    }
+
+    /// Takes it from the caller that no triangle runs into another.
+    #[must_use]
+    pub(super) fn without_crossings(self) -> Self {
+        Self { wanted: Wanted::AllButCrossings, ..self }
     }
 
     /// Uses an index that is there already, of the same surface in the numbering of `indexed`.
@@ -145,13 +168,17 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
     fn step(&mut self) {
         if self.stage == Stage::Index {
             if self.add_index() {
-                self.stage = if self.wants_all { Stage::Angles } else { Stage::Balls };
+                self.stage = match self.wanted {
+                    Wanted::All | Wanted::AllButCrossings => Stage::Angles,
+                    Wanted::Radii => Stage::Balls,
+                    Wanted::Crossings => Stage::Crossings,
+                };
             }
             return;
         }
         if self.stage == Stage::Balls {
             if self.add_balls() {
-                self.stage = if self.wants_all { Stage::Sums } else { Stage::Done };
+                self.stage = if self.wanted == Wanted::Radii { Stage::Done } else { Stage::Sums };
             }
             return;
         }
@@ -167,8 +194,9 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             self.next = 0;
             self.stage = match self.stage {
                 Stage::Angles => Stage::Bends,
+                Stage::Bends if self.wanted == Wanted::AllButCrossings => Stage::Balls,
                 Stage::Bends => Stage::Crossings,
-                Stage::Crossings => Stage::Balls,
+                Stage::Crossings if self.wanted == Wanted::All => Stage::Balls,
                 _ => Stage::Done,
             };
         }
@@ -253,9 +281,9 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
     }
 
     fn result(&mut self) -> Measured {
-        let self_intersecting_faces = std::mem::take(&mut self.crossing).triangles().count();
-        let shape = Shape { self_intersecting_faces, ..self.found.clone() };
-        Measured { shape, balls: std::mem::take(&mut self.balls) }
+        let crossing: Vec<u32> = std::mem::take(&mut self.crossing).triangles().collect();
+        let shape = Shape { self_intersecting_faces: crossing.len(), ..self.found.clone() };
+        Measured { shape, balls: std::mem::take(&mut self.balls), crossing }
     }
 }
 

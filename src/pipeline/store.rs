@@ -16,6 +16,8 @@ pub(super) struct Store {
     /// The pieces: the same for all settings.
     pub(super) connectivity: Option<Arc<Connectivity>>,
     pub(super) now: Results,
+    /// The least pass bands that leave vessels their calibre, and the surface that they are of.
+    pub(super) bands: Option<(Arc<Surface>, Arc<[f32]>)>,
     /// What makes another pass band cheap.
     pub(super) terms: Option<KeptTerms>,
     /// Whether the kept surface has been smoothed before: then it may well be again.
@@ -25,7 +27,7 @@ pub(super) struct Store {
 impl Store {
     pub(super) fn new(opened: Arc<TriMesh>, settings: Settings, samples: usize) -> Self {
         let now = Results { settings, ..Results::default() };
-        Self { opened, samples, connectivity: None, now, terms: None, is_smoothed_again: false }
+        Self { opened, samples, connectivity: None, now, bands: None, terms: None, is_smoothed_again: false }
     }
 
     /// The same surface with the same results. Terms stay behind: they are large.
@@ -35,6 +37,7 @@ impl Store {
             samples: self.samples,
             connectivity: self.connectivity.clone(),
             now: self.now.clone(),
+            bands: self.bands.clone(),
             terms: None,
             is_smoothed_again: false,
         }

@@ -29,8 +29,15 @@ pub(crate) fn settings() -> impl Strategy<Value = Settings> {
     (window, pass_band, 0u32..=120, boundary, method, 0.0f64..=180.0, rate).prop_map(
         |(window, pass_band, iterations, boundary, method, feature_angle, rate)| {
             let mut settings = Settings { target: Target::Reduction(rate), ..Settings::default() };
-            settings.smoothing =
-                Smoothing { window, pass_band, iterations, boundary, preserve_volume: false, adapt: false };
+            settings.smoothing = Smoothing {
+                window,
+                pass_band,
+                iterations,
+                boundary,
+                preserve_volume: false,
+                adapt: false,
+                guard: false,
+            };
             settings.decimation.method = method;
             settings.decimation.feature_angle = feature_angle;
             settings

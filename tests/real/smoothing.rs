@@ -51,7 +51,7 @@ fn check(path: &Path) -> Result<(), Failed> {
     let mesh = open(path)?;
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     for window in Window::ALL {
-        let settings = Smoothing { window, ..Smoothing::default() };
+        let settings = Smoothing { window, ..Smoothing::PAPER };
         check_origin(&mesh, &topology, &settings)?;
         for boundary in [Boundary::Loop, Boundary::Vtk15] {
             let after = run(&mesh, &topology, &Smoothing { boundary, ..settings });
@@ -99,7 +99,7 @@ fn check_fixed(mesh: &TriMesh, topology: &Topology, boundary: Boundary, after: &
 }
 
 fn check_threads_and_terms(mesh: &TriMesh, topology: &Topology) -> Result<(), Failed> {
-    let settings = Smoothing::default();
+    let settings = Smoothing::PAPER;
     let one = with_threads(1, || run(mesh, topology, &settings));
     for threads in [2, 7] {
         let many = with_threads(threads, || run(mesh, topology, &settings));
@@ -121,7 +121,7 @@ fn check_volume(mesh: TriMesh) -> Result<(), Failed> {
     let mesh = Arc::new(mesh);
     for (pass_band, iterations) in [(0.1, 30), (0.1, 100), (0.01, 30), (0.01, 100)] {
         for window in [Window::Hamming, Window::Nuttall] {
-            let smoothing = Smoothing { pass_band, iterations, window, preserve_volume: true, ..Smoothing::default() };
+            let smoothing = Smoothing { pass_band, iterations, window, preserve_volume: true, ..Smoothing::PAPER };
             let mut pipeline = Pipeline::new(mesh.clone(), Settings { smoothing, ..Settings::default() });
             while pipeline.smoothed().is_none() {
                 pipeline.advance(Budget::UNLIMITED)?;
@@ -167,7 +167,7 @@ fn check_open_ends(path: &Path, ends: usize, voxel: f64) -> Result<(), Failed> {
     let mesh = Arc::new(open(path)?);
     for preserve_volume in [false, true] {
         for (pass_band, iterations) in [(0.1, 60), (0.1, 100), (0.01, 60), (0.01, 100)] {
-            let smoothing = Smoothing { pass_band, iterations, preserve_volume, ..Smoothing::default() };
+            let smoothing = Smoothing { pass_band, iterations, preserve_volume, ..Smoothing::PAPER };
             let mut pipeline = Pipeline::new(mesh.clone(), Settings { smoothing, ..Settings::default() });
             while pipeline.smoothed().is_none() {
                 pipeline.advance(Budget::UNLIMITED)?;

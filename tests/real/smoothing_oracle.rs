@@ -81,8 +81,7 @@ fn check(oracle: &Path, case: &Case) -> Result<(), Failed> {
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     let diagonal = f64::from(mesh.bounds().diagonal());
     let distance = |window: Window, sigma: f64| {
-        let settings =
-            Smoothing { window, pass_band: case.pass_band, iterations: case.iterations, ..Smoothing::default() };
+        let settings = Smoothing { window, pass_band: case.pass_band, iterations: case.iterations, ..Smoothing::PAPER };
         let smoothed = smooth(&mesh.positions, &topology, Boundary::Vtk15, &Filter::with_sigma(&settings, sigma));
         let apart = smoothed.iter().zip(&expected).map(|(a, b)| f64::from((*a - *b).length()));
         apart.fold(0.0, f64::max) / diagonal

@@ -36,6 +36,7 @@ fn settings() -> impl Strategy<Value = Smoothing> {
         boundary,
         preserve_volume: false,
         adapt: false,
+        guard: false,
     })
 }
 
@@ -205,8 +206,8 @@ fn left_of_wave(length: f64, direction: f64, settings: &Smoothing) -> f64 {
 #[test]
 fn a_wave_on_a_flat_lattice_is_damped_as_the_response_says() {
     for settings in [
-        Smoothing { pass_band: 0.1, iterations: 40, ..Smoothing::default() },
-        Smoothing { pass_band: 0.05, iterations: 60, window: Window::Nuttall, ..Smoothing::default() },
+        Smoothing { pass_band: 0.1, iterations: 40, ..Smoothing::PAPER },
+        Smoothing { pass_band: 0.05, iterations: 60, window: Window::Nuttall, ..Smoothing::PAPER },
     ] {
         let filter = Filter::new(&settings);
         let half = filter.half_gain().unwrap();
@@ -241,13 +242,13 @@ fn radius_within(mesh: &TriMesh, from: f32, to: f32) -> (f64, f64) {
 fn thin_vessels_keep_their_calibre_and_lose_their_teeth_where_the_pass_band_adapts() {
     for radius in [1.0, 1.5, 2.5, 5.0] {
         let mesh = tube(radius, 40.0, 0.6, 0.1);
-        let smoothing = Smoothing { adapt: true, ..Smoothing::default() };
+        let smoothing = Smoothing { adapt: true, ..Smoothing::PAPER };
         let made = |smoothing| {
             let mut pipeline = Pipeline::new(Arc::new(mesh.clone()), all_pieces(smoothing));
             let (mean, spread) = radius_within(&smoothed(&mut pipeline).mesh, 12.0, 28.0);
             (mean / radius - 1.0, spread)
         };
-        let ((adapted, rough), (plain, _)) = (made(smoothing), made(Smoothing::default()));
+        let ((adapted, rough), (plain, _)) = (made(smoothing), made(Smoothing::PAPER));
         // Bumps of 0.035 mm in the mean are gone; open ends make the radius swing by half a percent.
         assert!(adapted.abs() < 0.01 && rough < 0.01 * radius, "{radius} mm: {adapted:+.4}, {rough:.4} mm rough");
         assert!(radius > 2.0 || plain < -0.1, "{radius} mm: the paper's filter takes {plain:+.3}");
@@ -258,12 +259,105 @@ fn thin_vessels_keep_their_calibre_and_lose_their_teeth_where_the_pass_band_adap
 fn a_vessel_that_narrows_keeps_both_its_calibres() {
     let radius = |z: f64| if z < 30.0 { 6.0 } else { 6.0 - 5.0 * ((z - 30.0) / 15.0).min(1.0) };
     let mesh = Arc::new(turned(40, 90.0, 0.6, 0.0, radius));
-    let smoothing = Smoothing { adapt: true, ..Smoothing::default() };
+    let smoothing = Smoothing { adapt: true, ..Smoothing::PAPER };
     let mut pipeline = Pipeline::new(mesh.clone(), all_pieces(smoothing));
     let after = smoothed(&mut pipeline).mesh.clone();
     for (from, to) in [(8.0, 26.0), (32.0, 43.0), (48.0, 80.0)] {
         let ([(before, _), (after, _)], place) = ([&*mesh, &*after].map(|mesh| radius_within(mesh, from, to)), from);
         assert!((after / before - 1.0).abs() < 0.01, "from {place} mm: {before} to {after}");
+    }
+}
+
+/// The faces that cross others after smoothing and crossed none before.
+fn newly_crossing(before: &TriMesh, after: &TriMesh) -> usize {
+    let crossed = self_intersections(before);
+    self_intersections(after).into_iter().filter(|t| crossed.binary_search(t).is_err()).count()
+}
+
+#[test]
+fn no_triangles_cross_that_did_not_and_far_from_them_the_filter_is_the_plain_one_to_the_bit() {
+    let mesh = &PHANTOMS[1];
+    let made = |guard| {
+        let mut pipeline = Pipeline::new(mesh.clone(), all_pieces(Smoothing { guard, ..Smoothing::PAPER }));
+        smoothed(&mut pipeline)
+    };
+    let (plain, guarded) = (made(false), made(true));
+    let crossing = newly_crossing(mesh, &plain.mesh);
+    assert!(crossing > 100, "the paper's filter makes only {crossing} faces cross: this proves little");
+    assert_eq!(newly_crossing(mesh, &guarded.mesh), 0);
+    let weakened = guarded.weakened.as_ref().expect("something was weakened");
+    assert_eq!(weakened.spared, crossing);
+    let (mut whole, mut none) = (0, 0);
+    for (v, &part) in weakened.parts.iter().enumerate() {
+        let [before, after, alone] = [mesh, &guarded.mesh, &plain.mesh].map(|mesh| mesh.positions[v]);
+        match part {
+            0.0 => assert!(after == alone),
+            1.0 => assert!(after == before),
+            part => assert!(after.distance(alone.lerp(before, part)) < 1e-4),
+        }
+        whole += usize::from(part == 1.0);
+        none += usize::from(part == 0.0);
+    }
+    let count = mesh.positions.len();
+    assert!(none > count / 4 && whole < count / 2, "{none} untouched and {whole} put back of {count}");
+    // It fades out: no edge joins what is put back to what is smoothed.
+    for [a, b, c] in &mesh.triangles {
+        for (a, b) in [(a, b), (b, c), (c, a)] {
+            let step = (weakened.parts[*a as usize] - weakened.parts[*b as usize]).abs();
+            assert!(step < 0.2, "{step} from a vertex to the next");
+        }
+    }
+}
+
+#[test]
+fn where_nothing_would_cross_the_guard_changes_no_bit_and_says_nothing() {
+    let [off, on] = [false, true].map(|guard| {
+        let smoothing = Smoothing { guard, ..Smoothing::PAPER };
+        smoothed(&mut Pipeline::new(PHANTOMS[0].clone(), all_pieces(smoothing)))
+    });
+    assert!(off.mesh.positions == on.mesh.positions && on.weakened.is_none());
+    assert!(on.crosses_nothing && !off.crosses_nothing, "what was not looked at is not known");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Crumpled tubes through and beside each other: some faces cross before, more would after.
+    #[test]
+    fn crumpled_tubes_never_cross_where_they_did_not(
+        noise in 0.0..1.5f64, apart in 0.0..7.0f32, lean in 0.0..1.0f32, settings in settings(), adapt in any::<bool>(),
+    ) {
+        let tubes = [tube(1.5, 14.0, 0.7, noise), tube(1.2, 14.0, 0.7, noise / 2.0), tube(3.0, 14.0, 0.9, noise)];
+        let mut mesh = TriMesh::default();
+        for (i, tube) in tubes.into_iter().enumerate() {
+            let first = mesh.positions.len() as u32;
+            let moved = |p: &Vec3| *p + i as f32 * Vec3::new(apart / 2.0 + lean * (p.z - 7.0), 0.0, 0.0);
+            mesh.positions.extend(tube.positions.iter().map(moved));
+            mesh.triangles.extend(tube.triangles.iter().map(|t| t.map(|v| v + first)));
+        }
+        let smoothing = Smoothing { guard: true, adapt, ..settings };
+        let mesh = Arc::new(mesh);
+        let after = smoothed(&mut Pipeline::new(mesh.clone(), all_pieces(smoothing)));
+        prop_assert_eq!(newly_crossing(&mesh, &after.mesh), 0);
+        if after.crosses_nothing {
+            prop_assert!(self_intersections(&after.mesh).is_empty());
+        }
+    }
+
+    #[test]
+    fn another_pass_band_for_each_vertex_from_kept_terms_is_a_run_of_its_own_to_the_bit(
+        settings in settings(), other in settings(), phantom in 0..2usize,
+    ) {
+        let mesh = &PHANTOMS[phantom];
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let bands: Vec<f32> = mesh.positions.iter().map(|p| 0.02 * (2.0 + (p.z * 0.1).sin())).collect();
+        let task = SmoothingTask::new(&mesh.positions, &topology, settings.boundary, &Filter::new(&settings));
+        let mut task = task.keeping_terms(64_000_000);
+        prop_assert!(matches!(task.advance(Budget::UNLIMITED), Progress::Done(_)));
+        let terms = task.into_terms().unwrap();
+        let other = Smoothing { iterations: other.iterations.min(terms.degree() as u32), boundary: settings.boundary, ..other };
+        let own = SmoothingTask::varying(&mesh.positions, &topology, &other, &bands).finish();
+        prop_assert!(terms.smooth_varying(&other, &bands) == own);
     }
 }
 
@@ -281,7 +375,7 @@ fn where_no_wall_faces_another_the_adapted_filter_is_the_plain_one_to_the_bit() 
         triangles: flat.triangles.into_iter().filter(|t| t.iter().map(|v| v % 40).max() != Some(39)).collect(),
     };
     let [plain, adapted] = [false, true].map(|adapt| {
-        let smoothing = Smoothing { adapt, ..Smoothing::default() };
+        let smoothing = Smoothing { adapt, ..Smoothing::PAPER };
         smoothed(&mut Pipeline::new(Arc::new(flat.clone()), all_pieces(smoothing))).mesh.positions.clone()
     });
     assert!(plain == adapted);
@@ -330,7 +424,7 @@ fn a_thin_vessel_keeps_its_calibre_where_the_volume_is_held_and_is_not_swollen_b
     let triangles = thin.triangles.iter().copied().chain(wide.triangles.iter().map(|t| t.map(|v| v + shift)));
     let both = Arc::new(TriMesh { positions: positions.collect(), triangles: triangles.collect() });
     for (pass_band, iterations) in [(0.1, 60), (0.02, 100)] {
-        let smoothing = Smoothing { pass_band, iterations, ..Smoothing::default() };
+        let smoothing = Smoothing { pass_band, iterations, ..Smoothing::PAPER };
         // Mean radius in the middle third of each.
         let radii = |preserve_volume: bool| {
             let mut pipeline = Pipeline::new(both.clone(), all_pieces(Smoothing { preserve_volume, ..smoothing }));
@@ -363,7 +457,7 @@ fn a_thin_tree_is_not_torn_for_its_volume() {
     let cases = settings.map(|(pass_band, iterations)| (&fine, pass_band, iterations, true));
     for (tree, pass_band, iterations, is_held) in cases.into_iter().chain([(&coarse, 0.01, 60, false)]) {
         let [plain, asked] = [false, true].map(|preserve_volume| {
-            let smoothing = Smoothing { pass_band, iterations, preserve_volume, ..Smoothing::default() };
+            let smoothing = Smoothing { pass_band, iterations, preserve_volume, ..Smoothing::PAPER };
             smoothed(&mut Pipeline::new(tree.clone(), all_pieces(smoothing)))
         });
         assert_eq!(asked.volume_held, Some(is_held), "{pass_band}");
@@ -379,7 +473,7 @@ fn a_thin_tree_is_not_torn_for_its_volume() {
 #[test]
 fn a_change_of_pass_band_or_window_goes_by_the_terms_and_gives_what_a_fresh_run_gives() {
     let mesh = &PHANTOMS[0];
-    let first = Smoothing { iterations: 60, ..Smoothing::default() };
+    let first = Smoothing { iterations: 60, ..Smoothing::PAPER };
     let mut pipeline = Pipeline::new(mesh.clone(), all_pieces(first)).with_samples(500);
     pipeline.finish().unwrap();
     assert!(pipeline.can_prepare());
@@ -443,7 +537,7 @@ fn whatever_comes_in_has_an_answer() {
         let mesh = Arc::new(mesh);
         for preserve_volume in [false, true] {
             for iterations in [0, 1, 40] {
-                let smoothing = Smoothing { iterations, preserve_volume, ..Smoothing::default() };
+                let smoothing = Smoothing { iterations, preserve_volume, ..Smoothing::PAPER };
                 let mut pipeline =
                     Pipeline::new(mesh.clone(), Settings { target: Target::Reduction(0), ..all_pieces(smoothing) });
                 let after = smoothed(&mut pipeline);
@@ -467,9 +561,9 @@ fn settings_out_of_range_are_refused_by_name() {
     let mut pipeline = Pipeline::new(PHANTOMS[0].clone(), Settings::default());
     let refused = |smoothing: Smoothing, pipeline: &mut Pipeline| pipeline.set(all_pieces(smoothing)).unwrap_err();
     for pass_band in [f64::NAN, f64::INFINITY, 0.0, -1.0, 2.1] {
-        let error = refused(Smoothing { pass_band, ..Smoothing::default() }, &mut pipeline);
+        let error = refused(Smoothing { pass_band, ..Smoothing::PAPER }, &mut pipeline);
         assert!(matches!(error, SettingsError::PassBand(_)) && error.to_string().contains("pass band"));
     }
-    let error = refused(Smoothing { iterations: 201, ..Smoothing::default() }, &mut pipeline);
+    let error = refused(Smoothing { iterations: 201, ..Smoothing::PAPER }, &mut pipeline);
     assert_eq!(error, SettingsError::Iterations(201));
 }

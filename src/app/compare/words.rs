@@ -27,7 +27,8 @@ fn parts(settings: &Settings) -> [String; PARTS] {
     };
     let holds_volume = smoothing.preserve_volume && smoothing.iterations > 0;
     let adapts = smoothing.adapt && smoothing.iterations > 0;
-    let volume = [(holds_volume, "volume preserved"), (adapts, "adapted to calibre")];
+    let guards = smoothing.guard && smoothing.iterations > 0;
+    let volume = [(holds_volume, "volume preserved"), (adapts, "adapted to calibre"), (guards, "no crossing")];
     let volume = volume.into_iter().filter(|(is_on, _)| *is_on).map(|(_, name)| name).collect::<Vec<_>>().join(", ");
     let decimation = &settings.decimation;
     let method = format!("{} method", decimation.method.name());

@@ -8,7 +8,7 @@ use crate::trial::setup::Setup;
 pub enum Action {
     /// Begin: with the level that is shown.
     Start,
-    /// Smooth less, so that thin vessels stay open, and begin with the level that this makes.
+    /// Adapt the smoothing to the calibre, so that thin vessels stay open, and begin with the level that this makes.
     SmoothLess,
     /// Begin again; anew where the level or the setup have changed.
     Restart,

@@ -24,17 +24,19 @@ pub(in crate::app) fn show(
     if let Some(problem) = &trial.problem {
         warning(ui, &problem.text);
     }
-    if let Some(gentler) = trial.gentler(smoothing) {
-        smooth_less(ui, &gentler, asked);
+    if trial.gentler(smoothing).is_some() {
+        smooth_less(ui, asked);
     }
     if trial.is_open() { open(ui, trial, asked) } else { closed(ui, document, asked) }
 }
 
 /// Offers a smoothing that leaves thin vessels wider.
-fn smooth_less(ui: &mut Ui, gentler: &Smoothing, asked: &mut Vec<Action>) {
-    let label = format!("Smooth less (pass band {}, {} iterations) and start", gentler.pass_band, gentler.iterations);
-    let button = ui.add(Button::new(label).wrap());
-    if button.on_hover_text("Keeps thin vessels wider; Undo takes it back").clicked() {
+fn smooth_less(ui: &mut Ui, asked: &mut Vec<Action>) {
+    let button = ui.add(Button::new("Adapt smoothing to the calibre and start").wrap());
+    if button
+        .on_hover_text("Smooths thin vessels less, so that they stay as wide as they are; Undo takes it back")
+        .clicked()
+    {
         asked.push(Action::SmoothLess);
     }
 }

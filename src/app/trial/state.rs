@@ -20,9 +20,6 @@ use crate::trial::setup::Setup;
 use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
-/// The pass band and the iterations that are offered where smoothing leaves no room for the wire.
-const GENTLE: (f64, u32) = (0.1, 30);
-
 /// What is said until a smoother level is there.
 pub(super) const AWAITS: &str = "Smoothing less: the trial starts when the new level is there.";
 
@@ -256,10 +253,9 @@ impl Trial {
 
     /// The smoothing that is offered in place of `smoothing`, where the lumen is too thin for the wire.
     pub(super) fn gentler(&self, smoothing: &Smoothing) -> Option<Smoothing> {
-        let (pass_band, iterations) = GENTLE;
         let is_too_thin = self.problem.as_ref().is_some_and(|problem| problem.is_too_thin);
-        let is_stronger = smoothing.iterations > 0 && smoothing.pass_band < pass_band;
-        (is_too_thin && is_stronger).then_some(Smoothing { pass_band, iterations, ..*smoothing })
+        let takes_calibre = smoothing.iterations > 0 && !smoothing.adapt;
+        (is_too_thin && takes_calibre).then_some(Smoothing { adapt: true, ..*smoothing })
     }
 
     /// A number for a command.

@@ -5,9 +5,9 @@
 //! shut, one whose pass band holds them leaves it as wide as it is. At an open end the rim is smoothed along itself, where
 //! the same wave has `k = 1 - cos(h / r)`.
 //!
-//! `r` is the inner ball's radius at the vertex (`mesh::inner_ball`), as the median of its ring, several times over, for on
-//! rough surfaces many vertices have bad normals. From a thin vessel the radius grows by no more than the way along the surface: so the pass band has no
-//! jumps, and a narrow place keeps the surface beside it.
+//! `r` is the inner ball's radius at the vertex (`mesh::inner_ball`), as the median of its ring, several times over, for
+//! on rough surfaces many vertices have bad normals. From a thin vessel the radius grows by no more than the way along the
+//! surface: so the pass band has no jumps, and a narrow place keeps the surface beside it.
 
 use std::ops::Deref;
 
@@ -24,7 +24,8 @@ const SLOPE: f32 = 1.0;
 /// Largest part of a radius that an edge may be: beyond it a vessel has no shape to keep.
 const COARSEST: f64 = 3.0;
 /// Means with the neighbours that the pass bands are evened out by. Filters of other pass bands let even the longest waves
-/// through by a hundredth more or less: what differs from vertex to vertex would be seen as roughness.
+/// through by a hundredth more or less: what differs from vertex to vertex would be seen as roughness, and on `data/real` twice to five times as many triangles
+/// run into others without.
 const EVEN: usize = 16;
 /// Vertices between two looks at the clock.
 const VERTICES: usize = 4096;
@@ -55,18 +56,14 @@ enum Step {
     Even(usize),
 }
 
-/// The pass bands of `mesh`, whose inner balls have these `radii`; see [`LeastPassBands`].
-pub(crate) fn least_pass_bands<M, T>(mesh: M, topology: T, radii: Vec<f32>) -> LeastPassBands<M, T>
-where
-    M: Deref<Target = TriMesh>,
-    T: Deref<Target = Topology>,
-{
-    let count = radii.len();
-    let (widths, bands) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    LeastPassBands { mesh, topology, radii, widths, bands, step: Step::Medians(0), next: 0, has_changed: false }
-}
-
 impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, T> {
+    /// Of `mesh`, whose inner balls have these `radii` in mm.
+    pub(crate) fn new(mesh: M, topology: T, radii: Vec<f32>) -> Self {
+        let count = radii.len();
+        let (widths, bands) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        Self { mesh, topology, radii, widths, bands, step: Step::Medians(0), next: 0, has_changed: false }
+    }
+
     fn at(&self, v: u32) -> Vec3 {
         self.mesh.positions[v as usize]
     }
@@ -178,7 +175,7 @@ mod tests {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         let radii = inner_radii(mesh, &topology, &index).radii;
-        least_pass_bands(mesh, &topology, radii).finish()
+        LeastPassBands::new(mesh, &topology, radii).finish()
     }
 
     #[test]

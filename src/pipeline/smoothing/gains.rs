@@ -32,26 +32,23 @@ impl Gains {
         Self::Same(filter.coefficients.iter().map(|&c| c as f32).collect())
     }
 
-    /// Those of filters as `settings` ask for, but with pass bands of their own, one for each vertex; and where each stands
-    /// in their row.
+    /// Those of filters as `settings` ask for, but each vertex with its own of `pass_bands` where that is larger; and where
+    /// each stands in their row. Where none is, the mixes are empty: then one filter does.
     pub(super) fn varying(settings: &Smoothing, pass_bands: &[f32]) -> (Self, Vec<Mix>) {
-        let bounds = pass_bands.iter().fold((f32::INFINITY, 0.0f32), |(low, high), &k| (low.min(k), high.max(k)));
-        // To the bit that of the settings, where they ask for the least.
-        let least = settings.pass_band;
-        let low = if bounds.0 == least as f32 { least } else { f64::from(bounds.0) };
-        let high = f64::from(bounds.1);
-        let steps = if bounds.1 > bounds.0 { (libm::log(high / low) / libm::log(STEP)).ceil() } else { 0.0 };
-        let count = steps as usize + 2;
-        let band = |i: usize| {
-            (low * libm::pow(STEP, i as f64)).clamp(*Smoothing::PASS_BAND.start(), *Smoothing::PASS_BAND.end())
-        };
+        let low = settings.pass_band;
+        let high = f64::from(pass_bands.iter().fold(0.0f32, |high, &k| high.max(k)));
+        if high <= low {
+            return (Self::of(&Filter::new(settings)), Vec::new());
+        }
+        let count = (libm::log(high / low) / libm::log(STEP)).ceil() as usize + 2;
+        let band = |i: usize| (low * libm::pow(STEP, i as f64)).min(*Smoothing::PASS_BAND.end());
         let filters: Vec<Filter> =
             (0..count).map(|i| Filter::new(&Smoothing { pass_band: band(i), ..*settings })).collect();
         let degree = settings.iterations as usize;
         let coefficients = (0..=degree).flat_map(|n| filters.iter().map(move |filter| filter.coefficients[n] as f32));
         let scale = (1.0 / libm::log(STEP)) as f32;
         let mix = |&k: &f32| {
-            let at = libm::logf(k / bounds.0) * scale;
+            let at = libm::logf(k.max(low as f32) / low as f32) * scale;
             let filter = (at as u32).min(count as u32 - 2);
             Mix { filter, part: (at - filter as f32).clamp(0.0, 1.0) }
         };
@@ -120,7 +117,7 @@ mod tests {
     #[test]
     fn a_constant_passes_whatever_the_mean_of_filters() {
         let bands = [0.01, 0.013, 0.2, 1.7];
-        let (gains, mixes) = Gains::varying(&Smoothing::default(), &bands);
+        let (gains, mixes) = Gains::varying(&Smoothing::PAPER, &bands);
         for (i, band) in bands.iter().enumerate() {
             let sum: f32 = (0..=gains.degree())
                 .map(|n| match gains.term(n) {
@@ -135,7 +132,7 @@ mod tests {
     #[test]
     fn a_vertex_has_the_filter_of_its_own_pass_band() {
         let bands = [0.004, 0.05, 0.31];
-        let settings = Smoothing::default();
+        let settings = Smoothing::PAPER;
         let (gains, mixes) = Gains::varying(&settings, &bands);
         for (i, &band) in bands.iter().enumerate() {
             let own = Filter::new(&Smoothing { pass_band: f64::from(band), ..settings });

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{SmoothingTask, Terms};
-use crate::mesh::{Topology, Vec3};
+use crate::mesh::Topology;
 use crate::pipeline::filter::Filter;
 use crate::pipeline::results::Surface;
 use crate::pipeline::settings::{Boundary, Smoothing};
@@ -23,21 +23,17 @@ impl KeptTerms {
     /// Whether another filter for `settings` on `kept` is but a sum of these.
     pub(crate) fn suit(&self, kept: &Arc<Surface>, settings: &Smoothing) -> bool {
         let degree = settings.iterations as usize;
-        !settings.adapt
-            && Arc::ptr_eq(&self.of, kept)
-            && self.boundary == settings.boundary
-            && degree <= self.terms.degree()
+        Arc::ptr_eq(&self.of, kept) && self.boundary == settings.boundary && degree <= self.terms.degree()
     }
 
-    /// The surface that `filter` makes.
-    pub(crate) fn smooth(&self, filter: &Filter) -> Vec<Vec3> {
-        self.terms.smooth(filter)
+    /// The terms.
+    pub(crate) fn terms(&self) -> &Terms {
+        &self.terms
     }
 
     /// Whether the terms of `kept` for `settings` are few enough to be kept.
     pub(crate) fn would_fit(kept: &Surface, settings: &Smoothing) -> bool {
         settings.iterations > 0
-            && !settings.adapt
             && Terms::bytes(kept.mesh.positions.len(), settings.iterations as usize) <= TERMS_BYTES as u64
     }
 }
@@ -51,7 +47,9 @@ pub(crate) struct Preparation {
 
 impl Preparation {
     pub(crate) fn new(kept: &Arc<Surface>, settings: &Smoothing) -> Self {
-        Self { kept: kept.clone(), boundary: settings.boundary, task: keeping(kept, settings, &Filter::new(settings)) }
+        let positions = &kept.mesh.positions;
+        let task = SmoothingTask::new(positions, kept.topology.clone(), settings.boundary, &Filter::new(settings));
+        Self { kept: kept.clone(), boundary: settings.boundary, task: task.keeping_terms(TERMS_BYTES) }
     }
 
     /// Works until `budget` is spent; whether all is done.
@@ -63,12 +61,6 @@ impl Preparation {
     pub(crate) fn into_terms(self) -> Option<KeptTerms> {
         kept_terms(self.task, self.kept, self.boundary)
     }
-}
-
-/// A run of `filter` that keeps its terms.
-pub(crate) fn keeping(kept: &Surface, settings: &Smoothing, filter: &Filter) -> SmoothingTask<Arc<Topology>> {
-    let task = SmoothingTask::new(&kept.mesh.positions, kept.topology.clone(), settings.boundary, filter);
-    task.keeping_terms(TERMS_BYTES)
 }
 
 /// The terms of a run that is done, if it kept them.

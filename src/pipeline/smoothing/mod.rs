@@ -17,6 +17,7 @@
 
 mod calibre;
 mod gains;
+mod guard;
 mod kept_terms;
 mod layout;
 mod order;
@@ -29,15 +30,16 @@ use std::ops::Deref;
 
 use glam::{Vec3, Vec4};
 
-pub(crate) use self::calibre::{LeastPassBands, least_pass_bands};
+pub(crate) use self::calibre::LeastPassBands;
 use self::gains::{Gains, Mix};
-pub(crate) use self::kept_terms::{KeptTerms, Preparation, keeping, kept_terms};
+pub(crate) use self::guard::{GuardTask, Guarded};
+pub(crate) use self::kept_terms::{KeptTerms, Preparation, TERMS_BYTES, kept_terms};
 use self::layout::Layout;
 use self::order::Order;
 use self::stencil::Stencil;
 use self::strip::{Strip, Wave};
 pub use self::terms::Terms;
-pub(crate) use self::volume::{Before, VolumeTask};
+pub(crate) use self::volume::{Before, TOLERANCE as VOLUME_TOLERANCE, VolumeTask};
 use super::filter::Filter;
 use super::settings::{Boundary, Smoothing};
 use super::task::{Budget, Progress, Task};
@@ -76,7 +78,8 @@ impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
         Self::of_field(positions.to_vec(), &topology, stencil, filter)
     }
 
-    /// Starts smoothing each vertex with a pass band of its own; the rest is as `settings` say.
+    /// Starts smoothing each vertex with a pass band of its own, or that of `settings` if it is larger; the rest is as
+    /// `settings` say.
     pub fn varying(positions: &[Vec3], topology: T, settings: &Smoothing, pass_bands: &[f32]) -> Self {
         let stencil = Stencil::new(positions, topology.clone(), settings.boundary);
         let (gains, mixes) = Gains::varying(settings, pass_bands);
@@ -275,7 +278,7 @@ mod tests {
         let (positions, triangles) = grid(20, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
         let topology = Topology::new(positions.len(), &triangles);
         for window in crate::pipeline::settings::Window::ALL {
-            let filter = Filter::new(&Smoothing { window, ..Smoothing::default() });
+            let filter = Filter::new(&Smoothing { window, ..Smoothing::PAPER });
             let here = smooth(&positions, &topology, Boundary::Loop, &filter);
             // A shift that f32 holds exactly, so that nothing but the filter can differ.
             let shifted: Vec<Vec3> = positions.iter().map(|&p| p + 512.0).collect();
@@ -289,7 +292,7 @@ mod tests {
     fn a_vertex_far_away_moves_none_that_it_does_not_reach() {
         let (positions, triangles) = grid(40, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
         let topology = Topology::new(positions.len(), &triangles);
-        let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::default() });
+        let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::PAPER });
         let without = smooth(&positions, &topology, Boundary::Loop, &filter);
         let stray = 41 * 20 + 3;
         for far in [1e6, 1e8] {
@@ -307,7 +310,7 @@ mod tests {
     fn slices_give_what_one_run_gives() {
         let (positions, triangles) = grid(150, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
         let topology = Topology::new(positions.len(), &triangles);
-        let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::default() });
+        let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::PAPER });
         let whole = smooth(&positions, &topology, Boundary::Loop, &filter);
         let mut task = SmoothingTask::new(&positions, &topology, Boundary::Loop, &filter);
         let mut slices = 0;
@@ -327,7 +330,7 @@ mod tests {
         let positions = vec![Vec3::X * 0.1, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Z];
         let triangles = [[0, 1, 2], [1, 0, 3], [0, 1, 4]];
         let topology = Topology::new(5, &triangles);
-        let filter = Filter::new(&Smoothing::default());
+        let filter = Filter::new(&Smoothing::PAPER);
         let smoothed = smooth(&positions, &topology, Boundary::Loop, &filter);
         assert_eq!(smoothed[..2], positions[..2]);
         // The others are pulled between them: a filter of unit gain keeps them near.

@@ -3,11 +3,13 @@
 use glam::Vec3;
 
 use super::Placement;
+use super::gains::{Gain, Gains, Mix, Mixed, Term};
 use crate::parallel;
 use crate::pipeline::filter::Filter;
+use crate::pipeline::settings::Smoothing;
 
-/// Numbers that are summed up at a time: they stay in the cache while term after term goes by.
-const TILE: usize = 3 * 2048;
+/// Vertices that are summed up at a time: they stay in the cache while term after term goes by.
+const TILE: usize = 2048;
 
 /// The terms of a surface at one setting of the boundary.
 pub struct Terms {
@@ -37,25 +39,53 @@ impl Terms {
     /// # Panics
     /// When the filter has more terms than there are.
     pub fn smooth(&self, filter: &Filter) -> Vec<Vec3> {
-        let coefficients: Vec<f32> = filter.coefficients.iter().map(|&c| c as f32).collect();
-        let sums = self.blocks.iter().map(|block| self.sum(block, &coefficients));
-        self.placement.place(&sums.collect::<Vec<_>>(), filter.dc_gain())
+        self.with_gains(&Gains::of(filter), &[], filter.dc_gain())
     }
 
-    fn sum(&self, block: &[f32], coefficients: &[f32]) -> Vec<Vec3> {
+    /// The smoothed positions with a pass band of its own at each vertex, as [`super::SmoothingTask::varying`] has it.
+    ///
+    /// # Panics
+    /// When the settings ask for more terms than there are.
+    pub fn smooth_varying(&self, settings: &Smoothing, pass_bands: &[f32]) -> Vec<Vec3> {
+        let (gains, by_vertex) = Gains::varying(settings, pass_bands);
+        let mut mixes = vec![Mix::default(); by_vertex.len()];
+        self.placement.places.iter().zip(by_vertex).for_each(|(&place, mix)| mixes[place as usize] = mix);
+        self.with_gains(&gains, &mixes, 1.0)
+    }
+
+    /// `mixes` stand in the order of the blocks.
+    fn with_gains(&self, gains: &Gains, mixes: &[Mix], gain: f64) -> Vec<Vec3> {
+        let mut first = 0;
+        let sums = self.blocks.iter().map(|block| {
+            let count = block.len() / (self.degree + 1) / 3;
+            let own = mixes.get(first..first + count).unwrap_or_default();
+            first += count;
+            self.sum(block, gains, own)
+        });
+        self.placement.place(&sums.collect::<Vec<_>>(), gain)
+    }
+
+    fn sum(&self, block: &[f32], gains: &Gains, mixes: &[Mix]) -> Vec<Vec3> {
         let length = block.len() / (self.degree + 1);
         let mut sum = vec![Vec3::ZERO; length / 3];
-        let numbers: &mut [f32] = bytemuck::cast_slice_mut(&mut sum);
-        parallel::for_each_chunk_mut(numbers, TILE, |first, tile| {
-            for (n, &c) in coefficients.iter().enumerate() {
-                let term = &block[n * length + first..][..tile.len()];
-                if n == 0 {
-                    tile.iter_mut().zip(term).for_each(|(sum, x)| *sum = x * c);
-                } else {
-                    tile.iter_mut().zip(term).for_each(|(sum, x)| *sum += x * c);
+        parallel::for_each_chunk_mut(&mut sum, TILE, |first, tile| {
+            for n in 0..=gains.degree() {
+                let term = &block[n * length + 3 * first..][..3 * tile.len()];
+                match gains.term(n) {
+                    Term::Same(c) => add(tile, term, n == 0, c),
+                    Term::Row(row) => add(tile, term, n == 0, Mixed { row, mixes: &mixes[first..] }),
                 }
             }
         });
         sum
+    }
+}
+
+/// Adds a term to the sum, or begins it.
+#[inline]
+fn add(sum: &mut [Vec3], term: &[f32], begins: bool, gain: impl Gain) {
+    for (i, (sum, x)) in sum.iter_mut().zip(term.as_chunks::<3>().0).enumerate() {
+        let x = Vec3::from_array(*x) * gain.at(i);
+        *sum = if begins { x } else { *sum + x };
     }
 }

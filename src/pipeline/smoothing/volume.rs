@@ -29,7 +29,7 @@ use crate::pipeline::settings::Boundary;
 use crate::pipeline::task::{Budget, Progress, Task};
 
 /// How near to the volume asked for counts as held, as a part of it.
-const TOLERANCE: f64 = 1e-4;
+pub(crate) const TOLERANCE: f64 = 1e-4;
 
 /// The largest `|m|`.
 const MOST: f64 = 1.0;

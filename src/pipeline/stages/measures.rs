@@ -63,7 +63,7 @@ impl OfSmoothed {
         let (kept, smoothed, levels) = (now.kept.as_ref()?, now.smoothed.as_ref()?, now.levels.as_ref()?);
         let index = now.indices.finest.clone().map(|index| (levels.finest.clone(), index));
         let subject = Subject { mesh: smoothed.mesh.clone(), topology: kept.topology.clone(), index };
-        let shape = subject.task();
+        let shape = if smoothed.crosses_nothing { subject.task().without_crossings() } else { subject.task() };
         Some(Self { subject, progressive: levels.progressive.clone(), shape, step: Step::Shape })
     }
 
@@ -79,7 +79,7 @@ impl Run for OfSmoothed {
         let (step, fraction) = match std::mem::replace(&mut self.step, Step::Shape) {
             Step::Shape => match self.shape.advance(budget) {
                 Progress::Working(fraction) => (Step::Shape, 0.4 * fraction),
-                Progress::Done(Measured { shape, balls }) => {
+                Progress::Done(Measured { shape, balls, .. }) => {
                     let Subject { mesh, topology, .. } = &self.subject;
                     (Step::Samples(shape, Sampling::new(mesh, topology, &balls)), 0.4)
                 }

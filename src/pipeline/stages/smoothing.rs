@@ -8,11 +8,11 @@ use super::Run;
 use crate::mesh::{Topology, TriMesh, Vec3, measures_within};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, edge_length};
-use crate::pipeline::results::{Part, Smoothed, Surface, Times};
+use crate::pipeline::results::{Adapted, Part, Smoothed, Surface};
 use crate::pipeline::settings::{SettingsError, Smoothing};
 use crate::pipeline::shape::ShapeTask;
 use crate::pipeline::smoothing::{
-    Before, LeastPassBands, SmoothingTask, VolumeTask, keeping, kept_terms, least_pass_bands,
+    Before, GuardTask, Guarded, LeastPassBands, SmoothingTask, TERMS_BYTES, VOLUME_TOLERANCE, VolumeTask, kept_terms,
 };
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
@@ -32,7 +32,9 @@ enum Step {
     Bands(Box<LeastPassBands<Arc<TriMesh>, Arc<Topology>>>),
     Filter(Box<SmoothingTask<Arc<Topology>>>),
     Volume(Box<VolumeTask>),
-    Done(Vec<Vec3>, Option<bool>),
+    /// And whether the volume was held.
+    Guard(Box<GuardTask>, Option<bool>),
+    Done(Guarded, Option<bool>),
 }
 
 impl Filtering {
@@ -42,34 +44,60 @@ impl Filtering {
         let settings = store.now.settings.smoothing;
         let filter = Filter::new(&settings);
         let mut stage = Self { kept: kept.clone(), settings, filter, step: Step::Skipped };
-        if settings.iterations > 0 && settings.adapt {
-            let task = ShapeTask::radii_only(kept.mesh.clone(), kept.topology.clone());
-            stage.step = Step::Calibre(Box::new(match &store.now.indices.kept {
-                Some(index) => task.with_index(kept.mesh.clone(), index.clone()),
-                None => task,
-            }));
-        } else if settings.iterations > 0 {
-            stage.step = match store.terms.as_ref().filter(|terms| terms.suit(kept, &settings)) {
-                Some(known) => stage.after_filter(known.smooth(&stage.filter)),
-                None if store.is_smoothed_again => Step::Filter(Box::new(keeping(kept, &settings, &stage.filter))),
-                None => {
-                    let (positions, topology) = (&kept.mesh.positions, kept.topology.clone());
-                    let task = SmoothingTask::new(positions, topology, settings.boundary, &stage.filter);
-                    Step::Filter(Box::new(task))
+        if settings.iterations > 0 {
+            let known = store.bands.as_ref().filter(|(of, _)| Arc::ptr_eq(of, kept));
+            stage.step = match known {
+                Some((_, bands)) if settings.adapt => stage.filter_step(store, Some(bands)),
+                None if settings.adapt => {
+                    let task = ShapeTask::radii_only(kept.mesh.clone(), kept.topology.clone());
+                    Step::Calibre(Box::new(match &store.now.indices.kept {
+                        Some(index) => task.with_index(kept.mesh.clone(), index.clone()),
+                        None => task,
+                    }))
                 }
+                _ => stage.filter_step(store, None),
             };
         }
         Some(stage)
     }
 
-    fn after_filter(&self, positions: Vec<Vec3>) -> Step {
+    /// The filter, with a pass band of its own at each vertex where there are `bands`.
+    fn filter_step(&self, store: &Store, bands: Option<&Arc<[f32]>>) -> Step {
+        let Self { kept, settings, filter, .. } = self;
+        if let Some(known) = store.terms.as_ref().filter(|terms| terms.suit(kept, settings)) {
+            return self.after_filter(
+                store,
+                match bands {
+                    Some(bands) => known.terms().smooth_varying(settings, bands),
+                    None => known.terms().smooth(filter),
+                },
+            );
+        }
+        let (positions, topology) = (&kept.mesh.positions, kept.topology.clone());
+        let task = match bands {
+            Some(bands) => SmoothingTask::varying(positions, topology, settings, bands),
+            None => SmoothingTask::new(positions, topology, settings.boundary, filter),
+        };
+        Step::Filter(Box::new(if store.is_smoothed_again { task.keeping_terms(TERMS_BYTES) } else { task }))
+    }
+
+    fn after_filter(&self, store: &Store, positions: Vec<Vec3>) -> Step {
         match self.before() {
-            _ if !self.settings.preserve_volume => Step::Done(positions, None),
+            _ if !self.settings.preserve_volume => self.guard(store, positions, None),
             Some(before) => {
                 Step::Volume(Box::new(VolumeTask::new(&before, positions, self.settings.boundary, &self.filter)))
             }
-            None => Step::Done(positions, Some(false)),
+            None => self.guard(store, positions, Some(false)),
         }
+    }
+
+    fn guard(&self, store: &Store, positions: Vec<Vec3>, volume_held: Option<bool>) -> Step {
+        if self.settings.guard {
+            let task = GuardTask::new(self.kept.clone(), store.now.indices.kept.clone(), positions);
+            return Step::Guard(Box::new(task), volume_held);
+        }
+        let mesh = TriMesh { positions, triangles: self.kept.mesh.triangles.clone() };
+        Step::Done(Guarded::without(mesh), volume_held)
     }
 
     /// The surface before smoothing, if it encloses a volume.
@@ -81,23 +109,50 @@ impl Filtering {
     /// The surface as it is, without a pass.
     fn unchanged(&self) -> Smoothed {
         let Surface { mesh, measures, .. } = &*self.kept;
-        Smoothed { mesh: mesh.clone(), filter: None, response: None, volume_held: None, measures: *measures }
+        Smoothed {
+            mesh: mesh.clone(),
+            filter: None,
+            response: None,
+            volume_held: None,
+            adapted: None,
+            weakened: None,
+            crosses_nothing: false,
+            measures: *measures,
+        }
     }
 
-    fn result(&self, positions: Vec<Vec3>, volume_held: Option<bool>, times: &mut Times) -> Smoothed {
-        let mesh = TriMesh { positions, triangles: self.kept.mesh.triangles.clone() };
+    fn result(&self, guarded: Guarded, volume_held: Option<bool>, store: &mut Store) -> Smoothed {
+        let Guarded { mesh, weakened, crosses_nothing } = guarded;
         let start = Instant::now();
         let measures = measures_within(&mesh, self.kept.loops.as_deref());
-        times.tell_apart(Part::SmoothedAreas, start);
+        store.now.times.tell_apart(Part::SmoothedAreas, start);
         let response = SmoothingResponse::new(&self.filter, self.settings.pass_band, edge_length(&mesh));
-        let filter = Some(self.filter.clone());
-        Smoothed { mesh: Arc::new(mesh), filter, response: Some(response), volume_held, measures }
+        // What is put back has the volume that it had.
+        let change = self.kept.measures.volume_mm3.zip(measures.volume_mm3).map(|(before, after)| after / before - 1.0);
+        let is_held = weakened.is_none() || change.is_some_and(|change| change.abs() <= VOLUME_TOLERANCE);
+        let bands = store.bands.as_ref().filter(|_| self.settings.adapt);
+        Smoothed {
+            mesh,
+            filter: Some(self.filter.clone()),
+            response: Some(response),
+            volume_held: volume_held.map(|held| held && is_held),
+            adapted: bands.and_then(|(_, bands)| Adapted::of(bands, self.settings.pass_band)),
+            weakened,
+            crosses_nothing,
+            measures,
+        }
+    }
+
+    /// The parts of the work that are done when the filter is, and when the volume is.
+    fn shares(&self) -> [f32; 2] {
+        let end = if self.settings.guard { 0.7 } else { 1.0 };
+        [if self.settings.preserve_volume { end / 2.0 } else { end }, end]
     }
 }
 
 impl Run for Filtering {
     fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        let share = if self.settings.preserve_volume { 0.5 } else { 1.0 };
+        let [share, end] = self.shares();
         loop {
             self.step = match std::mem::replace(&mut self.step, Step::Skipped) {
                 Step::Skipped => {
@@ -112,7 +167,7 @@ impl Run for Filtering {
                     Progress::Done(measured) => {
                         store.now.indices.kept = task.index().cloned();
                         let Surface { mesh, topology, .. } = &*self.kept;
-                        let bands = least_pass_bands(mesh.clone(), topology.clone(), measured.balls.radii);
+                        let bands = LeastPassBands::new(mesh.clone(), topology.clone(), measured.balls.radii);
                         Step::Bands(Box::new(bands))
                     }
                 },
@@ -121,13 +176,10 @@ impl Run for Filtering {
                         self.step = Step::Bands(task);
                         return Ok(Progress::Working((0.5 + 0.1 * fraction) * share));
                     }
-                    Progress::Done(mut bands) => {
-                        let Smoothing { pass_band, .. } = self.settings;
-                        bands.iter_mut().for_each(|band| *band = band.max(pass_band as f32));
-                        let Surface { mesh, topology, .. } = &*self.kept;
-                        let (positions, topology) = (&mesh.positions, topology.clone());
-                        let task = SmoothingTask::varying(positions, topology, &self.settings, &bands);
-                        Step::Filter(Box::new(task))
+                    Progress::Done(bands) => {
+                        let bands: Arc<[f32]> = bands.into();
+                        store.bands = Some((self.kept.clone(), bands.clone()));
+                        self.filter_step(store, Some(&bands))
                     }
                 },
                 Step::Filter(mut task) => match task.advance(budget) {
@@ -139,7 +191,7 @@ impl Run for Filtering {
                     Progress::Done(positions) => {
                         let terms = kept_terms(*task, self.kept.clone(), self.settings.boundary);
                         store.terms = terms.or(store.terms.take());
-                        self.after_filter(positions)
+                        self.after_filter(store, positions)
                     }
                 },
                 Step::Volume(mut task) => {
@@ -147,14 +199,21 @@ impl Run for Filtering {
                     match advanced {
                         Some(Progress::Working(fraction)) => {
                             self.step = Step::Volume(task);
-                            return Ok(Progress::Working(0.5 + fraction / 2.0));
+                            return Ok(Progress::Working(share + (end - share) * fraction));
                         }
-                        Some(Progress::Done((positions, held))) => Step::Done(positions, Some(held)),
-                        None => Step::Done(task.into_smoothed(), Some(false)),
+                        Some(Progress::Done((positions, held))) => self.guard(store, positions, Some(held)),
+                        None => self.guard(store, task.into_smoothed(), Some(false)),
                     }
                 }
-                Step::Done(positions, held) => {
-                    let smoothed = self.result(positions, held, &mut store.now.times);
+                Step::Guard(mut task, held) => match task.advance(budget) {
+                    Progress::Working(fraction) => {
+                        self.step = Step::Guard(task, held);
+                        return Ok(Progress::Working(end + (1.0 - end) * fraction));
+                    }
+                    Progress::Done(guarded) => Step::Done(guarded, held),
+                },
+                Step::Done(guarded, held) => {
+                    let smoothed = self.result(guarded, held, store);
                     store.now.smoothed = Some(Arc::new(smoothed));
                     return Ok(Progress::Done(()));
                 }

@@ -38,6 +38,14 @@ pub fn open_coronary(harness: &mut App) {
     settle(harness);
 }
 
+/// Smooths as the paper does: thin vessels lose their calibre.
+pub fn as_the_paper(harness: &mut App) {
+    choose(harness, "Strength");
+    harness.get_by_label("The paper's").click();
+    harness.run_steps(3);
+    settle(harness);
+}
+
 /// Starts a trial by the bar.
 pub fn start(harness: &mut App) {
     if harness.query_by_role_and_label(Role::Button, "Menu").is_some() {
@@ -166,8 +174,13 @@ pub fn retarget(harness: &mut App) {
 pub fn on(size: [f32; 2]) -> (App, Rc<RefCell<Memory>>) {
     let (mut harness, memory) = app(size);
     settle(&mut harness);
-    start(&mut harness);
-    assert_eq!(id_of_start(&asked(&memory)), FIRST);
-    tell(&mut harness, &memory, [ready(FIRST), now(FIRST, at_entry()), now(FIRST, frame())]);
+    put_on(&mut harness, &memory);
     (harness, memory)
+}
+
+/// Starts the first trial, and tells that its wire is under way.
+pub fn put_on(harness: &mut App, memory: &Rc<RefCell<Memory>>) {
+    start(harness);
+    assert_eq!(id_of_start(&asked(memory)), FIRST);
+    tell(harness, memory, [ready(FIRST), now(FIRST, at_entry()), now(FIRST, frame())]);
 }

@@ -19,10 +19,13 @@ use lumen::trial::stopwatch::StationResult;
 use lumen::trial::summary::Summary;
 use lumen::trial::wire::Wire;
 use lumen_ui_tests::told::{
-    App, DESKTOP, FIRST, PHONE, asked, at_entry, choose, ended, frame, id_of_start, now, on, open_coronary, press,
-    ready, refused, retarget, says, start, tell, wait,
+    App, DESKTOP, FIRST, PHONE, as_the_paper, asked, at_entry, choose, ended, frame, id_of_start, now, on,
+    open_coronary, press, put_on, ready, refused, retarget, says, start, tell, wait,
 };
 use lumen_ui_tests::{app, settle};
+
+/// What is offered where smoothing left no room for the wire.
+const ADAPT: &str = "Adapt smoothing to the calibre and start";
 
 #[test]
 fn the_trial_starts_with_the_level_that_is_shown_and_its_views_take_the_place_of_the_others() {
@@ -214,8 +217,19 @@ fn what_is_refused_is_said_and_what_stood_stands() {
     let message = "The lumen is thinner than the wire 31 mm along the way.".to_owned();
     tell(&mut harness, &memory, [refused(*id, &message, false)]);
     assert!(says(&harness, &message));
-    assert!(harness.query_by_label_contains("Smooth less").is_none(), "smoothing is not the reason");
+    assert!(harness.query_by_label(ADAPT).is_none(), "smoothing is not the reason");
     assert!(says(&harness, "12.3 cm"), "the trial before stands");
+}
+
+#[test]
+fn the_wire_fits_into_the_coronary_arteries_with_no_button_pressed_before() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    open_coronary(&mut harness);
+    memory.borrow_mut().trial_runs = true;
+    start(&mut harness);
+    wait(&mut harness, |harness| harness.state().trial().session().is_some() || says(harness, "too thin"));
+    assert!(harness.state().trial().session().is_some() && harness.query_by_label(ADAPT).is_none());
 }
 
 #[test]
@@ -223,14 +237,15 @@ fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_tri
     let (mut harness, memory) = app(DESKTOP);
     settle(&mut harness);
     open_coronary(&mut harness);
+    as_the_paper(&mut harness);
     memory.borrow_mut().trial_runs = true;
     start(&mut harness);
     let is_refused = |harness: &App| says(harness, "The lumen is too thin for a wire of");
     wait(&mut harness, is_refused);
     asked(&memory);
     let before = harness.state().state().settings.clone();
-    press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
-    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..before.smoothing };
+    press(&mut harness, ADAPT);
+    let smoothing = Smoothing { adapt: true, ..before.smoothing };
     assert_eq!(harness.state().state().settings, Settings { smoothing, ..before.clone() });
     assert!(!is_refused(&harness) && says(&harness, "Smoothing less: the trial starts when the new level is there."));
     assert!(asked(&memory).is_empty(), "not with the level before");
@@ -238,7 +253,7 @@ fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_tri
     let commands = asked(&memory);
     let starts = commands.iter().filter(|command| matches!(command, TrialCommand::Start { .. }));
     assert_eq!(starts.count(), 1);
-    assert!(harness.query_by_label_contains("Smooth less").is_none());
+    assert!(harness.query_by_label(ADAPT).is_none());
     press(&mut harness, "Undo");
     assert_eq!(harness.state().state().settings, before, "one step");
 }
@@ -267,13 +282,16 @@ fn of_two_starts_the_first_goes_on_where_the_second_is_refused() {
 
 #[test]
 fn a_level_that_is_no_longer_wanted_is_not_awaited() {
-    let (mut harness, memory) = on(DESKTOP);
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    as_the_paper(&mut harness);
+    put_on(&mut harness, &memory);
     press(&mut harness, "Restart");
     retarget(&mut harness);
     let id = id_of_start(&asked(&memory));
     tell(&mut harness, &memory, [refused(id, "The lumen is too thin.", true)]);
     memory.borrow_mut().runs = false;
-    press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+    press(&mut harness, ADAPT);
     press(&mut harness, "Undo");
     memory.borrow_mut().runs = true;
     settle(&mut harness);
@@ -702,13 +720,14 @@ fn pictures_of_the_trial() {
         settle(&mut harness);
         if sample == Sample::Coronary {
             open_coronary(&mut harness);
+            as_the_paper(&mut harness);
         }
         memory.borrow_mut().trial_runs = true;
         start(&mut harness);
         harness.run_steps(5);
         if sample == Sample::Coronary {
             save(&mut harness, &format!("trial-{name}-{sample}-refused"));
-            press(&mut harness, "Smooth less (pass band 0.1, 30 iterations) and start");
+            press(&mut harness, ADAPT);
             wait(&mut harness, |harness| harness.state().trial().session().is_some());
         }
         press(&mut harness, "Autopilot");
