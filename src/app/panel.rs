@@ -187,14 +187,16 @@ fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
         });
         name(&response.response, Role::ComboBox, "Window");
     });
-    let hold = ui.checkbox(&mut smoothing.preserve_volume, "Preserve volume");
-    hold.on_hover_text("Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.");
-    let adapt = ui.checkbox(&mut smoothing.adapt, "Adapt to calibre");
-    adapt.on_hover_text(
-        "Smooths thin vessels less, so that each keeps its calibre. The pass band is that of the wide ones.",
-    );
-    let guard = ui.checkbox(&mut smoothing.guard, "Let no triangles cross");
-    guard.on_hover_text("Smooths less where folds, or vessels that nearly touch, would be drawn through each other.");
+    ui.horizontal_wrapped(|ui| {
+        let adapt = ui.checkbox(&mut smoothing.adapt, "Adapt to calibre");
+        adapt.on_hover_text(
+            "Smooths thin vessels less, so that each keeps its calibre. The pass band is that of the wide ones.",
+        );
+        let guard = ui.checkbox(&mut smoothing.guard, "No crossings");
+        guard.on_hover_text("Smooths less where triangles would be drawn through others: at folds, between vessels.");
+        let hold = ui.checkbox(&mut smoothing.preserve_volume, "Preserve volume");
+        hold.on_hover_text("Gives back what smoothing takes off, where it does: open ends capped, held to 0.01 %.");
+    });
     let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
     let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
     let thinnest = lumen.map(|lumen| lumen.diameter_mm);

@@ -302,13 +302,13 @@ impl State {
         };
     }
 
-    /// Shows the compare view or leaves it. The first time it has the settings of the paper's Figure 7, which need no
-    /// more than three levels of what is there.
+    /// Shows the compare view or leaves it. The first time it has the settings in force at the three rates of the
+    /// paper's Figure 7, which need no more than three levels of what is there.
     pub fn toggle_comparison(&mut self) {
         let is_open = !self.comparison.is_open();
         self.comparison.set_open(is_open);
         if is_open && self.comparison.cells().is_empty() {
-            self.comparison.set(paper::figure_7(self.settings.keep));
+            self.comparison.set(paper::rates_of_figure_7(&self.settings));
         }
     }
 

@@ -65,6 +65,14 @@ pub fn figure_7(keep: Keep) -> Vec<Settings> {
     FIGURE_7.into_iter().map(|percent| reduced(percent, keep)).collect()
 }
 
+/// `settings` at the reduction rates of Figure 7.
+pub fn rates_of_figure_7(settings: &Settings) -> Vec<Settings> {
+    FIGURE_7
+        .into_iter()
+        .map(|percent| Settings { target: Target::Reduction(percent * 10), ..settings.clone() })
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! The stages of the pipeline: their order, what each rests on, and what of the settings decides it.
 //!
-//! What [`run`](super::run) does by itself (what is stale after a change, what comes next) follows from this table; what a stage does is its file in `stages/`, and what it leaves its slot in
-//! [`results`](super::results).
+//! What [`run`](super::run) does by itself (what is stale after a change, what comes next) follows from this table; what a
+//! stage does is its file in `stages/`, and what it leaves its slot in [`results`](super::results).
 
 use serde::{Deserialize, Serialize};
 

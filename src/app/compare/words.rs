@@ -26,9 +26,14 @@ fn parts(settings: &Settings) -> [String; PARTS] {
         Target::Deviation(micrometres) => format!("deviation up to {} mm", f64::from(micrometres) / 1000.0),
     };
     let holds_volume = smoothing.preserve_volume && smoothing.iterations > 0;
-    let adapts = smoothing.adapt && smoothing.iterations > 0;
-    let guards = smoothing.guard && smoothing.iterations > 0;
-    let volume = [(holds_volume, "volume preserved"), (adapts, "adapted to calibre"), (guards, "no crossing")];
+    let suits = match (smoothing.adapt, smoothing.guard) {
+        _ if smoothing.iterations == 0 => "",
+        (true, true) => "suits this surface",
+        (true, false) => "adapted to calibre",
+        (false, true) => "no crossing",
+        (false, false) => "",
+    };
+    let volume = [(holds_volume, "volume preserved"), (!suits.is_empty(), suits)];
     let volume = volume.into_iter().filter(|(is_on, _)| *is_on).map(|(_, name)| name).collect::<Vec<_>>().join(", ");
     let decimation = &settings.decimation;
     let method = format!("{} method", decimation.method.name());
@@ -113,11 +118,13 @@ mod tests {
         let (shared, names) = titles(&paper::figure_7(Keep::Largest).iter().collect::<Vec<_>>());
         assert_eq!(shared, "Pass band 0.01, 100 iterations, Hamming window, Schroeder method, feature angle 60°");
         assert_eq!(names, ["Reduction 10 %", "Reduction 90 %", "Reduction 99 %"]);
-        let (shared, names) = titles(&[&Settings::default()]);
+        let (shared, names) = titles(&[&paper::reduced(90, Keep::Largest)]);
         assert_eq!(
             (&*shared, &*names[0]),
             ("Hamming window, Schroeder method, feature angle 60°", "Pass band 0.01, 100 iterations, reduction 90 %")
         );
+        let (_, names) = titles(&[&Settings::default()]);
+        assert_eq!(names, ["Pass band 0.01, 100 iterations, suits this surface, reduction 90 %"]);
         assert_eq!(titles(&[]), (String::new(), vec![]));
     }
 }

@@ -28,6 +28,8 @@ fn press_at(harness: &mut Harness<'_, LumenApp>, slider: &str, part: f32) {
 
 /// Types into the field beside a slider.
 fn type_into(harness: &mut Harness<'_, LumenApp>, field: &str, text: &str) {
+    harness.get_by_role_and_label(Role::SpinButton, field).scroll_to_me();
+    harness.run_steps(12);
     harness.get_by_role_and_label(Role::SpinButton, field).click();
     harness.run_steps(2);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
@@ -185,6 +187,8 @@ fn the_other_method_leaves_less_deviation() {
 
 /// Chooses from a list.
 fn choose(harness: &mut Harness<'_, LumenApp>, list: &str, choice: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, list).scroll_to_me();
+    harness.run_steps(12);
     harness.get_by_role_and_label(Role::ComboBox, list).click();
     harness.run_steps(2);
     harness.get_by_label(choice).click();
