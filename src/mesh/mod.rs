@@ -19,6 +19,7 @@ mod measures;
 mod nearest;
 mod planes;
 mod ray;
+mod refit;
 mod roughness;
 mod self_intersections;
 #[cfg(test)]

@@ -39,7 +39,7 @@ fn check(path: &Path) -> Result<(), Failed> {
     // A sample: the least and the most that the paper tries.
     let settings = if is_long() { &SMOOTHING[..] } else { &[SMOOTHING[0], SMOOTHING[5]] };
     for &(pass_band, iterations) in settings {
-        let smoothing = Smoothing { pass_band, iterations, ..Smoothing::default() };
+        let smoothing = Smoothing { pass_band, iterations, ..Smoothing::PAPER };
         for rate in RATES {
             let target = Target::Reduction(rate);
             pipeline.set(Settings { smoothing, target, ..Settings::default() })?;

@@ -8,7 +8,7 @@ use libtest_mimic::{Failed, Trial as Test};
 use lumen::io;
 use lumen::mesh::TriMesh;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Settings, Smoothing, Target};
+use lumen::pipeline::settings::{Settings, Target};
 use lumen::trial::audit::Audit;
 use lumen::trial::course::Course;
 use lumen::trial::session::Trial;
@@ -44,8 +44,7 @@ fn read(file: &Path) -> Result<Arc<TriMesh>, Failed> {
 }
 
 fn smoothed(mesh: Arc<TriMesh>) -> Result<Arc<TriMesh>, Failed> {
-    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
-    let settings = Settings { smoothing, target: Target::Reduction(0), ..Settings::default() };
+    let settings = Settings { target: Target::Reduction(0), ..Settings::default() };
     let mut pipeline = Pipeline::new(mesh, settings).without_measures();
     pipeline.finish()?;
     Ok(pipeline.reduced().ok_or("it was waited for")?.mesh.clone())

@@ -142,7 +142,8 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, 
         let ratio = (edge / f64::from(self.widths[v as usize])).min(COARSEST);
         let is_rim = self.topology.edge_uses(v).iter().any(|edge| edge.is_boundary());
         let k = if is_rim { 1.0 - libm::cos(ratio) } else { 1.0 - libm::j0(ratio) };
-        (MARGIN * k).min(*Smoothing::PASS_BAND.end()) as f32
+        // Where few vertices stand around a vessel, corners are all that could be smoothed away, and they are its calibre.
+        (MARGIN * (1.0 + ratio * ratio) * k).min(*Smoothing::PASS_BAND.end()) as f32
     }
 }
 

@@ -9,7 +9,13 @@ use crate::pipeline::filter::Filter;
 use crate::pipeline::settings::Smoothing;
 
 /// Pass bands of neighbouring filters are this factor apart.
-const STEP: f64 = 1.15;
+const STEP: f64 = 1.135;
+
+/// Filters in a row at most: a power of two, so that a number is cut to it without a look.
+const FILTERS: usize = 64;
+
+/// `c_n` of each filter, and what the next one's is more.
+pub(super) type Row = [[f32; 2]; FILTERS];
 
 /// Where a vertex stands in the row of filters: `part` of the way from one to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,8 +28,8 @@ pub(super) struct Mix {
 pub(super) enum Gains {
     /// `c_n`, the same everywhere.
     Same(Vec<f32>),
-    /// Of several filters: `c_n` of each, and then the next n.
-    Row { filters: usize, coefficients: Vec<f32> },
+    /// Of several filters, a row for each n.
+    Rows(Vec<Row>),
 }
 
 impl Gains {
@@ -40,27 +46,30 @@ impl Gains {
         if high <= low {
             return (Self::of(&Filter::new(settings)), Vec::new());
         }
-        let count = (libm::log(high / low) / libm::log(STEP)).ceil() as usize + 2;
+        let count = ((libm::log(high / low) / libm::log(STEP)).ceil() as usize + 2).min(FILTERS);
         let band = |i: usize| (low * libm::pow(STEP, i as f64)).min(*Smoothing::PASS_BAND.end());
         let filters: Vec<Filter> =
             (0..count).map(|i| Filter::new(&Smoothing { pass_band: band(i), ..*settings })).collect();
         let degree = settings.iterations as usize;
-        let coefficients = (0..=degree).flat_map(|n| filters.iter().map(move |filter| filter.coefficients[n] as f32));
+        let row = |n: usize| {
+            let c = |i: usize| filters[i.min(count - 1)].coefficients[n] as f32;
+            std::array::from_fn(|i| [c(i), c(i + 1) - c(i)])
+        };
+        let rows = (0..=degree).map(row).collect();
         let scale = (1.0 / libm::log(STEP)) as f32;
         let mix = |&k: &f32| {
             let at = libm::logf(k.max(low as f32) / low as f32) * scale;
             let filter = (at as u32).min(count as u32 - 2);
             Mix { filter, part: (at - filter as f32).clamp(0.0, 1.0) }
         };
-        let gains = Self::Row { filters: count, coefficients: coefficients.collect() };
-        (gains, pass_bands.iter().map(mix).collect())
+        (Self::Rows(rows), pass_bands.iter().map(mix).collect())
     }
 
     /// The number of terms less one.
     pub(super) fn degree(&self) -> usize {
         match self {
             Self::Same(coefficients) => coefficients.len() - 1,
-            Self::Row { filters, coefficients } => coefficients.len() / filters - 1,
+            Self::Rows(rows) => rows.len() - 1,
         }
     }
 
@@ -69,7 +78,7 @@ impl Gains {
     pub(super) fn term(&self, n: usize) -> Term<'_> {
         match self {
             Self::Same(coefficients) => Term::Same(coefficients[n]),
-            Self::Row { filters, coefficients } => Term::Row(&coefficients[n * filters..(n + 1) * filters]),
+            Self::Rows(rows) => Term::Row(&rows[n]),
         }
     }
 }
@@ -78,7 +87,7 @@ impl Gains {
 #[derive(Clone, Copy)]
 pub(super) enum Term<'a> {
     Same(f32),
-    Row(&'a [f32]),
+    Row(&'a Row),
 }
 
 /// The coefficients of one term for a run of vertices.
@@ -97,7 +106,7 @@ impl Gain for f32 {
 /// Each vertex by its place in the row.
 #[derive(Clone, Copy)]
 pub(super) struct Mixed<'a> {
-    pub(super) row: &'a [f32],
+    pub(super) row: &'a Row,
     pub(super) mixes: &'a [Mix],
 }
 
@@ -105,8 +114,8 @@ impl Gain for Mixed<'_> {
     #[inline(always)]
     fn at(self, i: usize) -> f32 {
         let Mix { filter, part } = self.mixes[i];
-        let (c, next) = (self.row[filter as usize], self.row[filter as usize + 1]);
-        c + part * (next - c)
+        let [c, more] = self.row[filter as usize % FILTERS];
+        c + part * more
     }
 }
 

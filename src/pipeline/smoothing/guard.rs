@@ -6,7 +6,8 @@
 //! rings of neighbours, without a corner at either end. Where that was not enough it is raised, and reaches twice as far,
 //! until no triangle crosses that did not: at the latest where the surface is as it was.
 //!
-//! After the first search only what was moved is looked at, and what is near it.
+//! The first search takes the hierarchy of the surface before smoothing, with boxes of its own. After it only what was
+//! moved is looked at, and what is near it.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -83,6 +84,10 @@ impl GuardTask {
     pub(crate) fn new(kept: Arc<Surface>, kept_index: Option<Arc<SurfaceIndex>>, smoothed: Vec<Vec3>) -> Self {
         let mesh = Arc::new(TriMesh { positions: smoothed, triangles: kept.mesh.triangles.clone() });
         let search = ShapeTask::crossings_only(mesh.clone(), kept.topology.clone());
+        let search = match &kept_index {
+            Some(index) => search.with_index(mesh.clone(), Arc::new(index.refitted(&mesh))),
+            None => search,
+        };
         Self {
             kept_index,
             smoothed: mesh.clone(),
