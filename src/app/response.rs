@@ -12,7 +12,7 @@ use crate::pipeline::response::{SmoothingResponse, eigenvalue, in_mm, wavelength
 use crate::pipeline::settings::Smoothing;
 
 /// Height of the picture, in points.
-const HEIGHT: f32 = 112.0;
+const HEIGHT: f32 = 128.0;
 
 /// What is shown of the axis of eigenvalues, as powers of ten: from half of the narrowest pass band to the roughest.
 const RANGE: (f64, f64) = (-3.3, 0.301);
@@ -121,14 +121,15 @@ fn picture(ui: &mut Ui, filter: &Arc<Filter>, response: &SmoothingResponse, scal
         .label_formatter(move |hover| hover_text(hover, edge_length));
     let shown = plot.show(ui, |plot| {
         plot.set_plot_bounds_x(RANGE.0..=RANGE.1);
-        plot.set_plot_bounds_y(-0.12..=1.15);
+        // Above the curve there is room for the name of a line.
+        plot.set_plot_bounds_y(-0.12..=1.42);
         plot.vline(VLine::new("", band).color(weak).style(LineStyle::dashed_dense()).allow_hover(false));
         if let Some((k, around)) = scale.around_thinnest() {
             let at = libm::log10(k);
             plot.vline(VLine::new("", at).color(ink).style(LineStyle::dotted_loose()).allow_hover(false));
             let (side, gap) = if at > -1.6 { (Align2::RIGHT_TOP, -0.05) } else { (Align2::LEFT_TOP, 0.05) };
-            let label = small(format!("around the thinnest: {}", in_mm(around))).color(ink);
-            plot.text(Text::new("", PlotPoint::new(at + gap, 1.13), label).anchor(side).allow_hover(false));
+            let label = small(format!("thinnest: {}", in_mm(around))).color(ink);
+            plot.text(Text::new("", PlotPoint::new(at + gap, 1.4), label).anchor(side).allow_hover(false));
         }
         plot.line(curve);
         let (side, gap) = if band > -2.2 { (Align2::RIGHT_BOTTOM, -0.05) } else { (Align2::LEFT_BOTTOM, 0.05) };
