@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::RouteError;
+use super::TreeError;
 use super::balls::fill;
 use super::centreline::{Place, arcs, centreline};
 use super::paths::{Graph, Path};
@@ -67,7 +67,7 @@ pub struct Located {
     /// Distance of the point from that place, in mm.
     pub distance_mm: f64,
     /// The segment of the centreline, for a faster search near by.
-    pub(super) segment: u32,
+    pub(crate) segment: u32,
 }
 
 /// A segment of a centreline, with the radii at its ends.
@@ -105,11 +105,11 @@ struct Chunk {
 /// The vessel tree of a surface.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    pub(super) space: Space,
-    pub(super) graph: Graph,
+    pub(crate) space: Space,
+    pub(crate) graph: Graph,
     branches: Vec<Branch>,
     /// Balls of each tree's group.
-    pub(super) groups: Vec<u32>,
+    pub(crate) groups: Vec<u32>,
     segments: Vec<Segment>,
     chunks: Vec<Chunk>,
 }
@@ -118,8 +118,8 @@ impl Tree {
     /// Finds the tree of a surface.
     ///
     /// # Errors
-    /// [`RouteError::NoTriangles`], [`RouteError::InsideOut`], [`RouteError::NoInside`], [`RouteError::Sheet`].
-    pub fn new(mesh: &TriMesh) -> Result<Self, RouteError> {
+    /// [`TreeError::NoTriangles`], [`TreeError::InsideOut`], [`TreeError::NoInside`], [`TreeError::Sheet`].
+    pub fn new(mesh: &TriMesh) -> Result<Self, TreeError> {
         Self::with_index(mesh, Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles)))
     }
 
@@ -127,10 +127,10 @@ impl Tree {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn with_index(mesh: &TriMesh, index: Arc<SurfaceIndex>) -> Result<Self, RouteError> {
+    pub fn with_index(mesh: &TriMesh, index: Arc<SurfaceIndex>) -> Result<Self, TreeError> {
         let is_whole = |[a, b, c]: [u32; 3]| a != b && b != c && c != a;
         if mesh.triangles.iter().all(|&triangle| !is_whole(triangle)) {
-            return Err(RouteError::NoTriangles);
+            return Err(TreeError::NoTriangles);
         }
         let topology = if mesh.triangles.iter().all(|&triangle| is_whole(triangle)) {
             Topology::new(mesh.positions.len(), &mesh.triangles)
@@ -141,13 +141,13 @@ impl Tree {
         let space = Space::new(mesh, &topology, index);
         let found = fill(mesh, &space);
         if found.is_sheet {
-            return Err(RouteError::Sheet { balls: found.balls.len() });
+            return Err(TreeError::Sheet { balls: found.balls.len() });
         }
         let graph = Graph::new(found);
         if graph.balls.is_empty() {
             let is_turned = volume(mesh, &topology) < 0.0;
             let triangles = mesh.triangles.len();
-            return Err(if is_turned { RouteError::InsideOut } else { RouteError::NoInside { triangles } });
+            return Err(if is_turned { TreeError::InsideOut } else { TreeError::NoInside { triangles } });
         }
         let mut tree =
             Self { space, graph, branches: Vec::new(), groups: Vec::new(), segments: Vec::new(), chunks: Vec::new() };
@@ -260,7 +260,7 @@ impl Tree {
     }
 
     /// The open end at an end of a centreline.
-    pub(super) fn opening_at(&self, place: Place) -> Option<usize> {
+    pub(crate) fn opening_at(&self, place: Place) -> Option<usize> {
         let p = place.at.as_vec3();
         let reach = |i: &usize| {
             let opening = &self.space.openings[*i];
@@ -280,7 +280,7 @@ impl Tree {
     }
 
     /// Leads a chain of balls out to the middle of the open end that it comes to.
-    pub(super) fn extend(&self, balls: &mut Vec<Ball>, at_start: bool) {
+    pub(crate) fn extend(&self, balls: &mut Vec<Ball>, at_start: bool) {
         let Some(&tip) = (if at_start { balls.first() } else { balls.last() }) else { return };
         let place = Place { at: tip.centre.as_dvec3(), radius: f64::from(tip.radius) };
         let Some(opening) = self.opening_at(place).map(|i| self.space.openings[i]) else { return };
@@ -357,7 +357,7 @@ impl Tree {
 }
 
 /// The place of a line that is nearest to a point.
-pub(super) fn nearest_place(line: &[Place], p: DVec3) -> usize {
+pub(crate) fn nearest_place(line: &[Place], p: DVec3) -> usize {
     let places = line.iter().map(|place| place.at.distance_squared(p)).enumerate();
     places.reduce(|least, next| if next.1 < least.1 { next } else { least }).map_or(0, |(place, _)| place)
 }

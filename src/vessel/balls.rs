@@ -39,16 +39,16 @@ const NONE: u32 = u32::MAX;
 
 /// Balls and the links between them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Balls {
-    pub(super) balls: Vec<Ball>,
+pub(crate) struct Balls {
+    pub(crate) balls: Vec<Ball>,
     /// Whether a ball only stands on the way between two others, and is not in the middle.
-    pub(super) is_passing: Vec<bool>,
+    pub(crate) is_passing: Vec<bool>,
     /// Pairs of linked balls.
-    pub(super) links: Vec<[u32; 2]>,
+    pub(crate) links: Vec<[u32; 2]>,
     /// A ball of each group of linked balls, for each ball.
-    pub(super) group: Vec<u32>,
+    pub(crate) group: Vec<u32>,
     /// Whether they fill a sheet, and it was left at that.
-    pub(super) is_sheet: bool,
+    pub(crate) is_sheet: bool,
     /// From this many balls on they are looked at again.
     next_count: usize,
 }
@@ -163,7 +163,7 @@ struct Filling<'a> {
 }
 
 /// Fills the inside of `mesh`.
-pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
+pub(crate) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
     let normals = vertex_normals(mesh);
     let grid = Grid::new(&mesh.bounds());
     let wall = Wall::new(&grid, &mesh.positions);
