@@ -12,20 +12,27 @@
 //! A lumen that is pinched shut is not passed, however thin the wall between.
 
 mod balls;
+mod calibre;
 mod centreline;
+pub mod certificate;
 mod paths;
+mod section;
 mod space;
+mod stations;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod zones;
 
 use thiserror::Error;
 
+pub use calibre::{Calibre, Subject};
 pub use centreline::Place;
 pub(crate) use centreline::{arcs, centreline, direction};
 pub(crate) use paths::NONE;
 pub(crate) use space::Ball;
-pub use tree::{Branch, End, Located, Tree};
+pub use stations::{Station, Stations};
+pub use tree::{Branch, End, Located, Tree, TreeTask};
 
 /// Why there is no tree.
 #[derive(Clone, Debug, PartialEq, Error)]
