@@ -7,7 +7,8 @@
 //! r(s) = sqrt( mean of A over s - r .. s + r / pi )
 //! ```
 //!
-//! with the mean weighted by `1 - |s - t| / r`: the area of one cross-section of a stair-stepped surface jumps by whole
+//! with the mean weighted by `1 - |s - t| / r`, and where there is more of the vessel on one side than on the other, the
+//! line of least squares in its place, so that a taper does not tell: the area of one cross-section of a stair-stepped surface jumps by whole
 //! rows of voxels as the plane goes on, that of a stretch as long as the vessel is wide does not, and to the first order
 //! steps in and out of the wall leave it as it is. The inscribed radius, which stands beside it, does not have that
 //! property: steps that stand in make the ball smaller by a part of a voxel, and smoothing gives that back, though the
@@ -17,19 +18,18 @@
 //! on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or folded in the
 //! plane, there is no saying. Where they have no vessel any more, the change is -100 %.
 
-
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::TreeError;
 use super::balls::mean_edge;
 use super::calibre::{Calibre, Indexing, Measuring, Subject};
 use super::space::Space;
 use super::stations::{Station, Stations};
 use super::tree::{Branch, Tree, TreeTask};
 use super::zones::{Zone, zones};
-use super::TreeError;
 use crate::mesh::{SurfaceIndex, Topology, TriMesh};
 use crate::task::{Budget, Progress, Task};
 
@@ -49,7 +49,9 @@ pub enum CalibreError {
     #[error(transparent)]
     Tree(#[from] TreeError),
     /// No vessel is as wide as that.
-    #[error("the widest vessel is {diameter_mm:.3} mm across: the surface is probably not in the unit that it was opened in")]
+    #[error(
+        "the widest vessel is {diameter_mm:.3} mm across: the surface is probably not in the unit that it was opened in"
+    )]
     Unit {
         /// Diameter of the widest vessel in mm.
         diameter_mm: f64,
@@ -207,7 +209,14 @@ impl CertificateTask {
         let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
         let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
             let calibres = [0, 1, 2].map(|i| &done[i][range.clone()]);
-            branch_calibre(branch, &stations.all[range.clone()], &zones[range.clone()], calibres, edge_mm, self.tolerance_percent)
+            branch_calibre(
+                branch,
+                &stations.all[range.clone()],
+                &zones[range.clone()],
+                calibres,
+                edge_mm,
+                self.tolerance_percent,
+            )
         };
         let branches: Vec<BranchCalibre> = tree.branches().iter().zip(&stations.of).map(of).collect();
         let has = |verdict: Verdict| branches.iter().any(|branch| branch.verdict == verdict);
@@ -302,7 +311,7 @@ impl Task for CertificateTask {
 }
 
 /// A tree of vessels as wide as vessels are.
-fn checked(tree: Result<Tree, TreeError>) -> Result<Tree, CalibreError> {
+pub(super) fn checked(tree: Result<Tree, TreeError>) -> Result<Tree, CalibreError> {
     let tree = tree?;
     let radii = tree.branches().iter().flat_map(|branch| branch.points.iter().map(|place| place.radius));
     let diameter_mm = 2.0 * radii.fold(0.0, f64::max);
@@ -310,7 +319,7 @@ fn checked(tree: Result<Tree, TreeError>) -> Result<Tree, CalibreError> {
 }
 
 /// The radius of the circle of an area.
-fn circle(area: f64) -> f64 {
+pub(super) fn circle(area: f64) -> f64 {
     (area / std::f64::consts::PI).sqrt()
 }
 
@@ -327,7 +336,9 @@ fn branch_calibre(
         match (zones[i], areas) {
             (Zone::End, _) => Standing::End,
             (Zone::Fork, _) => Standing::Fork,
-            (Zone::Vessel, [Some(opened), Some(_), Some(_)]) if 2.0 * circle(opened) >= EDGES * edge_mm => Standing::Counts,
+            (Zone::Vessel, [Some(opened), Some(_), Some(_)]) if 2.0 * circle(opened) >= EDGES * edge_mm => {
+                Standing::Counts
+            }
             (Zone::Vessel, [Some(_), Some(_), Some(_)]) => Standing::Thin,
             (Zone::Vessel, _) => Standing::NotClosed,
         }
@@ -336,13 +347,13 @@ fn branch_calibre(
     // Of a branch that is nowhere one vessel, all of it.
     let is_vessel = |standing: &Standing| matches!(standing, Standing::Counts | Standing::Thin);
     let has_vessel = standings.iter().any(is_vessel);
-    let shown: Vec<usize> =
-        (0..stations.len()).filter(|&i| !has_vessel || is_vessel(&standings[i])).collect();
+    let shown: Vec<usize> = (0..stations.len()).filter(|&i| !has_vessel || is_vessel(&standings[i])).collect();
     let radii = calibres.map(|of| radii(stations, of, calibres[0], &standings, edge_mm));
     let of = |surface: usize| {
         let counted = (0..stations.len()).filter(|&i| standings[i] == Standing::Counts);
         let change = |i: usize| Some((100.0 * (radii[surface][i]? / radii[0][i]?.max(f64::MIN_POSITIVE) - 1.0), i));
-        let most = counted.filter_map(change).reduce(|most, next| if next.0.abs() > most.0.abs() { next } else { most });
+        let most =
+            counted.filter_map(change).reduce(|most, next| if next.0.abs() > most.0.abs() { next } else { most });
         let largest_change = most.filter(|_| surface > 0).map(|(percent, i)| Change {
             percent,
             at_mm: stations[i].at.as_vec3().to_array(),
@@ -386,7 +397,13 @@ fn branch_calibre(
 
 /// The radius at each station, over a stretch as long as the vessel is wide: of stations of its kind (one vessel, or not),
 /// and where all surfaces have an area, so that the surfaces are compared over the same.
-fn radii(stations: &[Station], of: &[Calibre], opened: &[Calibre], standings: &[Standing], edge_mm: f64) -> Vec<Option<f64>> {
+fn radii(
+    stations: &[Station],
+    of: &[Calibre],
+    opened: &[Calibre],
+    standings: &[Standing],
+    edge_mm: f64,
+) -> Vec<Option<f64>> {
     let is_vessel = |i: usize| matches!(standings[i], Standing::Counts | Standing::Thin);
     let one = |i: usize| {
         let own = of[i].area_mm2?;
@@ -394,11 +411,12 @@ fn radii(stations: &[Station], of: &[Calibre], opened: &[Calibre], standings: &[
             return Some(circle(own));
         }
         let reach = circle(opened[i].area_mm2?).max(WINDOW_EDGES * edge_mm);
-        let (mut sum, mut weights) = (0.0, 0.0);
+        let mut line = Line::default();
         let mut add = |k: usize| {
-            let weight = 1.0 - (stations[k].abscissa_mm - stations[i].abscissa_mm).abs() / reach.max(f64::MIN_POSITIVE);
+            let from = stations[k].abscissa_mm - stations[i].abscissa_mm;
+            let weight = 1.0 - from.abs() / reach.max(f64::MIN_POSITIVE);
             let Some(area) = of[k].area_mm2.filter(|_| weight > 0.0) else { return false };
-            (sum, weights) = (sum + weight * area, weights + weight);
+            line.add(from, area, weight);
             true
         };
         // As far on either side as it is one vessel.
@@ -414,9 +432,39 @@ fn radii(stations: &[Station], of: &[Calibre], opened: &[Calibre], standings: &[
                 break;
             }
         }
-        Some(circle(sum / weights))
+        Some(circle(line.at_origin().max(0.0)))
     };
     (0..stations.len()).map(one).collect()
+}
+
+/// The line through weighted points that is nearest to them (local linear regression).
+#[derive(Default)]
+struct Line {
+    weights: f64,
+    first: f64,
+    second: f64,
+    sum: f64,
+    moment: f64,
+}
+
+impl Line {
+    fn add(&mut self, x: f64, y: f64, weight: f64) {
+        self.weights += weight;
+        self.first += weight * x;
+        self.second += weight * x * x;
+        self.sum += weight * y;
+        self.moment += weight * x * y;
+    }
+
+    /// Its height at x = 0.
+    fn at_origin(&self) -> f64 {
+        let determinant = self.weights * self.second - self.first * self.first;
+        if determinant > 1e-9 * self.weights * self.second {
+            (self.second * self.sum - self.first * self.moment) / determinant
+        } else {
+            self.sum / self.weights
+        }
+    }
 }
 
 fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {

@@ -13,7 +13,10 @@
 
 mod balls;
 mod calibre;
+#[cfg(test)]
+mod calibre_tests;
 mod centreline;
+mod centrelines;
 pub mod certificate;
 mod paths;
 mod section;
@@ -25,10 +28,12 @@ mod tree;
 mod zones;
 
 use thiserror::Error;
+pub use zones::Zone;
 
 pub use calibre::{Calibre, Subject};
 pub use centreline::Place;
 pub(crate) use centreline::{arcs, centreline, direction};
+pub use centrelines::Centrelines;
 pub(crate) use paths::NONE;
 pub(crate) use space::Ball;
 pub use stations::{Station, Stations};

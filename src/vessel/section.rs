@@ -2,8 +2,8 @@
 //!
 //! In the plane a ray finds a triangle of the wall; from it the cut is followed from triangle to triangle until it
 //! closes. A vertex counts as before or behind the plane and never as in it, so every triangle that is cut has one side
-//! where the loop comes in and one where it goes out, and the loop runs counter-clockwise seen against the direction of
-//! the plane. It is the loop around the point if it winds about it once. What lies elsewhere in the plane (the next turn
+//! where the loop comes in and one where it goes out. It begins so that it runs counter-clockwise seen against the
+//! direction of the plane where the first triangle faces outwards. It is the loop around the point if it winds about it once. What lies elsewhere in the plane (the next turn
 //! of the vessel, other vessels) is not met. Cost: a few rays, and as many steps as the loop has edges.
 
 use glam::DVec3;
@@ -112,19 +112,23 @@ impl Wall<'_> {
     /// The points of the loop that begins in a triangle, relative to `p` in the plane; `None` where the plane does not
     /// cut the triangle, or the loop does not close.
     fn rim(&self, start: u32, p: DVec3, normal: DVec3) -> Option<Vec<DVec3>> {
-        let height = |v: u32| (self.mesh.positions[v as usize].as_dvec3() - p).dot(normal);
+        let place = |v: u32| self.mesh.positions[v as usize].as_dvec3() - p;
+        let is_before = |v: u32| place(v).dot(normal) >= 0.0;
+        let [a, b, c] = self.mesh.triangles[start as usize];
+        // Out by the side that leads from behind the plane to before it.
+        let mut side = [(a, b), (b, c), (c, a)].into_iter().find(|&(from, to)| !is_before(from) && is_before(to))?;
+        let (first, mut triangle) = (side, start);
         let mut rim = Vec::new();
-        let mut triangle = start;
         loop {
-            let [a, b, c] = self.mesh.triangles[triangle as usize];
-            let heights = [a, b, c].map(height);
-            let sides = [(a, b, heights[0], heights[1]), (b, c, heights[1], heights[2]), (c, a, heights[2], heights[0])];
-            // Out by the side that leads from behind the plane to before it.
-            let &(from, to, below, above) = sides.iter().find(|side| side.2 < 0.0 && side.3 >= 0.0)?;
-            let [one, other] = [from, to].map(|v| self.mesh.positions[v as usize].as_dvec3() - p);
+            let (from, to) = side;
+            let [one, other] = [from, to].map(place);
+            let [below, above] = [one, other].map(|point| point.dot(normal));
             rim.push(one.lerp(other, below / (below - above)));
             triangle = self.across(triangle, from, to)?;
-            if triangle == start {
+            let corners = self.mesh.triangles[triangle as usize];
+            let third = corners.into_iter().find(|&v| v != from && v != to)?;
+            side = if is_before(third) { (from, third) } else { (third, to) };
+            if side == first {
                 return Some(rim);
             }
             if rim.len() > self.mesh.triangles.len() {
@@ -133,20 +137,18 @@ impl Wall<'_> {
         }
     }
 
-    /// The triangle on the other side of an edge, if there is one and no more, and its winding agrees.
+    /// The triangle on the other side of an edge, if there is one and no more.
     fn across(&self, triangle: u32, from: u32, to: u32) -> Option<u32> {
         let around = |v: u32| self.topology.triangles(v);
         // A vertex may have thousands.
         let (at, other) = if around(from).len() <= around(to).len() { (from, to) } else { (to, from) };
         let mut found = None;
         for &t in around(at) {
-            let corners = self.mesh.triangles[t as usize];
-            if t != triangle && corners.contains(&other) && found.replace(t).is_some() {
+            if t != triangle && self.mesh.triangles[t as usize].contains(&other) && found.replace(t).is_some() {
                 return None;
             }
         }
-        let [a, b, c] = self.mesh.triangles[found? as usize];
-        [(a, b), (b, c), (c, a)].contains(&(to, from)).then_some(found?)
+        found
     }
 }
 

@@ -55,12 +55,8 @@ fn along(branch: &Branch, all: &mut Vec<Station>) {
     let spacing = (SPACING * mean).clamp(NEAREST_MM, FARTHEST_MM);
     let steps = (length / spacing).ceil().max(1.0) as usize;
     if points.len() < 2 || length <= 0.0 {
-        let station = |at: &super::Place| Station {
-            at: at.at,
-            direction: DVec3::Z,
-            abscissa_mm: 0.0,
-            radius_mm: at.radius,
-        };
+        let station =
+            |at: &super::Place| Station { at: at.at, direction: DVec3::Z, abscissa_mm: 0.0, radius_mm: at.radius };
         all.extend(points.first().map(station));
         return;
     }

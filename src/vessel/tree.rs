@@ -51,6 +51,11 @@ pub struct Branch {
 }
 
 impl Branch {
+    /// Whether it only goes on where its parent ends, past the ostium of a third.
+    pub fn goes_straight_on(&self) -> bool {
+        self.parent.is_some() && self.ostium == 0
+    }
+
     /// Length of the centreline in mm.
     pub fn length_mm(&self) -> f64 {
         self.arcs.last().copied().unwrap_or(0.0)

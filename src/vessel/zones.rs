@@ -41,7 +41,7 @@ struct Path {
 }
 
 /// The zone of each station; `radii` are those of the circles of the cross-sections' areas, in mm, of the same surface.
-pub fn zones(branches: &[Branch], stations: &Stations, radii: &[Option<f64>]) -> Vec<Zone> {
+pub(super) fn zones(branches: &[Branch], stations: &Stations, radii: &[Option<f64>]) -> Vec<Zone> {
     let all = &stations.all;
     let is_round = |i: usize| radii[i].is_some_and(|radius| radius <= ROUND * all[i].radius_mm);
     let mut zones = vec![Zone::Vessel; all.len()];
@@ -71,7 +71,7 @@ fn paths(branches: &[Branch], stations: &Stations) -> Vec<Path> {
     let mut paths: Vec<Path> = Vec::new();
     let mut path_of = Vec::with_capacity(branches.len());
     for (branch, range) in branches.iter().zip(&stations.of) {
-        let goes_on = branch.parent.filter(|_| branch.ostium == 0).map(|parent| path_of[parent as usize]);
+        let goes_on = branch.parent.filter(|_| branch.goes_straight_on()).map(|parent| path_of[parent as usize]);
         match goes_on {
             Some(path) => {
                 let whole: &mut Path = &mut paths[path];
@@ -122,7 +122,14 @@ fn mark_ends(path: &Path, all: &[Station], zones: &mut [Zone]) {
 
 /// Marks, from the first station of `from` on, those that are attached to `to` and those within a radius beyond, and those
 /// of `to` that they are attached to, likewise, or that are next to one of `inner`, where the one runs within the other.
-fn attach(inner: &[usize], from: &[usize], to: &[usize], all: &[Station], is_round: &impl Fn(usize) -> bool, zones: &mut [Zone]) {
+fn attach(
+    inner: &[usize],
+    from: &[usize],
+    to: &[usize],
+    all: &[Station],
+    is_round: &impl Fn(usize) -> bool,
+    zones: &mut [Zone],
+) {
     let is_met = |p: &Station, q: &Station| {
         let way = q.at - p.at;
         let along = way.dot(p.direction);
