@@ -4,19 +4,21 @@
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! parallel < mesh < io, phantom, pipeline < trial < engine < app < desktop, web
+//! parallel < mesh < io, phantom, vessel < pipeline < trial < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
 //! - [`parallel`]: work on all cores, whatever the number of them with the same result.
 //! - [`io`]: bytes to mesh and back, one file a format, with a report of what was mended.
 //! - [`phantom`]: vessel trees that Lumen makes itself, cut from a voxel mask by marching cubes.
+//! - [`vessel`]: the tree in a surface: balls, branches, centrelines, calibres.
 //! - [`pipeline`]: connectivity, windowed-sinc smoothing, normals, decimation, the progressive mesh, deviation.
 //! - [`trial`]: the guidewire: rod, contact, route, autopilot, log.
 //! - [`engine`]: the pipeline as work that never blocks a frame: commands in, events out.
 //! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
 //! - `app`: the window's content, the same on the desktop and in the browser (feature `gui`).
 //! - `desktop`: what the desktop gives the app: files and threads (feature `gui`).
+//! - [`task`]: long work in slices.
 //! - [`transfer`]: messages between threads that share no memory; it knows nothing of what is in them.
 //! - `digits`: numbers as they are read.
 //! - `cli`: the subcommands; the figures among them are `app`'s compare view, drawn off screen.
@@ -36,5 +38,7 @@ pub mod phantom;
 pub mod pipeline;
 #[cfg(feature = "gui")]
 pub mod render;
+pub mod task;
 pub mod transfer;
 pub mod trial;
+pub mod vessel;

@@ -3,6 +3,8 @@
 //! Results go to standard output, progress and warnings to standard error. The exit status is 0 when it is done, 1
 //! when it failed, 2 when the command line makes no sense.
 
+mod branches;
+mod centreline;
 #[cfg(feature = "gui")]
 mod figures;
 mod inspect;
@@ -43,6 +45,8 @@ pub struct Arguments {
 /// A subcommand.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write the centrelines of a surface with their radii and cross-sections
+    Centreline(centreline::Centreline),
     /// Draw Figures 6 and 7 of the paper for a surface, as PNG
     #[cfg(feature = "gui")]
     Figures(figures::Figures),
@@ -62,6 +66,7 @@ impl Command {
     /// Runs the subcommand and reports a failure on standard error.
     pub fn run(&self) -> ExitCode {
         let result = match self {
+            Self::Centreline(command) => command.run(),
             #[cfg(feature = "gui")]
             Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),

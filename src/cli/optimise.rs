@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{misuse, output_format, row, shape_rows, source, write_whole};
+use super::{branches, misuse, output_format, row, shape_rows, source, write_whole};
 use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::narrowest::Narrowest;
@@ -75,6 +75,12 @@ pub struct Optimise {
     /// Write all numbers to this file
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
+    /// Print what became of the calibre of each branch
+    #[arg(long)]
+    branches: bool,
+    /// The change of calibre that a branch is allowed, in percent, 0 to 100 (2 or 2%)
+    #[arg(long, value_name = "PERCENT", value_parser = tolerance, default_value = "2")]
+    tolerance: f64,
 }
 
 impl ValueEnum for Window {
@@ -117,6 +123,13 @@ pub(super) fn percent(text: &str) -> Result<f64, String> {
     let value: f64 = number.parse().map_err(|_| format!("{text} is not a percentage"))?;
     let most = f64::from(Target::MAX_PER_MILLE) / 10.0;
     if (0.0..=most).contains(&value) { Ok(value) } else { Err(format!("{text} is not between 0 and {most} %")) }
+}
+
+/// A tolerance in percent, with or without the sign.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches('%').trim_end();
+    let value: f64 = number.parse().map_err(|_| format!("{text} is not a percentage"))?;
+    if (0.0..=100.0).contains(&value) { Ok(value) } else { Err(format!("{text} is not between 0 and 100 %")) }
 }
 
 /// A length in mm as thousandths, rounded down: what is within them is within the length.
@@ -193,10 +206,17 @@ impl Optimise {
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
         report.stages_ms.write = milliseconds(start.elapsed());
+        if self.branches || self.report.is_some() {
+            report.certify(&pipeline, self.tolerance);
+        }
         if let Some(path) = &self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
         }
         self.print(&report);
+        if self.branches {
+            branches::print(&report);
+        }
+        println!("{DISCLAIMER}");
         Ok(())
     }
 
@@ -274,7 +294,6 @@ impl Optimise {
         if report.pass_band_missed {
             eprintln!("lumen: warning: too few iterations for this pass band: more are needed to smooth");
         }
-        println!("{DISCLAIMER}");
     }
 }
 

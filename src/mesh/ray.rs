@@ -55,6 +55,21 @@ impl SurfaceIndex {
         (least <= farthest && least.is_finite()).then_some(least as f32)
     }
 
+    /// The triangle by which a ray from `p` along `direction` (of length 1) first leaves the surface, if it is at most
+    /// `farthest` mm away; of several at the same depth that of the least number.
+    pub(crate) fn outlet(&self, p: DVec3, direction: DVec3, farthest: f64) -> Option<u32> {
+        let mut best = (farthest, u32::MAX);
+        self.along(p, direction, farthest, |leaf, farthest| {
+            if let Some(hit) = Hit::of(p, direction, leaf.corners).filter(|hit| hit.is_outward)
+                && (hit.depth, leaf.triangle) < best
+            {
+                best = (hit.depth, leaf.triangle);
+                *farthest = farthest.min(hit.depth);
+            }
+        });
+        (best.1 != u32::MAX).then_some(best.1)
+    }
+
     /// Visits the leaves whose boxes a ray passes before `farthest`, which the visits may lower.
     pub(super) fn along(&self, p: DVec3, direction: DVec3, mut farthest: f64, mut visit: impl FnMut(&Leaf, &mut f64)) {
         let origin = p.as_vec3().to_array().map(Vec4::splat);

@@ -1,8 +1,8 @@
 //! Surfaces of known geometry, for tests.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::TriMesh;
 
@@ -108,6 +108,77 @@ pub(crate) fn joined(meshes: &[TriMesh]) -> TriMesh {
         all.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first)));
     }
     all
+}
+
+/// The surface where `inside` is 0, over a grid of tetrahedra; `inside` is positive in it.
+pub(crate) fn isosurface(low: DVec3, high: DVec3, spacing: f64, inside: impl Fn(DVec3) -> f64) -> TriMesh {
+    // The six tetrahedra along the diagonal of a cube, by their corners' bits.
+    const TETRAHEDRA: [[usize; 4]; 6] =
+        [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
+    let counts = ((high - low) / spacing).ceil().as_ivec3() + 1;
+    let at = |i: usize| {
+        let (x, y) = (i % counts.x as usize, i / counts.x as usize % counts.y as usize);
+        let z = i / (counts.x * counts.y) as usize;
+        low + DVec3::new(x as f64, y as f64, z as f64) * spacing
+    };
+    let number = |x: i32, y: i32, z: i32| ((z * counts.y + y) * counts.x + x) as usize;
+    let values: Vec<f64> = (0..(counts.x * counts.y * counts.z) as usize).map(|i| inside(at(i)) + 1e-9).collect();
+    let mut vertices: HashMap<(usize, usize), u32> = HashMap::new();
+    let mut mesh = TriMesh::default();
+    for z in 0..counts.z - 1 {
+        for y in 0..counts.y - 1 {
+            for x in 0..counts.x - 1 {
+                let corner =
+                    |bits: usize| number(x + (bits & 1) as i32, y + (bits >> 1 & 1) as i32, z + (bits >> 2 & 1) as i32);
+                for tetrahedron in TETRAHEDRA {
+                    let corners = tetrahedron.map(corner);
+                    let (within, without): (Vec<usize>, Vec<usize>) =
+                        corners.into_iter().partition(|&c| values[c] > 0.0);
+                    let mut cut = |a: usize, b: usize| {
+                        *vertices.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                            let part = values[a] / (values[a] - values[b]);
+                            mesh.positions.push(at(a).lerp(at(b), part).as_vec3());
+                            mesh.positions.len() as u32 - 1
+                        })
+                    };
+                    let polygon: Vec<u32> = match (&within[..], &without[..]) {
+                        ([a], [b, c, d]) | ([b, c, d], [a]) => vec![cut(*a, *b), cut(*a, *c), cut(*a, *d)],
+                        ([a, b], [c, d]) => vec![cut(*a, *c), cut(*a, *d), cut(*b, *d), cut(*b, *c)],
+                        _ => continue,
+                    };
+                    let outward = without.iter().map(|&c| at(c)).sum::<DVec3>() / without.len() as f64
+                        - within.iter().map(|&c| at(c)).sum::<DVec3>() / within.len() as f64;
+                    for i in 1..polygon.len() - 1 {
+                        let [a, b, c] = [polygon[0], polygon[i], polygon[i + 1]];
+                        let [p, q, r] = [a, b, c].map(|v| mesh.positions[v as usize]);
+                        let is_right = (q - p).cross(r - p).as_dvec3().dot(outward) > 0.0;
+                        mesh.triangles.push(if is_right { [a, b, c] } else { [a, c, b] });
+                    }
+                }
+            }
+        }
+    }
+    mesh
+}
+
+/// How deep a point lies in the capsule about a segment.
+pub(crate) fn in_capsule(p: DVec3, a: DVec3, b: DVec3, radius: f64) -> f64 {
+    let part = ((p - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
+    radius - p.distance(a.lerp(b, part))
+}
+
+/// Two branches of 3 and 2 mm radius that leave a trunk of 4 mm at 40 degrees, all with round ends.
+pub(crate) fn fork() -> (TriMesh, [DVec3; 4]) {
+    let (sin, cos) = libm::sincos(40.0f64.to_radians());
+    let ends = [DVec3::ZERO, DVec3::Z * 40.0, DVec3::new(sin, 0.0, cos) * 40.0, DVec3::new(-sin, 0.0, cos) * 40.0];
+    let [joint, _, left, right] = [ends[0] + DVec3::Z * 40.0, ends[0], ends[2], ends[3]];
+    let (left, right) = (joint + left, joint + right);
+    let inside = |p: DVec3| {
+        let trunk = in_capsule(p, DVec3::ZERO, joint, 4.0);
+        trunk.max(in_capsule(p, joint, left, 3.0)).max(in_capsule(p, joint, right, 2.0))
+    };
+    let (low, high) = (DVec3::new(-32.0, -5.0, -5.0), DVec3::new(32.0, 5.0, 78.0));
+    (isosurface(low, high, 0.5, inside), [DVec3::ZERO, joint, left, right])
 }
 
 #[cfg(test)]

@@ -25,4 +25,5 @@ pub mod smoothing;
 pub mod stage;
 mod stages;
 mod store;
-pub mod task;
+
+pub use crate::task;

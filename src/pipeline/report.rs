@@ -12,6 +12,8 @@ use super::run::Pipeline;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
 use crate::mesh::{Measures, TriMesh, components};
+use crate::task::{Budget, Progress, Task as _};
+use crate::vessel::certificate::{BranchCalibre, Verdict};
 
 /// What stands in every report.
 pub const DISCLAIMER: &str = "Not for clinical decisions.";
@@ -121,6 +123,23 @@ pub struct Report {
     pub narrowing: Option<Narrowing>,
     /// The first reduction rate, of all, at which a vessel is pinched or lost; null where there is none.
     pub pinch: Option<Pinch>,
+    /// Whether the vessels keep their calibre; null where that was not asked for.
+    #[serde(default)]
+    pub calibre: Option<CalibreReport>,
+    /// The calibre of each branch; null where that was not asked for, and where there is no vessel tree.
+    #[serde(default)]
+    pub branches: Option<Vec<BranchCalibre>>,
+}
+
+/// Whether the vessels keep their calibre.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CalibreReport {
+    /// The change in percent that is allowed.
+    pub tolerance_percent: f64,
+    /// Changed where one branch is, kept where the others are; null where there is no vessel tree.
+    pub verdict: Option<Verdict>,
+    /// Why there is no vessel tree; null where there is one.
+    pub refused: Option<String>,
 }
 
 impl Report {
@@ -175,7 +194,25 @@ impl Report {
             output_shape: pipeline.level_measures().map(|found| found.shape.clone()),
             narrowing: pipeline.level_measures().and_then(|found| found.narrowing),
             pinch: pipeline.smoothed_measures().and_then(|found| found.pinch),
+            calibre: None,
+            branches: None,
         })
+    }
+
+    /// Adds the calibre of each branch; `tolerance_percent` is the change that it is allowed.
+    pub fn certify(&mut self, pipeline: &Pipeline, tolerance_percent: f64) {
+        let Some(mut task) = pipeline.certificate(tolerance_percent) else { return };
+        let found = loop {
+            if let Progress::Done(found) = task.advance(Budget::UNLIMITED) {
+                break found;
+            }
+        };
+        let (verdict, refused, branches) = match found {
+            Ok(found) => (Some(found.verdict), None, Some(found.branches)),
+            Err(error) => (None, Some(error.to_string()), None),
+        };
+        self.calibre = Some(CalibreReport { tolerance_percent, verdict, refused });
+        self.branches = branches;
     }
 }
 

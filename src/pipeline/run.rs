@@ -26,7 +26,9 @@ use super::stage::{PerStage, Stage, stale};
 use super::stages::{self, Run};
 use super::store::Store;
 use super::task::{Budget, Progress, milliseconds};
-use crate::mesh::TriMesh;
+use crate::mesh::{SurfaceIndex, Topology, TriMesh};
+use crate::vessel::Subject;
+use crate::vessel::certificate::CertificateTask;
 
 /// What [`Pipeline::advance`] did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -248,6 +250,24 @@ impl Pipeline {
     /// Shape and lumen of the level.
     pub fn level_measures(&self) -> Option<&Arc<LevelMeasures>> {
         self.store.now.level_measures.as_ref()
+    }
+
+    /// The certificate of calibre of what is there; `tolerance_percent` is the change of calibre that a vessel is allowed.
+    /// `None` until there is a level.
+    pub fn certificate(&self, tolerance_percent: f64) -> Option<CertificateTask> {
+        let now = &self.store.now;
+        let (kept, smoothed, reduced) = (self.kept()?, self.smoothed()?, self.reduced()?);
+        let subject = |mesh: &Arc<TriMesh>, topology: &Arc<Topology>, index: Option<&Arc<SurfaceIndex>>| Subject {
+            mesh: mesh.clone(),
+            topology: topology.clone(),
+            index: index.cloned(),
+        };
+        let subjects = [
+            subject(&kept.mesh, &kept.topology, now.indices.kept.as_ref()),
+            subject(&smoothed.mesh, &kept.topology, None),
+            subject(&reduced.mesh, &reduced.topology, now.indices.level.as_ref()),
+        ];
+        Some(CertificateTask::new(subjects, tolerance_percent))
     }
 
     /// What each stage took.

@@ -8,7 +8,7 @@ use web_time::Instant;
 
 use super::placement::PlacementError;
 use super::proposal::{proposed, reached};
-use super::route::{Route, RouteError, Target, Tree, phantom_task};
+use super::route::{Route, RouteError, Target, phantom_task};
 use super::setup::{Entry, Setup};
 use super::simulation::Simulation;
 use super::wall::Wall;
@@ -17,6 +17,7 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::results::fingerprint;
 use crate::pipeline::task::milliseconds;
+use crate::vessel::{Tree, TreeError};
 
 /// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
 const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
@@ -24,6 +25,9 @@ const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
 /// Why a trial cannot begin.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TrialError {
+    /// There is no tree.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
     /// There is no way.
     #[error(transparent)]
     Route(#[from] RouteError),

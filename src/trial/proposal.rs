@@ -1,8 +1,9 @@
 //! What wire and target are proposed where nobody has said any.
 
-use super::route::{Target, Tree};
+use super::route::Target;
 use super::wire::Wire;
 use crate::mesh::Vec3;
+use crate::vessel::Tree;
 
 /// The lumen is so many times as wide as the wire all along to a target that is proposed.
 const ROOM: f64 = 1.5;

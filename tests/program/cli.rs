@@ -285,6 +285,54 @@ fn a_command_line_without_sense_ends_with_two() {
 }
 
 #[test]
+fn centrelines_are_written_as_vtp_and_csv() {
+    let folder = Folder::new("centreline");
+    let (vtp, csv) = (folder.file("out.vtp"), folder.file("out.csv"));
+    let table = succeed(&["centreline", "sample:aorta", "-o", &vtp]);
+    assert!(table.contains("branches") && table.contains("Not for clinical decisions."), "{table}");
+    let text = std::fs::read_to_string(&vtp).unwrap();
+    let arrays = ["MaximumInscribedSphereRadius", "Abscissas", "CenterlineIds", "GroupIds", "TractIds", "Blanking"];
+    assert!(text.contains("type=\"PolyData\"") && arrays.iter().all(|name| text.contains(&format!("Name=\"{name}\""))));
+    succeed(&["centreline", "sample:aorta", "-o", &csv]);
+    let rows = std::fs::read_to_string(&csv).unwrap().lines().count() - 1;
+    assert!(text.contains(&format!("NumberOfPoints=\"{rows}\"")), "{rows} rows");
+    // What has no vessels has no centrelines, and no file.
+    let flat = folder.file("flat.obj");
+    std::fs::write(&flat, "v 0 0 0\nv 30 0 0\nv 30 30 0\nv 0 30 0\nf 1 2 3\nf 1 3 4\n").unwrap();
+    let none = folder.file("none.vtp");
+    let output = lumen(&["centreline", &flat, "-o", &none]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("the surface has no inside"));
+    assert!(!Path::new(&none).exists());
+    assert_eq!(lumen(&["centreline", "sample:aorta", "-o", "out.stl"]).status.code(), Some(2));
+}
+
+#[test]
+fn the_calibre_of_each_branch_is_told() {
+    let folder = Folder::new("branches");
+    let (out, report) = (folder.file("out.ply"), folder.file("report.json"));
+    let arguments = ["optimise", "sample:aorta", "-o", &out, "--adapt", "--branches", "--report", &report];
+    let table = succeed(&arguments);
+    assert!(table.contains("largest change at") && table.contains("branch 7"), "{table}");
+    let found = json(&report);
+    assert_eq!((&found["calibre"]["tolerance_percent"], &found["calibre"]["verdict"]), (&2.0.into(), &"kept".into()));
+    let branches = found["branches"].as_array().unwrap();
+    assert_eq!(branches.len(), 7);
+    for branch in branches {
+        let count = branch["abscissas_mm"].as_array().unwrap().len();
+        for surface in ["opened", "smoothed", "reduced"] {
+            for column in ["areas_mm2", "radii_mm", "inscribed_radii_mm"] {
+                assert_eq!(branch[surface][column].as_array().unwrap().len(), count);
+            }
+        }
+    }
+    // At no tolerance at all, every branch that is measured has changed.
+    succeed(&[&arguments[..], &["--tolerance", "0%"]].concat());
+    assert_eq!(json(&report)["calibre"]["verdict"], "changed");
+    assert_eq!(lumen(&[&arguments[..], &["--tolerance", "-1"]].concat()).status.code(), Some(2));
+}
+
+#[test]
 fn a_rate_between_nought_and_one_draws_a_warning() {
     let folder = Folder::new("warning");
     let out = folder.file("out.stl");

@@ -10,7 +10,7 @@ use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::pipeline::task::Budget;
 use lumen::trial::audit::Audit;
-use lumen::trial::route::{RouteError, Tree};
+use lumen::vessel::{Tree, TreeError};
 
 /// File; least and most ends; least and most length in mm of the route from the best entry to the best target; a wire that
 /// fits, in mm. The ends were counted in a viewer, small stumps being the difference; a route is at least as long as the
@@ -34,7 +34,7 @@ pub(crate) fn trials(data: &Path) -> Vec<Trial> {
     let wall = |file: &str| {
         let path = data.join(file);
         Trial::test(format!("route: {file}"), move || match Tree::new(&load(&path)?) {
-            Err(RouteError::Sheet { .. }) => Ok(()),
+            Err(TreeError::Sheet { .. }) => Ok(()),
             other => Err(format!("{:?}", other.map(|tree| tree.branches().len())).into()),
         })
     };

@@ -12,6 +12,7 @@ mod shape;
 mod tangles;
 
 mod bad_input;
+mod calibre;
 mod decimation;
 mod fuzz;
 mod import_robustness;

@@ -9,7 +9,8 @@ use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Target};
 use lumen::pipeline::task::Budget;
 use lumen::trial::audit::Audit;
-use lumen::trial::route::{Route, Tree, phantom_task};
+use lumen::trial::route::{Route, phantom_task};
+use lumen::vessel::Tree;
 
 /// What is left of the surface at a reduction of so many tenths of a percent, for each.
 fn levels(mesh: TriMesh, rates: &[u32]) -> Vec<TriMesh> {

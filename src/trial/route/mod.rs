@@ -1,33 +1,14 @@
-//! Where a wire can go: the vessel tree of a surface, and routes through it.
-//!
-//! ```text
-//! surface --space--> distance to the wall, open ends
-//!   --balls--> overlapping balls that fill the lumen, linked where a wire fits through
-//!   --paths--> the cheapest ways, and the tree they make
-//!   --centreline--> smooth centrelines with radii
-//!   --tree--> branches, ends, the branch of a point
-//!   --way--> a route from an entry to a target
-//! ```
-//!
-//! What is found rests on the balls: two places are connected when overlapping balls lead from one to the other.
-//! A lumen that is pinched shut is not passed, however thin the wall between.
+//! Where a wire can go: routes through the vessel tree of a surface (`way`), and where they could begin and end
+//! (`propose`).
 
-mod balls;
-mod centreline;
-
-mod paths;
 mod propose;
-mod space;
 #[cfg(test)]
 mod tests;
-mod tree;
 mod way;
 
 use thiserror::Error;
 
-pub use centreline::Place;
 pub use propose::{Target, phantom_task};
-pub use tree::{Branch, End, Located, Tree};
 pub use way::{CrossSection, OnRoute, Route, RoutePoint};
 
 /// The radius that half of a way's length is narrower than: its pieces have a radius and a length each.
@@ -42,30 +23,9 @@ fn usual_radius(mut pieces: Vec<(f64, f64)>) -> f64 {
     pieces.iter().find(is_beyond).map_or(0.0, |piece| piece.0)
 }
 
-/// Why there is no tree, or no route.
+/// Why there is no route.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RouteError {
-    /// There is nothing to go through.
-    #[error("the surface has no triangles")]
-    NoTriangles,
-    /// Every wall faces away.
-    #[error("the surface is inside out: its triangles face into the vessel")]
-    InsideOut,
-    /// No wall faces another.
-    #[error("the surface has no inside: of its {triangles} triangles none faces another")]
-    NoInside {
-        /// Triangles.
-        triangles: usize,
-    },
-    /// What is inside is flat.
-    #[error(
-        "the inside of the surface is a thin sheet and no vessel: it takes more than {balls} balls to fill it. \
-         Is it the wall of a vessel, with an inner and an outer side?"
-    )]
-    Sheet {
-        /// Balls that overlap.
-        balls: usize,
-    },
     /// The wire would begin outside.
     #[error("the entry ({:.1}, {:.1}, {:.1}) lies outside of the vessel, {distance_mm:.1} mm from its wall", at[0], at[1], at[2])]
     EntryOutside {

@@ -2,12 +2,10 @@
 
 use glam::{DVec3, Vec3};
 
-use super::centreline::direction;
-use super::paths::NONE;
-use super::tree::{Branch, End, Tree};
 use super::usual_radius;
 use crate::phantom::{Sample, Vessel, vessels};
 use crate::trial::setup::Entry;
+use crate::vessel::{Branch, End, NONE, Tree, direction};
 
 /// A guide's mouth lies this many radii inside of the vessel's end, at least.
 const INSIDE: f64 = 1.0;

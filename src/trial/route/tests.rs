@@ -1,69 +1,10 @@
 //! Trees and routes of surfaces whose centrelines are known.
 
-use std::collections::HashMap;
-
 use glam::{DVec3, Vec3};
 
 use super::*;
-use crate::mesh::TriMesh;
-use crate::mesh::shapes::{icosphere, joined, square, tube};
-
-/// The surface where `inside` is 0, over a grid of tetrahedra; `inside` is positive in it.
-fn surface(low: DVec3, high: DVec3, spacing: f64, inside: impl Fn(DVec3) -> f64) -> TriMesh {
-    // The six tetrahedra along the diagonal of a cube, by their corners' bits.
-    const TETRAHEDRA: [[usize; 4]; 6] =
-        [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
-    let counts = ((high - low) / spacing).ceil().as_ivec3() + 1;
-    let at = |i: usize| {
-        let (x, y) = (i % counts.x as usize, i / counts.x as usize % counts.y as usize);
-        let z = i / (counts.x * counts.y) as usize;
-        low + DVec3::new(x as f64, y as f64, z as f64) * spacing
-    };
-    let number = |x: i32, y: i32, z: i32| ((z * counts.y + y) * counts.x + x) as usize;
-    let values: Vec<f64> = (0..(counts.x * counts.y * counts.z) as usize).map(|i| inside(at(i)) + 1e-9).collect();
-    let mut vertices: HashMap<(usize, usize), u32> = HashMap::new();
-    let mut mesh = TriMesh::default();
-    for z in 0..counts.z - 1 {
-        for y in 0..counts.y - 1 {
-            for x in 0..counts.x - 1 {
-                let corner =
-                    |bits: usize| number(x + (bits & 1) as i32, y + (bits >> 1 & 1) as i32, z + (bits >> 2 & 1) as i32);
-                for tetrahedron in TETRAHEDRA {
-                    let corners = tetrahedron.map(corner);
-                    let (within, without): (Vec<usize>, Vec<usize>) =
-                        corners.into_iter().partition(|&c| values[c] > 0.0);
-                    let mut cut = |a: usize, b: usize| {
-                        *vertices.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                            let part = values[a] / (values[a] - values[b]);
-                            mesh.positions.push(at(a).lerp(at(b), part).as_vec3());
-                            mesh.positions.len() as u32 - 1
-                        })
-                    };
-                    let polygon: Vec<u32> = match (&within[..], &without[..]) {
-                        ([a], [b, c, d]) | ([b, c, d], [a]) => vec![cut(*a, *b), cut(*a, *c), cut(*a, *d)],
-                        ([a, b], [c, d]) => vec![cut(*a, *c), cut(*a, *d), cut(*b, *d), cut(*b, *c)],
-                        _ => continue,
-                    };
-                    let outward = without.iter().map(|&c| at(c)).sum::<DVec3>() / without.len() as f64
-                        - within.iter().map(|&c| at(c)).sum::<DVec3>() / within.len() as f64;
-                    for i in 1..polygon.len() - 1 {
-                        let [a, b, c] = [polygon[0], polygon[i], polygon[i + 1]];
-                        let [p, q, r] = [a, b, c].map(|v| mesh.positions[v as usize]);
-                        let is_right = (q - p).cross(r - p).as_dvec3().dot(outward) > 0.0;
-                        mesh.triangles.push(if is_right { [a, b, c] } else { [a, c, b] });
-                    }
-                }
-            }
-        }
-    }
-    mesh
-}
-
-/// How deep a point lies in the capsule about a segment.
-fn in_capsule(p: DVec3, a: DVec3, b: DVec3, radius: f64) -> f64 {
-    let part = ((p - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
-    radius - p.distance(a.lerp(b, part))
-}
+use crate::mesh::shapes::{fork, joined, tube};
+use crate::vessel::{Branch, End, Tree};
 
 fn near(found: f64, expected: f64, part: f64) {
     assert!((found - expected).abs() <= part * expected.abs(), "{found}, not {expected} to {part}");
@@ -102,39 +43,6 @@ fn a_straight_tube_is_one_branch_as_long_and_wide_as_it_is() {
     assert_eq!(route.clearance(2.9), Ok(()));
     let thin = route.clearance(3.1).unwrap_err();
     assert!(thin.to_string().starts_with("the lumen is too thin for a wire of 3.10 mm: it is "), "{thin}");
-}
-
-#[test]
-fn a_bent_tube_is_as_long_as_its_arc() {
-    // A straight tube of the arc's length, bent to a half circle of 20 mm.
-    let mut mesh = tube(48, 160, (20.0 * std::f64::consts::PI) as f32, |_| 2.0);
-    for p in &mut mesh.positions {
-        let (sin, cos) = libm::sincos(f64::from(p.z) / 20.0);
-        let out = 20.0 + f64::from(p.x);
-        *p = DVec3::new(out * cos, out * sin, -f64::from(p.y)).as_vec3();
-    }
-    let tree = Tree::new(&mesh).unwrap();
-    assert_eq!(tree.branches().len(), 1);
-    let branch = &tree.branches()[0];
-    near(branch.length_mm(), 20.0 * std::f64::consts::PI, 0.01);
-    for place in &branch.points {
-        near(place.at.length(), 20.0, 0.01);
-        near(place.radius, 2.0, 0.03);
-    }
-}
-
-/// Two branches of 3 and 2 mm radius that leave a trunk of 4 mm at 40 degrees, all with round ends.
-fn fork() -> (TriMesh, [DVec3; 4]) {
-    let (sin, cos) = libm::sincos(40.0f64.to_radians());
-    let ends = [DVec3::ZERO, DVec3::Z * 40.0, DVec3::new(sin, 0.0, cos) * 40.0, DVec3::new(-sin, 0.0, cos) * 40.0];
-    let [joint, _, left, right] = [ends[0] + DVec3::Z * 40.0, ends[0], ends[2], ends[3]];
-    let (left, right) = (joint + left, joint + right);
-    let inside = |p: DVec3| {
-        let trunk = in_capsule(p, DVec3::ZERO, joint, 4.0);
-        trunk.max(in_capsule(p, joint, left, 3.0)).max(in_capsule(p, joint, right, 2.0))
-    };
-    let (low, high) = (DVec3::new(-32.0, -5.0, -5.0), DVec3::new(32.0, 5.0, 78.0));
-    (surface(low, high, 0.5, inside), [DVec3::ZERO, joint, left, right])
 }
 
 #[test]
@@ -199,18 +107,6 @@ fn the_usual_radius_goes_by_length_and_not_by_how_finely_a_way_is_cut() {
 }
 
 #[test]
-fn what_is_no_vessel_is_refused_with_a_sentence() {
-    let says = |mesh: &TriMesh| Tree::new(mesh).map(|tree| tree.branches().len()).unwrap_err().to_string();
-    assert_eq!(says(&TriMesh::default()), "the surface has no triangles");
-    let one = TriMesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]] };
-    assert_eq!(says(&one), "the surface has no inside: of its 1 triangles none faces another");
-    assert!(says(&square(6, 10.0, 0.0)).starts_with("the surface has no inside"));
-    let mut turned = icosphere(3, 5.0, Vec3::ZERO);
-    turned.triangles.iter_mut().for_each(|t| t.swap(0, 1));
-    assert!(says(&turned).starts_with("the surface is inside out"));
-}
-
-#[test]
 fn where_there_is_no_way_the_sentence_says_why() {
     let mut other = tube(32, 40, 20.0, |_| 1.5);
     other.positions.iter_mut().for_each(|p| *p += Vec3::new(8.0, 0.0, 0.0));
@@ -239,11 +135,4 @@ fn a_pinched_vessel_ends_where_it_is_pinched_and_a_narrow_one_goes_on() {
     assert!((route.points[route.smallest_at].at.z - 20.0).abs() < 0.3);
     let shut = Tree::new(&waisted(1e-4)).unwrap().route(from, to).unwrap_err();
     assert!(matches!(shut, RouteError::NoWay { at, .. } if (at[2] - 20.0).abs() < 1.5), "{shut}");
-}
-
-#[test]
-fn the_tree_does_not_depend_on_threads() {
-    let (mesh, _) = fork();
-    let of = |threads| crate::parallel::with_threads(threads, || Tree::new(&mesh).unwrap().branches().to_vec());
-    assert_eq!(of(1), of(3));
 }

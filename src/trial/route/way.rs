@@ -5,11 +5,8 @@
 
 use glam::{DVec3, Vec3};
 
-use super::centreline::{Place, centreline, direction};
-use super::paths::NONE;
-use super::space::Ball;
-use super::tree::{Located, Tree};
 use super::{RouteError, usual_radius};
+use crate::vessel::{Ball, Located, NONE, Place, Tree, arcs, centreline, direction};
 
 /// Number of stations.
 const STATIONS: usize = 5;
@@ -358,14 +355,14 @@ fn deepest<T>(points: &[T], p: DVec3, place: impl Fn(&T) -> (Place, f64)) -> OnR
 
 /// The place of a line next to `p`.
 fn along(line: &[Place], p: DVec3) -> OnRoute {
-    let arcs = super::centreline::arcs(line);
+    let arcs = arcs(line);
     let points: Vec<(Place, f64)> = line.iter().copied().zip(arcs).collect();
     deepest(&points, p, |&point| point)
 }
 
 /// The part of a line between two arc lengths.
 fn cut(line: &[Place], from: f64, to: f64) -> Vec<Place> {
-    let arcs = super::centreline::arcs(line);
+    let arcs = arcs(line);
     let at = |arc: f64| {
         let next = arcs.partition_point(|&a| a <= arc).clamp(1, line.len() - 1);
         let part = ((arc - arcs[next - 1]) / (arcs[next] - arcs[next - 1]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);

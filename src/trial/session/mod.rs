@@ -16,11 +16,11 @@ use super::log::Log;
 use super::meter::{Meter, SinceRow};
 use super::press::outward;
 use super::report::StepKind;
-use super::route::Located;
 use super::setup::{Input, Setup};
 use super::simulation::Simulation;
 use super::stopwatch::Stopwatch;
 use crate::pipeline::task::milliseconds;
+use crate::vessel::Located;
 
 /// Steps between two rows of the log, and between two decisions.
 pub const ROW_STEPS: u64 = (DECISION / STEP + 0.5) as u64;

@@ -23,15 +23,15 @@ const RAYS: [[f32; 3]; 3] =
 
 /// A ball inside that touches the wall, or nearly does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ball {
-    pub(super) centre: Vec3,
-    pub(super) radius: f32,
+pub(crate) struct Ball {
+    pub(crate) centre: Vec3,
+    pub(crate) radius: f32,
 }
 
 impl Ball {
     /// The radius of the circle in which two balls meet, or of the smaller one if its middle is inside the other: what
     /// fits through between them. 0 if they do not overlap.
-    pub(super) fn passage(&self, other: &Ball) -> f32 {
+    pub(crate) fn passage(&self, other: &Ball) -> f32 {
         let d = f64::from(self.centre.distance(other.centre));
         let (a, b) = (f64::from(self.radius), f64::from(other.radius));
         if d >= a + b {
@@ -45,18 +45,18 @@ impl Ball {
 
 /// An open end: its middle, where out is, and its size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Opening {
-    pub(super) centre: Vec3,
-    pub(super) outward: Vec3,
+pub(crate) struct Opening {
+    pub(crate) centre: Vec3,
+    pub(crate) outward: Vec3,
     /// Mean distance of its rim from the middle, in mm.
-    pub(super) radius: f32,
+    pub(crate) radius: f32,
 }
 
 /// The inside of a surface.
 #[derive(Clone, Debug)]
-pub(super) struct Space {
-    pub(super) index: Arc<SurfaceIndex>,
-    pub(super) openings: Vec<Opening>,
+pub(crate) struct Space {
+    pub(crate) index: Arc<SurfaceIndex>,
+    pub(crate) openings: Vec<Opening>,
     /// Triangles over the open ends.
     caps: SurfaceIndex,
     low: Vec3,
@@ -66,7 +66,7 @@ pub(super) struct Space {
 }
 
 impl Space {
-    pub(super) fn new(mesh: &TriMesh, topology: &Topology, index: Arc<SurfaceIndex>) -> Self {
+    pub(crate) fn new(mesh: &TriMesh, topology: &Topology, index: Arc<SurfaceIndex>) -> Self {
         let rims = boundary_loops(topology);
         let openings = rims.iter().filter_map(|rim| opening(mesh, rim)).collect();
         let normal = |t: usize| {
@@ -90,13 +90,13 @@ impl Space {
     }
 
     /// Whether the straight way from a point inside leads out of an open end, or out of the surface's box.
-    pub(super) fn leaves(&self, from: Vec3, to: Vec3) -> bool {
+    pub(crate) fn leaves(&self, from: Vec3, to: Vec3) -> bool {
         let is_boxed = to.cmpge(self.low).all() && to.cmple(self.high).all();
         !is_boxed || self.caps.passes(from, to) != 0
     }
 
     /// Whether the surface and the caps over its open ends go around `p`, as most of three rays have it.
-    pub(super) fn is_inside(&self, p: Vec3) -> bool {
+    pub(crate) fn is_inside(&self, p: Vec3) -> bool {
         let around = |ray: &&[f32; 3]| {
             let ray = Vec3::from(**ray);
             self.index.winding(p, ray) + self.caps.winding(p, ray) > 0
@@ -105,7 +105,7 @@ impl Space {
     }
 
     /// The ball about a point inside, as `hint`, an earlier answer near by, helps to find.
-    pub(super) fn ball(&self, p: Vec3, hint: Option<&Nearest>) -> Option<(Ball, Nearest)> {
+    pub(crate) fn ball(&self, p: Vec3, hint: Option<&Nearest>) -> Option<(Ball, Nearest)> {
         let nearest = match hint {
             Some(hint) => self.index.nearest_from(p, hint),
             None => self.index.nearest(p),
@@ -114,7 +114,7 @@ impl Space {
     }
 
     /// Moves a ball to the middle; `visit` is told of every ball on the way, the last one too, not of the first.
-    pub(super) fn ascend(&self, ball: Ball, nearest: Nearest, mut visit: impl FnMut(Ball)) -> (Ball, Nearest) {
+    pub(crate) fn ascend(&self, ball: Ball, nearest: Nearest, mut visit: impl FnMut(Ball)) -> (Ball, Nearest) {
         let (mut ball, mut nearest) = (ball, nearest);
         for _ in 0..MOVES {
             let Some((next, foot)) = self.across(ball, &nearest).or_else(|| self.out_of_crevice(ball, &nearest)) else {
@@ -161,7 +161,7 @@ impl Space {
     }
 
     /// The middle between a point of the wall with this outward normal, of length 1, and the wall behind.
-    pub(super) fn behind_wall(&self, p: Vec3, normal: Vec3) -> Option<(Ball, Nearest)> {
+    pub(crate) fn behind_wall(&self, p: Vec3, normal: Vec3) -> Option<(Ball, Nearest)> {
         let start = p - normal * (1e-6 * (self.high - self.low).max_element());
         let depth = self.index.depth(start, -normal)?;
         let (ball, nearest) = self.ball(p - normal * (depth / 2.0), None)?;
@@ -178,7 +178,7 @@ impl Space {
     }
 
     /// The largest ball inside near a point of a centreline: its middle may be off by a third of its radius.
-    pub(super) fn largest(&self, p: DVec3) -> Option<Ball> {
+    pub(crate) fn largest(&self, p: DVec3) -> Option<Ball> {
         let (start, nearest) = self.ball(p.as_vec3(), None)?;
         let (mut best, mut nearest) = (start, nearest);
         for _ in 0..MOVES {

@@ -9,6 +9,7 @@ use glam::Vec3;
 
 use super::space::{Ball, Space};
 use crate::mesh::{Bounds, Nearest, TriMesh};
+use crate::task::Budget;
 
 /// Two balls closer than this part of the smaller radius are the same.
 const SAME: f32 = 0.4;
@@ -32,6 +33,8 @@ const MOST: usize = 200_000;
 /// in a sheet nine or more.
 const MANY: usize = 16_384;
 const SHEET: usize = 7;
+/// Balls looked around from between two looks at the clock.
+const STEPS: usize = 16;
 /// Cells of the grid along the longest side of the surface's box.
 const CELLS: f32 = 128.0;
 /// No ball.
@@ -39,16 +42,16 @@ const NONE: u32 = u32::MAX;
 
 /// Balls and the links between them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Balls {
-    pub(super) balls: Vec<Ball>,
+pub(crate) struct Balls {
+    pub(crate) balls: Vec<Ball>,
     /// Whether a ball only stands on the way between two others, and is not in the middle.
-    pub(super) is_passing: Vec<bool>,
+    pub(crate) is_passing: Vec<bool>,
     /// Pairs of linked balls.
-    pub(super) links: Vec<[u32; 2]>,
+    pub(crate) links: Vec<[u32; 2]>,
     /// A ball of each group of linked balls, for each ball.
-    pub(super) group: Vec<u32>,
+    pub(crate) group: Vec<u32>,
     /// Whether they fill a sheet, and it was left at that.
-    pub(super) is_sheet: bool,
+    pub(crate) is_sheet: bool,
     /// From this many balls on they are looked at again.
     next_count: usize,
 }
@@ -142,10 +145,18 @@ impl Wall {
     }
 }
 
-/// Balls while they are being found.
-struct Filling<'a> {
+/// A surface that is filled.
+#[derive(Clone, Copy)]
+struct Surface<'a> {
     space: &'a Space,
     positions: &'a [Vec3],
+}
+
+/// Balls while they are being found.
+pub(super) struct Filling {
+    normals: Vec<Vec3>,
+    /// The next vertex to begin at.
+    vertex: usize,
     grid: Grid,
     wall: Wall,
     found: Balls,
@@ -162,30 +173,6 @@ struct Filling<'a> {
     floor: f32,
 }
 
-/// Fills the inside of `mesh`.
-pub(super) fn fill(mesh: &TriMesh, space: &Space) -> Balls {
-    let normals = vertex_normals(mesh);
-    let grid = Grid::new(&mesh.bounds());
-    let wall = Wall::new(&grid, &mesh.positions);
-    let first = vec![NONE; grid.len()];
-    let found = Balls::default();
-    let (feet, next, pending) = (Vec::new(), Vec::new(), Vec::new());
-    let least = (LEAST * mean_edge(mesh)).max(THINNEST * largest(mesh, space, &normals));
-    let mut filling =
-        Filling { space, positions: &mesh.positions, grid, wall, found, feet, first, next, pending, least, floor: 0.0 };
-    for (v, normal) in normals.iter().enumerate() {
-        if !filling.wall.is_explained[v]
-            && let Some(normal) = normal.try_normalize()
-        {
-            filling.begin(mesh.positions[v], normal);
-            if filling.found.is_sheet {
-                break;
-            }
-        }
-    }
-    filling.finished()
-}
-
 /// The largest radius behind a few hundred places of the wall.
 fn largest(mesh: &TriMesh, space: &Space, normals: &[Vec3]) -> f32 {
     let stride = (normals.len() / 256).max(1);
@@ -194,7 +181,7 @@ fn largest(mesh: &TriMesh, space: &Space, normals: &[Vec3]) -> f32 {
     (0..normals.len()).step_by(stride).filter_map(radius).fold(0.0, f32::max)
 }
 
-fn mean_edge(mesh: &TriMesh) -> f32 {
+pub(super) fn mean_edge(mesh: &TriMesh) -> f32 {
     let around = |t: usize| {
         let [a, b, c] = mesh.corners(t).map(Vec3::as_dvec3);
         a.distance(b) + b.distance(c) + c.distance(a)
@@ -215,38 +202,73 @@ fn vertex_normals(mesh: &TriMesh) -> Vec<Vec3> {
     normals
 }
 
-impl Filling<'_> {
+impl Filling {
+    /// Nothing yet of the inside of `mesh`.
+    pub(super) fn new(mesh: &TriMesh, space: &Space) -> Self {
+        let normals = vertex_normals(mesh);
+        let grid = Grid::new(&mesh.bounds());
+        let wall = Wall::new(&grid, &mesh.positions);
+        let first = vec![NONE; grid.len()];
+        let least = (LEAST * mean_edge(mesh)).max(THINNEST * largest(mesh, space, &normals));
+        let (feet, next, pending) = (Vec::new(), Vec::new(), Vec::new());
+        let found = Balls::default();
+        Self { normals, vertex: 0, grid, wall, found, feet, first, next, pending, least, floor: 0.0 }
+    }
+
+    /// Goes on until `budget` is spent; whether all is filled. `mesh` and `space` are always the same.
+    pub(super) fn advance(&mut self, mesh: &TriMesh, space: &Space, budget: Budget) -> bool {
+        let on = Surface { space, positions: &mesh.positions };
+        for step in 1.. {
+            if let Some(from) = self.pending.pop() {
+                self.look_around(on, from);
+                self.found.count();
+            } else {
+                let rest = self.vertex..self.normals.len();
+                let is_new = |v: &usize| !self.wall.is_explained[*v];
+                let normal = |v: usize| Some((v, self.normals[v].try_normalize()?));
+                let Some((v, normal)) = rest.filter(is_new).find_map(normal) else { break };
+                self.vertex = v + 1;
+                self.begin(on, on.positions[v], normal);
+            }
+            if self.found.is_sheet {
+                break;
+            }
+            if step % STEPS == 0 && budget.is_spent() {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The part of the wall that is done, 0 to 1.
+    pub(super) fn fraction(&self) -> f32 {
+        self.vertex as f32 / self.normals.len().max(1) as f32
+    }
+
     /// Begins in the middle behind a point of the wall, and goes on from there as far as it goes.
-    fn begin(&mut self, p: Vec3, normal: Vec3) {
-        let Some((start, start_foot)) = self.space.behind_wall(p, normal) else { return };
+    fn begin(&mut self, on: Surface<'_>, p: Vec3, normal: Vec3) {
+        let Some((start, start_foot)) = on.space.behind_wall(p, normal) else { return };
         // Not again from the places around, whatever came of this one.
-        self.wall.explain(&self.grid, self.positions, p, 0.3 * start.radius);
+        self.wall.explain(&self.grid, on.positions, p, 0.3 * start.radius);
         if start.radius < self.least {
             return;
         }
         let mut on_the_way = vec![start];
-        let (ball, foot) = self.space.ascend(start, start_foot, |next| on_the_way.push(next));
+        let (ball, foot) = on.space.ascend(start, start_foot, |next| on_the_way.push(next));
         let number = match self.like(&ball) {
             Some(number) => number,
-            None if self.space.is_inside(ball.centre) => {
+            None if on.space.is_inside(ball.centre) => {
                 self.floor = (SMALLER * ball.radius).max(self.least);
-                self.add(ball, foot, false)
+                self.add(on, ball, foot, false)
             }
             None => return,
         };
-        self.join_at_waist(&on_the_way, start_foot, number);
-        while let Some(from) = self.pending.pop() {
-            self.look_around(from);
-            self.found.count();
-            if self.found.is_sheet {
-                return;
-            }
-        }
+        self.join_at_waist(on, &on_the_way, start_foot, number);
     }
 
     /// Where a vessel is narrow only for a short way, the middle goes off to where it is wider, on either side of the
     /// waist: what lies between is kept as a way from one to the other.
-    fn join_at_waist(&mut self, on_the_way: &[Ball], foot: Nearest, to: u32) {
+    fn join_at_waist(&mut self, on: Surface<'_>, on_the_way: &[Ball], foot: Nearest, to: u32) {
         let start = on_the_way[0];
         let end = self.found.balls[to as usize];
         if start.centre.distance(end.centre) <= SAME * start.radius || self.like(&start).is_some() {
@@ -255,7 +277,7 @@ impl Filling<'_> {
         let own = self.found.balls.len() as u32;
         let mut last = None;
         for &ball in on_the_way {
-            let number = self.add(ball, foot, true);
+            let number = self.add(on, ball, foot, true);
             if let Some(last) = last {
                 self.link(last, number);
             }
@@ -285,7 +307,7 @@ impl Filling<'_> {
         }
     }
 
-    fn add(&mut self, ball: Ball, foot: Nearest, is_passing: bool) -> u32 {
+    fn add(&mut self, on: Surface<'_>, ball: Ball, foot: Nearest, is_passing: bool) -> u32 {
         let number = self.found.balls.len() as u32;
         let cell = self.grid.cell(self.grid.place(ball.centre));
         self.found.balls.push(ball);
@@ -295,7 +317,7 @@ impl Filling<'_> {
         self.next.push(self.first[cell]);
         self.first[cell] = number;
         if !is_passing {
-            self.wall.explain(&self.grid, self.positions, ball.centre, EXPLAINED * ball.radius);
+            self.wall.explain(&self.grid, on.positions, ball.centre, EXPLAINED * ball.radius);
             self.pending.push(number);
         }
         number
@@ -325,12 +347,12 @@ impl Filling<'_> {
         })
     }
 
-    fn look_around(&mut self, from: u32) {
+    fn look_around(&mut self, on: Surface<'_>, from: u32) {
         let ball = self.found.balls[from as usize];
         let mut on_the_way = Vec::new();
         for direction in directions() {
             let p = ball.centre + direction * (REACH * ball.radius);
-            if self.space.leaves(ball.centre, p) {
+            if on.space.leaves(ball.centre, p) {
                 continue;
             }
             let near = |other: &Ball, distance: f32| {
@@ -342,36 +364,36 @@ impl Filling<'_> {
                 self.link(from, other);
                 continue;
             }
-            let Some((start, foot)) = self.space.ball(p, Some(&self.feet[from as usize])) else { continue };
+            let Some((start, foot)) = on.space.ball(p, Some(&self.feet[from as usize])) else { continue };
             if start.radius < OPEN * ball.radius {
                 continue;
             }
             on_the_way.clear();
             on_the_way.push(start);
-            let (found, foot) = self.space.ascend(start, foot, |next| on_the_way.push(next));
+            let (found, foot) = on.space.ascend(start, foot, |next| on_the_way.push(next));
             if found.radius < self.floor {
                 continue;
             }
             match self.like(&found) {
                 Some(other) if other == from => {}
-                Some(other) => self.link_by(from, other, &on_the_way, foot),
+                Some(other) => self.link_by(on, from, other, &on_the_way, foot),
                 None => {
-                    let number = self.add(found, foot, false);
-                    self.link_by(from, number, &on_the_way, foot);
+                    let number = self.add(on, found, foot, false);
+                    self.link_by(on, from, number, &on_the_way, foot);
                 }
             }
         }
     }
 
     /// Links two balls, by those on the way between them if they do not overlap enough.
-    fn link_by(&mut self, from: u32, to: u32, on_the_way: &[Ball], foot: Nearest) {
+    fn link_by(&mut self, on: Surface<'_>, from: u32, to: u32, on_the_way: &[Ball], foot: Nearest) {
         let [a, b] = [from, to].map(|ball| self.found.balls[ball as usize]);
         if a.passage(&b) >= PASSAGE * a.radius.min(b.radius) {
             self.link(from, to);
         } else if self.root(from) != self.root(to) {
             let mut last = from;
             for &ball in on_the_way {
-                let passing = self.add(ball, foot, true);
+                let passing = self.add(on, ball, foot, true);
                 self.link(last, passing);
                 last = passing;
             }
@@ -394,7 +416,7 @@ impl Filling<'_> {
         ball
     }
 
-    fn finished(mut self) -> Balls {
+    pub(super) fn finished(mut self) -> Balls {
         for ball in 0..self.found.balls.len() as u32 {
             self.found.group[ball as usize] = self.root(ball);
         }

@@ -1,15 +1,17 @@
 //! The vessel tree: branches between the places where vessels divide.
 
+use std::ops::Deref;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::RouteError;
-use super::balls::fill;
+use super::TreeError;
+use super::balls::Filling;
 use super::centreline::{Place, arcs, centreline};
 use super::paths::{Graph, Path};
 use super::space::{Ball, Space};
 use crate::mesh::{SurfaceIndex, Topology, TriMesh, volume};
+use crate::task::{Budget, Progress, Task};
 
 /// Segments of a branch that are left out together in a search.
 const CHUNK: usize = 8;
@@ -49,6 +51,11 @@ pub struct Branch {
 }
 
 impl Branch {
+    /// Whether it only goes on where its parent ends, past the ostium of a third.
+    pub fn goes_straight_on(&self) -> bool {
+        self.parent.is_some() && self.ostium == 0
+    }
+
     /// Length of the centreline in mm.
     pub fn length_mm(&self) -> f64 {
         self.arcs.last().copied().unwrap_or(0.0)
@@ -67,7 +74,7 @@ pub struct Located {
     /// Distance of the point from that place, in mm.
     pub distance_mm: f64,
     /// The segment of the centreline, for a faster search near by.
-    pub(super) segment: u32,
+    pub(crate) segment: u32,
 }
 
 /// A segment of a centreline, with the radii at its ends.
@@ -102,14 +109,123 @@ struct Chunk {
     count: u32,
 }
 
+/// A group of linked balls on the way to a tree.
+struct Group {
+    number: u32,
+    paths: Vec<Path>,
+    /// The centrelines of the first paths, and the place where each leaves its parent.
+    lines: Vec<Vec<Place>>,
+    joints: Vec<Option<usize>>,
+    /// Where others leave each path.
+    cuts: Vec<Vec<usize>>,
+}
+
+/// Finds a tree in slices: one ends after some balls, or after the centreline of a vessel. `M` and `T` are any pointers to
+/// a mesh and its topology.
+pub struct TreeTask<M, T> {
+    mesh: M,
+    topology: T,
+    step: Step,
+}
+
+enum Step {
+    Begin(Arc<SurfaceIndex>),
+    Space(Box<Space>),
+    Fill(Box<Space>, Box<Filling>),
+    Graph(Box<Space>, Box<Filling>),
+    /// The groups that are left, last first, and the one whose centrelines are being found.
+    Lines(Box<Tree>, Vec<u32>, Option<Group>),
+    Over,
+}
+
+impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> TreeTask<M, T> {
+    /// Of a surface, the adjacency of its triangles, none of which repeats a vertex, and an index of it.
+    pub fn new(mesh: M, topology: T, index: Arc<SurfaceIndex>) -> Self {
+        Self { mesh, topology, step: Step::Begin(index) }
+    }
+
+    fn graph(&self, space: Space, filling: Filling) -> Result<Tree, TreeError> {
+        let found = filling.finished();
+        if found.is_sheet {
+            return Err(TreeError::Sheet { balls: found.balls.len() });
+        }
+        let graph = Graph::new(found);
+        if graph.balls.is_empty() {
+            let is_turned = volume(&self.mesh, &self.topology) < 0.0;
+            let triangles = self.mesh.triangles.len();
+            return Err(if is_turned { TreeError::InsideOut } else { TreeError::NoInside { triangles } });
+        }
+        let (branches, groups, segments, chunks) = Default::default();
+        Ok(Tree { space, graph, branches, groups, segments, chunks })
+    }
+}
+
+impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for TreeTask<M, T> {
+    type Output = Result<Tree, TreeError>;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
+        loop {
+            let fraction;
+            (self.step, fraction) = match std::mem::replace(&mut self.step, Step::Over) {
+                Step::Begin(_) | Step::Over if self.mesh.triangles.is_empty() => {
+                    return Progress::Done(Err(TreeError::NoTriangles));
+                }
+                Step::Begin(index) => (Step::Space(Box::new(Space::new(&self.mesh, &self.topology, index))), 0.0),
+                Step::Space(space) => {
+                    let filling = Filling::new(&self.mesh, &space);
+                    (Step::Fill(space, Box::new(filling)), 0.0)
+                }
+                Step::Fill(space, mut filling) => {
+                    let is_done = filling.advance(&self.mesh, &space, budget);
+                    let fraction = 0.7 * filling.fraction();
+                    (if is_done { Step::Graph(space, filling) } else { Step::Fill(space, filling) }, fraction)
+                }
+                Step::Graph(space, filling) => match self.graph(*space, *filling) {
+                    Ok(tree) => {
+                        let mut groups = tree.largest_groups();
+                        groups.reverse();
+                        (Step::Lines(Box::new(tree), groups, None), 0.7)
+                    }
+                    Err(error) => return Progress::Done(Err(error)),
+                },
+                Step::Lines(mut tree, mut groups, None) => match groups.pop() {
+                    Some(number) => {
+                        let group = tree.group(number);
+                        (Step::Lines(tree, groups, group), 0.7)
+                    }
+                    None => {
+                        tree.index_segments();
+                        return Progress::Done(Ok(*tree));
+                    }
+                },
+                Step::Lines(mut tree, groups, Some(mut group)) => {
+                    let is_done = tree.add_line(&mut group);
+                    let fraction = 0.7 + 0.3 * group.lines.len() as f32 / group.paths.len().max(1) as f32;
+                    let rest = if is_done {
+                        tree.add_branches(group);
+                        None
+                    } else {
+                        Some(group)
+                    };
+                    (Step::Lines(tree, groups, rest), fraction)
+                }
+                Step::Over => unreachable!("a task that is done is not advanced"),
+            };
+            if budget.is_spent() {
+                return Progress::Working(fraction);
+            }
+        }
+    }
+}
+
 /// The vessel tree of a surface.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    pub(super) space: Space,
-    pub(super) graph: Graph,
+    pub(crate) space: Space,
+    pub(crate) graph: Graph,
     branches: Vec<Branch>,
     /// Balls of each tree's group.
-    pub(super) groups: Vec<u32>,
+    pub(crate) groups: Vec<u32>,
     segments: Vec<Segment>,
     chunks: Vec<Chunk>,
 }
@@ -118,8 +234,8 @@ impl Tree {
     /// Finds the tree of a surface.
     ///
     /// # Errors
-    /// [`RouteError::NoTriangles`], [`RouteError::InsideOut`], [`RouteError::NoInside`], [`RouteError::Sheet`].
-    pub fn new(mesh: &TriMesh) -> Result<Self, RouteError> {
+    /// [`TreeError::NoTriangles`], [`TreeError::InsideOut`], [`TreeError::NoInside`], [`TreeError::Sheet`].
+    pub fn new(mesh: &TriMesh) -> Result<Self, TreeError> {
         Self::with_index(mesh, Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles)))
     }
 
@@ -127,10 +243,10 @@ impl Tree {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn with_index(mesh: &TriMesh, index: Arc<SurfaceIndex>) -> Result<Self, RouteError> {
+    pub fn with_index(mesh: &TriMesh, index: Arc<SurfaceIndex>) -> Result<Self, TreeError> {
         let is_whole = |[a, b, c]: [u32; 3]| a != b && b != c && c != a;
         if mesh.triangles.iter().all(|&triangle| !is_whole(triangle)) {
-            return Err(RouteError::NoTriangles);
+            return Err(TreeError::NoTriangles);
         }
         let topology = if mesh.triangles.iter().all(|&triangle| is_whole(triangle)) {
             Topology::new(mesh.positions.len(), &mesh.triangles)
@@ -138,24 +254,15 @@ impl Tree {
             let whole: Vec<[u32; 3]> = mesh.triangles.iter().copied().filter(|&triangle| is_whole(triangle)).collect();
             Topology::new(mesh.positions.len(), &whole)
         };
-        let space = Space::new(mesh, &topology, index);
-        let found = fill(mesh, &space);
-        if found.is_sheet {
-            return Err(RouteError::Sheet { balls: found.balls.len() });
-        }
-        let graph = Graph::new(found);
-        if graph.balls.is_empty() {
-            let is_turned = volume(mesh, &topology) < 0.0;
-            let triangles = mesh.triangles.len();
-            return Err(if is_turned { RouteError::InsideOut } else { RouteError::NoInside { triangles } });
-        }
-        let mut tree =
-            Self { space, graph, branches: Vec::new(), groups: Vec::new(), segments: Vec::new(), chunks: Vec::new() };
-        for group in tree.largest_groups() {
-            tree.add_group(group);
-        }
-        tree.index_segments();
-        Ok(tree)
+        Self::with_topology(mesh, &topology, index)
+    }
+
+    /// As [`Self::with_index`], with the adjacency of its triangles, none of which repeats a vertex.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_topology(mesh: &TriMesh, topology: &Topology, index: Arc<SurfaceIndex>) -> Result<Self, TreeError> {
+        TreeTask::new(mesh, topology, index).finish()
     }
 
     /// The branches, those of the largest tree first; a parent comes before its branches.
@@ -177,23 +284,30 @@ impl Tree {
         sizes.into_iter().map(|size| size.1).collect()
     }
 
-    fn add_group(&mut self, group: u32) {
-        let Some(root) = self.root(group) else { return };
-        let tree = self.groups.len() as u32;
-        self.groups.push(group);
+    /// The paths of a group of balls, none of whose centrelines is there yet.
+    fn group(&self, group: u32) -> Option<Group> {
+        let root = self.root(group)?;
         let paths = self.graph.tree(root, |ball| self.is_open(ball));
-        // Each path's centreline, and where others leave it.
-        let mut lines: Vec<Vec<Place>> = Vec::new();
-        let mut cuts: Vec<Vec<usize>> = vec![Vec::new(); paths.len()];
-        let mut joints = Vec::new();
-        for path in &paths {
-            let (line, joint) = self.line(path, &lines, &paths);
-            if let Some(joint) = joint {
-                cuts[path.parent].push(joint);
-            }
-            joints.push(joint);
-            lines.push(line);
+        let cuts = vec![Vec::new(); paths.len()];
+        Some(Group { number: group, paths, lines: Vec::new(), cuts, joints: Vec::new() })
+    }
+
+    /// Adds the centreline of the group's next path, and where it leaves another; whether that was the last.
+    fn add_line(&self, group: &mut Group) -> bool {
+        let Some(path) = group.paths.get(group.lines.len()) else { return true };
+        let (line, joint) = self.line(path, &group.lines, &group.paths);
+        if let Some(joint) = joint {
+            group.cuts[path.parent].push(joint);
         }
+        group.joints.push(joint);
+        group.lines.push(line);
+        group.lines.len() == group.paths.len()
+    }
+
+    fn add_branches(&mut self, group: Group) {
+        let tree = self.groups.len() as u32;
+        self.groups.push(group.number);
+        let Group { paths, lines, mut cuts, joints, .. } = group;
         // The branch of each path that ends at a cut or after it.
         let mut pieces: Vec<Vec<(usize, u32)>> = Vec::new();
         for (i, (path, line)) in paths.iter().zip(&lines).enumerate() {
@@ -260,7 +374,7 @@ impl Tree {
     }
 
     /// The open end at an end of a centreline.
-    pub(super) fn opening_at(&self, place: Place) -> Option<usize> {
+    pub(crate) fn opening_at(&self, place: Place) -> Option<usize> {
         let p = place.at.as_vec3();
         let reach = |i: &usize| {
             let opening = &self.space.openings[*i];
@@ -280,7 +394,7 @@ impl Tree {
     }
 
     /// Leads a chain of balls out to the middle of the open end that it comes to.
-    pub(super) fn extend(&self, balls: &mut Vec<Ball>, at_start: bool) {
+    pub(crate) fn extend(&self, balls: &mut Vec<Ball>, at_start: bool) {
         let Some(&tip) = (if at_start { balls.first() } else { balls.last() }) else { return };
         let place = Place { at: tip.centre.as_dvec3(), radius: f64::from(tip.radius) };
         let Some(opening) = self.opening_at(place).map(|i| self.space.openings[i]) else { return };
@@ -357,7 +471,7 @@ impl Tree {
 }
 
 /// The place of a line that is nearest to a point.
-pub(super) fn nearest_place(line: &[Place], p: DVec3) -> usize {
+pub(crate) fn nearest_place(line: &[Place], p: DVec3) -> usize {
     let places = line.iter().map(|place| place.at.distance_squared(p)).enumerate();
     places.reduce(|least, next| if next.1 < least.1 { next } else { least }).map_or(0, |(place, _)| place)
 }

@@ -14,7 +14,7 @@ use super::balls::Balls;
 use super::space::Ball;
 
 /// No ball.
-pub(super) const NONE: u32 = u32::MAX;
+pub(crate) const NONE: u32 = u32::MAX;
 /// A branch sticks out of the rest by this many of its end's radii, or it is a bump.
 const STICKS_OUT: f32 = 1.0;
 /// One with an open end, by these.
@@ -24,10 +24,10 @@ const STICKS_OUT_OF: f32 = 0.35;
 
 /// Linked balls as compressed rows.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Graph {
-    pub(super) balls: Vec<Ball>,
-    pub(super) is_passing: Vec<bool>,
-    pub(super) group: Vec<u32>,
+pub(crate) struct Graph {
+    pub(crate) balls: Vec<Ball>,
+    pub(crate) is_passing: Vec<bool>,
+    pub(crate) group: Vec<u32>,
     offsets: Vec<u32>,
     /// The other ball, the length and the cost of each link.
     links: Vec<(u32, f32, f64)>,
@@ -35,26 +35,26 @@ pub(super) struct Graph {
 
 /// The cheapest ways from one ball to all that can be reached.
 #[derive(Clone, Debug)]
-pub(super) struct Ways {
+pub(crate) struct Ways {
     /// The ball before, on the way.
-    pub(super) before: Vec<u32>,
+    pub(crate) before: Vec<u32>,
     /// Length of the way in mm; infinite where there is none.
-    pub(super) length: Vec<f32>,
+    pub(crate) length: Vec<f32>,
 }
 
 /// A way that is part of the tree, from where it leaves the rest to its end.
 #[derive(Clone, Debug)]
-pub(super) struct Path {
+pub(crate) struct Path {
     /// The path that it leaves; itself for the first.
-    pub(super) parent: usize,
+    pub(crate) parent: usize,
     /// Where it leaves that one: the number of a ball of its list.
-    pub(super) joint: usize,
+    pub(crate) joint: usize,
     /// Its balls; those of a branch begin outside of its parent.
-    pub(super) balls: Vec<u32>,
+    pub(crate) balls: Vec<u32>,
 }
 
 impl Graph {
-    pub(super) fn new(found: Balls) -> Self {
+    pub(crate) fn new(found: Balls) -> Self {
         let Balls { balls, is_passing, links: pairs, group, .. } = found;
         let mut offsets = vec![0u32; balls.len() + 1];
         for pair in &pairs {
@@ -82,7 +82,7 @@ impl Graph {
     }
 
     /// The cheapest ways from `root` (Dijkstra 1959); of ways of the same cost, that by the balls of lower number.
-    pub(super) fn ways(&self, root: u32) -> Ways {
+    pub(crate) fn ways(&self, root: u32) -> Ways {
         let count = self.balls.len();
         let mut ways = Ways { before: vec![NONE; count], length: vec![f32::INFINITY; count] };
         let mut cost = vec![f64::INFINITY; count];
@@ -109,7 +109,7 @@ impl Graph {
     }
 
     /// The linked ball that goes on from `ball` most nearly straight `away`, or the farthest if there is no saying.
-    pub(super) fn onward(&self, ball: u32, away: Option<Vec3>) -> Option<u32> {
+    pub(crate) fn onward(&self, ball: u32, away: Option<Vec3>) -> Option<u32> {
         let from = self.balls[ball as usize].centre;
         let mut best = (0.6, None);
         for &(next, length, _) in self.links(ball) {
@@ -123,7 +123,7 @@ impl Graph {
     }
 
     /// The tree of ways from `root`, the first path through to the far end.
-    pub(super) fn tree(&self, root: u32, is_open: impl Fn(&Ball) -> bool) -> Vec<Path> {
+    pub(crate) fn tree(&self, root: u32, is_open: impl Fn(&Ball) -> bool) -> Vec<Path> {
         let ways = self.ways(root);
         let mut order: Vec<u32> = (0..self.balls.len() as u32)
             .filter(|&ball| ways.length[ball as usize].is_finite() && !self.is_passing[ball as usize])

@@ -34,7 +34,7 @@ pub struct Place {
 
 /// The centreline through the middles of `balls`. What lies within `fixed` mm of the first is only smoothed. The ends
 /// stay.
-pub(super) fn centreline(space: &Space, balls: &[Ball], fixed: f64) -> Vec<Place> {
+pub(crate) fn centreline(space: &Space, balls: &[Ball], fixed: f64) -> Vec<Place> {
     let mut points = divided(balls);
     let origin = points[0].at;
     for _ in 0..ROUNDS {
@@ -58,7 +58,7 @@ pub(super) fn centreline(space: &Space, balls: &[Ball], fixed: f64) -> Vec<Place
 }
 
 /// Sets each radius to that of the largest ball there.
-pub(super) fn measure(space: &Space, points: &mut [Place]) {
+pub(crate) fn measure(space: &Space, points: &mut [Place]) {
     parallel::for_each_chunk_mut(points, PIECE, |_, piece| {
         for point in piece {
             if let Some(ball) = space.largest(point.at) {
@@ -87,7 +87,7 @@ fn divided(balls: &[Ball]) -> Vec<Place> {
 }
 
 /// The direction of a line at its point `i`, of length 1.
-pub(super) fn direction(points: &[Place], i: usize) -> DVec3 {
+pub(crate) fn direction(points: &[Place], i: usize) -> DVec3 {
     let reach = points[i].radius;
     let mut ends = [i, i];
     while ends[0] > 0 && points[ends[0]].at.distance(points[i].at) < reach {
@@ -138,7 +138,7 @@ fn smooth(points: &mut [Place]) {
 }
 
 /// Arc lengths along a line, in mm.
-pub(super) fn arcs(points: &[Place]) -> Vec<f64> {
+pub(crate) fn arcs(points: &[Place]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut arcs = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {

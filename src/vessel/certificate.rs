@@ -1,0 +1,476 @@
+//! The certificate of calibre: what smoothing and reduction made of each branch of a vessel tree.
+//!
+//! Stations are taken along the centrelines of the surface as it was opened, and all three surfaces are cut there by the
+//! same planes. What is compared is the radius of the circle of the same area,
+//!
+//! ```text
+//! r(s) = sqrt( mean of A over s - r .. s + r / pi )
+//! ```
+//!
+//! with the mean weighted by `1 - |s - t| / r`, and where there is more of the vessel on one side than on the other, the
+//! line of least squares in its place, so that a taper does not tell: the area of one cross-section of a stair-stepped surface jumps by whole
+//! rows of voxels as the plane goes on, that of a stretch as long as the vessel is wide does not, and to the first order
+//! steps in and out of the wall leave it as it is. The inscribed radius, which stands beside it, does not have that
+//! property: steps that stand in make the ball smaller by a part of a voxel, and smoothing gives that back, though the
+//! calibre is the same.
+//!
+//! A change counts where the vessel can be measured: see [`zones`](super::zones) for ends and forks; where the cut closes
+//! on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or folded in the
+//! plane, there is no saying. Where they have no vessel any more, the change is -100 %.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::TreeError;
+use super::balls::mean_edge;
+use super::calibre::{Calibre, Indexing, Measuring, Subject};
+use super::space::Space;
+use super::stations::{Station, Stations};
+use super::tree::{Branch, Tree, TreeTask};
+use super::zones::{Zone, zones};
+use crate::mesh::{SurfaceIndex, Topology, TriMesh};
+use crate::task::{Budget, Progress, Task};
+
+/// The change in percent that a vessel is allowed, unless it is said otherwise.
+pub const TOLERANCE_PERCENT: f64 = 2.0;
+/// Diameters in mm of the widest vessel of a surface: others are of another unit.
+const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.2..=200.0;
+/// Least half length of the stretch that a radius is of, in mean edges.
+const WINDOW_EDGES: f64 = 4.0;
+/// A vessel is measured from so many mean edges of diameter on.
+const EDGES: f64 = 2.0;
+
+/// Why there is no certificate.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum CalibreError {
+    /// There is no tree.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+    /// No vessel is as wide as that.
+    #[error(
+        "the widest vessel is {diameter_mm:.3} mm across: the surface is probably not in the unit that it was opened in"
+    )]
+    Unit {
+        /// Diameter of the widest vessel in mm.
+        diameter_mm: f64,
+    },
+}
+
+/// What is found of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Nowhere more change than the tolerance.
+    Kept,
+    /// More change than the tolerance.
+    Changed,
+    /// The vessel can nowhere be measured.
+    NotMeasured,
+}
+
+/// Why a station does not count, or that it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Standing {
+    /// It counts.
+    Counts,
+    /// Within a radius of an end.
+    End,
+    /// At a fork.
+    Fork,
+    /// The vessel is less than two mean edges wide.
+    Thin,
+    /// One of the surfaces has no closed loop around the centreline there.
+    NotClosed,
+}
+
+/// Least, mean and largest of something.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Least.
+    pub least: f64,
+    /// Mean over the length.
+    pub mean: f64,
+    /// Largest.
+    pub largest: f64,
+}
+
+/// A change of calibre.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Change {
+    /// Change of the radius in percent of what it was.
+    pub percent: f64,
+    /// Where, in mm.
+    pub at_mm: [f32; 3],
+    /// Arc length there, from the first point of the branch, in mm.
+    pub abscissa_mm: f64,
+}
+
+/// A branch on one of the surfaces.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OnSurface {
+    /// Radius of the circle of the same area, in mm, over what is one vessel; null where no cut closes.
+    pub radius_mm: Option<Spread>,
+    /// Radius of the largest ball inside, in mm, over the same.
+    pub inscribed_radius_mm: Option<Spread>,
+    /// The largest change of the radius from the opened surface; null for that itself, and where nothing can be measured.
+    pub largest_change: Option<Change>,
+    /// Area of the cross-section at each station, in mm2; null where the cut does not close.
+    pub areas_mm2: Vec<Option<f32>>,
+    /// Radius of the circle of the same area at each station, in mm; null likewise.
+    pub radii_mm: Vec<Option<f32>>,
+    /// Radius of the largest ball inside at each station, in mm; null where the centreline is not inside.
+    pub inscribed_radii_mm: Vec<Option<f32>>,
+}
+
+/// A branch of the vessel tree, on all three surfaces.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BranchCalibre {
+    /// 1 for the first.
+    pub number: u32,
+    /// "branch 1" for the first.
+    pub name: String,
+    /// Number of the branch that it comes out of; null for the first of a tree.
+    pub parent: Option<u32>,
+    /// Length of the centreline in mm.
+    pub length_mm: f64,
+    /// Length over the distance of the ends; null where they are at one place.
+    pub tortuosity: Option<f64>,
+    /// Whether the reduced surface keeps it within the tolerance.
+    pub verdict: Verdict,
+    /// Whether the smoothed surface does.
+    pub verdict_smoothed: Verdict,
+    /// Stations that count.
+    pub stations_counted: usize,
+    /// Arc length at each station, from the first point of the branch, in mm.
+    pub abscissas_mm: Vec<f32>,
+    /// Each station, in mm.
+    pub at_mm: Vec<[f32; 3]>,
+    /// Whether each counts, and why not.
+    pub standings: Vec<Standing>,
+    /// As opened.
+    pub opened: OnSurface,
+    /// Smoothed.
+    pub smoothed: OnSurface,
+    /// Reduced.
+    pub reduced: OnSurface,
+}
+
+/// What became of all branches.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// The change in percent that is allowed.
+    pub tolerance_percent: f64,
+    /// Changed where one branch is; kept where the others are.
+    pub verdict: Verdict,
+    /// The branches, a parent before its branches.
+    pub branches: Vec<BranchCalibre>,
+}
+
+/// Makes a certificate in slices.
+pub struct CertificateTask {
+    subjects: [Subject; 3],
+    tolerance_percent: f64,
+    indices: [Indexing; 3],
+    step: Step,
+}
+
+enum Step {
+    Index,
+    Spaces(Box<[Arc<SurfaceIndex>; 3]>, Vec<Space>),
+    Tree([Space; 2], Box<TreeTask<Arc<TriMesh>, Arc<Topology>>>),
+    Measure(Box<Measure>),
+}
+
+struct Measure {
+    tree: Tree,
+    stations: Stations,
+    others: [Option<Space>; 2],
+    /// Of the surface that is being measured.
+    measuring: Measuring,
+    done: Vec<Vec<Calibre>>,
+    /// What the vessel has at each station of the opened surface, in mm.
+    radii: Vec<f64>,
+}
+
+impl CertificateTask {
+    /// Of the surface as it was opened, smoothed and reduced; `tolerance_percent` is the change that is allowed.
+    pub fn new(subjects: [Subject; 3], tolerance_percent: f64) -> Self {
+        let indices = [0, 1, 2].map(|i| Indexing::new(&subjects[i]));
+        Self { subjects, tolerance_percent, indices, step: Step::Index }
+    }
+
+    fn found(&self, measure: &Measure) -> Certificate {
+        let Measure { tree, stations, done, .. } = measure;
+        let own: Vec<Option<f64>> = done[0].iter().map(|found| found.area_mm2.map(circle)).collect();
+        let zones = zones(tree.branches(), stations, &own);
+        let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
+        let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
+            let calibres = [0, 1, 2].map(|i| &done[i][range.clone()]);
+            branch_calibre(
+                branch,
+                &stations.all[range.clone()],
+                &zones[range.clone()],
+                calibres,
+                edge_mm,
+                self.tolerance_percent,
+            )
+        };
+        let branches: Vec<BranchCalibre> = tree.branches().iter().zip(&stations.of).map(of).collect();
+        let has = |verdict: Verdict| branches.iter().any(|branch| branch.verdict == verdict);
+        let verdict = if has(Verdict::Changed) {
+            Verdict::Changed
+        } else if has(Verdict::Kept) {
+            Verdict::Kept
+        } else {
+            Verdict::NotMeasured
+        };
+        Certificate { tolerance_percent: self.tolerance_percent, verdict, branches }
+    }
+}
+
+impl Task for CertificateTask {
+    type Output = Result<Certificate, CalibreError>;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
+        loop {
+            match std::mem::replace(&mut self.step, Step::Index) {
+                Step::Index => {
+                    let mut all = Vec::with_capacity(3);
+                    for (indexing, subject) in self.indices.iter_mut().zip(&self.subjects) {
+                        match indexing.advance(&subject.mesh, budget) {
+                            Some(index) => all.push(index),
+                            None => return Progress::Working(0.1 * all.len() as f32 / 3.0),
+                        }
+                    }
+                    let [Some(a), Some(b), Some(c)] = [0, 1, 2].map(|i| all.get(i).cloned()) else { continue };
+                    self.step = Step::Spaces(Box::new([a, b, c]), Vec::new());
+                }
+                Step::Spaces(indices, mut spaces) => {
+                    let Subject { mesh, topology, .. } = &self.subjects[1 + spaces.len()];
+                    spaces.push(Space::new(mesh, topology, indices[1 + spaces.len()].clone()));
+                    self.step = match <[Space; 2]>::try_from(spaces) {
+                        Ok(spaces) => {
+                            let Subject { mesh, topology, .. } = self.subjects[0].clone();
+                            let [index, ..] = *indices;
+                            Step::Tree(spaces, Box::new(TreeTask::new(mesh, topology, index)))
+                        }
+                        Err(spaces) => Step::Spaces(indices, spaces),
+                    };
+                }
+                Step::Tree(others, mut task) => {
+                    let opened = &self.subjects[0];
+                    let tree = match task.advance(budget) {
+                        Progress::Working(fraction) => {
+                            self.step = Step::Tree(others, task);
+                            return Progress::Working(0.1 + 0.4 * fraction);
+                        }
+                        Progress::Done(tree) => tree,
+                    };
+                    let tree = match checked(tree) {
+                        Ok(tree) => tree,
+                        Err(error) => return Progress::Done(Err(error)),
+                    };
+                    let stations = Stations::new(tree.branches());
+                    let measuring = Measuring::new(opened, tree.space.clone());
+                    let others = others.map(Some);
+                    let (done, radii) = (Vec::new(), Vec::new());
+                    self.step = Step::Measure(Box::new(Measure { tree, stations, others, measuring, done, radii }));
+                }
+                Step::Measure(mut measure) => {
+                    let Measure { stations, others, measuring, done, radii, .. } = &mut *measure;
+                    let known = (!done.is_empty()).then_some(&radii[..]);
+                    if measuring.advance(&stations.all, known, budget) {
+                        done.push(std::mem::take(&mut measuring.found));
+                        if done.len() == 1 {
+                            let radius = |(station, found): (&Station, &Calibre)| {
+                                found.area_mm2.map_or(station.radius_mm, circle).max(station.radius_mm)
+                            };
+                            *radii = stations.all.iter().zip(&done[0]).map(radius).collect();
+                        }
+                        match others.get_mut(done.len() - 1).and_then(Option::take) {
+                            Some(space) => *measuring = Measuring::new(&self.subjects[done.len()], space),
+                            None => return Progress::Done(Ok(self.found(&measure))),
+                        }
+                    }
+                    let part = (measure.done.len() as f32 + measure.measuring.fraction(&measure.stations.all)) / 3.0;
+                    self.step = Step::Measure(measure);
+                    if budget.is_spent() {
+                        return Progress::Working(0.5 + 0.5 * part);
+                    }
+                    continue;
+                }
+            }
+            if budget.is_spent() {
+                return Progress::Working(0.1);
+            }
+        }
+    }
+}
+
+/// A tree of vessels as wide as vessels are.
+pub(super) fn checked(tree: Result<Tree, TreeError>) -> Result<Tree, CalibreError> {
+    let tree = tree?;
+    let radii = tree.branches().iter().flat_map(|branch| branch.points.iter().map(|place| place.radius));
+    let diameter_mm = 2.0 * radii.fold(0.0, f64::max);
+    if DIAMETERS_MM.contains(&diameter_mm) { Ok(tree) } else { Err(CalibreError::Unit { diameter_mm }) }
+}
+
+/// The radius of the circle of an area.
+pub(super) fn circle(area: f64) -> f64 {
+    (area / std::f64::consts::PI).sqrt()
+}
+
+fn branch_calibre(
+    branch: &Branch,
+    stations: &[Station],
+    zones: &[Zone],
+    calibres: [&[Calibre]; 3],
+    edge_mm: f64,
+    tolerance_percent: f64,
+) -> BranchCalibre {
+    let standing = |i: usize| {
+        let areas = calibres.map(|of| of[i].area_mm2);
+        match (zones[i], areas) {
+            (Zone::End, _) => Standing::End,
+            (Zone::Fork, _) => Standing::Fork,
+            (Zone::Vessel, [Some(opened), Some(_), Some(_)]) if 2.0 * circle(opened) >= EDGES * edge_mm => {
+                Standing::Counts
+            }
+            (Zone::Vessel, [Some(_), Some(_), Some(_)]) => Standing::Thin,
+            (Zone::Vessel, _) => Standing::NotClosed,
+        }
+    };
+    let standings: Vec<Standing> = (0..stations.len()).map(standing).collect();
+    // Of a branch that is nowhere one vessel, all of it.
+    let is_vessel = |standing: &Standing| matches!(standing, Standing::Counts | Standing::Thin);
+    let has_vessel = standings.iter().any(is_vessel);
+    let shown: Vec<usize> = (0..stations.len()).filter(|&i| !has_vessel || is_vessel(&standings[i])).collect();
+    let radii = calibres.map(|of| radii(stations, of, calibres[0], &standings, edge_mm));
+    let of = |surface: usize| {
+        let counted = (0..stations.len()).filter(|&i| standings[i] == Standing::Counts);
+        let change = |i: usize| Some((100.0 * (radii[surface][i]? / radii[0][i]?.max(f64::MIN_POSITIVE) - 1.0), i));
+        let most =
+            counted.filter_map(change).reduce(|most, next| if next.0.abs() > most.0.abs() { next } else { most });
+        let largest_change = most.filter(|_| surface > 0).map(|(percent, i)| Change {
+            percent,
+            at_mm: stations[i].at.as_vec3().to_array(),
+            abscissa_mm: stations[i].abscissa_mm,
+        });
+        let single = |value: Option<f64>| value.map(|value| value as f32);
+        OnSurface {
+            radius_mm: spread(shown.iter().filter_map(|&i| radii[surface][i])),
+            inscribed_radius_mm: spread(shown.iter().filter_map(|&i| calibres[surface][i].inscribed_mm)),
+            largest_change,
+            areas_mm2: calibres[surface].iter().map(|found| single(found.area_mm2)).collect(),
+            radii_mm: radii[surface].iter().map(|&radius| single(radius)).collect(),
+            inscribed_radii_mm: calibres[surface].iter().map(|found| single(found.inscribed_mm)).collect(),
+        }
+    };
+    let [opened, smoothed, reduced] = [0, 1, 2].map(of);
+    let verdict = |of: &OnSurface| match of.largest_change {
+        None => Verdict::NotMeasured,
+        Some(change) if change.percent.abs() <= tolerance_percent => Verdict::Kept,
+        Some(_) => Verdict::Changed,
+    };
+    let ends = branch.points.first().zip(branch.points.last()).map_or(0.0, |(from, to)| from.at.distance(to.at));
+    let length_mm = branch.length_mm();
+    BranchCalibre {
+        number: branch.id + 1,
+        name: branch.name.clone(),
+        parent: branch.parent.map(|parent| parent + 1),
+        length_mm,
+        tortuosity: (ends > 1e-6 * length_mm).then(|| length_mm / ends),
+        verdict: verdict(&reduced),
+        verdict_smoothed: verdict(&smoothed),
+        stations_counted: standings.iter().filter(|&&standing| standing == Standing::Counts).count(),
+        abscissas_mm: stations.iter().map(|station| station.abscissa_mm as f32).collect(),
+        at_mm: stations.iter().map(|station| station.at.as_vec3().to_array()).collect(),
+        standings,
+        opened,
+        smoothed,
+        reduced,
+    }
+}
+
+/// The radius at each station, over a stretch as long as the vessel is wide: of stations of its kind (one vessel, or not),
+/// and where all surfaces have an area, so that the surfaces are compared over the same.
+fn radii(
+    stations: &[Station],
+    of: &[Calibre],
+    opened: &[Calibre],
+    standings: &[Standing],
+    edge_mm: f64,
+) -> Vec<Option<f64>> {
+    let is_vessel = |i: usize| matches!(standings[i], Standing::Counts | Standing::Thin);
+    let one = |i: usize| {
+        let own = of[i].area_mm2?;
+        if !is_vessel(i) {
+            return Some(circle(own));
+        }
+        let reach = circle(opened[i].area_mm2?).max(WINDOW_EDGES * edge_mm);
+        let mut line = Line::default();
+        let mut add = |k: usize| {
+            let from = stations[k].abscissa_mm - stations[i].abscissa_mm;
+            let weight = 1.0 - from.abs() / reach.max(f64::MIN_POSITIVE);
+            let Some(area) = of[k].area_mm2.filter(|_| weight > 0.0) else { return false };
+            line.add(from, area, weight);
+            true
+        };
+        // As far on either side as it is one vessel.
+        let before = (0..i).rev().take_while(|&k| is_vessel(k));
+        let after = (i..stations.len()).take_while(|&k| is_vessel(k));
+        for k in before {
+            if !add(k) {
+                break;
+            }
+        }
+        for k in after {
+            if !add(k) {
+                break;
+            }
+        }
+        Some(circle(line.at_origin().max(0.0)))
+    };
+    (0..stations.len()).map(one).collect()
+}
+
+/// The line through weighted points that is nearest to them (local linear regression).
+#[derive(Default)]
+struct Line {
+    weights: f64,
+    first: f64,
+    second: f64,
+    sum: f64,
+    moment: f64,
+}
+
+impl Line {
+    fn add(&mut self, x: f64, y: f64, weight: f64) {
+        self.weights += weight;
+        self.first += weight * x;
+        self.second += weight * x * x;
+        self.sum += weight * y;
+        self.moment += weight * x * y;
+    }
+
+    /// Its height at x = 0.
+    fn at_origin(&self) -> f64 {
+        let determinant = self.weights * self.second - self.first * self.first;
+        if determinant > 1e-9 * self.weights * self.second {
+            (self.second * self.sum - self.first * self.moment) / determinant
+        } else {
+            self.sum / self.weights
+        }
+    }
+}
+
+fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {
+    let (mut count, mut sum, mut least, mut largest) = (0usize, 0.0, f64::INFINITY, f64::NEG_INFINITY);
+    for value in values {
+        (count, sum, least, largest) = (count + 1, sum + value, least.min(value), largest.max(value));
+    }
+    (count > 0).then(|| Spread { least, mean: sum / count as f64, largest })
+}
