@@ -211,7 +211,7 @@ impl Current {
                 tell_progress(Work::Stage(stage), fraction, events);
             }
             Advance::Finished(Stage::Decimation) => self.has_new_levels = true,
-            Advance::Finished(stage @ (Stage::Level | Stage::Deviation | Stage::Measures)) => {
+            Advance::Finished(stage @ (Stage::Level | Stage::Deviation | Stage::Measures | Stage::Safe)) => {
                 self.reached = generation;
                 if let Some(mesh) = self.pipeline.progressive().filter(|_| self.has_new_levels) {
                     let keep = self.pipeline.settings().keep;
@@ -220,7 +220,8 @@ impl Current {
                     self.has_new_levels = false;
                 }
                 // Shape and lumen come when the deviation is told.
-                self.tell_numbers(stage != Stage::Level, stage != Stage::Measures, events);
+                let has_new_map = !matches!(stage, Stage::Measures | Stage::Safe);
+                self.tell_numbers(stage != Stage::Level, has_new_map, events);
             }
             Advance::Finished(Stage::Connectivity) => {
                 let pieces = self.pipeline.connectivity();

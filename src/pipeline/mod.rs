@@ -19,6 +19,7 @@ pub mod report;
 pub mod response;
 pub mod results;
 pub mod run;
+pub mod safe;
 pub mod settings;
 pub mod shape;
 pub mod smoothing;

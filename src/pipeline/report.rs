@@ -9,6 +9,7 @@ use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
 use super::results::{Adapted, StageTimes};
 use super::run::Pipeline;
+use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
 use crate::mesh::{Measures, TriMesh, components};
@@ -123,6 +124,9 @@ pub struct Report {
     pub narrowing: Option<Narrowing>,
     /// The first reduction rate, of all, at which a vessel is pinched or lost; null where there is none.
     pub pinch: Option<Pinch>,
+    /// How far a reduction is safe, at a tolerance of 2 %; null until it is known.
+    #[serde(default)]
+    pub safe: Option<Safe>,
     /// Whether the vessels keep their calibre; null where that was not asked for.
     #[serde(default)]
     pub calibre: Option<CalibreReport>,
@@ -194,6 +198,7 @@ impl Report {
             output_shape: pipeline.level_measures().map(|found| found.shape.clone()),
             narrowing: pipeline.level_measures().and_then(|found| found.narrowing),
             pinch: pipeline.smoothed_measures().and_then(|found| found.pinch),
+            safe: pipeline.safe().map(|safe| (**safe).clone()),
             calibre: None,
             branches: None,
         })

@@ -13,6 +13,7 @@ use super::lumen::{Narrowing, Sample};
 use super::pinch::Pinch;
 use super::progressive::{Level, ProgressiveMesh};
 use super::response::SmoothingResponse;
+use super::safe::Safe;
 use super::settings::Settings;
 use super::shape::Shape;
 use super::stage::{PerStage, Stage};
@@ -47,6 +48,9 @@ pub struct StageTimes {
     pub deviation: f64,
     /// Shape and lumen of the smoothed surface, if it is new, and of the level.
     pub measures: f64,
+    /// The search for how far a reduction is safe, when it last ran.
+    #[serde(default)]
+    pub safe: f64,
     /// Surface to file; set by whoever writes it.
     pub write: f64,
 }
@@ -104,6 +108,7 @@ impl Times {
             areas: part(Part::KeptAreas) + part(Part::SmoothedAreas) + part(Part::LevelAreas),
             deviation: self.stages[Stage::Deviation],
             measures: self.stages[Stage::SmoothedMeasures] + self.stages[Stage::Measures],
+            safe: self.stages[Stage::Safe],
             write: 0.0,
         }
     }
@@ -129,6 +134,8 @@ pub(super) struct Results {
     pub(super) smoothed_measures: Option<Arc<SmoothedMeasures>>,
     /// Shape and lumen of the level.
     pub(super) level_measures: Option<Arc<LevelMeasures>>,
+    /// How far a reduction is safe.
+    pub(super) safe: Option<Arc<Safe>>,
     pub(super) indices: Indices,
     pub(super) times: Times,
 }
@@ -162,6 +169,7 @@ impl Results {
             Stage::Deviation => self.deviations.is_some(),
             Stage::SmoothedMeasures => self.smoothed_measures.is_some(),
             Stage::Measures => self.level_measures.is_some(),
+            Stage::Safe => self.safe.is_some(),
         }
     }
 
@@ -178,6 +186,7 @@ impl Results {
             Stage::Level => (self.reduced, self.indices.level) = (None, None),
             Stage::Deviation => self.deviations = None,
             Stage::SmoothedMeasures => self.smoothed_measures = None,
+            Stage::Safe => self.safe = None,
             Stage::Measures => {
                 self.level_measures = None;
                 // Both times are told as one: that of the smoothed surface counts where it was spent for this level.

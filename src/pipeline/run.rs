@@ -20,6 +20,7 @@ use super::connectivity::Connectivity;
 use super::deviation::INTERACTIVE_SAMPLES;
 use super::progressive::ProgressiveMesh;
 use super::results::{Deviations, LevelMeasures, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes, Surface};
+use super::safe::Safe;
 use super::settings::{Keep, Settings, SettingsError};
 use super::smoothing::Preparation;
 use super::stage::{PerStage, Stage, stale};
@@ -250,6 +251,11 @@ impl Pipeline {
     /// Shape and lumen of the level.
     pub fn level_measures(&self) -> Option<&Arc<LevelMeasures>> {
         self.store.now.level_measures.as_ref()
+    }
+
+    /// How far a reduction is safe, at the usual tolerance.
+    pub fn safe(&self) -> Option<&Arc<Safe>> {
+        self.store.now.safe.as_ref()
     }
 
     /// The certificate of calibre of what is there; `tolerance_percent` is the change of calibre that a vessel is allowed.

@@ -26,11 +26,13 @@ pub enum Stage {
     SmoothedMeasures,
     /// Shape and lumen of the level.
     Measures,
+    /// Up to which rate every vessel keeps its calibre.
+    Safe,
 }
 
 impl Stage {
     /// All, in their order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Connectivity,
         Self::Smoothing,
         Self::Decimation,
@@ -39,6 +41,7 @@ impl Stage {
         Self::Deviation,
         Self::SmoothedMeasures,
         Self::Measures,
+        Self::Safe,
     ];
 
     /// What the stage is called while it runs.
@@ -51,6 +54,7 @@ impl Stage {
             Self::Level => "Taking the level",
             Self::Deviation => "Measuring deviation",
             Self::SmoothedMeasures | Self::Measures => "Measuring shape and lumen",
+            Self::Safe => "Finding how far is safe",
         }
     }
 
@@ -64,6 +68,7 @@ impl Stage {
             Self::Level => &[Self::Decimation, Self::Bound],
             Self::Deviation => &[Self::Level],
             Self::Measures => &[Self::Level, Self::SmoothedMeasures],
+            Self::Safe => &[Self::SmoothedMeasures],
         }
     }
 
@@ -74,7 +79,7 @@ impl Stage {
             Self::Smoothing => !old.smoothing.gives_same(&new.smoothing),
             Self::Decimation => !old.decimation.gives_same(&new.decimation),
             Self::Bound | Self::Level => old.target != new.target,
-            Self::Deviation | Self::SmoothedMeasures | Self::Measures => false,
+            Self::Deviation | Self::SmoothedMeasures | Self::Measures | Self::Safe => false,
         }
     }
 
@@ -82,7 +87,7 @@ impl Stage {
     pub(super) fn is_wanted(self, settings: &Settings, is_measured: bool) -> bool {
         match self {
             Self::Bound => settings.target.deviation_mm().is_some(),
-            Self::Deviation | Self::SmoothedMeasures | Self::Measures => is_measured,
+            Self::Deviation | Self::SmoothedMeasures | Self::Measures | Self::Safe => is_measured,
             Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,
         }
     }
@@ -142,8 +147,8 @@ mod tests {
             let stale = stale(&old, &new);
             let expected = |stage: Stage| match first {
                 None => false,
-                // The measures of the smoothed surface are the same for every level.
-                Some(Stage::Bound) => stage >= Stage::Bound && stage != Stage::SmoothedMeasures,
+                // What is measured of the smoothed surface and of all levels is the same for every level.
+                Some(Stage::Bound) => stage >= Stage::Bound && !matches!(stage, Stage::SmoothedMeasures | Stage::Safe),
                 Some(first) => stage >= first,
             };
             for stage in Stage::ALL {

@@ -175,6 +175,56 @@ pub struct CertificateTask {
     tolerance_percent: f64,
     indices: [Indexing; 3],
     step: Step,
+    /// What the certificate was made from, once it is.
+    made_from: Option<Box<Measure>>,
+}
+
+/// What more reduced surfaces are judged by: where the opened surface is measured, and what it and the smoothed one have
+/// there.
+pub(crate) struct Basis {
+    measure: Box<Measure>,
+    edge_mm: f64,
+    tolerance_percent: f64,
+    zones: Vec<Zone>,
+}
+
+/// A reduced surface that is measured where a [`Basis`] is.
+pub(crate) struct Candidate {
+    subject: Subject,
+    indexing: Indexing,
+    measuring: Option<Measuring>,
+}
+
+impl Candidate {
+    pub(crate) fn new(subject: Subject) -> Self {
+        Self { indexing: Indexing::new(&subject), measuring: None, subject }
+    }
+
+    /// Measures until `budget` is spent; then the calibre of each branch, if all is measured.
+    pub(crate) fn advance(&mut self, basis: &Basis, budget: Budget) -> Option<Vec<BranchCalibre>> {
+        let Subject { mesh, topology, .. } = &self.subject;
+        if self.measuring.is_none() {
+            let index = self.indexing.advance(mesh, budget)?;
+            self.measuring = Some(Measuring::new(&self.subject, Space::new(mesh, topology, index)));
+        }
+        let measuring = self.measuring.as_mut()?;
+        let Measure { stations, radii, .. } = &*basis.measure;
+        measuring.advance(&stations.all, Some(radii), budget).then(|| basis.judged(&measuring.found))
+    }
+}
+
+impl Basis {
+    /// The calibre of each branch, on a surface that has `reduced` at the stations.
+    fn judged(&self, reduced: &[Calibre]) -> Vec<BranchCalibre> {
+        let Measure { tree, stations, done, .. } = &*self.measure;
+        let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
+            let own = range.clone();
+            let calibres = [&done[0][own.clone()], &done[1][own.clone()], &reduced[own.clone()]];
+            let (stations, zones) = (&stations.all[own.clone()], &self.zones[own]);
+            branch_calibre(branch, stations, zones, calibres, self.edge_mm, self.tolerance_percent)
+        };
+        tree.branches().iter().zip(&stations.of).map(of).collect()
+    }
 }
 
 enum Step {
@@ -199,26 +249,27 @@ impl CertificateTask {
     /// Of the surface as it was opened, smoothed and reduced; `tolerance_percent` is the change that is allowed.
     pub fn new(subjects: [Subject; 3], tolerance_percent: f64) -> Self {
         let indices = [0, 1, 2].map(|i| Indexing::new(&subjects[i]));
-        Self { subjects, tolerance_percent, indices, step: Step::Index }
+        Self { subjects, tolerance_percent, indices, step: Step::Index, made_from: None }
     }
 
-    fn found(&self, measure: &Measure) -> Certificate {
-        let Measure { tree, stations, done, .. } = measure;
+    /// What else can be judged by what this certificate was made from; `None` where there is none.
+    pub(crate) fn into_basis(mut self) -> Option<Basis> {
+        let measure = self.made_from.take()?;
+        Some(self.basis(measure))
+    }
+
+    fn basis(&self, measure: Box<Measure>) -> Basis {
+        let Measure { tree, stations, done, .. } = &*measure;
         let own: Vec<Option<f64>> = done[0].iter().map(|found| found.area_mm2.map(circle)).collect();
         let zones = zones(tree.branches(), stations, &own);
         let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
-        let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
-            let calibres = [0, 1, 2].map(|i| &done[i][range.clone()]);
-            branch_calibre(
-                branch,
-                &stations.all[range.clone()],
-                &zones[range.clone()],
-                calibres,
-                edge_mm,
-                self.tolerance_percent,
-            )
-        };
-        let branches: Vec<BranchCalibre> = tree.branches().iter().zip(&stations.of).map(of).collect();
+        Basis { measure, edge_mm, tolerance_percent: self.tolerance_percent, zones }
+    }
+
+    fn found(&mut self, measure: Box<Measure>) -> Certificate {
+        let basis = self.basis(measure);
+        let branches = basis.judged(&basis.measure.done[2]);
+        self.made_from = Some(basis.measure);
         let has = |verdict: Verdict| branches.iter().any(|branch| branch.verdict == verdict);
         let verdict = if has(Verdict::Changed) {
             Verdict::Changed
@@ -292,7 +343,7 @@ impl Task for CertificateTask {
                         }
                         match others.get_mut(done.len() - 1).and_then(Option::take) {
                             Some(space) => *measuring = Measuring::new(&self.subjects[done.len()], space),
-                            None => return Progress::Done(Ok(self.found(&measure))),
+                            None => return Progress::Done(Ok(self.found(measure))),
                         }
                     }
                     let part = (measure.done.len() as f32 + measure.measuring.fraction(&measure.stations.all)) / 3.0;

@@ -6,6 +6,7 @@ mod decimation;
 mod deviation;
 mod level;
 mod measures;
+mod safe;
 mod smoothing;
 
 use super::settings::SettingsError;
@@ -30,5 +31,6 @@ pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {
         Stage::Deviation => Box::new(deviation::Deviating::start(store)?),
         Stage::SmoothedMeasures => Box::new(measures::OfSmoothed::start(store)?),
         Stage::Measures => Box::new(measures::OfLevel::start(store)?),
+        Stage::Safe => Box::new(safe::Searching::start(store)?),
     })
 }

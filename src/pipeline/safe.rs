@@ -1,0 +1,245 @@
+//! How far a reduction is safe: up to which rate every branch of the vessel tree keeps its calibre.
+//!
+//! A level is judged as the certificate of calibre judges it (`crate::vessel::certificate`), at the stations of the opened
+//! surface. Looked at are a row of rates, from 0 on, closer together where reductions are strong, and then, between the
+//! last at which all vessels kept their calibre and the first at which one did not, halves of halves, down to a tenth of
+//! a percent. So the rate that is marked was looked at, and so was the next one above, which is not safe; a vessel that is
+//! changed at a rate in between the others and comes back is not seen. A rate at which a vessel is pinched anywhere
+//! (`super::pinch`, which looks at every rate) is not safe either. That no triangles cross that did not is so at every rate.
+//!
+//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::pinch::Pinch;
+use super::progressive::ProgressiveMesh;
+use super::settings::Target;
+use super::task::{Budget, Progress, Task};
+use crate::vessel::Subject;
+use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, CertificateTask, Verdict};
+
+/// The rates that are looked at, in tenths of a percent.
+const RATES: [u32; 20] =
+    [0, 300, 500, 600, 700, 800, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 993, 996, 998, 999];
+
+/// How far a reduction is safe.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Safe {
+    /// The change of calibre in percent that is allowed.
+    pub tolerance_percent: f64,
+    /// The highest rate up to which every vessel keeps its calibre, in percent; null where no vessel can be measured.
+    pub percent: Option<f64>,
+    /// Triangles at that rate.
+    pub triangles: Option<usize>,
+    /// Why it does not go further: a branch that is changed at the next rate, or a pinch; null where nothing stops it.
+    pub stopped_by: Option<String>,
+    /// Each branch by itself.
+    pub branches: Vec<BranchSafe>,
+    /// Why there is no vessel tree; null where there is one.
+    pub refused: Option<String>,
+}
+
+/// How far a reduction is safe for a branch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BranchSafe {
+    /// Its number, from 1.
+    pub number: u32,
+    /// "branch 1" for the first.
+    pub name: String,
+    /// Whether smoothing alone has changed it by more than is allowed: then it does not count.
+    pub changed_by_smoothing: bool,
+    /// The highest rate that was looked at with all those below it keeping the branch, in percent; null where there is none.
+    pub kept_to_percent: Option<f64>,
+    /// The next rate that was looked at, at which it is changed; null where it is kept as far as was looked.
+    pub changed_from_percent: Option<f64>,
+}
+
+/// The search in slices.
+pub(crate) struct SafeTask {
+    progressive: Arc<ProgressiveMesh>,
+    pinch: Option<Pinch>,
+    tolerance_percent: f64,
+    step: Step,
+    /// What was found at each rate that was looked at.
+    looks: Vec<Look>,
+}
+
+enum Step {
+    Certificate(Box<CertificateTask>),
+    /// A level is measured.
+    Level(Box<Basis>, u32, Box<Candidate>),
+    Done,
+}
+
+/// A rate that was looked at.
+struct Look {
+    per_mille: u32,
+    branches: Vec<BranchCalibre>,
+}
+
+impl SafeTask {
+    /// Of all levels of `progressive`, which was made from `smoothed`, which was made from `kept`; `pinch` is the first.
+    pub(crate) fn new(
+        kept: Subject,
+        smoothed: Subject,
+        progressive: Arc<ProgressiveMesh>,
+        pinch: Option<Pinch>,
+        tolerance_percent: f64,
+    ) -> Self {
+        let subjects = [kept, smoothed.clone(), smoothed];
+        let step = Step::Certificate(Box::new(CertificateTask::new(subjects, tolerance_percent)));
+        Self { progressive, pinch, tolerance_percent, step, looks: Vec::new() }
+    }
+
+    /// Whether smoothing left branch `i` its calibre, as far as it can be measured.
+    fn counts(&self, i: usize) -> bool {
+        self.looks.first().is_some_and(|look| look.branches[i].verdict_smoothed != Verdict::Changed)
+    }
+
+    /// Whether branch `i` has changed there by more than it may, or can no longer be measured, as it could before.
+    fn is_changed(&self, look: &Look, i: usize) -> bool {
+        match look.branches[i].verdict {
+            Verdict::Changed => true,
+            Verdict::Kept => false,
+            Verdict::NotMeasured => self.looks.first().is_some_and(|first| first.branches[i].verdict == Verdict::Kept),
+        }
+    }
+
+    /// The first branch that counts and is changed there.
+    fn changed<'a>(&self, look: &'a Look) -> Option<&'a BranchCalibre> {
+        let changed = (0..look.branches.len()).find(|&i| self.counts(i) && self.is_changed(look, i));
+        changed.map(|i| &look.branches[i])
+    }
+
+    fn is_pinched(&self, per_mille: u32) -> bool {
+        self.pinch.is_some_and(|pinch| f64::from(per_mille) / 10.0 >= pinch.from_percent - 1e-6)
+    }
+
+    fn is_safe(&self, look: &Look) -> bool {
+        self.changed(look).is_none() && !self.is_pinched(look.per_mille)
+    }
+
+    /// The last rate that is safe with all before it, and the first that is not.
+    fn bounds(&self) -> (Option<&Look>, Option<&Look>) {
+        let first_bad = self.looks.iter().find(|look| !self.is_safe(look));
+        let last_good = self.looks.iter().take_while(|look| self.is_safe(look)).last();
+        (last_good, first_bad)
+    }
+
+    /// The rate to look at next: of the row, as long as some branch is still kept, then halves.
+    fn next_rate(&self) -> Option<u32> {
+        let last_of_row = self.looks.iter().map(|look| look.per_mille).filter(|rate| RATES.contains(rate)).max();
+        let is_any_kept = self.looks.last().is_none_or(|look| {
+            let kept = |i: &usize| self.counts(*i) && look.branches[*i].verdict == Verdict::Kept;
+            (0..look.branches.len()).any(|i| kept(&i))
+        });
+        let next_of_row = RATES.into_iter().find(|&rate| last_of_row.is_none_or(|last| rate > last));
+        // Beyond a pinch branches are still told apart, as long as the row goes.
+        if let Some(rate) = next_of_row.filter(|_| is_any_kept) {
+            return Some(rate);
+        }
+        let (good, bad) = self.bounds();
+        let (good, bad) = (good?.per_mille, bad?.per_mille);
+        (bad - good > 1).then(|| good.midpoint(bad))
+    }
+
+    /// Begins with the next level, if there is one to look at.
+    fn next(&self, basis: Box<Basis>) -> Step {
+        let Some(rate) = self.next_rate() else { return Step::Done };
+        let level = self.progressive.level(Target::Reduction(rate));
+        let mesh = Arc::new(self.progressive.extract(&level.triangles));
+        Step::Level(basis, rate, Box::new(Candidate::new(Subject::new(&mesh))))
+    }
+
+    fn add(&mut self, per_mille: u32, branches: Vec<BranchCalibre>) {
+        let at = self.looks.partition_point(|look| look.per_mille < per_mille);
+        self.looks.insert(at, Look { per_mille, branches });
+    }
+
+    fn found(&self) -> Safe {
+        let (good, bad) = self.bounds();
+        let percent = |look: &Look| f64::from(look.per_mille) / 10.0;
+        let can_measure = self
+            .looks
+            .first()
+            .is_some_and(|look| look.branches.iter().any(|branch| branch.verdict != Verdict::NotMeasured));
+        let good = good.filter(|_| can_measure);
+        let stopped_by = bad.filter(|_| can_measure).and_then(|look| match self.changed(look) {
+            Some(branch) => Some(match branch.reduced.largest_change {
+                Some(change) => {
+                    let [x, y, z] = change.at_mm;
+                    let (name, by, at) = (&branch.name, change.percent, percent(look));
+                    format!("At {at:.1} % {name} changes by {by:+.1} %, at ({x:.1}, {y:.1}, {z:.1})")
+                }
+                None => format!("At {:.1} % {} can no longer be measured", percent(look), branch.name),
+            }),
+            None => self.pinch.map(|pinch| pinch.to_string()),
+        });
+        let branches = self.looks.first().map_or(&[][..], |look| &look.branches);
+        Safe {
+            tolerance_percent: self.tolerance_percent,
+            percent: good.map(percent),
+            triangles: good.map(|look| self.progressive.level(Target::Reduction(look.per_mille)).triangles.len()),
+            stopped_by,
+            branches: branches.iter().enumerate().map(|(i, branch)| self.branch(i, branch)).collect(),
+            refused: None,
+        }
+    }
+
+    fn branch(&self, i: usize, branch: &BranchCalibre) -> BranchSafe {
+        let percent = |look: &Look| f64::from(look.per_mille) / 10.0;
+        let is_kept = |look: &&Look| look.branches[i].verdict == Verdict::Kept;
+        BranchSafe {
+            number: branch.number,
+            name: branch.name.clone(),
+            changed_by_smoothing: !self.counts(i),
+            kept_to_percent: self.looks.iter().take_while(is_kept).last().map(percent),
+            changed_from_percent: self.looks.iter().find(|look| self.is_changed(look, i)).map(percent),
+        }
+    }
+}
+
+impl Task for SafeTask {
+    type Output = Safe;
+
+    /// To take a level out is one piece.
+    fn advance(&mut self, budget: Budget) -> Progress<Safe> {
+        loop {
+            self.step = match std::mem::replace(&mut self.step, Step::Done) {
+                Step::Certificate(mut task) => match task.advance(budget) {
+                    Progress::Working(fraction) => {
+                        self.step = Step::Certificate(task);
+                        return Progress::Working(0.5 * fraction);
+                    }
+                    Progress::Done(Err(error)) => {
+                        return Progress::Done(Safe { refused: Some(error.to_string()), ..self.found() });
+                    }
+                    Progress::Done(Ok(certificate)) => {
+                        self.add(0, certificate.branches);
+                        match task.into_basis() {
+                            Some(basis) => self.next(Box::new(basis)),
+                            None => Step::Done,
+                        }
+                    }
+                },
+                Step::Level(basis, rate, mut candidate) => match candidate.advance(&basis, budget) {
+                    None => {
+                        self.step = Step::Level(basis, rate, candidate);
+                        let looks = RATES.len() + 6;
+                        return Progress::Working(0.5 + 0.5 * (self.looks.len().min(looks) as f32 / looks as f32));
+                    }
+                    Some(branches) => {
+                        self.add(rate, branches);
+                        self.next(basis)
+                    }
+                },
+                Step::Done => return Progress::Done(self.found()),
+            };
+            if budget.is_spent() && !matches!(self.step, Step::Done) {
+                return Progress::Working(0.5);
+            }
+        }
+    }
+}
