@@ -26,6 +26,7 @@ use thiserror::Error;
 use super::TreeError;
 use super::balls::mean_edge;
 use super::calibre::{Calibre, Indexing, Measuring, Subject};
+use super::recentring::recentre;
 use super::space::Space;
 use super::stations::{Station, Stations};
 use super::tree::{Branch, Tree, TreeTask};
@@ -187,6 +188,8 @@ enum Step {
 struct Measure {
     tree: Tree,
     stations: Stations,
+    /// Of each station; empty until the opened surface is measured.
+    zones: Vec<Zone>,
     others: [Option<Space>; 2],
     /// Of the surface that is being measured.
     measuring: Measuring,
@@ -203,9 +206,7 @@ impl CertificateTask {
     }
 
     fn found(&self, measure: &Measure) -> Certificate {
-        let Measure { tree, stations, done, .. } = measure;
-        let own: Vec<Option<f64>> = done[0].iter().map(|found| found.area_mm2.map(circle)).collect();
-        let zones = zones(tree.branches(), stations, &own);
+        let Measure { tree, stations, zones, done, .. } = measure;
         let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
         let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
             let calibres = [0, 1, 2].map(|i| &done[i][range.clone()]);
@@ -277,10 +278,18 @@ impl Task for CertificateTask {
                     let measuring = Measuring::new(opened, tree.space.clone());
                     let others = others.map(Some);
                     let (done, radii) = (Vec::new(), Vec::new());
-                    self.step = Step::Measure(Box::new(Measure { tree, stations, others, measuring, done, radii }));
+                    self.step = Step::Measure(Box::new(Measure {
+                        tree,
+                        stations,
+                        zones: Vec::new(),
+                        others,
+                        measuring,
+                        done,
+                        radii,
+                    }));
                 }
                 Step::Measure(mut measure) => {
-                    let Measure { stations, others, measuring, done, radii, .. } = &mut *measure;
+                    let Measure { tree, stations, zones: found, others, measuring, done, radii } = &mut *measure;
                     let known = (!done.is_empty()).then_some(&radii[..]);
                     if measuring.advance(&stations.all, known, budget) {
                         done.push(std::mem::take(&mut measuring.found));
@@ -289,6 +298,10 @@ impl Task for CertificateTask {
                                 found.area_mm2.map_or(station.radius_mm, circle).max(station.radius_mm)
                             };
                             *radii = stations.all.iter().zip(&done[0]).map(radius).collect();
+                            let own: Vec<Option<f64>> =
+                                done[0].iter().map(|found| found.area_mm2.map(circle)).collect();
+                            *found = zones(tree.branches(), stations, &own);
+                            recentre(stations, &done[0], found);
                         }
                         match others.get_mut(done.len() - 1).and_then(Option::take) {
                             Some(space) => *measuring = Measuring::new(&self.subjects[done.len()], space),
@@ -375,8 +388,8 @@ fn branch_calibre(
         Some(change) if change.percent.abs() <= tolerance_percent => Verdict::Kept,
         Some(_) => Verdict::Changed,
     };
-    let ends = branch.points.first().zip(branch.points.last()).map_or(0.0, |(from, to)| from.at.distance(to.at));
-    let length_mm = branch.length_mm();
+    let ends = stations.first().zip(stations.last()).map_or(0.0, |(from, to)| from.at.distance(to.at));
+    let length_mm = stations.last().map_or(0.0, |station| station.abscissa_mm);
     BranchCalibre {
         number: branch.id + 1,
         name: branch.name.clone(),
