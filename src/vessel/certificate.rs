@@ -181,7 +181,7 @@ pub struct CertificateTask {
 enum Step {
     Index,
     Spaces(Box<[Arc<SurfaceIndex>; 3]>, Vec<Space>),
-    Tree([Space; 2], Box<TreeTask<Arc<TriMesh>, Arc<Topology>>>),
+    Tree(Box<[Space; 2]>, Box<TreeTask<Arc<TriMesh>, Arc<Topology>>>),
     Measure(Box<Measure>),
 }
 
@@ -256,7 +256,7 @@ impl Task for CertificateTask {
                         Ok(spaces) => {
                             let Subject { mesh, topology, .. } = self.subjects[0].clone();
                             let [index, ..] = *indices;
-                            Step::Tree(spaces, Box::new(TreeTask::new(mesh, topology, index)))
+                            Step::Tree(Box::new(spaces), Box::new(TreeTask::new(mesh, topology, index)))
                         }
                         Err(spaces) => Step::Spaces(indices, spaces),
                     };
