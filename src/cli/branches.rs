@@ -13,7 +13,7 @@ pub(super) fn print(report: &Report) {
     }
     let branches = report.branches.as_deref().unwrap_or_default();
     println!(
-        "\n{:<12}{:>10}{:>11}{:>20}{:>9}{:>9}{:>11}{:>10}  {:<14}{}",
+        "\n{:<12}{:>10}{:>11}{:>20}{:>9}{:>9}{:>11}{:>10}  {:<14}largest change at",
         "branch",
         "length mm",
         "tortuosity",
@@ -22,8 +22,7 @@ pub(super) fn print(report: &Report) {
         "output",
         "smoothed %",
         "output %",
-        "verdict",
-        "largest change at"
+        "verdict"
     );
     for branch in branches {
         print_branch(branch);

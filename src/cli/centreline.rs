@@ -54,7 +54,8 @@ impl Centreline {
         let found = Centrelines::new(&subject).with_context(|| format!("{} has no centrelines", self.file))?;
         write_whole(&self.output, format(&found).as_bytes())?;
         row("branches", found.branches.len());
-        let length: f64 = found.branches.iter().map(crate::vessel::Branch::length_mm).sum();
+        let ends = found.stations.of.iter().filter_map(|range| found.stations.all[range.clone()].last());
+        let length: f64 = ends.map(|station| station.abscissa_mm).sum();
         row("length", format!("{length:.1} mm"));
         let radii = || found.stations.all.iter().map(|station| station.radius_mm);
         let (least, largest) = (radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max));

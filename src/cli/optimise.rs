@@ -16,6 +16,7 @@ use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::results::Adapted;
 use crate::pipeline::run::{Advance, Pipeline};
+use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Decimation, Keep, Method, Preset, Settings, Smoothing, Target, Window};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
@@ -50,9 +51,10 @@ pub struct Optimise {
     /// Let smoothing make triangles cross
     #[arg(long)]
     no_guard: bool,
-    /// The part of the triangles to remove, in percent, 0 to 99.9 (90 or 90%)
-    #[arg(long, value_name = "PERCENT", value_parser = percent, default_value = "90", conflicts_with = "triangles")]
-    reduction: f64,
+    /// The part of the triangles to remove, in percent, 0 to 99.9 (90 or 90%); or safe: as many as leave every vessel its
+    /// calibre to --tolerance
+    #[arg(long, value_name = "PERCENT", value_parser = reduction, default_value = "90", conflicts_with = "triangles")]
+    reduction: Reduction,
     /// How many triangles to keep, in place of --reduction
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     triangles: Option<u32>,
@@ -117,6 +119,18 @@ impl ValueEnum for Method {
     }
 }
 
+/// How far to reduce.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reduction {
+    Percent(f64),
+    /// As far as every vessel keeps its calibre.
+    Safe,
+}
+
+fn reduction(text: &str) -> Result<Reduction, String> {
+    if text.trim().eq_ignore_ascii_case("safe") { Ok(Reduction::Safe) } else { percent(text).map(Reduction::Percent) }
+}
+
 /// A reduction rate in percent, with or without the sign.
 pub(super) fn percent(text: &str) -> Result<f64, String> {
     let number = text.trim().trim_end_matches('%').trim_end();
@@ -169,7 +183,11 @@ impl Optimise {
             target: match (self.triangles, self.max_deviation) {
                 (Some(count), _) => Target::Triangles(count),
                 (None, Some(bound)) => Target::Deviation(bound),
-                (None, None) => Target::Reduction((self.reduction * 10.0).round() as u32),
+                (None, None) => match self.reduction {
+                    Reduction::Percent(percent) => Target::Reduction((percent * 10.0).round() as u32),
+                    // Until it is known.
+                    Reduction::Safe => Target::default(),
+                },
             },
         }
     }
@@ -189,17 +207,31 @@ impl Optimise {
         if self.report.as_ref() == Some(&self.output) {
             misuse(format!("the surface and the report cannot both go to {}", self.output.display()));
         }
-        if self.triangles.is_none() && 0.0 < self.reduction && self.reduction < 1.0 {
+        if let (None, Reduction::Percent(percent)) = (self.triangles, self.reduction)
+            && 0.0 < percent
+            && percent < 1.0
+        {
             eprintln!(
-                "lumen: warning: --reduction {} removes less than one percent; nine tenths are --reduction 90",
-                self.reduction
+                "lumen: warning: --reduction {percent} removes less than one percent; nine tenths are --reduction 90"
             );
         }
         let start = Instant::now();
         let imported = source::read(&self.file, self.unit)?;
         let read = milliseconds(start.elapsed());
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
+        let wants_safe = self.reduction == Reduction::Safe && self.triangles.is_none() && self.max_deviation.is_none();
+        if wants_safe || self.branches {
+            pipeline = pipeline.with_safe(self.tolerance);
+        }
         advance(&mut pipeline)?;
+        if wants_safe {
+            let safe = pipeline.safe().context("the search for the safe rate ended without a result")?;
+            let why = || safe.refused.clone().unwrap_or_else(|| "no vessel can be measured".to_owned());
+            let percent = safe.percent.with_context(|| format!("no reduction can be called safe: {}", why()))?;
+            let target = Target::Reduction((percent * 10.0).round() as u32);
+            pipeline.set(Settings { target, ..pipeline.settings().clone() })?;
+            advance(&mut pipeline)?;
+        }
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         let start = Instant::now();
         write_whole(&self.output, &io::write(&reduced.mesh, Some(&reduced.normals), format)?)?;
@@ -229,6 +261,10 @@ impl Optimise {
         );
         row("output", format!("{} triangles, {} vertices", output.triangles, output.vertices));
         row("reduction", format!("{:.2} %", report.reduction_percent));
+        if let Some(Safe { percent: Some(percent), tolerance_percent, stopped_by, .. }) = &report.safe {
+            let stop = stopped_by.as_ref().map_or(String::new(), |why| format!(": {why}"));
+            row("safe to", format!("{percent:.1} %, at a tolerance of {tolerance_percent} %{stop}"));
+        }
         if let Some(bound) = report.bound {
             row("deviation asked for", format!("{} mm at most", bound.max_deviation_mm));
             let next = bound.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.4} mm"));

@@ -23,6 +23,7 @@ use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
+use crate::vessel::certificate::TOLERANCE_PERCENT;
 
 /// How long work on older settings may hold up newer ones.
 pub const PATIENCE: Duration = Duration::from_millis(400);
@@ -159,7 +160,7 @@ impl Engine {
         match read(source) {
             Ok(Imported { mesh, report }) => {
                 let mesh = Arc::new(mesh);
-                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default());
+                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_safe(TOLERANCE_PERCENT);
                 if let Err(error) = pipeline.set(settings) {
                     self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
                     return;

@@ -124,7 +124,7 @@ pub struct Report {
     pub narrowing: Option<Narrowing>,
     /// The first reduction rate, of all, at which a vessel is pinched or lost; null where there is none.
     pub pinch: Option<Pinch>,
-    /// How far a reduction is safe, at a tolerance of 2 %; null until it is known.
+    /// How far a reduction is safe, null where that was not asked for, and until it is known.
     #[serde(default)]
     pub safe: Option<Safe>,
     /// Whether the vessels keep their calibre; null where that was not asked for.

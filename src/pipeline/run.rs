@@ -23,7 +23,7 @@ use super::results::{Deviations, LevelMeasures, Reduced, Results, Smoothed, Smoo
 use super::safe::Safe;
 use super::settings::{Keep, Settings, SettingsError};
 use super::smoothing::Preparation;
-use super::stage::{PerStage, Stage, stale};
+use super::stage::{PerStage, Stage, Wanted, stale};
 use super::stages::{self, Run};
 use super::store::Store;
 use super::task::{Budget, Progress, milliseconds};
@@ -46,7 +46,7 @@ pub enum Advance {
 pub struct Pipeline {
     store: Store,
     /// Whether the level is measured.
-    is_measured: bool,
+    wanted: Wanted,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
     /// What is under way. A stage that a change of the settings does not touch goes on when its turn comes again.
@@ -59,11 +59,11 @@ impl Pipeline {
     /// A pipeline for an opened surface. Triangles must not repeat a vertex, coordinates must be finite (`io` sees to
     /// both).
     pub fn new(opened: Arc<TriMesh>, settings: Settings) -> Self {
-        Self::over(Store::new(opened, settings, INTERACTIVE_SAMPLES), true)
+        Self::over(Store::new(opened, settings, INTERACTIVE_SAMPLES), Wanted::Measures)
     }
 
-    fn over(store: Store, is_measured: bool) -> Self {
-        Self { store, is_measured, last: None, running: PerStage::default(), preparation: None }
+    fn over(store: Store, wanted: Wanted) -> Self {
+        Self { store, wanted, last: None, running: PerStage::default(), preparation: None }
     }
 
     /// Sets the number of samples of each surface that the deviation takes.
@@ -76,7 +76,15 @@ impl Pipeline {
     /// Leaves out deviation, shape and lumen: for who wants the level alone.
     #[must_use]
     pub fn without_measures(mut self) -> Self {
-        self.is_measured = false;
+        self.wanted = Wanted::Level;
+        self
+    }
+
+    /// Also finds how far a reduction is safe, where a vessel is allowed to change its calibre by `tolerance_percent`.
+    #[must_use]
+    pub fn with_safe(mut self, tolerance_percent: f64) -> Self {
+        self.wanted = Wanted::Safe;
+        self.store.tolerance_percent = tolerance_percent;
         self
     }
 
@@ -84,7 +92,7 @@ impl Pipeline {
     /// shared, not copied.
     #[must_use]
     pub fn fork(&self) -> Self {
-        Self::over(self.store.fork(), self.is_measured)
+        Self::over(self.store.fork(), self.wanted)
     }
 
     /// Changes the settings; what they made stale is dropped.
@@ -195,7 +203,7 @@ impl Pipeline {
     /// The first stage that is wanted and has no result.
     pub fn next_stage(&self) -> Option<Stage> {
         let now = &self.store.now;
-        Stage::ALL.into_iter().find(|&stage| stage.is_wanted(&now.settings, self.is_measured) && !now.has(stage))
+        Stage::ALL.into_iter().find(|&stage| stage.is_wanted(&now.settings, self.wanted) && !now.has(stage))
     }
 
     /// The surface as it was opened.
@@ -253,7 +261,7 @@ impl Pipeline {
         self.store.now.level_measures.as_ref()
     }
 
-    /// How far a reduction is safe, at the usual tolerance.
+    /// How far a reduction is safe, where that was asked for.
     pub fn safe(&self) -> Option<&Arc<Safe>> {
         self.store.now.safe.as_ref()
     }

@@ -21,8 +21,7 @@ use crate::vessel::Subject;
 use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, CertificateTask, Verdict};
 
 /// The rates that are looked at, in tenths of a percent.
-const RATES: [u32; 20] =
-    [0, 300, 500, 600, 700, 800, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 993, 996, 998, 999];
+const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
 
 /// How far a reduction is safe.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

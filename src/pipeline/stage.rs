@@ -83,14 +83,23 @@ impl Stage {
         }
     }
 
-    /// Whether it is made at all. Who wants the level alone leaves out the measures.
-    pub(super) fn is_wanted(self, settings: &Settings, is_measured: bool) -> bool {
+    /// Whether it is made at all.
+    pub(super) fn is_wanted(self, settings: &Settings, wanted: Wanted) -> bool {
         match self {
             Self::Bound => settings.target.deviation_mm().is_some(),
-            Self::Deviation | Self::SmoothedMeasures | Self::Measures | Self::Safe => is_measured,
+            Self::Deviation | Self::SmoothedMeasures | Self::Measures => wanted >= Wanted::Measures,
+            Self::Safe => wanted >= Wanted::Safe,
             Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,
         }
     }
+}
+
+/// How much is made. Who wants the level alone leaves out the measures, and few want to know how far is safe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Wanted {
+    Level,
+    Measures,
+    Safe,
 }
 
 /// Something for each stage.

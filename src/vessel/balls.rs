@@ -33,6 +33,8 @@ const MOST: usize = 200_000;
 /// in a sheet nine or more.
 const MANY: usize = 16_384;
 const SHEET: usize = 7;
+/// Places of the wall, about, behind which the largest radius is looked for.
+const PROBES: usize = 256;
 /// Balls looked around from between two looks at the clock.
 const STEPS: usize = 16;
 /// Cells of the grid along the longest side of the surface's box.
@@ -155,6 +157,8 @@ struct Surface<'a> {
 /// Balls while they are being found.
 pub(super) struct Filling {
     normals: Vec<Vec3>,
+    /// The next vertex behind which is looked for the largest radius.
+    probed: usize,
     /// The next vertex to begin at.
     vertex: usize,
     grid: Grid,
@@ -171,14 +175,6 @@ pub(super) struct Filling {
     /// Smaller balls are not gone on with: from a crevice it would go ever deeper. What is thinner is begun from its own
     /// wall.
     floor: f32,
-}
-
-/// The largest radius behind a few hundred places of the wall.
-fn largest(mesh: &TriMesh, space: &Space, normals: &[Vec3]) -> f32 {
-    let stride = (normals.len() / 256).max(1);
-    let radius =
-        |v: usize| space.behind_wall(mesh.positions[v], normals[v].try_normalize()?).map(|(ball, _)| ball.radius);
-    (0..normals.len()).step_by(stride).filter_map(radius).fold(0.0, f32::max)
 }
 
 pub(super) fn mean_edge(mesh: &TriMesh) -> f32 {
@@ -204,20 +200,26 @@ fn vertex_normals(mesh: &TriMesh) -> Vec<Vec3> {
 
 impl Filling {
     /// Nothing yet of the inside of `mesh`.
-    pub(super) fn new(mesh: &TriMesh, space: &Space) -> Self {
+    pub(super) fn new(mesh: &TriMesh) -> Self {
         let normals = vertex_normals(mesh);
         let grid = Grid::new(&mesh.bounds());
         let wall = Wall::new(&grid, &mesh.positions);
         let first = vec![NONE; grid.len()];
-        let least = (LEAST * mean_edge(mesh)).max(THINNEST * largest(mesh, space, &normals));
+        let least = LEAST * mean_edge(mesh);
         let (feet, next, pending) = (Vec::new(), Vec::new(), Vec::new());
         let found = Balls::default();
-        Self { normals, vertex: 0, grid, wall, found, feet, first, next, pending, least, floor: 0.0 }
+        Self { normals, probed: 0, vertex: 0, grid, wall, found, feet, first, next, pending, least, floor: 0.0 }
     }
 
     /// Goes on until `budget` is spent; whether all is filled. `mesh` and `space` are always the same.
     pub(super) fn advance(&mut self, mesh: &TriMesh, space: &Space, budget: Budget) -> bool {
         let on = Surface { space, positions: &mesh.positions };
+        while self.probed < self.normals.len() {
+            self.probe(on);
+            if budget.is_spent() {
+                return false;
+            }
+        }
         for step in 1.. {
             if let Some(from) = self.pending.pop() {
                 self.look_around(on, from);
@@ -238,6 +240,16 @@ impl Filling {
             }
         }
         true
+    }
+
+    /// Looks for the largest radius behind one of a few hundred places of the wall.
+    fn probe(&mut self, on: Surface<'_>) {
+        let v = self.probed;
+        self.probed += (self.normals.len() / PROBES).max(1);
+        let normal = self.normals[v].try_normalize();
+        if let Some((ball, _)) = normal.and_then(|normal| on.space.behind_wall(on.positions[v], normal)) {
+            self.least = self.least.max(THINNEST * ball.radius);
+        }
     }
 
     /// The part of the wall that is done, 0 to 1.

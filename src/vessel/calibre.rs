@@ -4,6 +4,8 @@
 use std::sync::Arc;
 use std::task::Poll;
 
+use glam::DVec3;
+
 use super::section::{Found, Wall};
 use super::space::Space;
 use super::stations::Station;
@@ -86,6 +88,8 @@ pub struct Calibre {
     pub area_mm2: Option<f64>,
     /// Radius of the largest ball inside there, in mm: 0 where the vessel is gone.
     pub inscribed_mm: Option<f64>,
+    /// Centroid of the cross-section in mm.
+    pub middle_mm: Option<DVec3>,
 }
 
 /// The measuring of one surface.
@@ -129,7 +133,11 @@ impl Measuring {
                     Some(_) => None,
                     None => Some(0.0),
                 };
-                Calibre { area_mm2: found.area(), inscribed_mm: inscribed }
+                let middle_mm = match found {
+                    Found::Closed(section) => Some(section.middle),
+                    Found::Open | Found::Gone => None,
+                };
+                Calibre { area_mm2: found.area(), inscribed_mm: inscribed, middle_mm }
             };
             let measured = parallel::map_ranges(batch.len(), PIECE, |piece| piece.map(one).collect::<Vec<_>>());
             self.found.extend(measured.into_iter().flatten());

@@ -10,6 +10,7 @@ use std::fmt::{Display, Write as _};
 
 use super::calibre::{Calibre, Indexing, Measuring, Subject};
 use super::certificate::{CalibreError, checked, circle};
+use super::recentring::recentre;
 use super::stations::{Station, Stations};
 use super::tree::{Branch, TreeTask};
 use super::zones::{Zone, zones};
@@ -41,12 +42,13 @@ impl Centrelines {
             }
         };
         let tree = checked(TreeTask::new(&*subject.mesh, &*subject.topology, index).finish())?;
-        let stations = Stations::new(tree.branches());
+        let mut stations = Stations::new(tree.branches());
         let mut measuring = Measuring::new(subject, tree.space.clone());
         while !measuring.advance(&stations.all, None, Budget::UNLIMITED) {}
         let calibres = measuring.found;
         let radii: Vec<Option<f64>> = calibres.iter().map(|found| found.area_mm2.map(circle)).collect();
         let zones = zones(tree.branches(), &stations, &radii);
+        recentre(&mut stations, &calibres, &zones);
         Ok(Self { branches: tree.branches().to_vec(), stations, calibres, zones })
     }
 

@@ -26,6 +26,7 @@ use thiserror::Error;
 use super::TreeError;
 use super::balls::mean_edge;
 use super::calibre::{Calibre, Indexing, Measuring, Subject};
+use super::recentring::recentre;
 use super::space::Space;
 use super::stations::{Station, Stations};
 use super::tree::{Branch, Tree, TreeTask};
@@ -185,7 +186,6 @@ pub(crate) struct Basis {
     measure: Box<Measure>,
     edge_mm: f64,
     tolerance_percent: f64,
-    zones: Vec<Zone>,
 }
 
 /// A reduced surface that is measured where a [`Basis`] is.
@@ -216,11 +216,11 @@ impl Candidate {
 impl Basis {
     /// The calibre of each branch, on a surface that has `reduced` at the stations.
     fn judged(&self, reduced: &[Calibre]) -> Vec<BranchCalibre> {
-        let Measure { tree, stations, done, .. } = &*self.measure;
+        let Measure { tree, stations, zones, done, .. } = &*self.measure;
         let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
             let own = range.clone();
             let calibres = [&done[0][own.clone()], &done[1][own.clone()], &reduced[own.clone()]];
-            let (stations, zones) = (&stations.all[own.clone()], &self.zones[own]);
+            let (stations, zones) = (&stations.all[own.clone()], &zones[own]);
             branch_calibre(branch, stations, zones, calibres, self.edge_mm, self.tolerance_percent)
         };
         tree.branches().iter().zip(&stations.of).map(of).collect()
@@ -230,13 +230,15 @@ impl Basis {
 enum Step {
     Index,
     Spaces(Box<[Arc<SurfaceIndex>; 3]>, Vec<Space>),
-    Tree([Space; 2], Box<TreeTask<Arc<TriMesh>, Arc<Topology>>>),
+    Tree(Box<[Space; 2]>, Box<TreeTask<Arc<TriMesh>, Arc<Topology>>>),
     Measure(Box<Measure>),
 }
 
 struct Measure {
     tree: Tree,
     stations: Stations,
+    /// Of each station; empty until the opened surface is measured.
+    zones: Vec<Zone>,
     others: [Option<Space>; 2],
     /// Of the surface that is being measured.
     measuring: Measuring,
@@ -259,11 +261,8 @@ impl CertificateTask {
     }
 
     fn basis(&self, measure: Box<Measure>) -> Basis {
-        let Measure { tree, stations, done, .. } = &*measure;
-        let own: Vec<Option<f64>> = done[0].iter().map(|found| found.area_mm2.map(circle)).collect();
-        let zones = zones(tree.branches(), stations, &own);
         let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
-        Basis { measure, edge_mm, tolerance_percent: self.tolerance_percent, zones }
+        Basis { measure, edge_mm, tolerance_percent: self.tolerance_percent }
     }
 
     fn found(&mut self, measure: Box<Measure>) -> Certificate {
@@ -306,7 +305,7 @@ impl Task for CertificateTask {
                         Ok(spaces) => {
                             let Subject { mesh, topology, .. } = self.subjects[0].clone();
                             let [index, ..] = *indices;
-                            Step::Tree(spaces, Box::new(TreeTask::new(mesh, topology, index)))
+                            Step::Tree(Box::new(spaces), Box::new(TreeTask::new(mesh, topology, index)))
                         }
                         Err(spaces) => Step::Spaces(indices, spaces),
                     };
@@ -328,10 +327,18 @@ impl Task for CertificateTask {
                     let measuring = Measuring::new(opened, tree.space.clone());
                     let others = others.map(Some);
                     let (done, radii) = (Vec::new(), Vec::new());
-                    self.step = Step::Measure(Box::new(Measure { tree, stations, others, measuring, done, radii }));
+                    self.step = Step::Measure(Box::new(Measure {
+                        tree,
+                        stations,
+                        zones: Vec::new(),
+                        others,
+                        measuring,
+                        done,
+                        radii,
+                    }));
                 }
                 Step::Measure(mut measure) => {
-                    let Measure { stations, others, measuring, done, radii, .. } = &mut *measure;
+                    let Measure { tree, stations, zones: found, others, measuring, done, radii } = &mut *measure;
                     let known = (!done.is_empty()).then_some(&radii[..]);
                     if measuring.advance(&stations.all, known, budget) {
                         done.push(std::mem::take(&mut measuring.found));
@@ -340,6 +347,10 @@ impl Task for CertificateTask {
                                 found.area_mm2.map_or(station.radius_mm, circle).max(station.radius_mm)
                             };
                             *radii = stations.all.iter().zip(&done[0]).map(radius).collect();
+                            let own: Vec<Option<f64>> =
+                                done[0].iter().map(|found| found.area_mm2.map(circle)).collect();
+                            *found = zones(tree.branches(), stations, &own);
+                            recentre(stations, &done[0], found);
                         }
                         match others.get_mut(done.len() - 1).and_then(Option::take) {
                             Some(space) => *measuring = Measuring::new(&self.subjects[done.len()], space),
@@ -426,8 +437,8 @@ fn branch_calibre(
         Some(change) if change.percent.abs() <= tolerance_percent => Verdict::Kept,
         Some(_) => Verdict::Changed,
     };
-    let ends = branch.points.first().zip(branch.points.last()).map_or(0.0, |(from, to)| from.at.distance(to.at));
-    let length_mm = branch.length_mm();
+    let ends = stations.first().zip(stations.last()).map_or(0.0, |(from, to)| from.at.distance(to.at));
+    let length_mm = stations.last().map_or(0.0, |station| station.abscissa_mm);
     BranchCalibre {
         number: branch.id + 1,
         name: branch.name.clone(),

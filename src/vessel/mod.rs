@@ -19,6 +19,7 @@ mod centreline;
 mod centrelines;
 pub mod certificate;
 mod paths;
+mod recentring;
 mod section;
 mod space;
 mod stations;

@@ -6,7 +6,7 @@
 //! direction of the plane where the first triangle faces outwards. It is the loop around the point if it winds about it once. What lies elsewhere in the plane (the next turn
 //! of the vessel, other vessels) is not met. Cost: a few rays, and as many steps as the loop has edges.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::space::Space;
 use crate::mesh::{SurfaceIndex, Topology, TriMesh};
@@ -93,7 +93,7 @@ impl Wall<'_> {
         if self.mesh.triangles[nearest.triangle as usize].into_iter().any(is_rim) {
             return Found::Open;
         }
-        let corners = self.mesh.corners(nearest.triangle as usize).map(|corner| corner.as_dvec3());
+        let corners = self.mesh.corners(nearest.triangle as usize).map(Vec3::as_dvec3);
         let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
         let at = nearest.point.as_dvec3().lerp(centroid, 0.1);
         if f64::from(nearest.distance) > MOVED * radius || (at - p).dot(normal).abs() > MOVED * radius {

@@ -172,7 +172,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for TreeTask<
                 }
                 Step::Begin(index) => (Step::Space(Box::new(Space::new(&self.mesh, &self.topology, index))), 0.0),
                 Step::Space(space) => {
-                    let filling = Filling::new(&self.mesh, &space);
+                    let filling = Filling::new(&self.mesh);
                     (Step::Fill(space, Box::new(filling)), 0.0)
                 }
                 Step::Fill(space, mut filling) => {

@@ -38,11 +38,13 @@ fn line_of(vessel: &Vessel) -> Vec<(Point, f64)> {
     vessel.stations.iter().map(|station| (station.position.to_array(), station.diameter / 2.0)).collect()
 }
 
-/// Where the sample is one round vessel, the Hausdorff distance of the centrelines is at most 0.3 mm, and the radius within
-/// 3 % or, in vessels of a few voxels, an eighth of a voxel, in mm; nothing near `aside` is looked at.
-fn check(sample: Sample, triangles: usize, voxel: f64, aside: Option<(Point, f64)>) {
+/// Voxels across, from which on a mask shows a vessel's calibre at each place. Thinner ones it does on the whole.
+const WIDE: f64 = 6.0;
+
+/// Where the sample is one round vessel, the Hausdorff distance of the centrelines is at most 0.3 mm, and the radius is
+/// within 3 %: at each station of wide vessels, in the mean of thin ones.
+fn check(sample: Sample, triangles: usize, voxel: f64) {
     let found = certificate(sample, triangles);
-    let is_aside = |p: Point| aside.is_some_and(|(middle, radius)| distance(p, middle) < radius);
     let truth: Vec<_> = vessels(sample).iter().map(line_of).collect();
     let stations: Vec<(Point, bool, Option<f32>)> = found
         .branches
@@ -55,18 +57,24 @@ fn check(sample: Sample, triangles: usize, voxel: f64, aside: Option<(Point, f64
             (0..branch.at_mm.len()).map(one)
         })
         .collect();
-    let mut looked_at = 0;
-    for &(p, counts, radius) in stations.iter().filter(|station| station.1 && !is_aside(station.0)) {
+    let (mut looked_at, mut thin) = (0, Vec::new());
+    for &(p, counts, radius) in stations.iter().filter(|station| station.1) {
         // The vessel that holds it deepest.
         let all = truth.iter().map(|line| beside(p, line));
         let deepest =
             |least: (f64, f64), next: (f64, f64)| if next.0 - next.1 < least.0 - least.1 { next } else { least };
         let (off, expected) = all.reduce(deepest).unwrap();
         assert!(counts && off <= 0.3, "{p:?}: {off} mm off");
-        let error = (f64::from(radius.unwrap()) - expected).abs();
-        assert!(error <= (0.03 * expected).max(voxel / 8.0), "{p:?}: {radius:?} mm, not {expected}");
+        let error = f64::from(radius.unwrap()) / expected - 1.0;
+        if 2.0 * expected >= WIDE * voxel {
+            assert!(error.abs() <= 0.03, "{p:?}: {radius:?} mm, not {expected}");
+        } else {
+            thin.push(error);
+        }
         looked_at += 1;
     }
+    let mean = thin.iter().sum::<f64>() / thin.len().max(1) as f64;
+    assert!(mean.abs() <= 0.03, "of {} stations in thin vessels {mean}", thin.len());
     assert!(looked_at * 2 > stations.len(), "{looked_at} of {} stations", stations.len());
     let lines: Vec<Vec<(Point, f64)>> = found
         .branches
@@ -74,7 +82,7 @@ fn check(sample: Sample, triangles: usize, voxel: f64, aside: Option<(Point, f64
         .filter(|branch| branch.at_mm.len() > 1)
         .map(|branch| branch.at_mm.iter().map(|&p| (Vec3::from(p).as_dvec3().to_array(), 0.0)).collect())
         .collect();
-    for (p, _) in truth.iter().flatten().filter(|place| !is_aside(place.0)) {
+    for (p, _) in truth.iter().flatten() {
         let nearest = stations.iter().min_by(|a, b| distance(a.0, *p).total_cmp(&distance(b.0, *p))).unwrap();
         if nearest.1 {
             let off = lines.iter().map(|line| beside(*p, line).0).fold(f64::INFINITY, f64::min);
@@ -85,13 +93,11 @@ fn check(sample: Sample, triangles: usize, voxel: f64, aside: Option<(Point, f64
 
 #[test]
 fn the_aorta_has_the_centrelines_and_radii_that_it_was_made_from() {
-    check(Sample::Aorta, 74_307, 0.742, None);
-    check(Sample::Aorta, 300_000, 0.369, None);
+    check(Sample::Aorta, 74_307, 0.742);
+    check(Sample::Aorta, 300_000, 0.369);
 }
 
 #[test]
 fn the_coronary_arteries_have_theirs() {
-    // The root with its three sinuses is no round vessel.
-    let root = vessels(Sample::Coronary)[0].stations[0].position.to_array();
-    check(Sample::Coronary, 380_000, 0.498, Some((root, 45.0)));
+    check(Sample::Coronary, 380_000, 0.498);
 }

@@ -8,7 +8,6 @@ use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
 use crate::vessel::Subject;
-use crate::vessel::certificate::TOLERANCE_PERCENT;
 
 pub(super) struct Searching(SafeTask);
 
@@ -21,7 +20,7 @@ impl Searching {
         let of_smoothed = Subject { mesh: smoothed.mesh.clone(), topology, index: None };
         let pinch = now.smoothed_measures.as_ref().and_then(|found| found.pinch);
         let progressive = levels.progressive.clone();
-        Some(Self(SafeTask::new(of_kept, of_smoothed, progressive, pinch, TOLERANCE_PERCENT)))
+        Some(Self(SafeTask::new(of_kept, of_smoothed, progressive, pinch, store.tolerance_percent)))
     }
 }
 
