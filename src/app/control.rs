@@ -32,11 +32,16 @@ pub(super) struct Setting<'a> {
 impl Setting<'_> {
     /// Shows the rows; says whether the user changed the value, which then has as many digits as are shown.
     pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
+        self.show_with_mark(ui, value, None)
+    }
+
+    /// The same, with a mark under the slider at a value of the linear scale.
+    pub(super) fn show_with_mark(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) -> bool {
         // The controls work on what is shown: one that is left alone changes no digit that is not.
         let before = self.rounded(*value);
         let mut shown = before;
         // An identity of its own: rows that come and go above must not take the focus away.
-        ui.push_id(self.name, |ui| self.rows(ui, &mut shown));
+        ui.push_id(self.name, |ui| self.rows(ui, &mut shown, mark));
         let changed = self.rounded(shown).to_bits() != before.to_bits();
         if changed {
             *value = self.rounded(shown);
@@ -44,7 +49,7 @@ impl Setting<'_> {
         changed
     }
 
-    fn rows(&self, ui: &mut Ui, value: &mut f64) {
+    fn rows(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) {
         ui.spacing_mut().interact_size.y = ROW;
         ui.horizontal(|ui| {
             ui.label(self.name).on_hover_text(self.help);
@@ -62,6 +67,23 @@ impl Setting<'_> {
             .step_by(step);
         let response = ui.add(slider).on_hover_text(self.help);
         describe(&response, Role::Slider, self.name, *value);
+        if let Some(mark) = mark {
+            self.draw_mark(ui, response.rect, mark);
+        }
+    }
+
+    /// A small triangle that points at `mark` from below.
+    fn draw_mark(&self, ui: &Ui, slider: egui::Rect, mark: f64) {
+        // Where the middle of the handle can be, as egui has it.
+        let aspect = match ui.visuals().handle_shape {
+            egui::style::HandleShape::Circle => 1.0,
+            egui::style::HandleShape::Rect { aspect_ratio } => aspect_ratio,
+        };
+        let ways = slider.x_range().shrink(slider.height() / 2.5 * aspect);
+        let part = (mark - self.range.start()) / (self.range.end() - self.range.start());
+        let tip = egui::pos2(egui::lerp(ways.min..=ways.max, part as f32), slider.center().y + 5.0);
+        let corners = vec![tip, tip + egui::vec2(4.5, 7.0), tip + egui::vec2(-4.5, 7.0)];
+        ui.painter().add(egui::Shape::convex_polygon(corners, ui.visuals().text_color(), egui::Stroke::NONE));
     }
 
     fn typed(&self, ui: &mut Ui, value: &mut f64) {

@@ -15,6 +15,7 @@ use crate::digits::grouped;
 use crate::engine::Source;
 use crate::io::Unit;
 use crate::pipeline::report::Report;
+use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Keep, Method, Preset, Settings, Smoothing, Target, Window, reduction_percent};
 
 /// A step of the method: shows its controls, and says what they ask for.
@@ -227,7 +228,7 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
     if settings.target.deviation_mm().is_some() {
         largest_deviation(ui, state, settings);
     } else {
-        rate_or_count(ui, state, &mut settings.target);
+        rate_or_count(ui, state, settings);
     }
     let decimation = &mut settings.decimation;
     let help = "Schroeder is the paper's: it deletes vertices and moves none. Quadric moves them: half the mean deviation, better shape.";
@@ -327,7 +328,45 @@ fn largest_deviation(ui: &mut Ui, state: &State, settings: &mut Settings) {
     number(ui, "Next coarser level", next.as_deref().unwrap_or("–"), help);
 }
 
-fn rate_or_count(ui: &mut Ui, state: &State, target: &mut Target) {
+/// How far a reduction is safe by these settings, if that is known.
+fn safe<'a>(state: &'a State, settings: &Settings) -> Option<&'a Safe> {
+    let of_these = |report: &&Report| {
+        let made = &report.settings;
+        made.keep == settings.keep
+            && made.smoothing.gives_same(&settings.smoothing)
+            && made.decimation.gives_same(&settings.decimation)
+    };
+    measured(state.document.as_ref()).filter(of_these)?.safe.as_ref()
+}
+
+/// What is safe in words, and a way there.
+fn safe_row(ui: &mut Ui, safe: &Safe, target: &mut Target) {
+    let help =
+        "Up to here every vessel that can be measured keeps its calibre to 2 %, none is pinched and no triangles cross";
+    let Some(percent) = safe.percent else {
+        let why = safe.refused.as_deref().unwrap_or("no vessel can be measured");
+        number(ui, "Safe to", "–", &format!("{help}. Not known here: {why}."));
+        return;
+    };
+    let wanted = Target::Reduction((percent * 10.0).round() as u32);
+    let stop = safe.stopped_by.as_ref().map_or(String::new(), |why| format!(". {why}"));
+    row(ui, "Safe to", &format!("{help}{stop}."), |ui| {
+        let go = ui.add_enabled(*target != wanted, egui::Button::new("Go there"));
+        if go.on_hover_text("Sets the reduction to the mark under the slider").clicked() {
+            *target = wanted;
+        }
+        ui.label(format!("{percent:.1} %"));
+    });
+    let changed = safe.branches.iter().filter(|branch| branch.changed_by_smoothing).count();
+    if changed > 0 {
+        let branches = if changed == 1 { "one branch" } else { &format!("{} branches", grouped(changed)) };
+        remark(ui, &format!("Not counting {branches} that smoothing itself changes by more than 2 %."));
+    }
+}
+
+fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
+    let safe = safe(state, settings);
+    let target = &mut settings.target;
     let entering = state.document.as_ref().and_then(|d| Some(d.levels.as_ref()?.1.triangles.len()));
     let mut rate = target.percent(entering.unwrap_or(0));
     let reduction = Setting {
@@ -339,8 +378,11 @@ fn rate_or_count(ui: &mut Ui, state: &State, target: &mut Target) {
         decimals: 1,
         logarithmic: false,
     };
-    if reduction.show(ui, &mut rate) {
+    if reduction.show_with_mark(ui, &mut rate, safe.and_then(|safe| safe.percent)) {
         *target = Target::Reduction((rate * 10.0).round() as u32);
+    }
+    if let Some(safe) = safe {
+        safe_row(ui, safe, target);
     }
     if let Some(entering) = entering {
         row(ui, "Triangles wanted", "The same as a number; drag, or click to type", |ui| {

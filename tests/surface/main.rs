@@ -17,4 +17,5 @@ mod decimation;
 mod fuzz;
 mod import_robustness;
 mod lumen_width;
+mod safe;
 mod smoothing;

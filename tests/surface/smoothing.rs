@@ -384,12 +384,12 @@ fn where_no_wall_faces_another_the_adapted_filter_is_the_plain_one_to_the_bit() 
 }
 
 /// A tube about the z axis with a noisy wall and open, round ends.
-fn tube(radius: f64, length: f64, edge: f64, noise: f64) -> TriMesh {
+pub(crate) fn tube(radius: f64, length: f64, edge: f64, noise: f64) -> TriMesh {
     turned(((2.0 * PI * radius / edge).ceil() as u32).max(6), length, edge, noise, |_| radius)
 }
 
 /// The same with `radius(z)`, of `around` sides.
-fn turned(around: u32, length: f64, edge: f64, noise: f64, radius: impl Fn(f64) -> f64) -> TriMesh {
+pub(crate) fn turned(around: u32, length: f64, edge: f64, noise: f64, radius: impl Fn(f64) -> f64) -> TriMesh {
     let rings = (length / edge).ceil() as u32 + 1;
     let mut mesh = TriMesh::default();
     for ring in 0..rings {

@@ -172,6 +172,34 @@ fn the_next_coarser_level_is_that_of_the_settings() {
 }
 
 #[test]
+fn the_panel_says_how_far_is_safe_and_goes_there() {
+    let mut harness = open();
+    let percent = safe_percent(&mut harness);
+    assert!((90.0..99.0).contains(&percent), "{percent}");
+    assert!(harness.query_by_label(&format!("{percent:.1} %")).is_some());
+    harness.get_by_role_and_label(Role::Button, "Go there").scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_role_and_label(Role::Button, "Go there").click();
+    settle(&mut harness);
+    let wanted = Target::Reduction((percent * 10.0).round() as u32);
+    assert_eq!(harness.state().state().settings.target, wanted);
+    assert_eq!(safe_percent(&mut harness), percent, "the same from every level");
+}
+
+/// Up to which rate a reduction is called safe, once that is known: it comes after the other numbers.
+fn safe_percent(harness: &mut Harness<'_, LumenApp>) -> f64 {
+    for _ in 0..4000 {
+        let measured = harness.state().state().document.as_ref().and_then(|document| document.measured.as_ref());
+        if let Some(safe) = measured.and_then(|measured| measured.report.safe.clone()) {
+            harness.run_steps(2);
+            return safe.percent.unwrap();
+        }
+        harness.step();
+    }
+    panic!("how far is safe is never told");
+}
+
+#[test]
 fn the_other_method_leaves_less_deviation() {
     let mut harness = open();
     let mean = |harness: &Harness<'_, LumenApp>| {
