@@ -1,6 +1,7 @@
 //! What a run came to, as numbers. The names of the fields are public and stay.
 
 use serde::{Deserialize, Serialize};
+use web_time::Instant;
 
 use super::deviation::Deviation;
 use super::lumen::{Narrowing, SHUT};
@@ -13,7 +14,7 @@ use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
 use crate::mesh::{Measures, TriMesh, components};
-use crate::task::{Budget, Progress, Task as _};
+use crate::task::{Budget, Progress, Task as _, milliseconds};
 use crate::vessel::certificate::{BranchCalibre, Verdict};
 
 /// What stands in every report.
@@ -144,6 +145,8 @@ pub struct CalibreReport {
     pub verdict: Option<Verdict>,
     /// Why there is no vessel tree; null where there is one.
     pub refused: Option<String>,
+    /// Milliseconds that it took.
+    pub ms: f64,
 }
 
 impl Report {
@@ -207,6 +210,7 @@ impl Report {
     /// Adds the calibre of each branch; `tolerance_percent` is the change that it is allowed.
     pub fn certify(&mut self, pipeline: &Pipeline, tolerance_percent: f64) {
         let Some(mut task) = pipeline.certificate(tolerance_percent) else { return };
+        let start = Instant::now();
         let found = loop {
             if let Progress::Done(found) = task.advance(Budget::UNLIMITED) {
                 break found;
@@ -216,7 +220,7 @@ impl Report {
             Ok(found) => (Some(found.verdict), None, Some(found.branches)),
             Err(error) => (None, Some(error.to_string()), None),
         };
-        self.calibre = Some(CalibreReport { tolerance_percent, verdict, refused });
+        self.calibre = Some(CalibreReport { tolerance_percent, verdict, refused, ms: milliseconds(start) });
         self.branches = branches;
     }
 }

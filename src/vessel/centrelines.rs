@@ -45,10 +45,13 @@ impl Centrelines {
         let mut stations = Stations::new(tree.branches());
         let mut measuring = Measuring::new(subject, tree.space.clone());
         while !measuring.advance(&stations.all, None, Budget::UNLIMITED) {}
-        let calibres = measuring.found;
+        let calibres = std::mem::take(&mut measuring.found);
         let radii: Vec<Option<f64>> = calibres.iter().map(|found| found.area_mm2.map(circle)).collect();
         let zones = zones(tree.branches(), &stations, &radii);
         recentre(&mut stations, &calibres, &zones);
+        // Once more, where the stations are moved to.
+        while !measuring.advance(&stations.all, None, Budget::UNLIMITED) {}
+        let calibres = measuring.found;
         Ok(Self { branches: tree.branches().to_vec(), stations, calibres, zones })
     }
 

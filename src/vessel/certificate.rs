@@ -217,6 +217,7 @@ impl Basis {
     /// The calibre of each branch, on a surface that has `reduced` at the stations.
     fn judged(&self, reduced: &[Calibre]) -> Vec<BranchCalibre> {
         let Measure { tree, stations, zones, done, .. } = &*self.measure;
+        let zones = zones.as_deref().unwrap_or_default();
         let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
             let own = range.clone();
             let calibres = [&done[0][own.clone()], &done[1][own.clone()], &reduced[own.clone()]];
@@ -237,8 +238,8 @@ enum Step {
 struct Measure {
     tree: Tree,
     stations: Stations,
-    /// Of each station; empty until the opened surface is measured.
-    zones: Vec<Zone>,
+    /// Of each station, once the opened surface was measured a first time.
+    zones: Option<Vec<Zone>>,
     others: [Option<Space>; 2],
     /// Of the surface that is being measured.
     measuring: Measuring,
@@ -330,7 +331,7 @@ impl Task for CertificateTask {
                     self.step = Step::Measure(Box::new(Measure {
                         tree,
                         stations,
-                        zones: Vec::new(),
+                        zones: None,
                         others,
                         measuring,
                         done,
@@ -341,23 +342,29 @@ impl Task for CertificateTask {
                     let Measure { tree, stations, zones: found, others, measuring, done, radii } = &mut *measure;
                     let known = (!done.is_empty()).then_some(&radii[..]);
                     if measuring.advance(&stations.all, known, budget) {
-                        done.push(std::mem::take(&mut measuring.found));
-                        if done.len() == 1 {
-                            let radius = |(station, found): (&Station, &Calibre)| {
-                                found.area_mm2.map_or(station.radius_mm, circle).max(station.radius_mm)
-                            };
-                            *radii = stations.all.iter().zip(&done[0]).map(radius).collect();
+                        let calibres = std::mem::take(&mut measuring.found);
+                        if found.is_none() {
+                            // Once more, where the stations are moved to: all three surfaces are cut by the same planes.
                             let own: Vec<Option<f64>> =
-                                done[0].iter().map(|found| found.area_mm2.map(circle)).collect();
-                            *found = zones(tree.branches(), stations, &own);
-                            recentre(stations, &done[0], found);
-                        }
-                        match others.get_mut(done.len() - 1).and_then(Option::take) {
-                            Some(space) => *measuring = Measuring::new(&self.subjects[done.len()], space),
-                            None => return Progress::Done(Ok(self.found(measure))),
+                                calibres.iter().map(|found| found.area_mm2.map(circle)).collect();
+                            let zones = found.insert(zones(tree.branches(), stations, &own));
+                            recentre(stations, &calibres, zones);
+                        } else {
+                            if done.is_empty() {
+                                let radius = |(station, found): (&Station, &Calibre)| {
+                                    found.area_mm2.map_or(station.radius_mm, circle).max(station.radius_mm)
+                                };
+                                *radii = stations.all.iter().zip(&calibres).map(radius).collect();
+                            }
+                            done.push(calibres);
+                            match others.get_mut(done.len() - 1).and_then(Option::take) {
+                                Some(space) => *measuring = Measuring::new(&self.subjects[done.len()], space),
+                                None => return Progress::Done(Ok(self.found(measure))),
+                            }
                         }
                     }
-                    let part = (measure.done.len() as f32 + measure.measuring.fraction(&measure.stations.all)) / 3.0;
+                    let passes = usize::from(measure.zones.is_some()) + measure.done.len();
+                    let part = (passes as f32 + measure.measuring.fraction(&measure.stations.all)) / 4.0;
                     self.step = Step::Measure(measure);
                     if budget.is_spent() {
                         return Progress::Working(0.5 + 0.5 * part);

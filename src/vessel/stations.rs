@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::centreline::direction;
 use super::tree::Branch;
 
-/// Most and least distance of stations in mm, and the part of the branch's mean radius that it is between the two.
-const FARTHEST_MM: f64 = 1.0;
+/// Most and least distance of stations in mm (moved to the middle, they stay within 1 mm), and the part of the branch's mean radius that it is between the two.
+const FARTHEST_MM: f64 = 0.9;
 const NEAREST_MM: f64 = 0.2;
 const SPACING: f64 = 0.3;
 
