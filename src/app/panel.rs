@@ -137,7 +137,8 @@ fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
     let help = "Suits this surface: as the paper, and nowhere so much that a vessel loses its calibre or triangles cross. \
                 The paper's: pass band 0.01, 100 iterations, the same everywhere.";
     row(ui, "Strength", help, |ui| {
-        let chosen = Preset::of(smoothing);
+        // Whether the volume is held is chosen beside it.
+        let chosen = Preset::of(&Smoothing { preserve_volume: false, ..*smoothing });
         let list = ComboBox::from_id_salt("preset").selected_text(chosen.map_or("Own", Preset::label));
         let response = list.show_ui(ui, |ui| {
             for preset in Preset::ALL {
@@ -341,8 +342,7 @@ fn safe<'a>(state: &'a State, settings: &Settings) -> Option<&'a Safe> {
 
 /// What is safe in words, and a way there.
 fn safe_row(ui: &mut Ui, safe: &Safe, target: &mut Target) {
-    let help =
-        "Up to here every vessel that can be measured keeps its calibre to 2 %, none is pinched and no triangles cross";
+    let help = "Up to here every vessel that can be measured keeps its calibre to 2 %, none is pinched, and no triangles cross that did not";
     let Some(percent) = safe.percent else {
         let why = safe.refused.as_deref().unwrap_or("no vessel can be measured");
         number(ui, "Safe to", "–", &format!("{help}. Not known here: {why}."));

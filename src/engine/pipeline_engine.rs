@@ -113,6 +113,9 @@ impl Engine {
             self.write(name, format, &mesh);
         } else if let Some((id, source, settings)) = self.opening.pop() {
             self.open(id, source, settings);
+        } else if self.comparing.is_some() && self.current.as_ref().is_some_and(Current::lacks_only_safe) {
+            // What a user waits for goes before what nobody asked for.
+            self.compare(budget);
         } else if let Some(current) = &mut self.current {
             loop {
                 match current.advance(budget, &mut self.events) {
@@ -199,6 +202,11 @@ fn read(source: Source) -> Result<Imported, String> {
 }
 
 impl Current {
+    /// Whether nothing is left but to find how far is safe.
+    fn lacks_only_safe(&self) -> bool {
+        self.waiting.is_none() && self.pipeline.next_stage() == Some(Stage::Safe)
+    }
+
     /// One step; whether there is more to do.
     fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> Result<bool, String> {
         self.take_waiting(events).map_err(|error| error.to_string())?;

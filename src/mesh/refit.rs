@@ -63,7 +63,9 @@ mod tests {
         mesh.triangles.push([first, first + 1, first + 2]);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         let mut moved = mesh.clone();
-        moved.positions.iter_mut().for_each(|p| *p = Vec3::new(p.x * 0.7 + 0.1 * p.y, p.y, p.z + (p.x * 0.4).sin()));
+        // One sphere into the other, and both bent.
+        let nearer = |p: Vec3| if p.x > 8.5 { p - 4.0 * Vec3::X } else { p };
+        moved.positions.iter_mut().for_each(|p| *p = nearer(*p) + Vec3::Z * (p.x * 0.4).sin());
         let refitted = index.refitted(&moved);
         let crossing = Crossing::none(&refitted, &moved.triangles);
         refitted.mark_crossings(&moved.triangles, 0..refitted.slots(), &crossing);

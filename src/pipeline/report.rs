@@ -228,7 +228,9 @@ impl Report {
 impl Report {
     /// A sentence where the volume was to be held and could not be.
     pub fn volume_held_warning(&self) -> Option<String> {
-        let sentence = if self.volume_change_percent.is_none() {
+        let sentence = if self.smoothing_weakened.is_some() {
+            "The volume is not held to 0.01 %: vertices were put back, so that no triangles cross."
+        } else if self.volume_change_percent.is_none() {
             "The volume could not be held, because the surface encloses none: it is smoothed as without it."
         } else {
             "The volume could not be held, because vessels as thin as these would tear or swell at this pass band: the \
@@ -246,6 +248,12 @@ impl Report {
             return None;
         }
         let [x, y, z] = lumen.at_mm;
+        if self.settings.smoothing.adapt {
+            let diameter = lumen.diameter_mm;
+            return Some(format!(
+                "A vessel is all but shut at ({x:.1}, {y:.1}, {z:.1}): {diameter:.2} mm are left of it."
+            ));
+        }
         Some(format!(
             "Smoothing has drawn a vessel shut at ({x:.1}, {y:.1}, {z:.1}): it takes away waves below {wave:.1} mm, \
              the way around a vessel of {:.1} mm. A wider pass band keeps thin vessels open.",

@@ -85,6 +85,7 @@ impl Pipeline {
     pub fn with_safe(mut self, tolerance_percent: f64) -> Self {
         self.wanted = Wanted::Safe;
         self.store.tolerance_percent = tolerance_percent;
+        self.store.now.clear(Stage::Safe);
         self
     }
 
@@ -117,6 +118,7 @@ impl Pipeline {
         }
         if stale[Stage::Connectivity] {
             self.store.terms = None;
+            self.store.bands = None;
             self.store.is_smoothed_again = false;
         }
         for stage in Stage::ALL.into_iter().filter(|&stage| stale[stage]) {

@@ -7,7 +7,8 @@
 //! changed at a rate in between the others and comes back is not seen. A rate at which a vessel is pinched anywhere
 //! (`super::pinch`, which looks at every rate) is not safe either. That no triangles cross that did not is so at every rate.
 //!
-//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them.
+//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A branch of
+//! which a tenth can no longer be measured counts as changed.
 
 use std::sync::Arc;
 
@@ -15,13 +16,16 @@ use serde::{Deserialize, Serialize};
 
 use super::pinch::Pinch;
 use super::progressive::ProgressiveMesh;
-use super::settings::Target;
+use super::settings::{Target, reduction_percent};
 use super::task::{Budget, Progress, Task};
 use crate::vessel::Subject;
 use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, CertificateTask, Verdict};
 
 /// The rates that are looked at, in tenths of a percent.
 const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
+
+/// The part of a branch's stations that have to be measured still: where the surface is folded a cut does not close.
+const MEASURED: f64 = 0.9;
 
 /// How far a reduction is safe.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,7 +40,7 @@ pub struct Safe {
     pub stopped_by: Option<String>,
     /// Each branch by itself.
     pub branches: Vec<BranchSafe>,
-    /// Why there is no vessel tree; null where there is one.
+    /// Why there is no such rate; null where there is one.
     pub refused: Option<String>,
 }
 
@@ -74,7 +78,10 @@ enum Step {
 
 /// A rate that was looked at.
 struct Look {
+    /// That was asked for.
     per_mille: u32,
+    /// That was reached, where the surface goes no further: then no higher one is looked at.
+    reached: Option<f64>,
     branches: Vec<BranchCalibre>,
 }
 
@@ -101,7 +108,10 @@ impl SafeTask {
     fn is_changed(&self, look: &Look, i: usize) -> bool {
         match look.branches[i].verdict {
             Verdict::Changed => true,
-            Verdict::Kept => false,
+            Verdict::Kept => {
+                let counted = self.looks.first().map_or(0, |first| first.branches[i].stations_counted);
+                (look.branches[i].stations_counted as f64) < MEASURED * counted as f64
+            }
             Verdict::NotMeasured => self.looks.first().is_some_and(|first| first.branches[i].verdict == Verdict::Kept),
         }
     }
@@ -134,7 +144,8 @@ impl SafeTask {
             let kept = |i: &usize| self.counts(*i) && look.branches[*i].verdict == Verdict::Kept;
             (0..look.branches.len()).any(|i| kept(&i))
         });
-        let next_of_row = RATES.into_iter().find(|&rate| last_of_row.is_none_or(|last| rate > last));
+        let goes_on = self.looks.iter().all(|look| look.reached.is_none());
+        let next_of_row = RATES.into_iter().find(|&rate| goes_on && last_of_row.is_none_or(|last| rate > last));
         // Beyond a pinch branches are still told apart, as long as the row goes.
         if let Some(rate) = next_of_row.filter(|_| is_any_kept) {
             return Some(rate);
@@ -154,41 +165,57 @@ impl SafeTask {
 
     fn add(&mut self, per_mille: u32, branches: Vec<BranchCalibre>) {
         let at = self.looks.partition_point(|look| look.per_mille < per_mille);
-        self.looks.insert(at, Look { per_mille, branches });
+        let level = self.progressive.level(Target::Reduction(per_mille));
+        let count = self.progressive.triangles.len();
+        let reached = || (10.0 * reduction_percent(count, level.triangles.len())).floor() / 10.0;
+        let reached = level.shortfall.is_some().then(reached);
+        self.looks.insert(at, Look { per_mille, reached, branches });
+    }
+
+    /// The part that is done, 0 to 1.
+    fn fraction(&self) -> f32 {
+        match &self.step {
+            Step::Certificate(_) => 0.0,
+            Step::Level(..) => 0.5 + 0.5 * (self.looks.len() as f32 / (RATES.len() + 6) as f32).min(1.0),
+            Step::Done => 1.0,
+        }
     }
 
     fn found(&self) -> Safe {
         let (good, bad) = self.bounds();
-        let percent = |look: &Look| f64::from(look.per_mille) / 10.0;
-        let can_measure = self
-            .looks
-            .first()
-            .is_some_and(|look| look.branches.iter().any(|branch| branch.verdict != Verdict::NotMeasured));
+        let percent = |look: &Look| look.reached.unwrap_or(f64::from(look.per_mille) / 10.0);
+        let first = self.looks.first().map_or(&[][..], |look| &look.branches);
+        let has = |verdict: Verdict| first.iter().any(|branch| branch.verdict == verdict);
+        let can_measure = has(Verdict::Kept);
+        let refused = match (can_measure, has(Verdict::Changed)) {
+            (true, _) => None,
+            (false, true) => Some("smoothing itself changes every vessel that can be measured".to_owned()),
+            (false, false) => Some("no vessel can be measured".to_owned()),
+        };
         let good = good.filter(|_| can_measure);
         let stopped_by = bad.filter(|_| can_measure).and_then(|look| match self.changed(look) {
             Some(branch) => Some(match branch.reduced.largest_change {
-                Some(change) => {
+                Some(change) if branch.verdict == Verdict::Changed => {
                     let [x, y, z] = change.at_mm;
                     let (name, by, at) = (&branch.name, change.percent, percent(look));
                     format!("At {at:.1} % {name} changes by {by:+.1} %, at ({x:.1}, {y:.1}, {z:.1})")
                 }
-                None => format!("At {:.1} % {} can no longer be measured", percent(look), branch.name),
+                _ => format!("At {:.1} % {} can no longer be measured", percent(look), branch.name),
             }),
             None => self.pinch.map(|pinch| pinch.to_string()),
         });
-        let branches = self.looks.first().map_or(&[][..], |look| &look.branches);
         Safe {
             tolerance_percent: self.tolerance_percent,
             percent: good.map(percent),
             triangles: good.map(|look| self.progressive.level(Target::Reduction(look.per_mille)).triangles.len()),
             stopped_by,
-            branches: branches.iter().enumerate().map(|(i, branch)| self.branch(i, branch)).collect(),
-            refused: None,
+            branches: first.iter().enumerate().map(|(i, branch)| self.branch(i, branch)).collect(),
+            refused,
         }
     }
 
     fn branch(&self, i: usize, branch: &BranchCalibre) -> BranchSafe {
-        let percent = |look: &Look| f64::from(look.per_mille) / 10.0;
+        let percent = |look: &Look| look.reached.unwrap_or(f64::from(look.per_mille) / 10.0);
         let is_kept = |look: &&Look| look.branches[i].verdict == Verdict::Kept;
         BranchSafe {
             number: branch.number,
@@ -226,8 +253,7 @@ impl Task for SafeTask {
                 Step::Level(basis, rate, mut candidate) => match candidate.advance(&basis, budget) {
                     None => {
                         self.step = Step::Level(basis, rate, candidate);
-                        let looks = RATES.len() + 6;
-                        return Progress::Working(0.5 + 0.5 * (self.looks.len().min(looks) as f32 / looks as f32));
+                        return Progress::Working(self.fraction());
                     }
                     Some(branches) => {
                         self.add(rate, branches);
@@ -237,7 +263,7 @@ impl Task for SafeTask {
                 Step::Done => return Progress::Done(self.found()),
             };
             if budget.is_spent() && !matches!(self.step, Step::Done) {
-                return Progress::Working(0.5);
+                return Progress::Working(self.fraction());
             }
         }
     }

@@ -40,6 +40,8 @@ pub const TOLERANCE_PERCENT: f64 = 2.0;
 const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.2..=200.0;
 /// Least half length of the stretch that a radius is of, in mean edges.
 const WINDOW_EDGES: f64 = 4.0;
+/// The least part of the mean over its stretch that an area can be.
+const LEAST_OF_MEAN: f64 = 0.25;
 /// A vessel is measured from so many mean edges of diameter on.
 const EDGES: f64 = 2.0;
 
@@ -261,6 +263,11 @@ impl CertificateTask {
         Some(self.basis(measure))
     }
 
+    /// Whether the reduced surface is the smoothed one: then it is measured once.
+    fn is_reduced_smoothed(&self) -> bool {
+        Arc::ptr_eq(&self.subjects[1].mesh, &self.subjects[2].mesh)
+    }
+
     fn basis(&self, measure: Box<Measure>) -> Basis {
         let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
         Basis { measure, edge_mm, tolerance_percent: self.tolerance_percent }
@@ -290,7 +297,12 @@ impl Task for CertificateTask {
             match std::mem::replace(&mut self.step, Step::Index) {
                 Step::Index => {
                     let mut all = Vec::with_capacity(3);
-                    for (indexing, subject) in self.indices.iter_mut().zip(&self.subjects) {
+                    let is_same = self.is_reduced_smoothed();
+                    for (i, (indexing, subject)) in self.indices.iter_mut().zip(&self.subjects).enumerate() {
+                        if i == 2 && is_same {
+                            all.push(Arc::clone(&all[1]));
+                            continue;
+                        }
                         match indexing.advance(&subject.mesh, budget) {
                             Some(index) => all.push(index),
                             None => return Progress::Working(0.1 * all.len() as f32 / 3.0),
@@ -357,6 +369,10 @@ impl Task for CertificateTask {
                                 *radii = stations.all.iter().zip(&calibres).map(radius).collect();
                             }
                             done.push(calibres);
+                            if done.len() == 2 && self.is_reduced_smoothed() {
+                                done.extend_from_within(1..);
+                                return Progress::Done(Ok(self.found(measure)));
+                            }
                             match others.get_mut(done.len() - 1).and_then(Option::take) {
                                 Some(space) => *measuring = Measuring::new(&self.subjects[done.len()], space),
                                 None => return Progress::Done(Ok(self.found(measure))),
@@ -480,12 +496,13 @@ fn radii(
             return Some(circle(own));
         }
         let reach = circle(opened[i].area_mm2?).max(WINDOW_EDGES * edge_mm);
-        let mut line = Line::default();
+        let (mut line, mut as_opened) = (Line::default(), Line::default());
         let mut add = |k: usize| {
             let from = stations[k].abscissa_mm - stations[i].abscissa_mm;
             let weight = 1.0 - from.abs() / reach.max(f64::MIN_POSITIVE);
             let Some(area) = of[k].area_mm2.filter(|_| weight > 0.0) else { return false };
             line.add(from, area, weight);
+            as_opened.add(from, opened[k].area_mm2.unwrap_or(area), weight);
             true
         };
         // As far on either side as it is one vessel.
@@ -501,7 +518,9 @@ fn radii(
                 break;
             }
         }
-        Some(circle(line.at_origin().max(0.0)))
+        // A line that comes down to nothing says nothing: then the mean does, on all surfaces alike.
+        let is_line = as_opened.at_origin() >= LEAST_OF_MEAN * as_opened.mean();
+        Some(circle(if is_line { line.at_origin().max(0.0) } else { line.mean() }))
     };
     (0..stations.len()).map(one).collect()
 }
@@ -525,13 +544,18 @@ impl Line {
         self.moment += weight * x * y;
     }
 
+    /// The weighted mean of the heights.
+    fn mean(&self) -> f64 {
+        self.sum / self.weights
+    }
+
     /// Its height at x = 0.
     fn at_origin(&self) -> f64 {
         let determinant = self.weights * self.second - self.first * self.first;
         if determinant > 1e-9 * self.weights * self.second {
             (self.second * self.sum - self.first * self.moment) / determinant
         } else {
-            self.sum / self.weights
+            self.mean()
         }
     }
 }

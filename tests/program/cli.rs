@@ -311,7 +311,7 @@ fn centrelines_are_written_as_vtp_and_csv() {
 fn the_calibre_of_each_branch_is_told() {
     let folder = Folder::new("branches");
     let (out, report) = (folder.file("out.ply"), folder.file("report.json"));
-    let arguments = ["optimise", "sample:aorta", "-o", &out, "--adapt", "--branches", "--report", &report];
+    let arguments = ["optimise", "sample:aorta", "-o", &out, "--branches", "--report", &report];
     let table = succeed(&arguments);
     assert!(table.contains("largest change at") && table.contains("branch 7"), "{table}");
     let found = json(&report);

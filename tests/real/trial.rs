@@ -8,7 +8,7 @@ use libtest_mimic::{Failed, Trial as Test};
 use lumen::io;
 use lumen::mesh::TriMesh;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Settings, Target};
+use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
 use lumen::trial::course::Course;
 use lumen::trial::session::Trial;
@@ -25,7 +25,7 @@ const FILES: [(&str, &str); 5] = [
     ("beamadapter_carotids.stl", "workhorse"),
     ("beamadapter_phantom.obj", "workhorse-j"),
 ];
-/// Those that are smoothed as the app does it, with the wire, entry and target that are proposed.
+/// Those that are smoothed as `lumen trial` does it, with the wire, entry and target that are proposed.
 const PROPOSED: [&str; 6] = [
     "aorta-surface-open-ends.stl",
     "aorta-surface-segment-2.stl",
@@ -33,6 +33,14 @@ const PROPOSED: [&str; 6] = [
     "beamadapter_phantom.obj",
     "steve_mechanical_thrombectomy.obj",
     "steve_vessel_architecture.obj",
+];
+/// Those in which the trial starts at the settings that the app begins with, 90 % of the triangles gone.
+const AT_ONCE: [&str; 5] = [
+    "aorta-surface-open-ends.stl",
+    "aorta-surface-segment-2.stl",
+    "beamadapter_carotids.stl",
+    "beamadapter_phantom.obj",
+    "steve_mechanical_thrombectomy.obj",
 ];
 /// Trials of each: as many as docs/guide.md tells of, or a sample.
 fn seeds() -> u64 {
@@ -44,10 +52,20 @@ fn read(file: &Path) -> Result<Arc<TriMesh>, Failed> {
 }
 
 fn smoothed(mesh: Arc<TriMesh>) -> Result<Arc<TriMesh>, Failed> {
-    let settings = Settings { target: Target::Reduction(0), ..Settings::default() };
+    let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::PAPER };
+    let settings = Settings { smoothing, target: Target::Reduction(0), ..Settings::default() };
     let mut pipeline = Pipeline::new(mesh, settings).without_measures();
     pipeline.finish()?;
     Ok(pipeline.reduced().ok_or("it was waited for")?.mesh.clone())
+}
+
+/// The level that the app shows first has a way for the wire that is proposed.
+fn starts(mesh: Arc<TriMesh>) -> Result<(), Failed> {
+    let mut pipeline = Pipeline::new(mesh, Settings::default()).without_measures();
+    pipeline.finish()?;
+    let reduced = pipeline.reduced().ok_or("it was waited for")?;
+    Course::new(&reduced.mesh, None, &mut Setup { proposes_wire: true, ..Setup::default() })?;
+    Ok(())
 }
 
 /// The autopilot arrives from every seed.
@@ -88,5 +106,10 @@ pub(crate) fn trials(data: &Path) -> Vec<Test> {
             arrives(file, &smoothed(read(&path)?)?, Setup { proposes_wire: true, ..Setup::default() })
         })
     };
-    FILES.into_iter().map(by).chain(PROPOSED.into_iter().map(proposed)).collect()
+    let at_once = |file: &'static str| {
+        let path = path(file);
+        Test::test(format!("trial: it starts in {file} with no setting changed"), move || starts(read(&path)?))
+    };
+    let arrivals = FILES.into_iter().map(by).chain(PROPOSED.into_iter().map(proposed));
+    arrivals.chain(AT_ONCE.into_iter().map(at_once)).collect()
 }

@@ -102,6 +102,7 @@ fn branches_that_smoothing_changes_are_told_and_do_not_count() {
     let settings = Settings { smoothing: Smoothing::PAPER, ..Settings::default() };
     let (_, safe) = found(&mesh, settings, 2.0);
     assert!(safe.branches.iter().all(|branch| branch.changed_by_smoothing), "{safe:?}");
+    assert!(safe.percent.is_none() && safe.refused.is_some_and(|why| why.contains("smoothing itself")));
     let (_, safe) = found(&mesh, Settings::default(), 2.0);
     assert!(safe.percent.is_some_and(|percent| percent > 20.0), "{safe:?}");
     assert!(safe.branches.iter().all(|branch| !branch.changed_by_smoothing), "{safe:?}");

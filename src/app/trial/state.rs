@@ -21,7 +21,7 @@ use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
 /// What is said until a smoother level is there.
-pub(super) const AWAITS: &str = "Smoothing less: the trial starts when the new level is there.";
+pub(super) const AWAITS: &str = "Adapting the smoothing: the trial starts when the new level is there.";
 
 /// What the app knows of the trial.
 #[derive(Default)]

@@ -2,14 +2,15 @@
 //!
 //! A filtered surface is `sum of c_n x_n`, and the terms `x_n` do not depend on the filter. So every vertex can have
 //! coefficients of its own at no further pass over the surface: those of a filter whose pass band suits the place. Filters
-//! are made for a row of pass bands, a constant factor apart, and a vertex takes the weighted mean of the two around its
+//! are made for a row of pass bands, evenly apart as angles, and a vertex takes the weighted mean of the two around its
 //! own. Each lets a constant through unchanged, and so does any mean of them.
 
 use crate::pipeline::filter::Filter;
 use crate::pipeline::settings::Smoothing;
 
-/// Pass bands of neighbouring filters are this factor apart.
-const STEP: f64 = 1.135;
+/// Pass bands of neighbouring filters are so far apart as angles, `acos(1 - k / 2)`: coefficients go with the sines of their
+/// multiples.
+const STEP: f64 = 0.025;
 
 /// Filters in a row at most: a power of two, so that a number is cut to it without a look.
 const FILTERS: usize = 64;
@@ -46,8 +47,14 @@ impl Gains {
         if high <= low {
             return (Self::of(&Filter::new(settings)), Vec::new());
         }
-        let count = ((libm::log(high / low) / libm::log(STEP)).ceil() as usize + 2).min(FILTERS);
-        let band = |i: usize| (low * libm::pow(STEP, i as f64)).min(*Smoothing::PASS_BAND.end());
+        let angle = |k: f64| libm::acos(1.0 - k / 2.0);
+        let from = angle(low);
+        let count = (((angle(high) - from) / STEP).ceil() as usize + 2).min(FILTERS);
+        let band = |i: usize| match i {
+            // To the bit.
+            0 => low,
+            _ => (2.0 - 2.0 * libm::cos(from + STEP * i as f64)).min(*Smoothing::PASS_BAND.end()),
+        };
         let filters: Vec<Filter> =
             (0..count).map(|i| Filter::new(&Smoothing { pass_band: band(i), ..*settings })).collect();
         let degree = settings.iterations as usize;
@@ -56,9 +63,8 @@ impl Gains {
             std::array::from_fn(|i| [c(i), c(i + 1) - c(i)])
         };
         let rows = (0..=degree).map(row).collect();
-        let scale = (1.0 / libm::log(STEP)) as f32;
         let mix = |&k: &f32| {
-            let at = libm::logf(k.max(low as f32) / low as f32) * scale;
+            let at = ((angle(f64::from(k).max(low)) - from) / STEP) as f32;
             let filter = (at as u32).min(count as u32 - 2);
             Mix { filter, part: (at - filter as f32).clamp(0.0, 1.0) }
         };

@@ -111,7 +111,8 @@ impl GuardTask {
     /// Weakens the filter at the triangles of `crossing` that crossed none before; `None` where there is none.
     fn weaken(&mut self, crossing: &[u32]) -> Option<Step> {
         let new: Vec<u32> = crossing.iter().copied().filter(|&t| !self.crossed[t as usize]).collect();
-        if new.is_empty() {
+        // Once all is as it was, nothing crosses that did not.
+        if new.is_empty() || self.rounds >= ROUNDS {
             return None;
         }
         if self.heights.is_empty() {

@@ -247,7 +247,10 @@ fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_tri
     press(&mut harness, ADAPT);
     let smoothing = Smoothing { adapt: true, ..before.smoothing };
     assert_eq!(harness.state().state().settings, Settings { smoothing, ..before.clone() });
-    assert!(!is_refused(&harness) && says(&harness, "Smoothing less: the trial starts when the new level is there."));
+    assert!(
+        !is_refused(&harness)
+            && says(&harness, "Adapting the smoothing: the trial starts when the new level is there.")
+    );
     assert!(asked(&memory).is_empty(), "not with the level before");
     wait(&mut harness, |harness| harness.state().trial().session().is_some());
     let commands = asked(&memory);
