@@ -141,9 +141,10 @@ fn attach(
     let attached = &from[..from.iter().take_while(is_attached).count()];
     let Some(&last) = attached.last().or(from.first()).or(inner.last()) else { return };
     // That of the side branch itself, not of the mouth.
-    let radius = all[from.get(attached.len()).copied().unwrap_or(last)].radius_mm;
+    let free = from.get(attached.len()).copied().unwrap_or(last);
+    let radius = all[free].radius_mm;
     let beside = BESIDE * radius;
-    let within = |&&i: &&usize| all[i].at.distance(all[last].at) <= beside;
+    let within = |&&i: &&usize| all[i].at.distance(all[free].at) <= beside;
     let beyond = from[attached.len()..].iter().take_while(within);
     let mut is_at = vec![false; to.len()];
     for (at, &k) in is_at.iter_mut().zip(to) {
