@@ -340,28 +340,37 @@ fn safe<'a>(state: &'a State, settings: &Settings) -> Option<&'a Safe> {
     measured(state.document.as_ref()).filter(of_these)?.safe.as_ref()
 }
 
-/// What is safe in words, and a way there.
-fn safe_row(ui: &mut Ui, safe: &Safe, target: &mut Target) {
-    let help = "Up to here every vessel that can be measured keeps its calibre to 2 %, none is pinched, and no triangles cross that did not";
-    let Some(percent) = safe.percent else {
-        let why = safe.refused.as_deref().unwrap_or("no vessel can be measured");
-        number(ui, "Safe to", "–", &format!("{help}. Not known here: {why}."));
-        return;
-    };
-    let wanted = Target::Reduction((percent * 10.0).round() as u32);
-    let stop = safe.stopped_by.as_ref().map_or(String::new(), |why| format!(". {why}"));
-    row(ui, "Safe to", &format!("{help}{stop}."), |ui| {
-        let go = ui.add_enabled(*target != wanted, egui::Button::new("Go there"));
-        if go.on_hover_text("Sets the reduction to the mark under the slider").clicked() {
+/// What is safe in words, and a way there. The row is there before it is known: what lies below must not move when it is.
+fn safe_row(ui: &mut Ui, safe: Option<&Safe>, target: &mut Target) {
+    let mut help =
+        "Up to here every vessel that can be measured keeps its calibre to 2 %, none is pinched, and no triangles \
+                    cross that did not."
+            .to_owned();
+    if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
+        help += &format!(" {why}.");
+    }
+    if let Some(why) = safe.and_then(|safe| safe.refused.as_ref()) {
+        help += &format!(" There is no such rate here: {why}.");
+    }
+    let changed = safe.map_or(0, |safe| safe.branches.iter().filter(|branch| branch.changed_by_smoothing).count());
+    if changed > 0 {
+        help += &format!(" Branches that smoothing itself changes by more do not count: {}.", grouped(changed));
+    }
+    let percent = safe.and_then(|safe| safe.percent);
+    let wanted = percent.map(|percent| Target::Reduction((percent * 10.0).round() as u32));
+    row(ui, "Safe to", &help, |ui| {
+        let go = ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new("Go there"));
+        if let Some(wanted) =
+            wanted.filter(|_| go.on_hover_text("Sets the reduction to the mark under the slider").clicked())
+        {
             *target = wanted;
         }
-        ui.label(format!("{percent:.1} %"));
+        ui.label(match (safe, percent) {
+            (_, Some(percent)) => format!("{percent:.1} %"),
+            (Some(_), None) => "–".to_owned(),
+            (None, _) => "...".to_owned(),
+        });
     });
-    let changed = safe.branches.iter().filter(|branch| branch.changed_by_smoothing).count();
-    if changed > 0 {
-        let branches = if changed == 1 { "one branch" } else { &format!("{} branches", grouped(changed)) };
-        remark(ui, &format!("Not counting {branches} that smoothing itself changes by more than 2 %."));
-    }
 }
 
 fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
@@ -381,9 +390,7 @@ fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
     if reduction.show_with_mark(ui, &mut rate, safe.and_then(|safe| safe.percent)) {
         *target = Target::Reduction((rate * 10.0).round() as u32);
     }
-    if let Some(safe) = safe {
-        safe_row(ui, safe, target);
-    }
+    safe_row(ui, safe, target);
     if let Some(entering) = entering {
         row(ui, "Triangles wanted", "The same as a number; drag, or click to type", |ui| {
             // The field shows what can be typed into it: left alone, it sets nothing.

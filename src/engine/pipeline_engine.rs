@@ -216,6 +216,8 @@ impl Current {
         let generation = self.generation;
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
             Advance::Idle => return Ok(self.pipeline.prepare(budget)),
+            // Nobody waits for that one: it goes on in the background, and leaves the bar to what is told there.
+            Advance::Working(Stage::Safe, _) => {}
             Advance::Working(stage, fraction) => {
                 tell_progress(Work::Stage(stage), fraction, events);
             }
