@@ -211,8 +211,7 @@ fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
         remark(ui, &warning);
     }
     if let Some(weakened) = report.smoothing_weakened {
-        let (vertices, triangles) = (grouped(weakened.vertices), grouped(weakened.triangles_spared));
-        remark(ui, &format!("Smoothed less at {vertices} vertices, where {triangles} triangles would cross."));
+        remark(ui, &format!("Smoothed less at {} vertices: no crossings.", grouped(weakened.vertices)));
     }
 }
 

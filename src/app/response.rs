@@ -68,7 +68,7 @@ fn filter(ui: &Ui, settings: &Smoothing) -> Arc<Filter> {
 fn sentence(response: &SmoothingResponse, adapts: bool) -> String {
     match (response.half_gain_text(), response.wavelength_mm_at_half_gain) {
         (Some(text), Some(_)) if adapts => {
-            format!("Half gain at {text}; shorter ones are smoothed away, in thin vessels less.")
+            format!("Half gain at {text}; shorter ones go, in thin vessels less.")
         }
         (Some(text), Some(_)) => format!("Half gain at {text}; shorter ones are smoothed away."),
         (Some(text), None) => format!("Half gain at {text}."),

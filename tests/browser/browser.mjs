@@ -102,6 +102,18 @@ async function middle(control) {
   return { x: box.x + box.width / 2, y: box.y + box.height / 2, box };
 }
 
+/** Turns the wheel over a control until it stands above the bar at the window's foot, as a user does. */
+async function inSight(page, control) {
+  const { height } = page.viewportSize();
+  for (let turns = 0; turns < 8; turns++) {
+    const { x, box } = await middle(control);
+    if (box.y + box.height < height - 56) return;
+    await page.mouse.move(x, height / 2);
+    await page.mouse.wheel(0, 80);
+    await frames(page, 12);
+  }
+}
+
 /** Presses a control with the pointer. */
 export async function press(page, role, name) {
   const control = twin(page, role, name);
@@ -124,6 +136,7 @@ export async function value(control) {
 export async function dragTo(page, name, wanted) {
   const slider = twin(page, "slider", name);
   await slider.waitFor({ state: "attached" });
+  await inSight(page, slider);
   const { y, box } = await middle(slider);
   let [low, high] = [Math.floor(box.x), Math.ceil(box.x + box.width)];
   let best = { off: Infinity, x: low };
