@@ -290,10 +290,10 @@ impl LumenApp {
     fn act_on_trial(&mut self, action: trial::Action, ctx: &egui::Context) {
         match action {
             trial::Action::OpenLog => self.platform.choose_file(ctx),
-            trial::Action::SmoothLess => {
+            trial::Action::AdaptSmoothing => {
                 // One step to undo, whatever was changed before it.
                 self.state.history.record(&self.state.settings);
-                self.trial.smooth_less(&mut self.state.settings.smoothing);
+                self.trial.adapt_smoothing(&mut self.state.settings.smoothing);
             }
             trial::Action::Start => self.state.comparison.set_open(false),
             _ => {}

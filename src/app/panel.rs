@@ -330,11 +330,10 @@ fn largest_deviation(ui: &mut Ui, state: &State, settings: &mut Settings) {
 
 /// How far a reduction is safe by these settings, if that is known.
 fn safe<'a>(state: &'a State, settings: &Settings) -> Option<&'a Safe> {
+    // The same for every level.
     let of_these = |report: &&Report| {
-        let made = &report.settings;
-        made.keep == settings.keep
-            && made.smoothing.gives_same(&settings.smoothing)
-            && made.decimation.gives_same(&settings.decimation)
+        let target = settings.target;
+        Settings { target, ..report.settings.clone() }.gives_same(settings)
     };
     measured(state.document.as_ref()).filter(of_these)?.safe.as_ref()
 }

@@ -1,8 +1,12 @@
 //! The table of the branches of a vessel tree, and what became of the calibre of each.
 
+use tabled::builder::Builder;
+use tabled::settings::object::Columns;
+use tabled::settings::{Alignment, Style};
+
 use super::row;
 use crate::pipeline::report::Report;
-use crate::vessel::certificate::{BranchCalibre, OnSurface, Verdict};
+use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, Verdict};
 
 /// Prints the table.
 pub(super) fn print(report: &Report) {
@@ -11,49 +15,52 @@ pub(super) fn print(report: &Report) {
         row("calibre of branches", refused);
         return;
     }
-    let branches = report.branches.as_deref().unwrap_or_default();
-    println!(
-        "\n{:<12}{:>10}{:>11}{:>20}{:>9}{:>9}{:>11}{:>10}  {:<14}largest change at",
-        "branch",
-        "length mm",
-        "tortuosity",
-        "radius, opened mm",
-        "smoothed",
-        "output",
-        "smoothed %",
-        "output %",
-        "verdict"
-    );
-    for branch in branches {
-        print_branch(branch);
-    }
+    let mut rows = Builder::new();
+    rows.push_record(HEADS);
+    report.branches.iter().flatten().for_each(|branch| rows.push_record(of(branch)));
+    let mut table = rows.build();
+    table.with(Style::blank()).modify(Columns::new(1..NUMBERS), Alignment::right());
+    println!("\n{table}");
     let verdict = calibre.verdict.map_or("", word);
     row("calibre", format!("{verdict}, at a tolerance of {} %", calibre.tolerance_percent));
 }
 
-fn print_branch(branch: &BranchCalibre) {
-    let mean = |of: &OnSurface| of.radius_mm.map_or("-".to_owned(), |radius| format!("{:.3}", radius.mean));
-    let change = |of: &OnSurface| of.largest_change.map_or("-".to_owned(), |change| format!("{:+.2}", change.percent));
-    let place = branch.reduced.largest_change.map_or(String::new(), |change| {
+const HEADS: [&str; 10] = [
+    "branch",
+    "length mm",
+    "tortuosity",
+    "radius, opened mm",
+    "smoothed",
+    "output",
+    "smoothed %",
+    "output %",
+    "verdict",
+    "largest change at",
+];
+/// The columns before this one are numbers, but for the first.
+const NUMBERS: usize = 8;
+
+fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
+    let none = || "-".to_owned();
+    let mean = |of: &OnSurface| of.radius_mm.map_or_else(none, |radius| format!("{:.3}", radius.mean));
+    let change = |of: &OnSurface| of.largest_change.map_or_else(none, |change| format!("{:+.2}", change.percent));
+    let spread = |radius: Spread| format!("{:.3} ({:.2}-{:.2})", radius.mean, radius.least, radius.largest);
+    let place = |change: Change| {
         let [x, y, z] = change.at_mm;
         format!("{:.1} mm ({x:.1}, {y:.1}, {z:.1})", change.abscissa_mm)
-    });
-    let opened = branch
-        .opened
-        .radius_mm
-        .map_or("-".to_owned(), |radius| format!("{:.3} ({:.2}-{:.2})", radius.mean, radius.least, radius.largest));
-    println!(
-        "{:<12}{:>10.1}{:>11}{:>20}{:>9}{:>9}{:>11}{:>10}  {:<14}{place}",
-        branch.name,
-        branch.length_mm,
-        branch.tortuosity.map_or("-".to_owned(), |tortuosity| format!("{tortuosity:.3}")),
-        opened,
+    };
+    [
+        branch.name.clone(),
+        format!("{:.1}", branch.length_mm),
+        branch.tortuosity.map_or_else(none, |tortuosity| format!("{tortuosity:.3}")),
+        branch.opened.radius_mm.map_or_else(none, spread),
         mean(&branch.smoothed),
         mean(&branch.reduced),
         change(&branch.smoothed),
         change(&branch.reduced),
-        word(branch.verdict),
-    );
+        word(branch.verdict).to_owned(),
+        branch.reduced.largest_change.map_or_else(String::new, place),
+    ]
 }
 
 fn word(verdict: Verdict) -> &'static str {

@@ -220,14 +220,14 @@ impl Optimise {
         let read = milliseconds(start.elapsed());
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         let wants_safe = self.reduction == Reduction::Safe && self.triangles.is_none() && self.max_deviation.is_none();
-        if wants_safe || self.branches {
+        if wants_safe {
             pipeline = pipeline.with_safe(self.tolerance);
         }
         advance(&mut pipeline)?;
         if wants_safe {
             let safe = pipeline.safe().context("the search for the safe rate ended without a result")?;
-            let why = || safe.refused.clone().unwrap_or_else(|| "no vessel can be measured".to_owned());
-            let percent = safe.percent.with_context(|| format!("no reduction can be called safe: {}", why()))?;
+            let why = safe.refused.as_deref().unwrap_or_default();
+            let percent = safe.percent.with_context(|| format!("no reduction can be called safe: {why}"))?;
             let target = Target::Reduction((percent * 10.0).round() as u32);
             pipeline.set(Settings { target, ..pipeline.settings().clone() })?;
             advance(&mut pipeline)?;

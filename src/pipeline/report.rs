@@ -14,7 +14,7 @@ use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
 use crate::mesh::{Measures, TriMesh, components};
-use crate::task::{Budget, Progress, Task as _, milliseconds};
+use crate::task::{Task as _, milliseconds};
 use crate::vessel::certificate::{BranchCalibre, Verdict};
 
 /// What stands in every report.
@@ -125,7 +125,7 @@ pub struct Report {
     pub narrowing: Option<Narrowing>,
     /// The first reduction rate, of all, at which a vessel is pinched or lost; null where there is none.
     pub pinch: Option<Pinch>,
-    /// How far a reduction is safe, null where that was not asked for, and until it is known.
+    /// How far a reduction is safe; null where that was not asked for, and until it is known.
     #[serde(default)]
     pub safe: Option<Safe>,
     /// Whether the vessels keep their calibre; null where that was not asked for.
@@ -209,14 +209,9 @@ impl Report {
 
     /// Adds the calibre of each branch; `tolerance_percent` is the change that it is allowed.
     pub fn certify(&mut self, pipeline: &Pipeline, tolerance_percent: f64) {
-        let Some(mut task) = pipeline.certificate(tolerance_percent) else { return };
+        let Some(task) = pipeline.certificate(tolerance_percent) else { return };
         let start = Instant::now();
-        let found = loop {
-            if let Progress::Done(found) = task.advance(Budget::UNLIMITED) {
-                break found;
-            }
-        };
-        let (verdict, refused, branches) = match found {
+        let (verdict, refused, branches) = match task.finish() {
             Ok(found) => (Some(found.verdict), None, Some(found.branches)),
             Err(error) => (None, Some(error.to_string()), None),
         };

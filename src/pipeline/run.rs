@@ -45,7 +45,7 @@ pub enum Advance {
 /// One opened surface and what the stages made of it so far.
 pub struct Pipeline {
     store: Store,
-    /// Whether the level is measured.
+    /// How much is made.
     wanted: Wanted,
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,

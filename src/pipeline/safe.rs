@@ -1,14 +1,15 @@
 //! How far a reduction is safe: up to which rate every branch of the vessel tree keeps its calibre.
 //!
-//! A level is judged as the certificate of calibre judges it (`crate::vessel::certificate`), at the stations of the opened
-//! surface. Looked at are a row of rates, from 0 on, closer together where reductions are strong, and then, between the
-//! last at which all vessels kept their calibre and the first at which one did not, halves of halves, down to a tenth of
-//! a percent. So the rate that is marked was looked at, and so was the next one above, which is not safe; a vessel that is
-//! changed at a rate in between the others and comes back is not seen. A rate at which a vessel is pinched anywhere
-//! (`super::pinch`, which looks at every rate) is not safe either. That no triangles cross that did not is so at every rate.
+//! A level is judged as the certificate of calibre judges it (`crate::vessel::certificate`), at the stations of the
+//! opened surface. Looked at are a row of rates, from 0 on, closer together where reductions are strong, and then,
+//! between the last at which all vessels kept their calibre and the first at which one did not, halves of halves, down
+//! to a tenth of a percent. So the rate that is marked was looked at, and so was the next one above, which is not safe;
+//! a vessel that is changed at a rate in between the others and comes back is not seen. A rate at which a vessel is
+//! pinched anywhere (`super::pinch`, which looks at every rate) is not safe either. That no triangles cross that did
+//! not is so at every rate.
 //!
-//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A branch of
-//! which a tenth can no longer be measured counts as changed.
+//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A
+//! branch of which a tenth can no longer be measured counts as changed.
 
 use std::sync::Arc;
 
@@ -18,6 +19,7 @@ use super::pinch::Pinch;
 use super::progressive::ProgressiveMesh;
 use super::settings::{Target, reduction_percent};
 use super::task::{Budget, Progress, Task};
+use crate::mesh::TriMesh;
 use crate::vessel::Subject;
 use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, CertificateTask, Verdict};
 
@@ -71,8 +73,8 @@ pub(crate) struct SafeTask {
 
 enum Step {
     Certificate(Box<CertificateTask>),
-    /// A level is measured.
-    Level(Box<Basis>, u32, Box<Candidate>),
+    /// A level is measured; its branches are not known yet.
+    Level(Box<Basis>, Look, Box<Candidate>),
     Done,
 }
 
@@ -82,7 +84,22 @@ struct Look {
     per_mille: u32,
     /// That was reached, where the surface goes no further: then no higher one is looked at.
     reached: Option<f64>,
+    triangles: usize,
     branches: Vec<BranchCalibre>,
+}
+
+impl Look {
+    /// The level for a rate, not judged yet, and its surface.
+    fn at(progressive: &ProgressiveMesh, per_mille: u32) -> (Self, TriMesh) {
+        let level = progressive.level(Target::Reduction(per_mille));
+        let (count, triangles) = (progressive.triangles.len(), level.triangles.len());
+        let reached = level.shortfall.is_some().then(|| (10.0 * reduction_percent(count, triangles)).floor() / 10.0);
+        (Self { per_mille, reached, triangles, branches: Vec::new() }, progressive.extract(&level.triangles))
+    }
+
+    fn percent(&self) -> f64 {
+        self.reached.unwrap_or(f64::from(self.per_mille) / 10.0)
+    }
 }
 
 impl SafeTask {
@@ -158,18 +175,13 @@ impl SafeTask {
     /// Begins with the next level, if there is one to look at.
     fn next(&self, basis: Box<Basis>) -> Step {
         let Some(rate) = self.next_rate() else { return Step::Done };
-        let level = self.progressive.level(Target::Reduction(rate));
-        let mesh = Arc::new(self.progressive.extract(&level.triangles));
-        Step::Level(basis, rate, Box::new(Candidate::new(Subject::new(&mesh))))
+        let (look, mesh) = Look::at(&self.progressive, rate);
+        Step::Level(basis, look, Box::new(Candidate::new(Subject::new(&Arc::new(mesh)))))
     }
 
-    fn add(&mut self, per_mille: u32, branches: Vec<BranchCalibre>) {
-        let at = self.looks.partition_point(|look| look.per_mille < per_mille);
-        let level = self.progressive.level(Target::Reduction(per_mille));
-        let count = self.progressive.triangles.len();
-        let reached = || (10.0 * reduction_percent(count, level.triangles.len())).floor() / 10.0;
-        let reached = level.shortfall.is_some().then(reached);
-        self.looks.insert(at, Look { per_mille, reached, branches });
+    fn add(&mut self, look: Look) {
+        let at = self.looks.partition_point(|other| other.per_mille < look.per_mille);
+        self.looks.insert(at, look);
     }
 
     /// The part that is done, 0 to 1.
@@ -183,7 +195,6 @@ impl SafeTask {
 
     fn found(&self) -> Safe {
         let (good, bad) = self.bounds();
-        let percent = |look: &Look| look.reached.unwrap_or(f64::from(look.per_mille) / 10.0);
         let first = self.looks.first().map_or(&[][..], |look| &look.branches);
         let has = |verdict: Verdict| first.iter().any(|branch| branch.verdict == verdict);
         let can_measure = has(Verdict::Kept);
@@ -197,17 +208,17 @@ impl SafeTask {
             Some(branch) => Some(match branch.reduced.largest_change {
                 Some(change) if branch.verdict == Verdict::Changed => {
                     let [x, y, z] = change.at_mm;
-                    let (name, by, at) = (&branch.name, change.percent, percent(look));
+                    let (name, by, at) = (&branch.name, change.percent, look.percent());
                     format!("At {at:.1} % {name} changes by {by:+.1} %, at ({x:.1}, {y:.1}, {z:.1})")
                 }
-                _ => format!("At {:.1} % {} can no longer be measured", percent(look), branch.name),
+                _ => format!("At {:.1} % {} can no longer be measured", look.percent(), branch.name),
             }),
             None => self.pinch.map(|pinch| pinch.to_string()),
         });
         Safe {
             tolerance_percent: self.tolerance_percent,
-            percent: good.map(percent),
-            triangles: good.map(|look| self.progressive.level(Target::Reduction(look.per_mille)).triangles.len()),
+            percent: good.map(Look::percent),
+            triangles: good.map(|look| look.triangles),
             stopped_by,
             branches: first.iter().enumerate().map(|(i, branch)| self.branch(i, branch)).collect(),
             refused,
@@ -215,14 +226,13 @@ impl SafeTask {
     }
 
     fn branch(&self, i: usize, branch: &BranchCalibre) -> BranchSafe {
-        let percent = |look: &Look| look.reached.unwrap_or(f64::from(look.per_mille) / 10.0);
         let is_kept = |look: &&Look| look.branches[i].verdict == Verdict::Kept;
         BranchSafe {
             number: branch.number,
             name: branch.name.clone(),
             changed_by_smoothing: !self.counts(i),
-            kept_to_percent: self.looks.iter().take_while(is_kept).last().map(percent),
-            changed_from_percent: self.looks.iter().find(|look| self.is_changed(look, i)).map(percent),
+            kept_to_percent: self.looks.iter().take_while(is_kept).last().map(Look::percent),
+            changed_from_percent: self.looks.iter().find(|look| self.is_changed(look, i)).map(Look::percent),
         }
     }
 }
@@ -243,20 +253,22 @@ impl Task for SafeTask {
                         return Progress::Done(Safe { refused: Some(error.to_string()), ..self.found() });
                     }
                     Progress::Done(Ok(certificate)) => {
-                        self.add(0, certificate.branches);
+                        // The smoothed surface itself.
+                        let triangles = self.progressive.triangles.len();
+                        self.add(Look { per_mille: 0, reached: None, triangles, branches: certificate.branches });
                         match task.into_basis() {
                             Some(basis) => self.next(Box::new(basis)),
                             None => Step::Done,
                         }
                     }
                 },
-                Step::Level(basis, rate, mut candidate) => match candidate.advance(&basis, budget) {
+                Step::Level(basis, look, mut candidate) => match candidate.advance(&basis, budget) {
                     None => {
-                        self.step = Step::Level(basis, rate, candidate);
+                        self.step = Step::Level(basis, look, candidate);
                         return Progress::Working(self.fraction());
                     }
                     Some(branches) => {
-                        self.add(rate, branches);
+                        self.add(Look { branches, ..look });
                         self.next(basis)
                     }
                 },

@@ -1,10 +1,10 @@
 //! The centrelines of one surface with its calibre along them, and as a file: CSV, or VTP as vmtk names its arrays.
 //!
 //! A line is a branch. Antiga et al., "An image-based modeling framework for patient-specific computational
-//! hemodynamics" (2008), number the pieces of centrelines that are split at forks by three numbers, which other programs
-//! read: `GroupIds`, here the branch; `CenterlineIds`, here the chain of branches of which each goes straight on from the
-//! last; `TractIds`, the place in that chain. No branch is `Blanking`, for none stands for a fork itself. What vmtk writes
-//! differs in that a line there goes from the root to an end, so that what two share is there twice.
+//! hemodynamics" (2008), number the pieces of centrelines that are split at forks by three numbers, which other
+//! programs read: `GroupIds`, here the branch; `CenterlineIds`, here the chain of branches of which each goes straight
+//! on from the last; `TractIds`, the place in that chain. No branch is `Blanking`, for none stands for a fork itself.
+//! What vmtk writes differs in that a line there goes from the root to an end, so that what two share is there twice.
 
 use std::fmt::{Display, Write as _};
 
@@ -89,7 +89,8 @@ impl Centrelines {
         text
     }
 
-    /// VTK's XML format for polygonal data, as text: a point a station, a line a branch.
+    /// VTK's XML format for polygonal data, as text: a point a station, a line a branch. Written by hand: for one shape of
+    /// file the crate `vtkio` would bring a parser of all of VTK's formats along.
     pub fn vtp(&self) -> String {
         let all = &self.stations.all;
         let numbers = self.chains();

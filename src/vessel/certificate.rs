@@ -1,22 +1,22 @@
 //! The certificate of calibre: what smoothing and reduction made of each branch of a vessel tree.
 //!
-//! Stations are taken along the centrelines of the surface as it was opened, and all three surfaces are cut there by the
-//! same planes. What is compared is the radius of the circle of the same area,
+//! Stations are taken along the centrelines of the surface as it was opened, and all three surfaces are cut there by
+//! the same planes. What is compared is the radius of the circle of the same area,
 //!
 //! ```text
 //! r(s) = sqrt( mean of A over s - r .. s + r / pi )
 //! ```
 //!
-//! with the mean weighted by `1 - |s - t| / r`, and where there is more of the vessel on one side than on the other, the
-//! line of least squares in its place, so that a taper does not tell: the area of one cross-section of a stair-stepped surface jumps by whole
-//! rows of voxels as the plane goes on, that of a stretch as long as the vessel is wide does not, and to the first order
-//! steps in and out of the wall leave it as it is. The inscribed radius, which stands beside it, does not have that
-//! property: steps that stand in make the ball smaller by a part of a voxel, and smoothing gives that back, though the
-//! calibre is the same.
+//! with the mean weighted by `1 - |s - t| / r`, and where there is more of the vessel on one side than on the other,
+//! the line of least squares in its place, so that a taper does not tell: the area of one cross-section of a
+//! stair-stepped surface jumps by whole rows of voxels as the plane goes on, that of a stretch as long as the vessel is
+//! wide does not, and to the first order steps in and out of the wall leave it as it is. The inscribed radius, which
+//! stands beside it, does not have that property: steps that stand in make the ball smaller by a part of a voxel, and
+//! smoothing gives that back, though the calibre is the same.
 //!
-//! A change counts where the vessel can be measured: see [`zones`](super::zones) for ends and forks; where the cut closes
-//! on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or folded in the
-//! plane, there is no saying. Where they have no vessel any more, the change is -100 %.
+//! A change counts where the vessel can be measured: see [`zones`](super::zones) for ends and forks; where the cut
+//! closes on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or
+//! folded in the plane, there is no saying. Where they have no vessel any more, the change is -100 %.
 
 use std::sync::Arc;
 

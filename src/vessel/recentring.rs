@@ -1,9 +1,9 @@
 //! Moves stations to the middle of their cross-sections.
 //!
-//! A centreline is smoothed along itself, which in a bend draws it inwards, by half a millimetre in an aortic arch. Where a
-//! station lies in one vessel, the centroid of its cross-section is its middle; the move is within the plane, so the
-//! cross-section stays the same one. Moves are evened out over a stretch as long as the vessel is wide, in which ends and
-//! forks count as not moved, so that the line has no steps.
+//! A centreline is smoothed along itself, which in a bend draws it inwards, by half a millimetre in an aortic arch.
+//! Where a station lies in one vessel, the centroid of its cross-section is its middle; the move is within the plane,
+//! so the cross-section stays the same one. Moves are evened out over a stretch as long as the vessel is wide, in which
+//! ends and forks count as not moved, so that the line has no steps.
 
 use glam::DVec3;
 

@@ -3,8 +3,9 @@
 //! In the plane a ray finds a triangle of the wall; from it the cut is followed from triangle to triangle until it
 //! closes. A vertex counts as before or behind the plane and never as in it, so every triangle that is cut has one side
 //! where the loop comes in and one where it goes out. It begins so that it runs counter-clockwise seen against the
-//! direction of the plane where the first triangle faces outwards. It is the loop around the point if it winds about it once. What lies elsewhere in the plane (the next turn
-//! of the vessel, other vessels) is not met. Cost: a few rays, and as many steps as the loop has edges.
+//! direction of the plane where the first triangle faces outwards. It is the loop around the point if it winds about it
+//! once. What lies elsewhere in the plane (the next turn of the vessel, other vessels) is not met. Cost: a few rays,
+//! and as many steps as the loop has edges.
 
 use glam::{DVec3, Vec3};
 

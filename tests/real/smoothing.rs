@@ -169,9 +169,9 @@ fn check_suited(path: &Path) -> Result<(), Failed> {
     let crossed = self_intersections(&kept.mesh);
     let new = self_intersections(&smoothed.mesh).into_iter().filter(|t| crossed.binary_search(t).is_err()).count();
     ensure(new == 0, || format!("{new} triangles cross that did not"))?;
-    if let Some((before, after)) = kept.measures.volume_mm3.zip(smoothed.measures.volume_mm3) {
-        ensure((after / before - 1.0).abs() <= 0.01, || format!("{before} mm3 became {after}"))?;
-    }
+    let volumes = kept.measures.volume_mm3.zip(smoothed.measures.volume_mm3);
+    let (before, after) = volumes.ok_or("the vessel has no volume")?;
+    ensure((after / before - 1.0).abs() <= 0.01, || format!("{before} mm3 became {after}"))?;
     let rough = |mesh: &TriMesh, topology: &Topology| roughness(mesh, topology).map_or(0.0, |found| found.rms_deg);
     let (before, after) = (rough(&kept.mesh, &kept.topology), rough(&smoothed.mesh, &kept.topology));
     // Of vessels with six or eight vertices around hardly anything can be smoothed away.

@@ -95,6 +95,48 @@ fn a_larger_tolerance_is_never_safe_for_less() {
     assert!(percents.is_sorted() && percents[4] > 90.0, "{percents:?}");
 }
 
+/// A duct of four flat sides about the z axis, of so many rings 1 mm apart, with two flanges round each end: the rims are
+/// on edges of three triangles, and stay.
+fn flanged(rings: u16) -> TriMesh {
+    let around =
+        [(-1, -1), (0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0)].map(|(x, y)| (x as f32, y as f32));
+    let end = f32::from(rings - 1);
+    let walls = (0..rings).map(|ring| (3.0, f32::from(ring)));
+    let flanges = [-0.5, 0.5, end - 0.5, end + 0.5].map(|z| (3.5, z));
+    let place = |(half, z): (f32, f32)| around.map(|(x, y)| Vec3::new(x * half, y * half, z));
+    // A band of quads between two rings.
+    let band = |(lower, upper): (u16, u16)| {
+        (0..8).flat_map(move |i| {
+            let next = (i + 1) % 8;
+            let [a, b, c, d] =
+                [(lower, i), (lower, next), (upper, next), (upper, i)].map(|(r, i)| u32::from(8 * r + i));
+            [[a, b, c], [a, c, d]]
+        })
+    };
+    let bands = (0..rings - 1).map(|ring| (ring, ring + 1));
+    let rims = [(0, rings), (0, rings + 1), (rings - 1, rings + 2), (rings - 1, rings + 3)];
+    TriMesh {
+        positions: walls.chain(flanges).flat_map(place).collect(),
+        triangles: bands.chain(rims).flat_map(band).collect(),
+    }
+}
+
+#[test]
+fn what_is_called_safe_can_be_reached() {
+    let mesh = Arc::new(flanged(60));
+    let settings = Settings { smoothing: Smoothing::NONE, ..Settings::default() };
+    // More than the coarsest level of what is left changes it by.
+    let (mut pipeline, safe) = found(&mesh, settings, 50.0);
+    let percent = safe.percent.unwrap_or_else(|| panic!("{safe:?}"));
+    assert!(percent > 90.0 && percent < 99.0 && safe.stopped_by.is_none(), "{safe:?}");
+    let after = level(&mut pipeline, (percent * 10.0).round() as u32);
+    assert!(pipeline.reduced().unwrap().level.shortfall.is_none());
+    assert!(after.triangles.len().abs_diff(safe.triangles.unwrap()) <= 4, "{} {safe:?}", after.triangles.len());
+    // It goes no further.
+    level(&mut pipeline, (percent * 10.0).round() as u32 + 1);
+    assert!(pipeline.reduced().unwrap().level.shortfall.is_some());
+}
+
 #[test]
 fn branches_that_smoothing_changes_are_told_and_do_not_count() {
     // The paper's filter draws a vessel of 1.5 mm on edges of 0.7 mm shut.

@@ -9,7 +9,7 @@ pub enum Action {
     /// Begin: with the level that is shown.
     Start,
     /// Adapt the smoothing to the calibre, so that thin vessels stay open, and begin with the level that this makes.
-    SmoothLess,
+    AdaptSmoothing,
     /// Begin again; anew where the level or the setup have changed.
     Restart,
     /// Steer by itself, or no longer.
@@ -53,7 +53,7 @@ impl Action {
     pub(super) fn is_attempt(&self) -> bool {
         match self {
             Self::Start
-            | Self::SmoothLess
+            | Self::AdaptSmoothing
             | Self::Restart
             | Self::Autopilot
             | Self::Pause

@@ -21,7 +21,7 @@ const SLOW: f32 = 0.25;
 
 impl Trial {
     /// Does what the user asks for. What needs a platform or the settings ([`Action::OpenLog`],
-    /// [`Action::SmoothLess`]) is not for here.
+    /// [`Action::AdaptSmoothing`]) is not for here.
     pub fn act(&mut self, action: Action, document: Option<&Document>, link: &mut TrialLink) {
         if action.is_attempt() {
             self.problem = None;
@@ -65,7 +65,7 @@ impl Trial {
             Action::CancelTables => self.cancel_tables(link),
             Action::CloseTables => self.tables.is_open = false,
             // Files and smoothing are the app's.
-            Action::OpenLog | Action::SmoothLess => {}
+            Action::OpenLog | Action::AdaptSmoothing => {}
         }
     }
 
@@ -212,7 +212,7 @@ impl Trial {
     }
 
     /// Sets the gentler smoothing; the trial begins once its level is there.
-    pub(in crate::app) fn smooth_less(&mut self, smoothing: &mut Smoothing) {
+    pub(in crate::app) fn adapt_smoothing(&mut self, smoothing: &mut Smoothing) {
         if let Some(gentler) = self.gentler(smoothing) {
             *smoothing = gentler;
             (self.problem, self.awaits) = (None, Some(gentler));

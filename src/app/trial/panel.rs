@@ -25,19 +25,19 @@ pub(in crate::app) fn show(
         warning(ui, &problem.text);
     }
     if trial.gentler(smoothing).is_some() {
-        smooth_less(ui, asked);
+        adapt_smoothing(ui, asked);
     }
     if trial.is_open() { open(ui, trial, asked) } else { closed(ui, document, asked) }
 }
 
-/// Offers a smoothing that leaves thin vessels wider.
-fn smooth_less(ui: &mut Ui, asked: &mut Vec<Action>) {
+/// Offers the smoothing that leaves thin vessels as wide as they are.
+fn adapt_smoothing(ui: &mut Ui, asked: &mut Vec<Action>) {
     let button = ui.add(Button::new("Adapt smoothing to the calibre and start").wrap());
     if button
         .on_hover_text("Smooths thin vessels less, so that they stay as wide as they are; Undo takes it back")
         .clicked()
     {
-        asked.push(Action::SmoothLess);
+        asked.push(Action::AdaptSmoothing);
     }
 }
 

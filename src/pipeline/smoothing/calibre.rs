@@ -1,13 +1,13 @@
 //! The least pass band at each vertex that leaves its vessel the calibre that it has.
 //!
-//! Around a round vessel of radius `r` the coordinates of its wall are waves of length `2 pi r`, one around: on edges of
-//! length `h` they have the eigenvalue `k = 1 - J0(h / r)` (`pipeline::response`). A filter that stops them draws the vessel
-//! shut, one whose pass band holds them leaves it as wide as it is. At an open end the rim is smoothed along itself, where
-//! the same wave has `k = 1 - cos(h / r)`.
+//! Around a round vessel of radius `r` the coordinates of its wall are waves of length `2 pi r`, one around: on edges
+//! of length `h` they have the eigenvalue `k = 1 - J0(h / r)` (`pipeline::response`). A filter that stops them draws
+//! the vessel shut, one whose pass band holds them leaves it as wide as it is. At an open end the rim is smoothed along
+//! itself, where the same wave has `k = 1 - cos(h / r)`.
 //!
-//! `r` is the inner ball's radius at the vertex (`mesh::inner_ball`), as the median of its ring, several times over, for
-//! on rough surfaces many vertices have bad normals. From a thin vessel the radius grows by no more than the way along the
-//! surface: so the pass band has no jumps, and a narrow place keeps the surface beside it.
+//! `r` is the inner ball's radius at the vertex (`mesh::inner_ball`), as the median of its ring, several times over,
+//! for on rough surfaces many vertices have bad normals. From a thin vessel the radius grows by no more than the way
+//! along the surface: so the pass band has no jumps, and a narrow place keeps the surface beside it.
 
 use std::ops::Deref;
 

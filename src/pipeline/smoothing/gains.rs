@@ -1,9 +1,9 @@
 //! What each vertex takes of each term: the coefficients of one filter, or of its own.
 //!
 //! A filtered surface is `sum of c_n x_n`, and the terms `x_n` do not depend on the filter. So every vertex can have
-//! coefficients of its own at no further pass over the surface: those of a filter whose pass band suits the place. Filters
-//! are made for a row of pass bands, evenly apart as angles, and a vertex takes the weighted mean of the two around its
-//! own. Each lets a constant through unchanged, and so does any mean of them.
+//! coefficients of its own at no further pass over the surface: those of a filter whose pass band suits the place.
+//! Filters are made for a row of pass bands, evenly apart as angles, and a vertex takes the weighted mean of the two
+//! around its own. Each lets a constant through unchanged, and so does any mean of them.
 
 use crate::pipeline::filter::Filter;
 use crate::pipeline::settings::Smoothing;

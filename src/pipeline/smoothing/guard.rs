@@ -1,10 +1,10 @@
 //! Keeps smoothing from making triangles cross.
 //!
 //! A filter moves the two sides of a fold, or two vessels that nearly touch, through each other. Triangles that cross
-//! after smoothing and crossed none before are sought; around them the filter is weakened: `x = S x + w (x_0 - S x)`, the
-//! filter with `w + (1 - w) f(k)` in place of `f(k)`. The part `w` is largest at those triangles and falls to 0 over some
-//! rings of neighbours, without a corner at either end. Where that was not enough it is raised, and reaches twice as far,
-//! until no triangle crosses that did not: at the latest where the surface is as it was.
+//! after smoothing and crossed none before are sought; around them the filter is weakened: `x = S x + w (x_0 - S x)`,
+//! the filter with `w + (1 - w) f(k)` in place of `f(k)`. The part `w` is largest at those triangles and falls to 0
+//! over some rings of neighbours, without a corner at either end. Where that was not enough it is raised, and reaches
+//! twice as far, until no triangle crosses that did not: at the latest where the surface is as it was.
 //!
 //! The first search takes the hierarchy of the surface before smoothing, with boxes of its own. After it only what was
 //! moved is looked at, and what is near it.
