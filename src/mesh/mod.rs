@@ -45,6 +45,7 @@ pub use measures::{
     Measures, measures, measures_within, oriented_loops, surface_area, triangle_area, volume, volume_of,
 };
 pub use nearest::{Nearest, SurfaceIndex};
+pub(crate) use refit::Refitting;
 pub use roughness::{Roughness, roughness};
 pub(crate) use roughness::{bends, summarise_bends};
 pub(crate) use self_intersections::Crossing;

@@ -55,14 +55,21 @@ pub struct Narrowing {
 
 /// Samples of the vessels of `mesh`, from its inner balls; `index` is of this surface, in whatever numbering.
 pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> Vec<Sample> {
-    let mut sampling = Sampling::new(mesh, topology, balls);
+    let mut sampling = Sampling::new(mesh);
+    sampling.choose(mesh, topology, balls, usize::MAX);
     while !sampling.advance(index, usize::MAX) {}
     sampling.finish()
 }
 
-/// The taking of samples, in slices.
+/// The taking of samples, in slices: [`Self::choose`] until all balls are looked at, then [`Self::advance`].
 #[derive(Debug)]
 pub(super) struct Sampling {
+    /// Radius that a ball must have, in mm.
+    least: f32,
+    /// Balls that were looked at.
+    looked: usize,
+    /// The cells that have a ball.
+    taken: HashSet<(i32, [i32; 3])>,
     /// Middles and radii of the balls that may be samples.
     chosen: Vec<(Vec3, f32)>,
     next: usize,
@@ -70,23 +77,29 @@ pub(super) struct Sampling {
 }
 
 impl Sampling {
-    /// Of the vessels of `mesh`, from its inner balls. About 50 ns a vertex, in one piece.
-    pub(super) fn new(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii) -> Self {
-        let mut ring = Vec::new();
-        let mut taken = HashSet::new();
-        let mut chosen = Vec::new();
+    /// Of the vessels of `mesh`.
+    pub(super) fn new(mesh: &TriMesh) -> Self {
         let least = (edge_length(mesh) * SHUT / 2.0) as f32;
-        for &v in &balls.own {
+        Self { least, looked: 0, taken: HashSet::new(), chosen: Vec::new(), next: 0, found: Vec::new() }
+    }
+
+    /// Looks at the next `count` inner balls of the surface, about 200 ns each; whether these were the last.
+    pub(super) fn choose(&mut self, mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, count: usize) -> bool {
+        let end = balls.own.len().min(self.looked.saturating_add(count));
+        let mut ring = Vec::new();
+        for &v in &balls.own[self.looked..end] {
             let radius = balls.radii[v as usize];
-            let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > least) else {
+            let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > self.least) else {
                 continue;
             };
             let median = ring_median(topology, &balls.radii, v, &mut ring);
-            if radius * AGREE >= median && radius <= median * AGREE && taken.insert(cell(centre, radius)) {
-                chosen.push((centre, radius));
+            let agrees = radius * AGREE >= median && radius <= median * AGREE;
+            if agrees && self.taken.insert(cell(centre, radius)) {
+                self.chosen.push((centre, radius));
             }
         }
-        Self { chosen, next: 0, found: Vec::new() }
+        self.looked = end;
+        end == balls.own.len()
     }
 
     /// Looks at the next `count`, by an index of the surface in whatever numbering; whether these were the last. What is

@@ -15,8 +15,11 @@ use crate::mesh::{InnerRadii, SurfaceIndex, Topology, TriMesh, Vec3, outward_nor
 /// A ball's middle is at least this part of the radius away from the wall, or it is no lumen.
 pub(super) const CLEAR: f32 = 0.85;
 
-/// Balls that are moved to the middle of the vessel.
+/// Balls that are moved to the middle of the vessel, at most.
 const CANDIDATES: usize = 256;
+/// Balls that are looked at, and that are moved, in one piece of work.
+const LOOKED: usize = 4096;
+const MOVED: usize = 4;
 /// Moves of a ball. Each halves what is left of the way in a round vessel.
 const MOVES: usize = 6;
 /// Directions without relation to any axis or to each other.
@@ -32,23 +35,64 @@ pub struct Narrowest {
     pub at_mm: [f32; 3],
 }
 
-/// The narrowest place of `mesh`, from its inner balls; `index` is of this surface, in whatever numbering. `None` where
-/// no wall faces another.
-pub fn narrowest(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> Option<Narrowest> {
-    let mut ring = Vec::new();
-    let median = |&v: &u32| (ring_median(topology, &balls.radii, v, &mut ring), v);
-    let mut smallest: Vec<(f32, u32)> = balls.own.iter().map(median).filter(|(radius, _)| radius.is_finite()).collect();
-    if smallest.len() > CANDIDATES {
-        smallest.select_nth_unstable_by(CANDIDATES, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        smallest.truncate(CANDIDATES);
+/// The search for the narrowest place of a surface, in pieces of about a millisecond.
+#[derive(Debug, Default)]
+pub struct NarrowestSearch {
+    /// Inner balls that were looked at.
+    looked: usize,
+    /// The smallest of them, with their vertices: up to [`CANDIDATES`].
+    smallest: Vec<(f32, u32)>,
+    /// Of these, those that were moved to the middle.
+    moved: usize,
+    /// The least clearance in a middle, and where.
+    least: Option<(f32, Vec3)>,
+}
+
+impl NarrowestSearch {
+    /// The next piece of the search in `mesh`, whose inner balls are `balls`; whether it was the last. `index` is of this
+    /// surface, in whatever numbering.
+    pub fn advance(&mut self, mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> bool {
+        if self.looked < balls.own.len() {
+            self.look(topology, balls);
+            return false;
+        }
+        if self.moved == 0 {
+            self.smallest.sort_unstable_by(by_radius);
+        }
+        let end = self.smallest.len().min(self.moved + MOVED);
+        for &(radius, v) in &self.smallest[self.moved..end] {
+            let middle = ball_centre(mesh, topology, &balls.radii, v).and_then(|centre| centred(centre, index));
+            let Some((at, clearance)) = middle else { continue };
+            let is_less = self.least.is_none_or(|(least, _)| clearance < least);
+            if is_less && clearance >= CLEAR * radius && is_inside(at, index) {
+                self.least = Some((clearance, at));
+            }
+        }
+        self.moved = end;
+        end == self.smallest.len()
     }
-    smallest.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let middles = smallest.into_iter().filter_map(|(radius, v)| {
-        let (at, clearance) = centred(ball_centre(mesh, topology, &balls.radii, v)?, index)?;
-        (clearance >= CLEAR * radius && is_inside(at, index)).then_some((clearance, at))
-    });
-    let (clearance, at) = middles.reduce(|least, next| if next.0 < least.0 { next } else { least })?;
-    Some(Narrowest { diameter_mm: 2.0 * f64::from(clearance), at_mm: at.to_array() })
+
+    fn look(&mut self, topology: &Topology, balls: &InnerRadii) {
+        let end = balls.own.len().min(self.looked + LOOKED);
+        let mut ring = Vec::new();
+        let median = |&v: &u32| (ring_median(topology, &balls.radii, v, &mut ring), v);
+        self.smallest.extend(balls.own[self.looked..end].iter().map(median).filter(|(radius, _)| radius.is_finite()));
+        if self.smallest.len() > CANDIDATES {
+            self.smallest.select_nth_unstable_by(CANDIDATES, by_radius);
+            self.smallest.truncate(CANDIDATES);
+        }
+        self.looked = end;
+    }
+
+    /// The narrowest place that was found; `None` where no wall faces another.
+    pub fn found(&self) -> Option<Narrowest> {
+        let (clearance, at) = self.least?;
+        Some(Narrowest { diameter_mm: 2.0 * f64::from(clearance), at_mm: at.to_array() })
+    }
+}
+
+fn by_radius(a: &(f32, u32), b: &(f32, u32)) -> std::cmp::Ordering {
+    a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
 }
 
 /// Moves a point to the middle between the nearest wall and the one behind it while its clearance grows.
@@ -95,7 +139,10 @@ mod tests {
     fn of(mesh: &TriMesh) -> Option<Narrowest> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-        narrowest(mesh, &topology, &inner_radii(mesh, &topology, &index), &index)
+        let balls = inner_radii(mesh, &topology, &index);
+        let mut search = NarrowestSearch::default();
+        while !search.advance(mesh, &topology, &balls, &index) {}
+        search.found()
     }
 
     #[test]

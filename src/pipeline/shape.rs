@@ -9,7 +9,7 @@ use std::task::Poll;
 
 use serde::{Deserialize, Serialize};
 
-use super::narrowest::{Narrowest, narrowest};
+use super::narrowest::{Narrowest, NarrowestSearch};
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{
     AngleCounts, Angles, Crossing, IndexBuild, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends,
@@ -88,6 +88,7 @@ pub struct ShapeTask<M, T> {
     /// Triangles in the next piece of the search for crossings.
     heavy: usize,
     balls: InnerRadii,
+    narrowest: NarrowestSearch,
     /// The numbers that are there.
     found: Shape,
 }
@@ -121,6 +122,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             crossing: Crossing::default(),
             heavy: HEAVY / 8,
             balls: InnerRadii::default(),
+            narrowest: NarrowestSearch::default(),
             found: Shape::default(),
         }
     }
@@ -272,8 +274,12 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             0 => self.found.roughness = summarise_bends(std::mem::take(&mut self.bends)),
             1 => self.found.angles = std::mem::take(&mut self.angles).finish(),
             _ => {
-                let lumen = |index: &Arc<SurfaceIndex>| narrowest(&self.mesh, &self.topology, &self.balls, index);
-                self.found.smallest_lumen = self.index.as_ref().and_then(lumen);
+                let (mesh, topology, balls) = (&self.mesh, &self.topology, &self.balls);
+                let search = &mut self.narrowest;
+                if self.index.as_ref().is_some_and(|index| !search.advance(mesh, topology, balls, index)) {
+                    return;
+                }
+                self.found.smallest_lumen = search.found();
                 self.stage = Stage::Done;
             }
         }
@@ -290,8 +296,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
 impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Task for ShapeTask<M, T> {
     type Output = Measured;
 
-    /// The clock is read about every millisecond; each of the sums at the end is one piece: sorting takes up to 50 ns a
-    /// triangle, the smallest lumen about 10 ms.
+    /// The clock is read about every millisecond; of the sums at the end sorting is one piece, of up to 50 ns a triangle.
     fn advance(&mut self, budget: Budget) -> Progress<Measured> {
         while self.stage != Stage::Done {
             self.step();

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::mesh::{SurfaceIndex, Topology, TriMesh};
+use crate::mesh::{Refitting, SurfaceIndex, Topology, TriMesh};
 use crate::parallel;
 use crate::pipeline::results::{Surface, Weakened};
 use crate::pipeline::shape::{Measured, ShapeTask};
@@ -70,6 +70,8 @@ pub(crate) struct GuardTask {
 }
 
 enum Step {
+    /// The hierarchy of the surface before smoothing takes the boxes of that after it.
+    Refit(Arc<SurfaceIndex>, Refitting),
     /// Triangles that cross after smoothing.
     After(Search),
     /// Triangles that cross before it, as some do after it.
@@ -83,10 +85,9 @@ impl GuardTask {
     /// if there is one.
     pub(crate) fn new(kept: Arc<Surface>, kept_index: Option<Arc<SurfaceIndex>>, smoothed: Vec<Vec3>) -> Self {
         let mesh = Arc::new(TriMesh { positions: smoothed, triangles: kept.mesh.triangles.clone() });
-        let search = ShapeTask::crossings_only(mesh.clone(), kept.topology.clone());
-        let search = match &kept_index {
-            Some(index) => search.with_index(mesh.clone(), Arc::new(index.refitted(&mesh))),
-            None => search,
+        let step = match &kept_index {
+            Some(index) => Step::Refit(index.clone(), Refitting::new(index)),
+            None => Step::After(Box::new(ShapeTask::crossings_only(mesh.clone(), kept.topology.clone()))),
         };
         Self {
             kept_index,
@@ -97,7 +98,7 @@ impl GuardTask {
             crossed: Vec::new(),
             spared: 0,
             rounds: 0,
-            step: Step::After(Box::new(search)),
+            step,
             kept,
         }
     }
@@ -208,8 +209,17 @@ impl Task for GuardTask {
     fn advance(&mut self, budget: Budget) -> Progress<Guarded> {
         loop {
             let next = match &mut self.step {
+                Step::Refit(index, refitting) => match refitting.advance(index, &self.mesh) {
+                    None if budget.is_spent() => return Progress::Working(0.2 * refitting.fraction(index)),
+                    None => continue,
+                    Some(refitted) => {
+                        let search = ShapeTask::crossings_only(self.mesh.clone(), self.kept.topology.clone());
+                        let search = search.with_index(self.mesh.clone(), Arc::new(refitted));
+                        Some(Step::After(Box::new(search)))
+                    }
+                },
                 Step::After(search) => match search.advance(budget) {
-                    Progress::Working(fraction) => return Progress::Working(0.8 * fraction),
+                    Progress::Working(fraction) => return Progress::Working(0.2 + 0.6 * fraction),
                     Progress::Done(Measured { crossing, .. }) if crossing.is_empty() => {
                         return Progress::Done(self.result(true));
                     }

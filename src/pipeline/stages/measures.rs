@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::Run;
-use crate::mesh::{SurfaceIndex, Topology, TriMesh};
+use crate::mesh::{InnerRadii, SurfaceIndex, Topology, TriMesh};
 use crate::pipeline::lumen::{Sample, Sampling, narrowing};
 use crate::pipeline::pinch::PinchTask;
 use crate::pipeline::progressive::ProgressiveMesh;
@@ -16,8 +16,9 @@ use crate::pipeline::shape::{Measured, Shape, ShapeTask};
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
 
-/// Samples between two looks at the clock.
+/// Samples between two looks at the clock, and inner balls that may become some.
 const SAMPLES: usize = 256;
+const BALLS: usize = 4096;
 
 /// The part of the work that the smoothed surface is, where it is to be measured.
 const SMOOTHED: f32 = 0.9;
@@ -52,6 +53,8 @@ pub(super) struct OfSmoothed {
 /// How far it is, and what was found before.
 enum Step {
     Shape,
+    /// Which of the inner balls may be samples.
+    Balls(Shape, InnerRadii, Sampling),
     Samples(Shape, Sampling),
     /// The search for the first pinch.
     Pinch(Shape, Arc<[Sample]>, Box<PinchTask<Arc<ProgressiveMesh>>>),
@@ -80,10 +83,17 @@ impl Run for OfSmoothed {
             Step::Shape => match self.shape.advance(budget) {
                 Progress::Working(fraction) => (Step::Shape, 0.4 * fraction),
                 Progress::Done(Measured { shape, balls, .. }) => {
-                    let Subject { mesh, topology, .. } = &self.subject;
-                    (Step::Samples(shape, Sampling::new(mesh, topology, &balls)), 0.4)
+                    (Step::Balls(shape, balls, Sampling::new(&self.subject.mesh)), 0.4)
                 }
             },
+            Step::Balls(shape, balls, mut sampling) => {
+                let Subject { mesh, topology, .. } = &self.subject;
+                let mut is_done = sampling.choose(mesh, topology, &balls, BALLS);
+                while !is_done && !budget.is_spent() {
+                    is_done = sampling.choose(mesh, topology, &balls, BALLS);
+                }
+                (if is_done { Step::Samples(shape, sampling) } else { Step::Balls(shape, balls, sampling) }, 0.4)
+            }
             Step::Samples(shape, mut sampling) => match self.shape.index() {
                 Some(index) => {
                     let mut is_done = sampling.advance(index, SAMPLES);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::Run;
-use crate::mesh::{Topology, TriMesh, Vec3, measures_within};
+use crate::mesh::{Measures, Topology, TriMesh, Vec3, measures_within};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, edge_length};
 use crate::pipeline::results::{Adapted, Part, Smoothed, Surface};
@@ -34,7 +34,9 @@ enum Step {
     Volume(Box<VolumeTask>),
     /// And whether the volume was held.
     Guard(Box<GuardTask>, Option<bool>),
-    Done(Guarded, Option<bool>),
+    /// Area and volume come next.
+    Measure(Guarded, Option<bool>),
+    Done(Guarded, Option<bool>, Measures),
 }
 
 impl Filtering {
@@ -97,7 +99,7 @@ impl Filtering {
             return Step::Guard(Box::new(task), volume_held);
         }
         let mesh = TriMesh { positions, triangles: self.kept.mesh.triangles.clone() };
-        Step::Done(Guarded::without(mesh), volume_held)
+        Step::Measure(Guarded::without(mesh), volume_held)
     }
 
     /// The surface before smoothing, if it encloses a volume.
@@ -121,11 +123,15 @@ impl Filtering {
         }
     }
 
-    fn result(&self, guarded: Guarded, volume_held: Option<bool>, store: &mut Store) -> Smoothed {
-        let Guarded { mesh, weakened, crosses_nothing } = guarded;
+    fn measured(&self, mesh: &TriMesh, store: &mut Store) -> Measures {
         let start = Instant::now();
-        let measures = measures_within(&mesh, self.kept.loops.as_deref());
+        let measures = measures_within(mesh, self.kept.loops.as_deref());
         store.now.times.tell_apart(Part::SmoothedAreas, start);
+        measures
+    }
+
+    fn result(&self, guarded: Guarded, volume_held: Option<bool>, measures: Measures, store: &Store) -> Smoothed {
+        let Guarded { mesh, weakened, crosses_nothing } = guarded;
         let response = SmoothingResponse::new(&self.filter, self.settings.pass_band, edge_length(&mesh));
         // What is put back has the volume that it had.
         let change = self.kept.measures.volume_mm3.zip(measures.volume_mm3).map(|(before, after)| after / before - 1.0);
@@ -147,6 +153,20 @@ impl Filtering {
     fn shares(&self) -> [f32; 2] {
         let end = if self.settings.guard { 0.7 } else { 1.0 };
         [if self.settings.preserve_volume { end / 2.0 } else { end }, end]
+    }
+
+    /// The part of the work that is done when the present step begins.
+    fn begun(&self) -> f32 {
+        let [share, end] = self.shares();
+        match &self.step {
+            Step::Skipped | Step::Calibre(_) => 0.0,
+            Step::Bands(_) => 0.5 * share,
+            Step::Filter(_) if self.settings.adapt => 0.6 * share,
+            Step::Filter(_) => 0.0,
+            Step::Volume(_) => share,
+            Step::Guard(..) => end,
+            Step::Measure(..) | Step::Done(..) => 1.0,
+        }
     }
 }
 
@@ -210,14 +230,21 @@ impl Run for Filtering {
                         self.step = Step::Guard(task, held);
                         return Ok(Progress::Working(end + (1.0 - end) * fraction));
                     }
-                    Progress::Done(guarded) => Step::Done(guarded, held),
+                    Progress::Done(guarded) => Step::Measure(guarded, held),
                 },
-                Step::Done(guarded, held) => {
-                    let smoothed = self.result(guarded, held, store);
+                Step::Measure(guarded, held) => {
+                    let measures = self.measured(&guarded.mesh, store);
+                    Step::Done(guarded, held, measures)
+                }
+                Step::Done(guarded, held, measures) => {
+                    let smoothed = self.result(guarded, held, measures, store);
                     store.now.smoothed = Some(Arc::new(smoothed));
                     return Ok(Progress::Done(()));
                 }
             };
+            if budget.is_spent() {
+                return Ok(Progress::Working(self.begun()));
+            }
         }
     }
 }
