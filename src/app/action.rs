@@ -2,7 +2,7 @@
 //! place.
 
 use super::views::ViewOptions;
-use super::{compare, trial};
+use super::{compare, trial, vessels};
 use crate::io::{Format, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
@@ -45,6 +45,8 @@ pub enum Action {
     ToggleTrial,
     /// Something of the trial.
     Trial(trial::Action),
+    /// Something of the vessels and their calibre.
+    Vessels(vessels::Action),
     /// The other theme.
     Theme,
     /// Show or hide the keys.

@@ -7,14 +7,32 @@ use super::assist::name;
 use super::control::progress;
 use super::icon::{self, Icon};
 use super::state::State;
-use super::views::{ViewOptions, Views};
+use super::vessels;
+use super::views::{Colours, ViewOptions, Views};
 use crate::digits::grouped;
 use crate::io::{Axes, Format, Unit};
 use crate::phantom::Sample;
 use crate::render::StandardView;
 
-/// The bar above. `is_narrow`: on a phone, where only what is needed most has a button of its own.
-pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, in_trial: bool, is_narrow: bool, asked: &mut Vec<Action>) {
+/// What else is shown.
+#[derive(Clone, Copy)]
+pub(super) struct Shown {
+    /// A trial.
+    pub(super) in_trial: bool,
+    /// The window is that of a phone, where only what is needed most has a button of its own.
+    pub(super) is_narrow: bool,
+    /// The vessels' calibre.
+    pub(super) are_vessels_open: bool,
+}
+
+/// The bar above.
+pub(super) fn top(
+    ui: &mut Ui,
+    state: &State,
+    views: &Views,
+    Shown { in_trial, is_narrow, are_vessels_open }: Shown,
+    asked: &mut Vec<Action>,
+) {
     let mut ask = |wanted: bool, what: Action| {
         if wanted {
             asked.push(what);
@@ -49,11 +67,18 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, in_trial: bool, is_
                     ask(ui.button(text).on_hover_text(unit).clicked(), Action::Save(format));
                 }
                 ui.label(RichText::new("Lengths in mm; in m for glTF").small().weak());
+                ui.separator();
+                let has_vessels = state.calibre().is_some_and(|calibre| calibre.found.is_ok());
+                ui.add_enabled_ui(has_vessels, |ui| {
+                    for (text, what, help) in vessels::FILES {
+                        ask(ui.button(text).on_hover_text(help).clicked(), Action::Vessels(what));
+                    }
+                });
             });
         });
         if is_narrow {
             let menu = icon::button(ui, Icon::Menu, true, "Menu", "More");
-            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, in_trial, &mut ask));
+            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, (in_trial, are_vessels_open), &mut ask));
         } else {
             ui.separator();
             let can_undo = state.history.can_undo();
@@ -69,6 +94,11 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, in_trial: bool, is_
             );
             let help = "Steer a guidewire through the level that is shown";
             ask(trial(ui, state, in_trial).on_hover_text(help).clicked(), Action::ToggleTrial);
+            let help = "The vessels, and what smoothing and reduction made of the calibre of each (V)";
+            ask(
+                vessels_button(ui, state, are_vessels_open, in_views).on_hover_text(help).clicked(),
+                Action::Vessels(vessels::Action::Toggle),
+            );
             ui.menu_button("View", |ui| view_menu(ui, state, views.options, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ask(ui.button("About").clicked(), Action::About);
@@ -86,6 +116,11 @@ fn compare(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
 fn trial(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
     let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
     ui.add_enabled(has_level || in_trial, Button::new("Trial").selected(in_trial))
+}
+
+fn vessels_button(ui: &mut Ui, state: &State, is_open: bool, in_views: bool) -> Response {
+    let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
+    ui.add_enabled(has_level && in_views || is_open, Button::new("Vessels").selected(is_open))
 }
 
 /// Shows the surface as it was opened for as long as it is held.
@@ -108,12 +143,34 @@ fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, ask: &mut impl Fn
     let mut chosen = options;
     ui.checkbox(&mut chosen.flat, "Flat triangles").on_hover_text("Each triangle with its own normal");
     ui.checkbox(&mut chosen.see_through, "See-through wireframe").on_hover_text("Shows hidden lines, faintly");
-    ui.checkbox(&mut chosen.deviation, "Colour by deviation")
-        .on_hover_text("Mean distance between this and the smoothed surface around each vertex, both ways, in mm");
+    let maps = [
+        (
+            Colours::Deviation,
+            "Colour by deviation",
+            "Mean distance between this and the smoothed surface around each vertex, both ways, in mm",
+        ),
+        (
+            Colours::Calibre,
+            "Colour by change of calibre",
+            "How much wider or narrower each vessel is than as opened, in percent of its radius",
+        ),
+    ];
+    for (colours, text, help) in maps {
+        let mut is_chosen = chosen.colours == colours;
+        if ui.checkbox(&mut is_chosen, text).on_hover_text(help).changed() {
+            chosen.colours = chosen.colours.toggled(colours);
+        }
+    }
     ask(chosen != options, Action::Show(chosen));
 }
 
-fn more(ui: &mut Ui, state: &State, views: &Views, in_trial: bool, ask: &mut impl FnMut(bool, Action)) {
+fn more(
+    ui: &mut Ui,
+    state: &State,
+    views: &Views,
+    (in_trial, are_vessels_open): (bool, bool),
+    ask: &mut impl FnMut(bool, Action),
+) {
     ask(ui.add_enabled(state.history.can_undo(), Button::new("Undo")).clicked(), Action::Undo);
     ask(ui.add_enabled(state.history.can_redo(), Button::new("Redo")).clicked(), Action::Redo);
     let mut chosen = views.options;
@@ -121,6 +178,9 @@ fn more(ui: &mut Ui, state: &State, views: &Views, in_trial: bool, ask: &mut imp
     ask(chosen != views.options, Action::Show(chosen));
     ask(compare(ui, state, in_trial).clicked(), Action::Compare);
     ask(trial(ui, state, in_trial).clicked(), Action::ToggleTrial);
+    let in_views = !(in_trial || state.comparison.is_open());
+    let toggle = Action::Vessels(vessels::Action::Toggle);
+    ask(vessels_button(ui, state, are_vessels_open, in_views).clicked(), toggle);
     ui.menu_button("View", |ui| view_menu(ui, state, views.options, ask));
     ask(ui.button("Theme").clicked(), Action::Theme);
     ask(ui.button("Help").clicked(), Action::Help);

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::engine::{Opened, Reduced, Source};
-use crate::io::ImportReport;
+use crate::engine::{Calibre, Opened, Reduced, Source};
+use crate::io::{Format, ImportReport};
 use crate::mesh::{Bounds, TriMesh};
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
@@ -74,6 +74,8 @@ pub struct Document {
     pub shown: Option<Shown>,
     /// The newest numbers.
     pub measured: Option<Measured>,
+    /// What the level of the newest settings of which that is known makes of the vessels.
+    pub calibre: Option<Arc<Calibre>>,
     /// How often a level was looked up.
     #[cfg(test)]
     pub lookups: u32,
@@ -115,6 +117,7 @@ impl Document {
             entering_vertices: 0,
             shown: None,
             measured: None,
+            calibre: None,
             #[cfg(test)]
             lookups: 0,
             found: None,
@@ -142,6 +145,10 @@ impl Document {
             measured.deviation.clear();
             measured.report.pinch = None;
             self.revision.measured += 1;
+        }
+        // Its nodes are those of other levels; the numbers stand until there are new ones.
+        if let Some(calibre) = &mut self.calibre {
+            Arc::make_mut(calibre).change_by_node.clear();
         }
         self.shown = None;
         self.show(target);
@@ -194,6 +201,25 @@ impl Document {
         self.revision.measured += 1;
     }
 
+    /// Takes what a level makes of the vessels.
+    pub fn set_calibre(&mut self, calibre: Calibre) {
+        self.calibre = Some(Arc::new(calibre));
+        self.revision.measured += 1;
+    }
+
+    /// For each node of the level that is shown, the change of calibre in percent, if it is known.
+    pub fn change_by_node(&self) -> Option<&[f32]> {
+        let (levels, calibre, measured) = (&self.levels.as_ref()?.1, self.calibre.as_ref()?, self.measured.as_ref()?);
+        let is_of_shown = calibre.generation == measured.generation && self.measures_shown();
+        (is_of_shown && calibre.change_by_node.len() == levels.positions.len()).then_some(&calibre.change_by_node)
+    }
+
+    /// Whether the numbers are of the level that is shown.
+    fn measures_shown(&self) -> bool {
+        let counts = self.measured.as_ref().zip(self.shown.as_ref());
+        counts.is_some_and(|(measured, shown)| measured.report.output.triangles == shown.level.triangles.len())
+    }
+
     /// The vessel that is pinched or lost on the level that is shown, if one is: the first of them, as far as is known.
     pub fn pinch(&self) -> Option<&Pinch> {
         let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
@@ -205,6 +231,14 @@ impl Document {
             return None;
         }
         (shown.level.triangles.len() <= pinch.triangles).then_some(pinch)
+    }
+
+    /// What files that are made of it begin with.
+    pub fn stem(&self) -> String {
+        match self.name.rsplit_once('.') {
+            Some((stem, _)) if Format::from_name(&self.name).is_some() => stem.to_owned(),
+            _ => self.name.to_lowercase().replace(' ', "-"),
+        }
     }
 
     /// The shown level as a surface of its own.
@@ -223,9 +257,8 @@ impl Document {
 
     /// For each node of the level that is shown, the mean deviation around it in mm, if it is known.
     pub fn deviation_by_node(&self) -> Option<&[f32]> {
-        let (levels, shown, measured) = (&self.levels.as_ref()?.1, self.shown.as_ref()?, self.measured.as_ref()?);
-        let is_of_shown = measured.report.output.triangles == shown.level.triangles.len();
-        (is_of_shown && measured.deviation.len() == levels.positions.len()).then_some(&measured.deviation)
+        let (levels, measured) = (&self.levels.as_ref()?.1, self.measured.as_ref()?);
+        (self.measures_shown() && measured.deviation.len() == levels.positions.len()).then_some(&measured.deviation)
     }
 }
 

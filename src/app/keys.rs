@@ -6,7 +6,8 @@
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
 use super::action::Action;
-use super::views::{ViewOptions, Views};
+use super::vessels;
+use super::views::{Colours, ViewOptions, Views};
 use crate::io::Format;
 use crate::render::StandardView;
 
@@ -100,7 +101,10 @@ pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
         return Some(Action::Show(ViewOptions { left_out: !options.left_out, ..options }));
     }
     if pressed(Key::D) {
-        return Some(Action::Show(ViewOptions { deviation: !options.deviation, ..options }));
+        return Some(Action::Show(ViewOptions { colours: options.colours.toggled(Colours::Deviation), ..options }));
+    }
+    if pressed(Key::V) {
+        return Some(Action::Vessels(vessels::Action::Toggle));
     }
     if pressed(Key::F) {
         return Some(Action::Fit);

@@ -11,7 +11,8 @@ use super::platform::{Platform, PlatformEvent};
 use super::sheets::{self, Sheet};
 use super::state::{Effect, State};
 use super::trial::{self, Trial, TrialView};
-use super::views::{NO_MEMORY, Views};
+use super::vessels::{self, Vessels};
+use super::views::{NO_MEMORY, Spot, Views};
 use super::{bar, compare, panel, theme};
 use crate::phantom::Sample;
 use crate::pipeline::settings::{Keep, Settings};
@@ -34,6 +35,7 @@ pub struct LumenApp {
     compare: compare::CompareView,
     trial: Trial,
     trial_view: TrialView,
+    vessels: Vessels,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
     /// Whether a field was typed into at the end of the frame before.
@@ -59,6 +61,7 @@ impl LumenApp {
             compare: compare::CompareView::new(None),
             trial: Trial::new(),
             trial_view: TrialView::new(None),
+            vessels: Vessels::default(),
             platform,
             sheet: None,
             was_typing: false,
@@ -165,6 +168,7 @@ impl LumenApp {
             match self.state.receive(event) {
                 Some(Effect::Opened) => {
                     self.look_next = true;
+                    self.vessels.selected = 0;
                     self.trial.leave_surface(self.platform.trial());
                 }
                 Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
@@ -239,8 +243,10 @@ impl LumenApp {
             Some(Action::Trial(trial::Action::CancelComparison))
         } else if self.trial.is_open() {
             Some(Action::Trial(trial::Action::Close))
+        } else if self.state.comparison.is_open() {
+            Some(Action::Compare)
         } else {
-            self.state.comparison.is_open().then_some(Action::Compare)
+            self.vessels.is_open.then_some(Action::Vessels(vessels::Action::Toggle))
         }
     }
 
@@ -278,6 +284,7 @@ impl LumenApp {
                 self.act_on_trial(toggle, ctx);
             }
             Action::Trial(action) => self.act_on_trial(action, ctx),
+            Action::Vessels(action) => self.act_on_vessels(action, ctx),
             Action::Theme => {
                 let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
                 ctx.set_theme(other);
@@ -301,13 +308,41 @@ impl LumenApp {
         self.trial.act(action, self.state.document.as_ref(), self.platform.trial());
     }
 
+    fn act_on_vessels(&mut self, action: vessels::Action, ctx: &egui::Context) {
+        match action {
+            vessels::Action::Toggle => {
+                self.vessels.is_open = !self.vessels.is_open && !self.trial.is_open();
+                if self.vessels.is_open {
+                    self.state.comparison.set_open(false);
+                } else {
+                    self.views.spot = None;
+                }
+            }
+            vessels::Action::Select(branch) => self.vessels.selected = branch,
+            vessels::Action::GoTo { at_mm, height_mm, label } => {
+                self.views.go_to(Spot { at: at_mm.into(), label }, height_mm);
+            }
+            vessels::Action::SaveTable => match self.state.calibre_table() {
+                Some((name, bytes)) => self.platform.offer_file(&name, bytes, ctx),
+                None => self.state.tell("There is nothing to save yet."),
+            },
+            vessels::Action::SaveCentrelines(format) => self.state.save_centrelines(format, self.platform.link()),
+        }
+    }
+
+    /// Whether the vessels are shown: a trial and a comparison take their place.
+    fn shows_vessels(&self) -> bool {
+        self.vessels.is_open && !self.trial.is_open() && !self.state.comparison.is_open()
+    }
+
     /// Shows the bars and the panel, and does what is asked for there.
     fn controls(&mut self, ui: &mut Ui, is_narrow: bool) {
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
         let mut asked = Vec::new();
         let in_trial = self.trial.is_open();
         Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
-            bar::top(ui, &self.state, &self.views, in_trial, is_narrow, &mut asked);
+            let shown = bar::Shown { in_trial, is_narrow, are_vessels_open: self.shows_vessels() };
+            bar::top(ui, &self.state, &self.views, shown, &mut asked);
         });
         Panel::bottom("status").frame(bar).exact_size(40.0).show(ui, |ui| {
             bar::status(ui, &self.state, &self.views, is_narrow, &mut asked);
@@ -319,7 +354,12 @@ impl LumenApp {
             Panel::left("panel").resizable(true).default_size(296.0).size_range(256.0..=440.0)
         };
         let margin = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
+        let takes_panel = is_narrow && self.shows_vessels();
         panel.frame(margin).show(ui, |ui| {
+            if takes_panel {
+                vessels::show(ui, &self.vessels, &self.state, &self.views, true, &mut asked);
+                return;
+            }
             if in_trial {
                 self.trial.pads(ui);
             }
@@ -331,6 +371,13 @@ impl LumenApp {
                 asked.extend(of_trial);
             });
         });
+        if self.shows_vessels() && !is_narrow {
+            let height = (ui.available_height() * 0.4).clamp(160.0, 320.0);
+            let below = Panel::bottom("vessels").resizable(true).default_size(height).size_range(120.0..=480.0);
+            below.frame(margin).show(ui, |ui| {
+                vessels::show(ui, &self.vessels, &self.state, &self.views, false, &mut asked);
+            });
+        }
         self.act_on_all(asked, ui.ctx());
     }
 
@@ -344,8 +391,9 @@ impl LumenApp {
         }
         self.state.show_level();
         let asked = ui.push_id("trial", |ui| self.trial_panel(ui)).inner;
-        ui.push_id("result", |ui| panel::result(ui, &self.state));
-        asked
+        let mut of_result = Vec::new();
+        ui.push_id("result", |ui| panel::result(ui, &self.state, &mut of_result));
+        asked.into_iter().chain(of_result).collect()
     }
 
     fn trial_panel(&self, ui: &mut Ui) -> Vec<Action> {

@@ -8,6 +8,7 @@
 //!   `assist` what assistive tools are told of them, `theme` the look.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - [`trial`]: the guidewire trial.
+//! - [`vessels`]: what became of the calibre of each vessel.
 //! - `views`: the two 3-D views; `scene` what stands in GPU memory, `window_texture` what of it the window shows,
 //!   `overlay` what is written over them.
 
@@ -34,6 +35,7 @@ mod sheets;
 mod state;
 mod theme;
 pub mod trial;
+pub mod vessels;
 mod views;
 mod window_texture;
 
@@ -43,4 +45,4 @@ pub use self::lumen_app::LumenApp;
 pub use self::platform::{Gamepad, Offer, Platform, PlatformEvent, Waker};
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State};
-pub use self::views::{ViewOptions, Views};
+pub use self::views::{Colours, ViewOptions, Views};

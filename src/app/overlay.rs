@@ -34,6 +34,8 @@ pub(super) struct Legend {
     pub decimals: usize,
     /// Whether the last colour is that of larger values too.
     pub is_open: bool,
+    /// Whether the first colour is that of smaller values too.
+    pub is_open_below: bool,
 }
 
 const MARGIN: f32 = 12.0;
@@ -68,14 +70,14 @@ pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera, axes: Axes) {
 }
 
 /// A ring around a place, and what there is to say of it.
-pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str) {
+pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str, colour: Color32) {
     const RADIUS: f32 = 14.0;
     let Some(at) = camera.project(at, rect.width() / rect.height().max(1.0)) else { return };
     let middle = rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0);
     if !rect.contains(middle) {
         return;
     }
-    let (painter, colour) = (ui.painter_at(rect), ui.visuals().error_fg_color);
+    let painter = ui.painter_at(rect);
     painter.circle_stroke(middle, RADIUS, Stroke::new(2.0, colour));
     let (beside, align) = if middle.x < rect.center().x {
         (RADIUS + 4.0, Align2::LEFT_CENTER)
@@ -149,10 +151,11 @@ fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
         let piece = Rect::from_min_size(pos2(bar.left(), top), vec2(bar.width(), bar.height() / STEPS as f32 + 0.5));
         painter.rect_filled(piece, 0.0, Color32::from_rgb(r, g, b));
     }
-    let (low, high) = legend.map.range_mm;
+    let (low, high) = legend.map.range;
     let font = FontId::proportional(12.0);
     let more = if legend.is_open { " and more" } else { "" };
-    for (y, value, more) in [(bar.bottom(), low, ""), (bar.top(), high, more)] {
+    let less = if legend.is_open_below { " and less" } else { "" };
+    for (y, value, more) in [(bar.bottom(), low, less), (bar.top(), high, more)] {
         let at = pos2(bar.left() - 6.0, y);
         painter.text(
             at,

@@ -10,6 +10,7 @@ use super::document::Document;
 use super::response;
 use super::row::{number, remark, row, step, warning};
 use super::state::State;
+use super::vessels;
 use super::views::{ViewOptions, Views};
 use crate::digits::grouped;
 use crate::engine::Source;
@@ -333,17 +334,18 @@ fn safe<'a>(state: &'a State, settings: &Settings) -> Option<&'a Safe> {
     // The same for every level.
     let of_these = |report: &&Report| {
         let target = settings.target;
-        Settings { target, ..report.settings.clone() }.gives_same(settings)
+        let is_same_tolerance = report.settings.tolerance_percent == settings.tolerance_percent;
+        is_same_tolerance && Settings { target, ..report.settings.clone() }.gives_same(settings)
     };
     measured(state.document.as_ref()).filter(of_these)?.safe.as_ref()
 }
 
 /// What is safe in words, and a way there. The row is there before it is known: what lies below must not move when it is.
-fn safe_row(ui: &mut Ui, safe: Option<&Safe>, target: &mut Target) {
-    let mut help =
-        "Up to here every vessel that can be measured keeps its calibre to 2 %, none is pinched, and no triangles \
-                    cross that did not."
-            .to_owned();
+fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Target) {
+    let mut help = format!(
+        "Up to here every vessel that can be measured keeps its calibre to {tolerance} %, none is pinched, and no \
+         triangles cross that did not."
+    );
     if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
         help += &format!(" {why}.");
     }
@@ -388,7 +390,7 @@ fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
     if reduction.show_with_mark(ui, &mut rate, safe.and_then(|safe| safe.percent)) {
         *target = Target::Reduction((rate * 10.0).round() as u32);
     }
-    safe_row(ui, safe, target);
+    safe_row(ui, safe, settings.tolerance_percent, target);
     if let Some(entering) = entering {
         row(ui, "Triangles wanted", "The same as a number; drag, or click to type", |ui| {
             // The field shows what can be typed into it: left alone, it sets nothing.
@@ -406,7 +408,7 @@ fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
 }
 
 /// Shows what came of it, in numbers.
-pub(super) fn result(ui: &mut Ui, state: &State) {
+pub(super) fn result(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
     let Some(document) = &state.document else { return };
     let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return };
     ui.separator();
@@ -417,6 +419,12 @@ pub(super) fn result(ui: &mut Ui, state: &State) {
     let vertices = format!("{} of {}", grouped(shown.vertices), grouped(document.entering_vertices));
     number(ui, "Vertices", &vertices, "After and before the reduction");
     number(ui, "Removed", &format!("{:.2} %", reduction_percent(before, after)), "");
+    row(ui, "Calibre", "Whether every vessel that can be measured keeps its calibre", |ui| {
+        if ui.button("Vessels").on_hover_text("What became of each, and where").clicked() {
+            asked.push(Action::Vessels(vessels::Action::Toggle));
+        }
+        ui.label(vessels::verdict(state));
+    });
     let Some(measured) = &document.measured else { return };
     let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
     let report = &measured.report;
@@ -452,6 +460,7 @@ pub(super) fn result(ui: &mut Ui, state: &State) {
             ("Normals", ms.normals),
             ("Deviation", ms.deviation),
             ("Shape and lumen", ms.measures),
+            ("Calibre", ms.calibre),
         ];
         for (stage, ms) in stages {
             number(ui, stage, &format!("{ms:.1} ms"), "");

@@ -4,6 +4,7 @@
 use egui::TextureId;
 
 use super::document::{Document, Revision};
+use super::views::Colours;
 use super::window_texture::WindowTarget;
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
@@ -42,6 +43,8 @@ pub(super) struct Scene {
     left_out: GpuSurface,
     /// What the surfaces were made from.
     revision: Revision,
+    /// What the scalars of the level mean, and whether it has any.
+    scalars_of: Colours,
     has_scalars: bool,
     before_of: Option<(u64, Keep)>,
     left_out_of: Option<(u64, Keep)>,
@@ -64,6 +67,7 @@ impl Scene {
             before: surface()?,
             left_out: surface()?,
             revision: Revision::default(),
+            scalars_of: Colours::None,
             has_scalars: false,
             before_of: None,
             left_out_of: None,
@@ -78,7 +82,7 @@ impl Scene {
     ///
     /// # Errors
     /// When the surface does not fit into the memory that the device allows.
-    pub(super) fn follow(&mut self, document: &Document, with_deviation: bool) -> Result<(), SurfaceError> {
+    pub(super) fn follow(&mut self, document: &Document, colours: Colours) -> Result<(), SurfaceError> {
         let (old, new) = (self.revision, document.revision);
         let is_other = old.document != new.document;
         let Some((_, levels)) = &document.levels else {
@@ -101,8 +105,13 @@ impl Scene {
             self.has_scalars = false;
             self.level.set_scalars(&self.device, &self.queue, None)?;
         }
-        if with_deviation && (!self.has_scalars || old.measured != new.measured) {
-            let scalars = document.deviation_by_node();
+        let is_other_map = self.scalars_of != colours || old.measured != new.measured;
+        if colours != Colours::None && (!self.has_scalars || is_other_map) {
+            let scalars = match colours {
+                Colours::Calibre => document.change_by_node(),
+                Colours::None | Colours::Deviation => document.deviation_by_node(),
+            };
+            self.scalars_of = colours;
             self.has_scalars = scalars.is_some();
             self.level.set_scalars(&self.device, &self.queue, scalars)?;
         }
@@ -175,10 +184,22 @@ impl Scene {
     }
 }
 
-/// A colour map over the deviation of a level: from nothing to the 95th percentile.
-pub(super) fn deviation_map(document: &Document) -> Option<ColourMap> {
-    let deviation = document.measured.as_ref()?.report.deviation_mm?;
-    Some(ColourMap { range_mm: (0.0, (deviation.p95 as f32).max(1e-6)) })
+/// The map of these colours: deviations from nothing to the 95th percentile, changes of calibre to twice what is allowed,
+/// both ways.
+pub(super) fn colour_map(document: &Document, colours: Colours) -> Option<ColourMap> {
+    let range = match colours {
+        Colours::None => return None,
+        Colours::Deviation => {
+            let deviation = document.measured.as_ref()?.report.deviation_mm?;
+            (0.0, (deviation.p95 as f32).max(1e-6))
+        }
+        Colours::Calibre => {
+            let found = document.calibre.as_ref()?.found.as_ref().ok()?;
+            let most = (2.0 * found.tolerance_percent as f32).max(0.2);
+            (-most, most)
+        }
+    };
+    Some(ColourMap { range })
 }
 
 /// Between the background and the text.

@@ -13,7 +13,7 @@ pub enum Sheet {
     About,
 }
 
-const KEYS: [(&str, &str); 18] = [
+const KEYS: [(&str, &str); 19] = [
     ("Drag", "Turn"),
     ("Shift or right button + drag, two fingers", "Move"),
     ("Wheel, pinch", "Zoom towards the pointer"),
@@ -23,6 +23,7 @@ const KEYS: [(&str, &str); 18] = [
     ("B, held", "The surface as it was opened"),
     ("L", "Show what is left out; click a piece to keep it"),
     ("D", "Colour by deviation"),
+    ("V", "The vessels and what became of their calibre"),
     ("C", "Compare several settings; Enter takes the focused one"),
     ("Ctrl+O", "Open"),
     ("Ctrl+S", "Save as STL"),

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use super::compare::Comparison;
 use super::document::Document;
 use super::history::History;
-use crate::engine::{Command, Event, Link, Source, Work};
+use crate::engine::{Calibre, Command, Event, Link, Source, Work};
 use crate::io::{Format, ImportOptions, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::paper;
 use crate::pipeline::settings::{Keep, Settings};
+use crate::vessel::CentrelineFormat;
 
 /// A sentence for the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -157,6 +158,12 @@ impl State {
         self.settings == self.sent && measured.is_some_and(|measured| measured.generation == self.generation)
     }
 
+    /// What the level that the settings ask for makes of the vessels, if that is known.
+    pub fn calibre(&self) -> Option<&Calibre> {
+        let calibre = self.document.as_ref()?.calibre.as_ref()?;
+        (self.settings == self.sent && calibre.generation == self.generation).then_some(calibre)
+    }
+
     /// The number of the settings that the engine has.
     pub fn generation(&self) -> u64 {
         self.generation
@@ -222,16 +229,29 @@ impl State {
             self.tell("There is nothing to save yet.");
             return;
         };
-        let stem = match document.name.rsplit_once('.') {
-            Some((stem, _)) if Format::from_name(&document.name).is_some() => stem.to_owned(),
-            _ => document.name.to_lowercase().replace(' ', "-"),
-        };
-        let name = format!("{stem}-{}.{}", mesh.triangles.len(), format.extension());
+        let name = format!("{}-{}.{}", document.stem(), mesh.triangles.len(), format.extension());
         // An engine that has stopped too often with the surface open can still make a file.
         self.wake(link);
         self.notice = None;
         self.writing.push(name.clone());
         link.send(Command::Write { name, format, mesh });
+    }
+
+    /// Asks for the centrelines of the surface that is open as a file.
+    pub fn save_centrelines(&mut self, format: CentrelineFormat, link: &mut dyn Link) {
+        let Some(document) = &self.document else { return };
+        let name = format!("{}-centrelines.{}", document.stem(), format.extension());
+        self.wake(link);
+        self.notice = None;
+        self.writing.push(name.clone());
+        link.send(Command::WriteCentrelines { name, format });
+    }
+
+    /// The calibre of each vessel as a file, a row a place: its name and its bytes.
+    pub fn calibre_table(&self) -> Option<(String, Vec<u8>)> {
+        let (document, calibre) = (self.document.as_ref()?, self.calibre()?);
+        let found = calibre.found.as_ref().ok()?;
+        Some((format!("{}-calibre.csv", document.stem()), found.csv().into_bytes()))
     }
 
     /// Goes one step back in the settings.
@@ -374,6 +394,11 @@ impl State {
                     if self.settings.target.deviation_mm().is_some() {
                         document.show_found();
                     }
+                }
+            }
+            Event::Certified(calibre) => {
+                if let Some(document) = self.document.as_mut().filter(|_| self.engine == Engine::Loaded) {
+                    document.set_calibre(*calibre);
                 }
             }
             Event::Cancelled { generation, settings } => self.receive_cancelled(generation, settings),

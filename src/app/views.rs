@@ -1,15 +1,15 @@
 //! The two 3-D views: one camera, moved by mouse, trackpad, touch or keys, and what is written over the pictures.
 
 use egui::{Color32, PointerButton, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use super::assist::name;
 use super::document::{Document, Revision};
 use super::overlay;
-use super::scene::{Picture, Scene, deviation_map};
+use super::scene::{Picture, Scene, colour_map};
 use super::theme;
 use crate::pipeline::settings::Keep;
-use crate::render::{Camera, Look, StandardView, pick};
+use crate::render::{Camera, ColourMap, Look, StandardView, pick};
 
 /// Said where the surface is not drawn because an allocation on the graphics device failed.
 pub(super) const NO_MEMORY: &str = "The graphics memory is full, so this surface cannot be drawn; it is still open and can be reduced further or saved.";
@@ -23,10 +23,39 @@ pub struct ViewOptions {
     pub flat: bool,
     /// The hidden lines of the wireframe.
     pub see_through: bool,
-    /// The shaded view in colours by deviation.
-    pub deviation: bool,
+    /// What the colours of the shaded view mean.
+    pub colours: Colours,
     /// The surface as it was opened, where nothing can be held.
     pub before: bool,
+}
+
+/// What the colours of the shaded view mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Colours {
+    /// Nothing: the surface has one.
+    #[default]
+    None,
+    /// The mean deviation from the smoothed surface around each vertex, in mm.
+    Deviation,
+    /// The change of calibre of the vessel beside each vertex from the opened surface, in percent.
+    Calibre,
+}
+
+impl Colours {
+    /// These, or none where they are shown already.
+    #[must_use]
+    pub fn toggled(self, other: Self) -> Self {
+        if self == other { Self::None } else { other }
+    }
+}
+
+/// A place that was gone to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Spot {
+    /// In mm.
+    pub(super) at: Vec3,
+    /// What there is to say of it.
+    pub(super) label: String,
 }
 
 /// The views and how they are looked at.
@@ -39,6 +68,8 @@ pub struct Views {
     pub before_is_held: bool,
     /// The surface is shown as it was opened, in this frame.
     pub show_before: bool,
+    /// The place that a ring is drawn around.
+    pub(super) spot: Option<Spot>,
     scene: Option<Scene>,
     /// Why there is nothing to see.
     failure: Option<String>,
@@ -60,6 +91,7 @@ impl Views {
             options: ViewOptions::default(),
             before_is_held: false,
             show_before: false,
+            spot: None,
             scene: None,
             failure: None,
             refused: None,
@@ -124,8 +156,15 @@ impl Views {
         }
     }
 
+    /// Goes to a place, and near enough that `height_mm` are seen there.
+    pub(super) fn go_to(&mut self, spot: Spot, height_mm: f32) {
+        self.camera.focus(spot.at, height_mm);
+        self.spot = Some(spot);
+    }
+
     /// Looks at a new surface.
     pub fn look_first(&mut self, document: Option<&Document>, keep: Keep) {
+        self.spot = None;
         let size = document.map_or(glam::Vec3::ZERO, |document| document.bounds(keep).size());
         self.look_from(first_view(size), document, keep);
     }
@@ -156,7 +195,7 @@ impl Views {
             self.failure = None;
         }
         if let (Some(scene), Some(document)) = (&mut self.scene, document)
-            && let Err(error) = scene.follow(document, self.options.deviation)
+            && let Err(error) = scene.follow(document, self.options.colours)
         {
             self.failure = Some(format!("The surface cannot be drawn: {error}."));
         }
@@ -191,9 +230,8 @@ impl Views {
         self.steer(ui, &response, 1, document, keep);
         let pixels = rect.size() * ui.ctx().pixels_per_point();
         let mut style = theme::style(ui.visuals());
-        if self.options.deviation && index == 0 && !self.show_before {
-            style.map = document.and_then(deviation_map);
-        }
+        let colours = if index == 0 && !self.show_before { self.options.colours } else { Colours::None };
+        style.map = document.and_then(|document| colour_map(document, colours));
         let picture = Picture {
             camera: self.camera,
             size: [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32],
@@ -222,6 +260,7 @@ impl Views {
             );
         }
         let has_scalars = self.scene.as_ref().is_some_and(Scene::has_scalars);
+        let legend = style.map.filter(|_| has_scalars).map(|map| legend(map, colours));
         overlay::show(
             ui,
             rect,
@@ -230,19 +269,16 @@ impl Views {
                 name: document.map(|document| document.name.as_str()),
                 camera: &self.camera,
                 axes: document.map(|document| document.import.axes).unwrap_or_default(),
-                legend: style.map.filter(|_| has_scalars).map(|map| overlay::Legend {
-                    map,
-                    title: "Deviation, mean around",
-                    unit: "mm",
-                    decimals: 3,
-                    is_open: true,
-                }),
+                legend,
             },
         );
         if let Some(pinch) = document.and_then(Document::pinch).filter(|_| !self.show_before) {
             let fate = if pinch.diameter_after_mm > 0.0 { "Pinched" } else { "Lost" };
             let label = format!("{fate}: {:.1} mm before", pinch.diameter_before_mm);
-            overlay::ring(ui, rect, &self.camera, pinch.at_mm.into(), &label);
+            overlay::ring(ui, rect, &self.camera, pinch.at_mm.into(), &label, ui.visuals().error_fg_color);
+        }
+        if let Some(spot) = &self.spot {
+            overlay::ring(ui, rect, &self.camera, spot.at, &spot.label, ui.visuals().hyperlink_color);
         }
         let is_click = response.clicked() && self.options.left_out;
         is_click.then(|| self.piece_at(response.interact_pointer_pos()?, rect, document?)).flatten()
@@ -316,6 +352,15 @@ impl Views {
             ui.ctx().request_repaint();
         }
     }
+}
+
+/// What the colours of a map say.
+fn legend(map: ColourMap, colours: Colours) -> overlay::Legend {
+    let (title, unit, decimals) = match colours {
+        Colours::Calibre => ("Change of calibre", "%", 1),
+        Colours::None | Colours::Deviation => ("Deviation, mean around", "mm", 3),
+    };
+    overlay::Legend { map, title, unit, decimals, is_open: true, is_open_below: colours == Colours::Calibre }
 }
 
 /// From where a surface of this size is first seen: from the front, unless it lies on its back, as some scans are stored.

@@ -13,7 +13,7 @@ use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::task::Budget;
-use crate::vessel::{Centrelines, Subject};
+use crate::vessel::{CentrelineFormat, Centrelines, Subject};
 
 /// Writes the centrelines.
 #[derive(Debug, Args)]
@@ -34,12 +34,10 @@ pub struct Centreline {
 impl Centreline {
     /// Finds the centrelines and writes them.
     pub(super) fn run(&self) -> Result<()> {
-        let extension = self.output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        let format = match extension.as_deref() {
-            Some("vtp") => Centrelines::vtp,
-            Some("csv") => Centrelines::csv,
-            _ => misuse(format!("{} does not end in .vtp or .csv", self.output.display())),
-        };
+        let extension = self.output.extension().map(|extension| extension.to_string_lossy().into_owned());
+        let format = extension.as_deref().and_then(CentrelineFormat::from_extension);
+        let format =
+            format.unwrap_or_else(|| misuse(format!("{} does not end in .vtp or .csv", self.output.display())));
         if same_file(std::path::Path::new(&self.file), &self.output) {
             misuse(format!("{} would be overwritten: choose another output", self.file));
         }
@@ -52,7 +50,7 @@ impl Centreline {
         let kept = pipeline.kept().context("there is no surface")?;
         let subject = Subject { mesh: kept.mesh.clone(), topology: kept.topology.clone(), index: None };
         let found = Centrelines::new(&subject).with_context(|| format!("{} has no centrelines", self.file))?;
-        write_whole(&self.output, format(&found).as_bytes())?;
+        write_whole(&self.output, found.written(format).as_bytes())?;
         row("branches", found.branches.len());
         let ends = found.stations.of.iter().filter_map(|range| found.stations.all[range.clone()].last());
         let length: f64 = ends.map(|station| station.abscissa_mm).sum();

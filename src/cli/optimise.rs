@@ -189,6 +189,7 @@ impl Optimise {
                     Reduction::Safe => Target::default(),
                 },
             },
+            tolerance_percent: self.tolerance,
         }
     }
 
@@ -221,7 +222,9 @@ impl Optimise {
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         let wants_safe = self.reduction == Reduction::Safe && self.triangles.is_none() && self.max_deviation.is_none();
         if wants_safe {
-            pipeline = pipeline.with_safe(self.tolerance);
+            pipeline = pipeline.with_safe();
+        } else if self.branches || self.report.is_some() {
+            pipeline = pipeline.with_certificate();
         }
         advance(&mut pipeline)?;
         if wants_safe {
@@ -238,9 +241,6 @@ impl Optimise {
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
         report.stages_ms.write = milliseconds(start.elapsed());
-        if self.branches || self.report.is_some() {
-            report.certify(&pipeline, self.tolerance);
-        }
         if let Some(path) = &self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
         }

@@ -15,6 +15,8 @@ use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::pipeline::stage::Stage;
 use crate::transfer::{bulk, optional};
+use crate::vessel::CentrelineFormat;
+use crate::vessel::certificate::Certificate;
 
 /// Where a surface comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -83,6 +85,13 @@ pub enum Command {
     },
     /// Stop, and go back to the last result; nothing goes on until there are other settings.
     Cancel,
+    /// Turn the centrelines of the surface that is open into a file.
+    WriteCentrelines {
+        /// The name of the file, with extension.
+        name: String,
+        /// Its format.
+        format: CentrelineFormat,
+    },
     /// Turn a surface into a file.
     Write {
         /// The name of the file, with extension.
@@ -143,6 +152,19 @@ pub struct Reduced {
     pub mesh: Arc<ProgressiveMesh>,
 }
 
+/// What a level makes of the vessels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Calibre {
+    /// That of the settings.
+    pub generation: u64,
+    /// The calibre of each branch; or in one sentence why there is none.
+    pub found: Result<Certificate, String>,
+    /// For each node of the level the change of calibre in percent, [`NOT_MEASURED`](crate::pipeline::results::NOT_MEASURED)
+    /// where it is not known; empty where there are no branches.
+    #[serde(with = "bulk")]
+    pub change_by_node: Vec<f32>,
+}
+
 /// What the pipeline made at one of the settings to compare.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
@@ -201,6 +223,8 @@ pub enum Event {
         #[serde(with = "optional")]
         deviation: Option<Vec<f32>>,
     },
+    /// What the level that the settings ask for makes of the vessels; it is measured in the background.
+    Certified(Box<Calibre>),
     /// The work was stopped; these settings, and their results, are in force.
     Cancelled {
         /// That of the settings.
@@ -287,6 +311,7 @@ mod tests {
             Command::Open { id: 1, source, settings: settings.clone() },
             Command::Open { id: 2, source: bad, settings: settings.clone() },
             Command::Write { name: "c.stl".into(), format: Format::Stl, mesh },
+            Command::WriteCentrelines { name: "c.vtp".into(), format: CentrelineFormat::Vtp },
             Command::Set { generation: 3, settings: settings.clone() },
             Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },
             Command::Cancel,
@@ -308,6 +333,7 @@ mod tests {
         }
         let expected = [
             "Cancelled",
+            "Certified",
             "Compared",
             "Measured",
             "NotCompared",

@@ -20,6 +20,6 @@ mod surfaces;
 pub mod trial;
 
 pub use self::machine::{Machine, SLICE};
-pub use self::message::{Command, Compared, Event, Link, Opened, Reduced, Source, Work};
+pub use self::message::{Calibre, Command, Compared, Event, Link, Opened, Reduced, Source, Work};
 pub use self::pipeline_engine::{Engine, PATIENCE};
 pub use self::trial::TrialEngine;

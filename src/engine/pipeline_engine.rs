@@ -12,7 +12,7 @@ use web_time::Instant;
 
 use super::compare::Comparing;
 use super::machine::{Machine, SLICE};
-use super::message::{Command, Event, Opened, Reduced, Source, Work};
+use super::message::{Calibre, Command, Event, Opened, Reduced, Source, Work};
 use super::progress::tell_progress;
 use crate::io::{self, Imported};
 use crate::mesh::{TriMesh, Vec3};
@@ -23,7 +23,7 @@ use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
-use crate::vessel::certificate::TOLERANCE_PERCENT;
+use crate::vessel::CentrelineFormat;
 
 /// How long work on older settings may hold up newer ones.
 pub const PATIENCE: Duration = Duration::from_millis(400);
@@ -84,6 +84,7 @@ impl Engine {
                 });
             }
             Command::Cancel => self.cancel(),
+            Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
             Command::Write { name, format, mesh } => self.writing.push_back((name, format, mesh)),
         }
     }
@@ -113,7 +114,7 @@ impl Engine {
             self.write(name, format, &mesh);
         } else if let Some((id, source, settings)) = self.opening.pop() {
             self.open(id, source, settings);
-        } else if self.comparing.is_some() && self.current.as_ref().is_some_and(Current::lacks_only_safe) {
+        } else if self.comparing.is_some() && self.current.as_ref().is_some_and(Current::is_in_background) {
             // What a user waits for goes before what nobody asked for.
             self.compare(budget);
         } else if let Some(current) = &mut self.current {
@@ -156,6 +157,15 @@ impl Engine {
         });
     }
 
+    fn write_centrelines(&mut self, name: String, format: CentrelineFormat) {
+        let vessels = self.current.as_ref().and_then(|current| current.pipeline.vessels());
+        self.events.push_back(match vessels {
+            Some(Ok(basis)) => Event::Written { name, bytes: basis.centrelines().written(format).into_bytes() },
+            Some(Err(error)) => Event::NotWritten { name, message: error.to_string() },
+            None => Event::NotWritten { name, message: "the vessels are still being measured".to_owned() },
+        });
+    }
+
     /// Reads a source. What was open stays open if that fails.
     fn open(&mut self, id: u64, source: Source, settings: Settings) {
         let start = Instant::now();
@@ -163,7 +173,7 @@ impl Engine {
         match read(source) {
             Ok(Imported { mesh, report }) => {
                 let mesh = Arc::new(mesh);
-                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_safe(TOLERANCE_PERCENT);
+                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_safe();
                 if let Err(error) = pipeline.set(settings) {
                     self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
                     return;
@@ -202,9 +212,9 @@ fn read(source: Source) -> Result<Imported, String> {
 }
 
 impl Current {
-    /// Whether nothing is left but to find how far is safe.
-    fn lacks_only_safe(&self) -> bool {
-        self.waiting.is_none() && self.pipeline.next_stage() == Some(Stage::Safe)
+    /// Whether nothing is left but what nobody waits for: the vessels' calibre, and how far is safe.
+    fn is_in_background(&self) -> bool {
+        self.waiting.is_none() && self.pipeline.next_stage() >= Some(Stage::Vessels)
     }
 
     /// One step; whether there is more to do.
@@ -216,8 +226,8 @@ impl Current {
         let generation = self.generation;
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
             Advance::Idle => return Ok(self.pipeline.prepare(budget)),
-            // Nobody waits for that one: it goes on in the background, and leaves the bar to what is told there.
-            Advance::Working(Stage::Safe, _) => {}
+            // Nobody waits for these: they go on in the background, and leave the bar to what is told there.
+            Advance::Working(Stage::Vessels | Stage::Certificate | Stage::Safe, _) => {}
             Advance::Working(stage, fraction) => {
                 tell_progress(Work::Stage(stage), fraction, events);
             }
@@ -234,6 +244,7 @@ impl Current {
                 let has_new_map = !matches!(stage, Stage::Measures | Stage::Safe);
                 self.tell_numbers(stage != Stage::Level, has_new_map, events);
             }
+            Advance::Finished(Stage::Certificate) => self.tell_calibre(events),
             Advance::Finished(Stage::Connectivity) => {
                 let pieces = self.pipeline.connectivity();
                 if let Some(found) = pieces {
@@ -264,6 +275,7 @@ impl Current {
             if self.pipeline.reduced().is_some() {
                 self.reached = generation;
                 self.tell_numbers(self.pipeline.deviations().is_some(), true, events);
+                self.tell_calibre(events);
             }
         }
         Ok(())
@@ -274,10 +286,23 @@ impl Current {
     fn tell_numbers(&self, complete: bool, with_deviation: bool, events: &mut VecDeque<Event>) {
         let Some(mut report) = Report::new(&self.name, &self.pipeline) else { return };
         report.stages_ms.read = self.read_ms;
+        // They come by themselves, with what is shown of them.
+        report.branches = None;
         let by_node = || self.pipeline.deviations().map_or_else(Vec::new, |found| found.by_node.clone());
         let deviation = with_deviation.then(by_node);
         let generation = self.generation;
         events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
+    }
+
+    /// What the level makes of the vessels, if that is known.
+    fn tell_calibre(&self, events: &mut VecDeque<Event>) {
+        let Some(certified) = self.pipeline.certified() else { return };
+        let (found, change_by_node) = match certified {
+            Ok(found) => (Ok(found.certificate.clone()), found.change_by_node.clone()),
+            Err(error) => (Err(error.to_string()), Vec::new()),
+        };
+        let generation = self.generation;
+        events.push_back(Event::Certified(Box::new(Calibre { generation, found, change_by_node })));
     }
 }
 

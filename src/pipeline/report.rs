@@ -1,7 +1,6 @@
 //! What a run came to, as numbers. The names of the fields are public and stay.
 
 use serde::{Deserialize, Serialize};
-use web_time::Instant;
 
 use super::deviation::Deviation;
 use super::lumen::{Narrowing, SHUT};
@@ -14,8 +13,7 @@ use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
 use crate::mesh::{Measures, TriMesh, components};
-use crate::task::{Task as _, milliseconds};
-use crate::vessel::certificate::{BranchCalibre, Verdict};
+use crate::vessel::certificate::{BranchCalibre, CalibreError, Verdict};
 
 /// What stands in every report.
 pub const DISCLAIMER: &str = "Not for clinical decisions.";
@@ -162,6 +160,7 @@ impl Report {
             (change(&kept.measures, &reduced.measures), change(&smoothed.measures, &reduced.measures));
         let opened = pipeline.opened();
         let pass_band = pipeline.settings().smoothing.pass_band;
+        let certified = pipeline.certified();
         Some(Self {
             disclaimer: DISCLAIMER.to_owned(),
             lumen: env!("CARGO_PKG_VERSION").to_owned(),
@@ -202,21 +201,14 @@ impl Report {
             narrowing: pipeline.level_measures().and_then(|found| found.narrowing),
             pinch: pipeline.smoothed_measures().and_then(|found| found.pinch),
             safe: pipeline.safe().map(|safe| (**safe).clone()),
-            calibre: None,
-            branches: None,
+            calibre: certified.map(|found| CalibreReport {
+                tolerance_percent: pipeline.settings().tolerance_percent,
+                verdict: found.as_ref().ok().map(|found| found.certificate.verdict),
+                refused: found.as_ref().err().map(CalibreError::to_string),
+                ms: pipeline.times().calibre,
+            }),
+            branches: certified.and_then(|found| Some(found.as_ref().ok()?.certificate.branches.clone())),
         })
-    }
-
-    /// Adds the calibre of each branch; `tolerance_percent` is the change that it is allowed.
-    pub fn certify(&mut self, pipeline: &Pipeline, tolerance_percent: f64) {
-        let Some(task) = pipeline.certificate(tolerance_percent) else { return };
-        let start = Instant::now();
-        let (verdict, refused, branches) = match task.finish() {
-            Ok(found) => (Some(found.verdict), None, Some(found.branches)),
-            Err(error) => (None, Some(error.to_string()), None),
-        };
-        self.calibre = Some(CalibreReport { tolerance_percent, verdict, refused, ms: milliseconds(start) });
-        self.branches = branches;
     }
 }
 

@@ -19,6 +19,7 @@ use super::shape::Shape;
 use super::stage::{PerStage, Stage};
 use super::task::milliseconds;
 use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh};
+use crate::vessel::certificate::{Basis, CalibreError, Certificate};
 
 /// Milliseconds that each stage took when it last ran.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,6 +49,9 @@ pub struct StageTimes {
     pub deviation: f64,
     /// Shape and lumen of the smoothed surface, if it is new, and of the level.
     pub measures: f64,
+    /// The vessels' calibre before and after smoothing, if it is new, and on the level; 0 where that was not asked for.
+    #[serde(default)]
+    pub calibre: f64,
     /// The search for how far a reduction is safe, when it last ran.
     #[serde(default)]
     pub safe: f64,
@@ -108,6 +112,7 @@ impl Times {
             areas: part(Part::KeptAreas) + part(Part::SmoothedAreas) + part(Part::LevelAreas),
             deviation: self.stages[Stage::Deviation],
             measures: self.stages[Stage::SmoothedMeasures] + self.stages[Stage::Measures],
+            calibre: self.stages[Stage::Vessels] + self.stages[Stage::Certificate],
             safe: self.stages[Stage::Safe],
             write: 0.0,
         }
@@ -134,6 +139,10 @@ pub(super) struct Results {
     pub(super) smoothed_measures: Option<Arc<SmoothedMeasures>>,
     /// Shape and lumen of the level.
     pub(super) level_measures: Option<Arc<LevelMeasures>>,
+    /// Where the vessels are, or why there are none.
+    pub(super) vessels: Option<Result<Arc<Basis>, CalibreError>>,
+    /// What the level makes of them.
+    pub(super) certified: Option<Result<Arc<Certified>, CalibreError>>,
     /// How far a reduction is safe.
     pub(super) safe: Option<Arc<Safe>>,
     pub(super) indices: Indices,
@@ -169,6 +178,8 @@ impl Results {
             Stage::Deviation => self.deviations.is_some(),
             Stage::SmoothedMeasures => self.smoothed_measures.is_some(),
             Stage::Measures => self.level_measures.is_some(),
+            Stage::Vessels => self.vessels.is_some(),
+            Stage::Certificate => self.certified.is_some(),
             Stage::Safe => self.safe.is_some(),
         }
     }
@@ -186,6 +197,14 @@ impl Results {
             Stage::Level => (self.reduced, self.indices.level) = (None, None),
             Stage::Deviation => self.deviations = None,
             Stage::SmoothedMeasures => self.smoothed_measures = None,
+            Stage::Vessels => {
+                self.vessels = None;
+                self.times.begin(stage);
+            }
+            Stage::Certificate => {
+                self.certified = None;
+                self.times.begin(stage);
+            }
             Stage::Safe => self.safe = None,
             Stage::Measures => {
                 self.level_measures = None;
@@ -307,6 +326,19 @@ pub struct LevelMeasures {
     /// Where it has narrowed a vessel most; `None` where there is no vessel.
     pub narrowing: Option<Narrowing>,
 }
+
+/// What a level makes of the vessels.
+#[derive(Debug)]
+pub struct Certified {
+    /// The calibre of each branch.
+    pub certificate: Certificate,
+    /// For each node of the level the change of calibre from the opened surface in percent; [`NOT_MEASURED`] where there
+    /// is no vessel that can be measured, and for other nodes.
+    pub change_by_node: Vec<f32>,
+}
+
+/// No change of calibre that is known: more than any.
+pub const NOT_MEASURED: f32 = 1e30;
 
 /// A number by which two runs can see that they made the same surface: FNV-1a (Fowler, Noll, Vo), 64 bits, over the
 /// positions' and the triangles' 32-bit words.

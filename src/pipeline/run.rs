@@ -19,7 +19,9 @@ use super::bound::Bound;
 use super::connectivity::Connectivity;
 use super::deviation::INTERACTIVE_SAMPLES;
 use super::progressive::ProgressiveMesh;
-use super::results::{Deviations, LevelMeasures, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes, Surface};
+use super::results::{
+    Certified, Deviations, LevelMeasures, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes, Surface,
+};
 use super::safe::Safe;
 use super::settings::{Keep, Settings, SettingsError};
 use super::smoothing::Preparation;
@@ -27,9 +29,8 @@ use super::stage::{PerStage, Stage, Wanted, stale};
 use super::stages::{self, Run};
 use super::store::Store;
 use super::task::{Budget, Progress, milliseconds};
-use crate::mesh::{SurfaceIndex, Topology, TriMesh};
-use crate::vessel::Subject;
-use crate::vessel::certificate::CertificateTask;
+use crate::mesh::TriMesh;
+use crate::vessel::certificate::{Basis, CalibreError};
 
 /// What [`Pipeline::advance`] did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,12 +81,17 @@ impl Pipeline {
         self
     }
 
-    /// Also finds how far a reduction is safe, where a vessel is allowed to change its calibre by `tolerance_percent`.
+    /// Also measures what became of the calibre of each vessel.
     #[must_use]
-    pub fn with_safe(mut self, tolerance_percent: f64) -> Self {
+    pub fn with_certificate(mut self) -> Self {
+        self.wanted = Wanted::Certificate;
+        self
+    }
+
+    /// As [`Self::with_certificate`], and finds how far a reduction is safe.
+    #[must_use]
+    pub fn with_safe(mut self) -> Self {
         self.wanted = Wanted::Safe;
-        self.store.tolerance_percent = tolerance_percent;
-        self.store.now.clear(Stage::Safe);
         self
     }
 
@@ -268,22 +274,14 @@ impl Pipeline {
         self.store.now.safe.as_ref()
     }
 
-    /// The certificate of calibre of what is there; `tolerance_percent` is the change of calibre that a vessel is allowed.
-    /// `None` until there is a level.
-    pub fn certificate(&self, tolerance_percent: f64) -> Option<CertificateTask> {
-        let now = &self.store.now;
-        let (kept, smoothed, reduced) = (self.kept()?, self.smoothed()?, self.reduced()?);
-        let subject = |mesh: &Arc<TriMesh>, topology: &Arc<Topology>, index: Option<&Arc<SurfaceIndex>>| Subject {
-            mesh: mesh.clone(),
-            topology: topology.clone(),
-            index: index.cloned(),
-        };
-        let subjects = [
-            subject(&kept.mesh, &kept.topology, now.indices.kept.as_ref()),
-            subject(&smoothed.mesh, &kept.topology, None),
-            subject(&reduced.mesh, &reduced.topology, now.indices.level.as_ref()),
-        ];
-        Some(CertificateTask::new(subjects, tolerance_percent))
+    /// Where the vessels are, or why there are none, where that was asked for.
+    pub fn vessels(&self) -> Option<&Result<Arc<Basis>, CalibreError>> {
+        self.store.now.vessels.as_ref()
+    }
+
+    /// What the level makes of the vessels, where that was asked for.
+    pub fn certified(&self) -> Option<&Result<Arc<Certified>, CalibreError>> {
+        self.store.now.certified.as_ref()
     }
 
     /// What each stage took.

@@ -21,9 +21,9 @@ use super::settings::{Target, reduction_percent};
 use super::task::{Budget, Progress, Task};
 use crate::mesh::TriMesh;
 use crate::vessel::Subject;
-use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, CertificateTask, Verdict};
+use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, Verdict};
 
-/// The rates that are looked at, in tenths of a percent.
+/// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
 const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
 
 /// The part of a branch's stations that have to be measured still: where the surface is folded a cut does not close.
@@ -61,8 +61,17 @@ pub struct BranchSafe {
     pub changed_from_percent: Option<f64>,
 }
 
+impl Safe {
+    /// No rate, for this reason.
+    pub(crate) fn refused(tolerance_percent: f64, why: &impl ToString) -> Self {
+        let refused = Some(why.to_string());
+        Self { tolerance_percent, percent: None, triangles: None, stopped_by: None, branches: Vec::new(), refused }
+    }
+}
+
 /// The search in slices.
 pub(crate) struct SafeTask {
+    basis: Arc<Basis>,
     progressive: Arc<ProgressiveMesh>,
     pinch: Option<Pinch>,
     tolerance_percent: f64,
@@ -72,9 +81,8 @@ pub(crate) struct SafeTask {
 }
 
 enum Step {
-    Certificate(Box<CertificateTask>),
     /// A level is measured; its branches are not known yet.
-    Level(Box<Basis>, Look, Box<Candidate>),
+    Level(Look, Box<Candidate>),
     Done,
 }
 
@@ -103,17 +111,18 @@ impl Look {
 }
 
 impl SafeTask {
-    /// Of all levels of `progressive`, which was made from `smoothed`, which was made from `kept`; `pinch` is the first.
+    /// Of all levels of `progressive`, which was made from the smoothed surface of `basis`; `pinch` is the first.
     pub(crate) fn new(
-        kept: Subject,
-        smoothed: Subject,
+        basis: Arc<Basis>,
         progressive: Arc<ProgressiveMesh>,
         pinch: Option<Pinch>,
         tolerance_percent: f64,
     ) -> Self {
-        let subjects = [kept, smoothed.clone(), smoothed];
-        let step = Step::Certificate(Box::new(CertificateTask::new(subjects, tolerance_percent)));
-        Self { progressive, pinch, tolerance_percent, step, looks: Vec::new() }
+        let (triangles, branches) = (progressive.triangles.len(), basis.of_smoothed(tolerance_percent));
+        let looks = vec![Look { per_mille: 0, reached: None, triangles, branches }];
+        let mut task = Self { basis, progressive, pinch, tolerance_percent, step: Step::Done, looks };
+        task.step = task.next();
+        task
     }
 
     /// Whether smoothing left branch `i` its calibre, as far as it can be measured.
@@ -173,10 +182,10 @@ impl SafeTask {
     }
 
     /// Begins with the next level, if there is one to look at.
-    fn next(&self, basis: Box<Basis>) -> Step {
+    fn next(&self) -> Step {
         let Some(rate) = self.next_rate() else { return Step::Done };
         let (look, mesh) = Look::at(&self.progressive, rate);
-        Step::Level(basis, look, Box::new(Candidate::new(Subject::new(&Arc::new(mesh)))))
+        Step::Level(look, Box::new(Candidate::new(Subject::new(&Arc::new(mesh)))))
     }
 
     fn add(&mut self, look: Look) {
@@ -186,11 +195,7 @@ impl SafeTask {
 
     /// The part that is done, 0 to 1.
     fn fraction(&self) -> f32 {
-        match &self.step {
-            Step::Certificate(_) => 0.0,
-            Step::Level(..) => 0.5 + 0.5 * (self.looks.len() as f32 / (RATES.len() + 6) as f32).min(1.0),
-            Step::Done => 1.0,
-        }
+        (self.looks.len() as f32 / (RATES.len() + 6) as f32).min(1.0)
     }
 
     fn found(&self) -> Safe {
@@ -244,34 +249,18 @@ impl Task for SafeTask {
     fn advance(&mut self, budget: Budget) -> Progress<Safe> {
         loop {
             self.step = match std::mem::replace(&mut self.step, Step::Done) {
-                Step::Certificate(mut task) => match task.advance(budget) {
-                    Progress::Working(fraction) => {
-                        self.step = Step::Certificate(task);
-                        return Progress::Working(0.5 * fraction);
-                    }
-                    Progress::Done(Err(error)) => {
-                        return Progress::Done(Safe { refused: Some(error.to_string()), ..self.found() });
-                    }
-                    Progress::Done(Ok(certificate)) => {
-                        // The smoothed surface itself.
-                        let triangles = self.progressive.triangles.len();
-                        self.add(Look { per_mille: 0, reached: None, triangles, branches: certificate.branches });
-                        match task.into_basis() {
-                            Some(basis) => self.next(Box::new(basis)),
-                            None => Step::Done,
+                Step::Level(look, mut candidate) => {
+                    match candidate.advance(&self.basis, self.tolerance_percent, budget) {
+                        None => {
+                            self.step = Step::Level(look, candidate);
+                            return Progress::Working(self.fraction());
+                        }
+                        Some(branches) => {
+                            self.add(Look { branches, ..look });
+                            self.next()
                         }
                     }
-                },
-                Step::Level(basis, look, mut candidate) => match candidate.advance(&basis, budget) {
-                    None => {
-                        self.step = Step::Level(basis, look, candidate);
-                        return Progress::Working(self.fraction());
-                    }
-                    Some(branches) => {
-                        self.add(Look { branches, ..look });
-                        self.next(basis)
-                    }
-                },
+                }
                 Step::Done => return Progress::Done(self.found()),
             };
             if budget.is_spent() && !matches!(self.step, Step::Done) {

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::vessel::certificate::TOLERANCE_PERCENT;
+
 /// Settings of all stages, in the order of the method.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// Which connected pieces go on.
     pub keep: Keep,
@@ -13,6 +15,26 @@ pub struct Settings {
     pub decimation: Decimation,
     /// How far it goes.
     pub target: Target,
+    /// The change of its calibre in percent that a vessel is allowed, 0 to 100. It changes no surface: it is what they are
+    /// judged by.
+    #[serde(default = "default_tolerance")]
+    pub tolerance_percent: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            keep: Keep::default(),
+            smoothing: Smoothing::default(),
+            decimation: Decimation::default(),
+            target: Target::default(),
+            tolerance_percent: TOLERANCE_PERCENT,
+        }
+    }
+}
+
+fn default_tolerance() -> f64 {
+    TOLERANCE_PERCENT
 }
 
 /// Which connected pieces of the surface are kept.
@@ -284,6 +306,9 @@ pub enum SettingsError {
     /// The feature angle is not a number in `[0, 180]`.
     #[error("the feature angle must lie between 0 and 180 degrees, not {0}")]
     FeatureAngle(f64),
+    /// The tolerance is not a number in `[0, 100]`.
+    #[error("the tolerance must lie between 0 and 100 %, not {0} %")]
+    Tolerance(f64),
     /// The reduction rate is above 99.9 %.
     #[error("the reduction rate must lie between 0 and 99.9 %, not {0} %")]
     Reduction(f64),
@@ -322,6 +347,9 @@ impl Settings {
         }
         if !(0.0..=180.0).contains(&self.decimation.feature_angle) {
             return Err(SettingsError::FeatureAngle(self.decimation.feature_angle));
+        }
+        if !(0.0..=100.0).contains(&self.tolerance_percent) {
+            return Err(SettingsError::Tolerance(self.tolerance_percent));
         }
         match self.target {
             Target::Reduction(r) if r > Target::MAX_PER_MILLE => Err(SettingsError::Reduction(f64::from(r) / 10.0)),

@@ -26,13 +26,17 @@ pub enum Stage {
     SmoothedMeasures,
     /// Shape and lumen of the level.
     Measures,
+    /// Where the vessels are, and how wide before and after smoothing.
+    Vessels,
+    /// Whether the level keeps the calibre of each.
+    Certificate,
     /// Up to which rate every vessel keeps its calibre.
     Safe,
 }
 
 impl Stage {
     /// All, in their order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Connectivity,
         Self::Smoothing,
         Self::Decimation,
@@ -41,6 +45,8 @@ impl Stage {
         Self::Deviation,
         Self::SmoothedMeasures,
         Self::Measures,
+        Self::Vessels,
+        Self::Certificate,
         Self::Safe,
     ];
 
@@ -54,6 +60,8 @@ impl Stage {
             Self::Level => "Taking the level",
             Self::Deviation => "Measuring deviation",
             Self::SmoothedMeasures | Self::Measures => "Measuring shape and lumen",
+            Self::Vessels => "Finding the vessels",
+            Self::Certificate => "Measuring calibre",
             Self::Safe => "Finding how far is safe",
         }
     }
@@ -68,7 +76,9 @@ impl Stage {
             Self::Level => &[Self::Decimation, Self::Bound],
             Self::Deviation => &[Self::Level],
             Self::Measures => &[Self::Level, Self::SmoothedMeasures],
-            Self::Safe => &[Self::SmoothedMeasures],
+            Self::Vessels => &[Self::Smoothing],
+            Self::Certificate => &[Self::Level, Self::Vessels],
+            Self::Safe => &[Self::SmoothedMeasures, Self::Vessels],
         }
     }
 
@@ -79,7 +89,8 @@ impl Stage {
             Self::Smoothing => !old.smoothing.gives_same(&new.smoothing),
             Self::Decimation => !old.decimation.gives_same(&new.decimation),
             Self::Bound | Self::Level => old.target != new.target,
-            Self::Deviation | Self::SmoothedMeasures | Self::Measures | Self::Safe => false,
+            Self::Certificate | Self::Safe => old.tolerance_percent != new.tolerance_percent,
+            Self::Deviation | Self::SmoothedMeasures | Self::Measures | Self::Vessels => false,
         }
     }
 
@@ -88,17 +99,20 @@ impl Stage {
         match self {
             Self::Bound => settings.target.deviation_mm().is_some(),
             Self::Deviation | Self::SmoothedMeasures | Self::Measures => wanted >= Wanted::Measures,
+            Self::Vessels | Self::Certificate => wanted >= Wanted::Certificate,
             Self::Safe => wanted >= Wanted::Safe,
             Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,
         }
     }
 }
 
-/// How much is made. Who wants the level alone leaves out the measures, and few want to know how far is safe.
+/// How much is made. Who wants the level alone leaves out the measures, and few want the vessels' calibre, or to know how
+/// far is safe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Wanted {
     Level,
     Measures,
+    Certificate,
     Safe,
 }
 
@@ -151,13 +165,18 @@ mod tests {
             (Settings { keep: Keep::All, ..old.clone() }, Some(Stage::Connectivity)),
             (Settings { smoothing, ..old.clone() }, Some(Stage::Smoothing)),
             (Settings { target: Target::Reduction(10), ..old.clone() }, Some(Stage::Bound)),
+            (Settings { tolerance_percent: 5.0, ..old.clone() }, Some(Stage::Certificate)),
         ];
         for (new, first) in changes {
             let stale = stale(&old, &new);
             let expected = |stage: Stage| match first {
                 None => false,
                 // What is measured of the smoothed surface and of all levels is the same for every level.
-                Some(Stage::Bound) => stage >= Stage::Bound && !matches!(stage, Stage::SmoothedMeasures | Stage::Safe),
+                Some(Stage::Bound) => {
+                    let of_all = [Stage::SmoothedMeasures, Stage::Vessels, Stage::Safe];
+                    stage >= Stage::Bound && !of_all.contains(&stage)
+                }
+                Some(Stage::Certificate) => stage >= Stage::Certificate,
                 Some(first) => stage >= first,
             };
             for stage in Stage::ALL {

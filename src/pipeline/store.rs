@@ -7,15 +7,12 @@ use super::results::{Results, Surface};
 use super::settings::Settings;
 use super::smoothing::KeptTerms;
 use crate::mesh::TriMesh;
-use crate::vessel::certificate::TOLERANCE_PERCENT;
 
 /// One opened surface and what the stages made of it so far.
 pub(super) struct Store {
     pub(super) opened: Arc<TriMesh>,
     /// Of each surface, for the deviation.
     pub(super) samples: usize,
-    /// The change of calibre in percent that a vessel is allowed.
-    pub(super) tolerance_percent: f64,
     /// The pieces: the same for all settings.
     pub(super) connectivity: Option<Arc<Connectivity>>,
     pub(super) now: Results,
@@ -30,16 +27,7 @@ pub(super) struct Store {
 impl Store {
     pub(super) fn new(opened: Arc<TriMesh>, settings: Settings, samples: usize) -> Self {
         let now = Results { settings, ..Results::default() };
-        Self {
-            opened,
-            samples,
-            tolerance_percent: TOLERANCE_PERCENT,
-            connectivity: None,
-            now,
-            bands: None,
-            terms: None,
-            is_smoothed_again: false,
-        }
+        Self { opened, samples, connectivity: None, now, bands: None, terms: None, is_smoothed_again: false }
     }
 
     /// The same surface with the same results. Terms stay behind: they are large.
@@ -47,7 +35,6 @@ impl Store {
         Self {
             opened: self.opened.clone(),
             samples: self.samples,
-            tolerance_percent: self.tolerance_percent,
             connectivity: self.connectivity.clone(),
             now: self.now.clone(),
             bands: self.bands.clone(),

@@ -73,6 +73,14 @@ impl Camera {
         self.distance = if nearest > 0.0 { nearest } else { 1.0 };
     }
 
+    /// Looks at a place from as near as `height_mm` fill the height of the view at its depth, keeping the direction.
+    pub fn focus(&mut self, at: Vec3, height_mm: f32) {
+        self.target = at;
+        if height_mm.is_finite() && height_mm > 0.0 {
+            self.distance = height_mm / (2.0 * (self.fov_y / 2.0).tan());
+        }
+    }
+
     /// Turns about the target by a drag of `delta`, in fractions of the view's height, x to the right and y down: the
     /// surface follows the hand, and a drag over the whole height is half a turn. Stops where the eye is right above
     /// or below the target.

@@ -1,14 +1,20 @@
-//! Viridis: from a distance in mm to a colour that is perceptually even, readable in grey and safe for colour-blind
+//! Viridis: from a number to a colour that is perceptually even, readable in grey and safe for colour-blind
 //! eyes (van der Walt and Smith 2015, released under CC0).
 
 use super::Colour;
 
-/// How scalars on a surface become colours: `range_mm.0` takes the first colour, `range_mm.1` the last; beyond them
-/// the colours stay. A range without a width puts everything at or below it to the first.
+/// How scalars on a surface become colours: `range.0` takes the first colour, `range.1` the last; beyond them
+/// the colours stay. A range without a width puts everything at or below it to the first. Where a scalar is more than
+/// [`UNKNOWN`](Self::UNKNOWN) the surface has its own colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColourMap {
-    /// Scalars, in mm, of the first and the last colour.
-    pub range_mm: (f32, f32),
+    /// Scalars of the first and the last colour.
+    pub range: (f32, f32),
+}
+
+impl ColourMap {
+    /// What is more stands for no number. The shader knows it too.
+    pub const UNKNOWN: f32 = 1e6;
 }
 
 /// The map's colours, from the least to the largest.

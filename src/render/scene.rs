@@ -142,7 +142,7 @@ impl SceneBindings {
 fn scene_uniforms([width, height]: [u32; 2], camera: &Camera, style: &Style) -> SceneUniforms {
     let (width, height) = (width as f32, height as f32);
     let map = style.map.map_or([0.0, 0.0], |map| {
-        let (low, high) = map.range_mm;
+        let (low, high) = map.range;
         // Without a width, a step as steep as a number can be.
         [low, 1.0 / (high - low).max(f32::MIN_POSITIVE)]
     });

@@ -64,12 +64,16 @@ fn fragment(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) ve
     return vec4(dither(encode(colour), in.clip.xy), 1.0);
 }
 
+// What is more is no number: `ColourMap::UNKNOWN`.
+const UNKNOWN: f32 = 1e6;
+
 // Under a colour map the light is nearly even and white: enough for form, too little to be read as another value.
 @fragment
 fn fragment_mapped(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
     let towards_eye = normalize(-in.position);
     let normal = facing_normal(in, towards_eye, front);
-    let colour = decode(map_colour((in.scalar - scene.map.x) * scene.map.y));
+    let mapped = decode(map_colour((in.scalar - scene.map.x) * scene.map.y));
+    let colour = select(mapped, paint.surface.rgb, in.scalar > UNKNOWN);
     let facing = clamp(dot(normal, towards_eye), 0.0, 1.0);
     let shade = mix(0.55, 1.0, facing) * select(0.6, 1.0, front);
     return vec4(dither(encode(colour * shade), in.clip.xy), 1.0);

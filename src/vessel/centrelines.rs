@@ -8,6 +8,8 @@
 
 use std::fmt::{Display, Write as _};
 
+use serde::{Deserialize, Serialize};
+
 use super::calibre::{Calibre, Indexing, Measuring, Subject};
 use super::certificate::{CalibreError, checked, circle};
 use super::recentring::recentre;
@@ -15,6 +17,33 @@ use super::stations::{Station, Stations};
 use super::tree::{Branch, TreeTask};
 use super::zones::{Zone, zones};
 use crate::task::{Budget, Task};
+
+/// A format of centrelines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CentrelineFormat {
+    /// VTK's XML format for polygonal data.
+    Vtp,
+    /// Comma-separated values, a row a station.
+    Csv,
+}
+
+impl CentrelineFormat {
+    /// All.
+    pub const ALL: [Self; 2] = [Self::Vtp, Self::Csv];
+
+    /// What its files end in.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Vtp => "vtp",
+            Self::Csv => "csv",
+        }
+    }
+
+    /// The format of a file of this ending; `None` for another.
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.extension().eq_ignore_ascii_case(extension))
+    }
+}
 
 /// The centrelines of a surface.
 #[derive(Clone, Debug)]
@@ -53,6 +82,14 @@ impl Centrelines {
         while !measuring.advance(&stations.all, None, Budget::UNLIMITED) {}
         let calibres = measuring.found;
         Ok(Self { branches: tree.branches().to_vec(), stations, calibres, zones })
+    }
+
+    /// As the text of a file.
+    pub fn written(&self, format: CentrelineFormat) -> String {
+        match format {
+            CentrelineFormat::Vtp => self.vtp(),
+            CentrelineFormat::Csv => self.csv(),
+        }
     }
 
     /// A row a station, in the order of the branches. A field is empty where the cross-section does not close.

@@ -18,18 +18,21 @@
 //! closes on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or
 //! folded in the plane, there is no saying. Where they have no vessel any more, the change is -100 %.
 
+use std::fmt::Write as _;
 use std::sync::Arc;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::TreeError;
 use super::balls::mean_edge;
 use super::calibre::{Calibre, Indexing, Measuring, Subject};
+use super::centrelines::Centrelines;
 use super::recentring::recentre;
 use super::space::Space;
 use super::stations::{Station, Stations};
-use super::tree::{Branch, Tree, TreeTask};
+use super::tree::{Branch, Located, Tree, TreeTask};
 use super::zones::{Zone, zones};
 use crate::mesh::{SurfaceIndex, Topology, TriMesh};
 use crate::task::{Budget, Progress, Task};
@@ -172,6 +175,70 @@ pub struct Certificate {
     pub branches: Vec<BranchCalibre>,
 }
 
+impl Certificate {
+    /// Of these branches, which were judged by this tolerance.
+    pub(crate) fn new(branches: Vec<BranchCalibre>, tolerance_percent: f64) -> Self {
+        let has = |verdict: Verdict| branches.iter().any(|branch| branch.verdict == verdict);
+        let verdict = if has(Verdict::Changed) {
+            Verdict::Changed
+        } else if has(Verdict::Kept) {
+            Verdict::Kept
+        } else {
+            Verdict::NotMeasured
+        };
+        Self { tolerance_percent, verdict, branches }
+    }
+
+    /// A row a station, in the order of the branches. A field is empty where a cross-section does not close.
+    pub fn csv(&self) -> String {
+        let mut text = "branch,abscissa_mm,x_mm,y_mm,z_mm,standing,area_opened_mm2,area_smoothed_mm2,area_reduced_mm2,\
+                        radius_opened_mm,radius_smoothed_mm,radius_reduced_mm,change_smoothed_percent,\
+                        change_reduced_percent\n"
+            .to_owned();
+        for branch in &self.branches {
+            for i in 0..branch.abscissas_mm.len() {
+                let [x, y, z] = branch.at_mm[i];
+                let (number, at, standing) = (branch.number, branch.abscissas_mm[i], branch.standings[i].label());
+                let _ = write!(text, "{number},{at:.4},{x:.4},{y:.4},{z:.4},{standing}");
+                let surfaces = [&branch.opened, &branch.smoothed, &branch.reduced];
+                let areas = surfaces.map(|of| of.areas_mm2[i]);
+                let radii = surfaces.map(|of| of.radii_mm[i]);
+                let changes = [&branch.smoothed, &branch.reduced].map(|of| branch.change_percent(of, i));
+                for value in areas.into_iter().chain(radii).chain(changes) {
+                    let _ = match value {
+                        Some(value) => write!(text, ",{value:.5}"),
+                        None => write!(text, ","),
+                    };
+                }
+                text.push('\n');
+            }
+        }
+        text
+    }
+}
+
+impl Standing {
+    /// As tables have it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Counts => "counts",
+            Self::End => "end",
+            Self::Fork => "fork",
+            Self::Thin => "thin",
+            Self::NotClosed => "not_closed",
+        }
+    }
+}
+
+impl BranchCalibre {
+    /// Change of the radius at station `i` from the opened surface to `of`, one of the branch's others, in percent; `None`
+    /// where the station does not count.
+    pub fn change_percent(&self, of: &OnSurface, i: usize) -> Option<f32> {
+        let before = self.opened.radii_mm[i].filter(|_| self.standings[i] == Standing::Counts)?;
+        Some(100.0 * (of.radii_mm[i]? / before.max(f32::MIN_POSITIVE) - 1.0))
+    }
+}
+
 /// Makes a certificate in slices.
 pub struct CertificateTask {
     subjects: [Subject; 3],
@@ -184,10 +251,9 @@ pub struct CertificateTask {
 
 /// What more reduced surfaces are judged by: where the opened surface is measured, and what it and the smoothed one have
 /// there.
-pub(crate) struct Basis {
+pub struct Basis {
     measure: Box<Measure>,
     edge_mm: f64,
-    tolerance_percent: f64,
 }
 
 /// A reduced surface that is measured where a [`Basis`] is.
@@ -203,7 +269,12 @@ impl Candidate {
     }
 
     /// Measures until `budget` is spent; then the calibre of each branch, if all is measured.
-    pub(crate) fn advance(&mut self, basis: &Basis, budget: Budget) -> Option<Vec<BranchCalibre>> {
+    pub(crate) fn advance(
+        &mut self,
+        basis: &Basis,
+        tolerance_percent: f64,
+        budget: Budget,
+    ) -> Option<Vec<BranchCalibre>> {
         let Subject { mesh, topology, .. } = &self.subject;
         if self.measuring.is_none() {
             let index = self.indexing.advance(mesh, budget)?;
@@ -211,20 +282,52 @@ impl Candidate {
         }
         let measuring = self.measuring.as_mut()?;
         let Measure { stations, radii, .. } = &*basis.measure;
-        measuring.advance(&stations.all, Some(radii), budget).then(|| basis.judged(&measuring.found))
+        measuring.advance(&stations.all, Some(radii), budget).then(|| basis.judged(&measuring.found, tolerance_percent))
     }
 }
 
 impl Basis {
+    /// The calibre of each branch where nothing is reduced: the surface is the smoothed one.
+    pub(crate) fn of_smoothed(&self, tolerance_percent: f64) -> Vec<BranchCalibre> {
+        self.judged(&self.measure.done[1], tolerance_percent)
+    }
+
+    /// The centrelines of the opened surface, with its calibre.
+    pub fn centrelines(&self) -> Centrelines {
+        let Measure { tree, stations, zones, done, .. } = &*self.measure;
+        Centrelines {
+            branches: tree.branches().to_vec(),
+            stations: stations.clone(),
+            calibres: done[0].clone(),
+            zones: zones.clone().unwrap_or_default(),
+        }
+    }
+
+    /// The branch and the number of the station on it that `p` is beside, and how far `p` is from the centreline there,
+    /// in radii of the vessel. `last` is what [`Tree::locate`] found for a point near by; it makes this faster.
+    pub(crate) fn beside(&self, p: DVec3, last: &mut Option<Located>) -> Option<(usize, usize, f64)> {
+        let Measure { tree, stations, .. } = &*self.measure;
+        let found = tree.locate(p, last.as_ref())?;
+        let branch = found.branch as usize;
+        let own = &stations.all[stations.of.get(branch)?.clone()];
+        let after = own.partition_point(|station| station.abscissa_mm < found.arc_mm);
+        let nearer = |&i: &usize| (own[i].abscissa_mm - found.arc_mm).abs();
+        let station =
+            (after.saturating_sub(1)..(after + 1).min(own.len())).min_by(|a, b| nearer(a).total_cmp(&nearer(b)));
+        let radii = found.distance_mm / found.radius_mm.max(f64::MIN_POSITIVE);
+        *last = Some(found);
+        Some((branch, station?, radii))
+    }
+
     /// The calibre of each branch, on a surface that has `reduced` at the stations.
-    fn judged(&self, reduced: &[Calibre]) -> Vec<BranchCalibre> {
+    fn judged(&self, reduced: &[Calibre], tolerance_percent: f64) -> Vec<BranchCalibre> {
         let Measure { tree, stations, zones, done, .. } = &*self.measure;
         let zones = zones.as_deref().unwrap_or_default();
         let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
             let own = range.clone();
             let calibres = [&done[0][own.clone()], &done[1][own.clone()], &reduced[own.clone()]];
             let (stations, zones) = (&stations.all[own.clone()], &zones[own]);
-            branch_calibre(branch, stations, zones, calibres, self.edge_mm, self.tolerance_percent)
+            branch_calibre(branch, stations, zones, calibres, self.edge_mm, tolerance_percent)
         };
         tree.branches().iter().zip(&stations.of).map(of).collect()
     }
@@ -270,22 +373,14 @@ impl CertificateTask {
 
     fn basis(&self, measure: Box<Measure>) -> Basis {
         let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
-        Basis { measure, edge_mm, tolerance_percent: self.tolerance_percent }
+        Basis { measure, edge_mm }
     }
 
     fn found(&mut self, measure: Box<Measure>) -> Certificate {
         let basis = self.basis(measure);
-        let branches = basis.judged(&basis.measure.done[2]);
+        let branches = basis.judged(&basis.measure.done[2], self.tolerance_percent);
         self.made_from = Some(basis.measure);
-        let has = |verdict: Verdict| branches.iter().any(|branch| branch.verdict == verdict);
-        let verdict = if has(Verdict::Changed) {
-            Verdict::Changed
-        } else if has(Verdict::Kept) {
-            Verdict::Kept
-        } else {
-            Verdict::NotMeasured
-        };
-        Certificate { tolerance_percent: self.tolerance_percent, verdict, branches }
+        Certificate::new(branches, self.tolerance_percent)
     }
 }
 

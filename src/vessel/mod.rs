@@ -34,7 +34,7 @@ pub use zones::Zone;
 pub use calibre::{Calibre, Subject};
 pub use centreline::Place;
 pub(crate) use centreline::{arcs, centreline, direction};
-pub use centrelines::Centrelines;
+pub use centrelines::{CentrelineFormat, Centrelines};
 pub(crate) use paths::NONE;
 pub(crate) use space::Ball;
 pub use stations::{Station, Stations};

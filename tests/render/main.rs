@@ -201,7 +201,7 @@ fn a_colour_map_shows_its_published_colours() {
     let mesh = square(20.0, 0.0);
     let camera = in_front_of(&mesh, 1.0);
     let mut surface = stage().surface(&mesh);
-    let style = Style { map: Some(ColourMap { range_mm: (0.5, 2.5) }), ..plain(WHITE) };
+    let style = Style { map: Some(ColourMap { range: (0.5, 2.5) }), ..plain(WHITE) };
     let mut centre = |scalar: f32, style: &Style| {
         let scalars = Some(&[scalar; 4][..]);
         surface.set_scalars(&stage().device, &stage().queue, scalars).unwrap();
@@ -213,7 +213,7 @@ fn a_colour_map_shows_its_published_colours() {
         let found = centre(scalar, &style);
         assert!(is_near(found, viridis(t), 2), "{scalar}: {found:?}, not {:?}", viridis(t));
     }
-    let flat = Style { map: Some(ColourMap { range_mm: (1.0, 1.0) }), ..style };
+    let flat = Style { map: Some(ColourMap { range: (1.0, 1.0) }), ..style };
     assert!(is_near(centre(1.0, &flat), viridis(0.0), 2));
     assert!(is_near(centre(1.1, &flat), viridis(1.0), 2));
     let without = centre(2.5, &plain(WHITE));
@@ -362,7 +362,7 @@ fn pictures_of_an_arch() {
             save("both", &surface, &[Look::Shaded, Look::Wireframe], &style);
             let scalars: Vec<f32> = mesh.positions.iter().map(|p| p.x.hypot(p.z)).collect();
             surface.set_scalars(&stage().device, &stage().queue, Some(&scalars)).unwrap();
-            let map = Some(ColourMap { range_mm: (20.0, 130.0) });
+            let map = Some(ColourMap { range: (20.0, 130.0) });
             save("map", &surface, &[Look::Shaded], &Style { map, ..style });
         }
     }

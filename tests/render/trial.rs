@@ -156,7 +156,7 @@ fn the_wire_is_seen_through_the_vessel_and_is_never_too_thin() {
 fn the_wall_takes_the_colour_of_the_force() {
     let mesh = sphere(25.0, 60);
     let camera = camera(&mesh);
-    let style = Style { map: Some(ColourMap { range_mm: (0.0, 1.0) }), ..plain(Colour::hex(0xFF_FF_FF)) };
+    let style = Style { map: Some(ColourMap { range: (0.0, 1.0) }), ..plain(Colour::hex(0xFF_FF_FF)) };
     let mut vessel = body(&mesh);
     let calm = view(&vessel, &GpuWire::default(), &camera, &style);
     let forces = vec![1.0; mesh.positions.len()];

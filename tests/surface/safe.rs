@@ -52,7 +52,8 @@ fn worst(before: &TriMesh, after: &TriMesh, heights: std::ops::Range<u32>, reach
 }
 
 fn found(mesh: &Arc<TriMesh>, settings: Settings, tolerance: f64) -> (Pipeline, Safe) {
-    let mut pipeline = Pipeline::new(mesh.clone(), settings).with_samples(200).with_safe(tolerance);
+    let settings = Settings { tolerance_percent: tolerance, ..settings };
+    let mut pipeline = Pipeline::new(mesh.clone(), settings).with_samples(200).with_safe();
     pipeline.finish().unwrap();
     let safe = (**pipeline.safe().unwrap()).clone();
     (pipeline, safe)

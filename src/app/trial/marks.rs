@@ -45,6 +45,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, session: &Session) {
     }
     target(ui, &painter, rect, camera, &ready.route);
     if let Some(comparison) = &run.comparison {
+        let colour = visuals.error_fg_color;
         // The largest come first; one beside another would hide its number.
         let mut ringed: Vec<Pos2> = Vec::new();
         for &(place, force) in &comparison.force_differences {
@@ -53,10 +54,10 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, session: &Session) {
                 continue;
             };
             ringed.push(middle);
-            overlay::ring(ui, rect, camera, place.into(), &format!("{force:+.3} N"));
+            overlay::ring(ui, rect, camera, place.into(), &format!("{force:+.3} N"), colour);
         }
         for &place in &comparison.pinched {
-            overlay::ring(ui, rect, camera, place.into(), "Pinched");
+            overlay::ring(ui, rect, camera, place.into(), "Pinched", colour);
         }
         legend(&painter, rect, visuals, [("Tip, this level", here), ("Tip, unreduced", other)]);
     }

@@ -210,7 +210,7 @@ impl TrialView {
         views.steer(ui, &response, 1, document, keep);
         let mut style = theme::style(ui.visuals());
         let end = trial.peaks().wall_scale();
-        style.map = Some(ColourMap { range_mm: (0.0, end) });
+        style.map = Some(ColourMap { range: (0.0, end) });
         let camera = views.camera;
         let session = trial.session();
         let is_on = session.is_some();
@@ -426,5 +426,12 @@ fn lumen_at(at: egui::Pos2, rect: Rect, camera: &Camera, mesh: &TriMesh) -> Opti
 /// What the colours of the wall are up to a force in N; in the unit in which the panel tells such forces.
 fn peak_legend(most: f32) -> Legend {
     let (most, unit, decimals) = if is_small(most) { (most * 1e3, "mN", 0) } else { (most, "N", 2) };
-    Legend { map: ColourMap { range_mm: (0.0, most) }, title: "Peak force", unit, decimals, is_open: false }
+    Legend {
+        map: ColourMap { range: (0.0, most) },
+        title: "Peak force",
+        unit,
+        decimals,
+        is_open: false,
+        is_open_below: false,
+    }
 }

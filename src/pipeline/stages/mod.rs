@@ -1,6 +1,7 @@
 //! What each stage does, a file each: from the slots that it rests on to its own.
 
 mod bound;
+mod calibre;
 mod connectivity;
 mod decimation;
 mod deviation;
@@ -31,6 +32,8 @@ pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {
         Stage::Deviation => Box::new(deviation::Deviating::start(store)?),
         Stage::SmoothedMeasures => Box::new(measures::OfSmoothed::start(store)?),
         Stage::Measures => Box::new(measures::OfLevel::start(store)?),
+        Stage::Vessels => Box::new(calibre::Finding::start(store)?),
+        Stage::Certificate => Box::new(calibre::Certifying::start(store)?),
         Stage::Safe => Box::new(safe::Searching::start(store)?),
     })
 }

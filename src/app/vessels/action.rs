@@ -1,0 +1,36 @@
+//! What can be asked of the vessels.
+
+use crate::vessel::CentrelineFormat;
+
+/// What can be asked of the vessels.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Show or hide them.
+    Toggle,
+    /// Draw the radius along the branch at this place of the list.
+    Select(usize),
+    /// Look at a place.
+    GoTo {
+        /// In mm.
+        at_mm: [f32; 3],
+        /// What is to be seen there, in mm.
+        height_mm: f32,
+        /// What there is to say of it.
+        label: String,
+    },
+    /// Save the calibre at each place of each branch.
+    SaveTable,
+    /// Save the centrelines.
+    SaveCentrelines(CentrelineFormat),
+}
+
+/// What of the vessels can be saved: what it is called, how it is asked for, what is in it.
+pub(in crate::app) const FILES: [(&str, Action, &str); 3] = [
+    (
+        "Centrelines (VTP)...",
+        Action::SaveCentrelines(CentrelineFormat::Vtp),
+        "Of the surface as opened, with the radius of the inscribed ball, as vmtk names its arrays",
+    ),
+    ("Centrelines (CSV)...", Action::SaveCentrelines(CentrelineFormat::Csv), "Of the surface as opened, a row a place"),
+    ("Calibre (CSV)...", Action::SaveTable, "Area and radius as opened, smoothed and reduced, a row a place"),
+];

@@ -1,0 +1,137 @@
+//! The radius along a branch: as opened, smoothed and reduced.
+
+use egui::{RichText, Role, Stroke, Ui, Vec2, Visuals, WidgetInfo};
+use egui_plot::{AxisHints, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine};
+
+use crate::vessel::certificate::{BranchCalibre, OnSurface, Standing};
+
+/// How the radius on each surface is drawn.
+struct Strokes {
+    opened: Stroke,
+    smoothed: Stroke,
+    reduced: Stroke,
+    allowed: Stroke,
+}
+
+impl Strokes {
+    fn of(visuals: &Visuals) -> Self {
+        let (accent, weak, ink) = (visuals.hyperlink_color, visuals.weak_text_color(), visuals.text_color());
+        Self {
+            opened: Stroke::new(2.0, weak),
+            smoothed: Stroke::new(1.5, ink),
+            reduced: Stroke::new(2.0, accent),
+            allowed: Stroke::new(1.0, weak),
+        }
+    }
+}
+
+/// Shows the radii of `branch`, beside what is allowed. Returns the station that was clicked.
+pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) -> Option<usize> {
+    let strokes = Strokes::of(ui.visuals());
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 8.0;
+        ui.label(RichText::new(format!("Radius along {}:", branch.name)).small().strong());
+        let named = [("as opened", strokes.opened), ("smoothed", strokes.smoothed), ("reduced", strokes.reduced)];
+        for (name, stroke) in named {
+            ui.label(RichText::new(name).small().color(stroke.color));
+        }
+        ui.label(RichText::new(format!("dotted: {tolerance_percent} % more and less")).small().weak());
+    });
+    let Some((low, high)) = range(branch) else {
+        ui.label(RichText::new("No cross-section of it can be measured.").weak());
+        return None;
+    };
+    let weak = ui.visuals().weak_text_color();
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    let x_axis = AxisHints::new_x()
+        .label(RichText::new("Along the vessel, mm").small())
+        .label_spacing(egui::Rangef::new(24.0, 48.0))
+        .tick_label_color(weak)
+        .tick_label_font(font.clone());
+    let y_axis = AxisHints::new_y()
+        .label(RichText::new("Radius, mm").small())
+        .label_spacing(egui::Rangef::new(16.0, 32.0))
+        .tick_label_color(weak)
+        .tick_label_font(font)
+        .min_thickness(40.0);
+    let plot = Plot::new(("radius", branch.number))
+        .height(ui.available_height().max(120.0))
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_axis_zoom_drag(false)
+        .allow_double_click_reset(false)
+        .set_margin_fraction(Vec2::ZERO)
+        .custom_x_axes(vec![x_axis])
+        .custom_y_axes(vec![y_axis])
+        .label_formatter(|hover| hover_text(hover));
+    let shown = plot.show(ui, |plot| {
+        plot.set_plot_bounds_x(0.0..=branch.length_mm.max(1e-3));
+        plot.set_plot_bounds_y(low..=high);
+        for side in [-1.0, 1.0] {
+            for piece in pieces(branch, &branch.opened, 1.0 + side * tolerance_percent / 100.0) {
+                let line = Line::new("allowed", piece).stroke(strokes.allowed);
+                plot.line(line.style(LineStyle::dotted_dense()).allow_hover(false));
+            }
+        }
+        let surfaces = [
+            ("as opened", &branch.opened, strokes.opened),
+            ("smoothed", &branch.smoothed, strokes.smoothed),
+            ("reduced", &branch.reduced, strokes.reduced),
+        ];
+        for (name, of, stroke) in surfaces {
+            for piece in pieces(branch, of, 1.0) {
+                plot.line(Line::new(name, piece).stroke(stroke));
+            }
+        }
+        if let Some(change) = branch.reduced.largest_change {
+            let line = VLine::new("", change.abscissa_mm).color(strokes.reduced.color);
+            plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
+        }
+        plot.pointer_coordinate().filter(|_| plot.response().clicked())
+    });
+    let text = format!("Radius along {}", branch.name);
+    shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
+    nearest(branch, shown.inner?.x)
+}
+
+/// What is shown of the radii, in mm: all of them, and a tenth of the widest to spare.
+fn range(branch: &BranchCalibre) -> Option<(f64, f64)> {
+    let surfaces = [&branch.opened, &branch.smoothed, &branch.reduced];
+    let all = || (0..branch.standings.len()).filter(|&i| is_vessel(branch, i));
+    let radii = || surfaces.into_iter().flat_map(|of| all().filter_map(|i| of.radii_mm[i])).map(f64::from);
+    let (low, high) = (radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max));
+    let spare = (0.1 * high).max(1e-3);
+    low.is_finite().then_some(((low - spare).max(0.0), high + spare))
+}
+
+/// Whether a branch is one vessel at station `i`.
+fn is_vessel(branch: &BranchCalibre, i: usize) -> bool {
+    matches!(branch.standings[i], Standing::Counts | Standing::Thin)
+}
+
+/// The radii of one surface, times `factor`: a piece for each stretch that is measured.
+fn pieces(branch: &BranchCalibre, of: &OnSurface, factor: f64) -> Vec<PlotPoints<'static>> {
+    let is_measured =
+        |i: &usize| matches!(branch.standings[*i], Standing::Counts | Standing::Thin) && of.radii_mm[*i].is_some();
+    let stations: Vec<usize> = (0..branch.abscissas_mm.len()).collect();
+    let runs = stations.chunk_by(|a, b| is_measured(a) == is_measured(b)).filter(|run| is_measured(&run[0]));
+    runs.map(|run| {
+        let point = |&i: &usize| Some([f64::from(branch.abscissas_mm[i]), f64::from(of.radii_mm[i]?) * factor]);
+        run.iter().filter_map(point).collect()
+    })
+    .collect()
+}
+
+/// The station nearest to a place along the branch.
+fn nearest(branch: &BranchCalibre, abscissa_mm: f64) -> Option<usize> {
+    let away = |&i: &usize| (f64::from(branch.abscissas_mm[i]) - abscissa_mm).abs();
+    (0..branch.abscissas_mm.len()).min_by(|a, b| away(a).total_cmp(&away(b)))
+}
+
+/// What stands beside the pointer.
+fn hover_text(hover: &HoverPosition<'_>) -> Option<String> {
+    let HoverPosition::NearDataPoint { plot_name, position: PlotPoint { x, y }, .. } = hover else { return None };
+    Some(format!("{plot_name}\n{y:.2} mm at {x:.1} mm\nClick to go there"))
+}

@@ -1,0 +1,170 @@
+//! The vessels below the views: what became of all of them, a row each, and the radius along the one that is chosen.
+
+use egui::{Button, DragValue, Grid, RichText, Role, ScrollArea, Ui};
+
+use super::words::{COLUMNS, cells, place, sentence, text, why_not_measured};
+use super::{Action as Asked, Vessels, plot};
+use crate::app::action::Action;
+use crate::app::assist::{describe, name};
+use crate::app::state::State;
+use crate::app::views::{Colours, ViewOptions, Views};
+use crate::pipeline::settings::Settings;
+use crate::vessel::certificate::{BranchCalibre, Certificate, Change, Verdict};
+
+/// Height of what is seen at a place that is gone to, in radii of the vessel there.
+const SEEN: f32 = 16.0;
+/// What the plot takes of the width, where it stands beside the table.
+const PLOT: f32 = 0.42;
+
+/// Shows the vessels; on a phone the plot stands below the table.
+pub(in crate::app) fn show(
+    ui: &mut Ui,
+    vessels: &Vessels,
+    state: &State,
+    views: &Views,
+    is_narrow: bool,
+    asked: &mut Vec<Action>,
+) {
+    ui.spacing_mut().item_spacing.y = 4.0;
+    head(ui, state, views, is_narrow, asked);
+    // What was known last stands until there is something newer.
+    let known = state.document.as_ref().and_then(|document| document.calibre.as_ref());
+    let Some(calibre) = known else {
+        ui.label(RichText::new("The vessels are being measured...").weak());
+        return;
+    };
+    let is_current = state.calibre().is_some();
+    let told = sentence(&calibre.found);
+    let told = RichText::new(if is_current { told } else { format!("{told} Newer numbers are on their way.") });
+    let is_changed = matches!(&calibre.found, Ok(found) if found.verdict == Verdict::Changed);
+    let told = if is_changed && is_current { told.color(ui.visuals().error_fg_color) } else { told };
+    ui.add(egui::Label::new(told).wrap());
+    let Ok(found) = &calibre.found else { return };
+    let selected = vessels.selected.min(found.branches.len().saturating_sub(1));
+    let Some(branch) = found.branches.get(selected) else { return };
+    if is_narrow {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ScrollArea::horizontal().show(ui, |ui| table(ui, found, selected, state, asked));
+            ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| radius(ui, branch, found, asked));
+        });
+        return;
+    }
+    let (room, height) = (ui.available_width(), ui.available_height());
+    ui.horizontal_top(|ui| {
+        ui.allocate_ui(egui::vec2(room * (1.0 - PLOT), height), |ui| {
+            ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, found, selected, state, asked));
+        });
+        ui.vertical(|ui| radius(ui, branch, found, asked));
+    });
+}
+
+fn head(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("Vessels").heading());
+        ui.add_space(8.0);
+        let mut tolerance = state.settings.tolerance_percent;
+        ui.label("Allowed change").on_hover_text("Of the radius of each vessel, from the surface as opened");
+        let field = DragValue::new(&mut tolerance).range(0.0..=100.0).speed(0.05).max_decimals(1).suffix(" %");
+        let field = ui.add(field.update_while_editing(false)).on_hover_text("Drag, or click to type");
+        describe(&field, Role::SpinButton, "Allowed change", tolerance);
+        let tolerance_percent = (tolerance * 10.0).round() / 10.0;
+        if tolerance_percent.to_bits() != state.settings.tolerance_percent.to_bits() && field.changed() {
+            asked.push(Action::Set(Box::new(Settings { tolerance_percent, ..state.settings.clone() })));
+        }
+        let mut is_coloured = views.options.colours == Colours::Calibre;
+        let help = "How much wider or narrower each vessel is than as opened";
+        if ui.checkbox(&mut is_coloured, "Colour the surface").on_hover_text(help).changed() {
+            let colours = views.options.colours.toggled(Colours::Calibre);
+            asked.push(Action::Show(ViewOptions { colours, ..views.options }));
+        }
+        let calibre = state.calibre();
+        let found = calibre.and_then(|calibre| calibre.found.as_ref().ok());
+        let copy = ui.add_enabled(found.is_some(), Button::new("Copy"));
+        if let (Some(found), true) = (found, copy.on_hover_text("The table as text, a tab between columns").clicked()) {
+            let of = state.document.as_ref().map_or("", |document| &document.name);
+            ui.ctx().copy_text(text(of, found, safe(state)));
+        }
+        let save = ui.add_enabled(found.is_some(), Button::new("Save CSV"));
+        if save.on_hover_text("Area and radius at each place of each vessel").clicked() {
+            asked.push(Action::Vessels(Asked::SaveTable));
+        }
+        let close = if is_narrow { "Back" } else { "Close" };
+        if ui.button(close).on_hover_text("V, Esc").clicked() {
+            asked.push(Action::Vessels(Asked::Toggle));
+        }
+    });
+}
+
+fn safe(state: &State) -> Option<&crate::pipeline::safe::Safe> {
+    let report = &state.document.as_ref()?.measured.as_ref()?.report;
+    let is_same = report.settings.tolerance_percent == state.settings.tolerance_percent
+        && report.settings.smoothing.gives_same(&state.settings.smoothing)
+        && report.settings.decimation.gives_same(&state.settings.decimation);
+    report.safe.as_ref().filter(|_| is_same)
+}
+
+fn table(ui: &mut Ui, found: &Certificate, selected: usize, state: &State, asked: &mut Vec<Action>) {
+    let safe = safe(state);
+    ui.spacing_mut().interact_size.y = 18.0;
+    ui.spacing_mut().button_padding.y = 1.0;
+    Grid::new("vessels").num_columns(COLUMNS.len()).striped(true).spacing([12.0, 2.0]).show(ui, |ui| {
+        for (head, help) in COLUMNS {
+            ui.label(RichText::new(head).small().strong()).on_hover_text(help);
+        }
+        ui.end_row();
+        for (i, branch) in found.branches.iter().enumerate() {
+            for (column, cell) in cells(branch, safe).into_iter().enumerate() {
+                if column > 0 {
+                    let is_bad = column == 1 && branch.verdict == Verdict::Changed;
+                    let cell = RichText::new(cell);
+                    let label = ui.label(if is_bad { cell.color(ui.visuals().error_fg_color) } else { cell });
+                    if let Some(why) = why_not_measured(branch).filter(|_| column == 1) {
+                        label.on_hover_text(why);
+                    }
+                    continue;
+                }
+                let label = ui.selectable_label(i == selected, &cell);
+                name(&label, Role::Button, &cell);
+                if label.clicked() {
+                    asked.push(Action::Vessels(Asked::Select(i)));
+                    asked.extend(match branch.reduced.largest_change {
+                        Some(change) => Some(go_to(branch, &change)),
+                        None => go_to_station(branch, branch.at_mm.len() / 2),
+                    });
+                }
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn radius(ui: &mut Ui, branch: &BranchCalibre, found: &Certificate, asked: &mut Vec<Action>) {
+    let Some(i) = plot::show(ui, branch, found.tolerance_percent) else { return };
+    asked.extend(go_to_station(branch, i));
+}
+
+/// A look at station `i` of a branch, if there is such a station.
+fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
+    let (at_mm, abscissa_mm) = (*branch.at_mm.get(i)?, f64::from(branch.abscissas_mm[i]));
+    let percent = branch.change_percent(&branch.reduced, i).map(f64::from);
+    Some(match percent {
+        Some(percent) => go_to(branch, &Change { percent, at_mm, abscissa_mm }),
+        None => Action::Vessels(Asked::GoTo {
+            at_mm,
+            height_mm: height(branch, abscissa_mm),
+            label: format!("{}: not measured here", branch.name),
+        }),
+    })
+}
+
+fn go_to(branch: &BranchCalibre, change: &Change) -> Action {
+    let label = place(branch, change);
+    Action::Vessels(Asked::GoTo { at_mm: change.at_mm, height_mm: height(branch, change.abscissa_mm), label })
+}
+
+/// What is to be seen around a place of a branch, in mm.
+fn height(branch: &BranchCalibre, abscissa_mm: f64) -> f32 {
+    let i = branch.abscissas_mm.partition_point(|&at| f64::from(at) < abscissa_mm);
+    let radius = branch.opened.inscribed_radii_mm.get(i).copied().flatten();
+    SEEN * radius.unwrap_or(1.0).max(0.1)
+}
