@@ -168,7 +168,7 @@ impl LumenApp {
             match self.state.receive(event) {
                 Some(Effect::Opened) => {
                     self.look_next = true;
-                    self.vessels.selected = 0;
+                    self.vessels.selected = None;
                     self.trial.leave_surface(self.platform.trial());
                 }
                 Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
@@ -318,7 +318,7 @@ impl LumenApp {
                     self.views.spot = None;
                 }
             }
-            vessels::Action::Select(branch) => self.vessels.selected = branch,
+            vessels::Action::Select(branch) => self.vessels.selected = Some(branch),
             vessels::Action::GoTo { at_mm, height_mm, label } => {
                 self.views.go_to(Spot { at: at_mm.into(), label }, height_mm);
             }

@@ -36,6 +36,8 @@ pub(super) struct Legend {
     pub is_open: bool,
     /// Whether the first colour is that of smaller values too.
     pub is_open_below: bool,
+    /// What is said below the colours.
+    pub note: &'static str,
 }
 
 const MARGIN: f32 = 12.0;
@@ -165,7 +167,8 @@ fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
             colour,
         );
     }
-    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, legend.title, font, colour);
+    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, legend.title, font.clone(), colour);
+    painter.text(bar.right_bottom() + vec2(0.0, 14.0), Align2::RIGHT_TOP, legend.note, font, colour);
 }
 
 #[cfg(test)]

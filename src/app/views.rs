@@ -356,11 +356,11 @@ impl Views {
 
 /// What the colours of a map say.
 fn legend(map: ColourMap, colours: Colours) -> overlay::Legend {
-    let (title, unit, decimals) = match colours {
-        Colours::Calibre => ("Change of calibre", "%", 1),
-        Colours::None | Colours::Deviation => ("Deviation, mean around", "mm", 3),
+    let (title, unit, decimals, note) = match colours {
+        Colours::Calibre => ("Change of calibre", "%", 1, "No colour: not measured"),
+        Colours::None | Colours::Deviation => ("Deviation, mean around", "mm", 3, ""),
     };
-    overlay::Legend { map, title, unit, decimals, is_open: true, is_open_below: colours == Colours::Calibre }
+    overlay::Legend { map, title, unit, decimals, is_open: true, is_open_below: colours == Colours::Calibre, note }
 }
 
 /// From where a surface of this size is first seen: from the front, unless it lies on its back, as some scans are stored.

@@ -433,5 +433,6 @@ fn peak_legend(most: f32) -> Legend {
         decimals,
         is_open: false,
         is_open_below: false,
+        note: "",
     }
 }

@@ -7,8 +7,8 @@ use crate::vessel::CentrelineFormat;
 pub enum Action {
     /// Show or hide them.
     Toggle,
-    /// Draw the radius along the branch at this place of the list.
-    Select(usize),
+    /// Draw the radius along the branch of this number.
+    Select(u32),
     /// Look at a place.
     GoTo {
         /// In mm.

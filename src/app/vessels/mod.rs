@@ -16,6 +16,6 @@ pub(super) use self::words::verdict;
 pub struct Vessels {
     /// Whether they are shown.
     pub is_open: bool,
-    /// The branch whose radius is drawn, as the place in the list.
-    pub selected: usize,
+    /// The number of the branch whose radius is drawn; `None` for the one that stands first.
+    pub selected: Option<u32>,
 }

@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) 
         for (name, stroke) in named {
             ui.label(RichText::new(name).small().color(stroke.color));
         }
-        ui.label(RichText::new(format!("dotted: {tolerance_percent} % more and less")).small().weak());
+        ui.label(RichText::new(format!("dotted: ±{tolerance_percent} %")).small().weak());
     });
     let Some((low, high)) = range(branch) else {
         ui.label(RichText::new("No cross-section of it can be measured.").weak());

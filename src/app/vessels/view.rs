@@ -2,7 +2,7 @@
 
 use egui::{Button, DragValue, Grid, RichText, Role, ScrollArea, Ui};
 
-use super::words::{COLUMNS, cells, place, sentence, text, why_not_measured};
+use super::words::{COLUMNS, cells, in_order, place, sentence, text, why_not_measured};
 use super::{Action as Asked, Vessels, plot};
 use crate::app::action::Action;
 use crate::app::assist::{describe, name};
@@ -40,11 +40,12 @@ pub(in crate::app) fn show(
     let told = if is_changed && is_current { told.color(ui.visuals().error_fg_color) } else { told };
     ui.add(egui::Label::new(told).wrap());
     let Ok(found) = &calibre.found else { return };
-    let selected = vessels.selected.min(found.branches.len().saturating_sub(1));
-    let Some(branch) = found.branches.get(selected) else { return };
+    let rows = in_order(found);
+    let chosen = rows.iter().find(|branch| Some(branch.number) == vessels.selected).or(rows.first());
+    let Some(&branch) = chosen else { return };
     if is_narrow {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ScrollArea::horizontal().show(ui, |ui| table(ui, found, selected, state, asked));
+            ScrollArea::horizontal().show(ui, |ui| table(ui, &rows, branch, state, asked));
             ui.allocate_ui(egui::vec2(ui.available_width(), 180.0), |ui| radius(ui, branch, found, asked));
         });
         return;
@@ -52,7 +53,7 @@ pub(in crate::app) fn show(
     let (room, height) = (ui.available_width(), ui.available_height());
     ui.horizontal_top(|ui| {
         ui.allocate_ui(egui::vec2(room * (1.0 - PLOT), height), |ui| {
-            ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, found, selected, state, asked));
+            ScrollArea::both().auto_shrink(false).show(ui, |ui| table(ui, &rows, branch, state, asked));
         });
         ui.vertical(|ui| radius(ui, branch, found, asked));
     });
@@ -103,7 +104,7 @@ fn safe(state: &State) -> Option<&crate::pipeline::safe::Safe> {
     report.safe.as_ref().filter(|_| is_same)
 }
 
-fn table(ui: &mut Ui, found: &Certificate, selected: usize, state: &State, asked: &mut Vec<Action>) {
+fn table(ui: &mut Ui, rows: &[&BranchCalibre], chosen: &BranchCalibre, state: &State, asked: &mut Vec<Action>) {
     let safe = safe(state);
     ui.spacing_mut().interact_size.y = 18.0;
     ui.spacing_mut().button_padding.y = 1.0;
@@ -112,7 +113,7 @@ fn table(ui: &mut Ui, found: &Certificate, selected: usize, state: &State, asked
             ui.label(RichText::new(head).small().strong()).on_hover_text(help);
         }
         ui.end_row();
-        for (i, branch) in found.branches.iter().enumerate() {
+        for &branch in rows {
             for (column, cell) in cells(branch, safe).into_iter().enumerate() {
                 if column > 0 {
                     let is_bad = column == 1 && branch.verdict == Verdict::Changed;
@@ -123,10 +124,10 @@ fn table(ui: &mut Ui, found: &Certificate, selected: usize, state: &State, asked
                     }
                     continue;
                 }
-                let label = ui.selectable_label(i == selected, &cell);
+                let label = ui.selectable_label(branch.number == chosen.number, &cell);
                 name(&label, Role::Button, &cell);
                 if label.clicked() {
-                    asked.push(Action::Vessels(Asked::Select(i)));
+                    asked.push(Action::Vessels(Asked::Select(branch.number)));
                     asked.extend(match branch.reduced.largest_change {
                         Some(change) => Some(go_to(branch, &change)),
                         None => go_to_station(branch, branch.at_mm.len() / 2),

@@ -16,6 +16,17 @@ pub(super) const COLUMNS: [(&str, &str); 8] = [
     ("Tortuosity", "Length over the distance of the ends"),
 ];
 
+/// The branches as they are listed: those that change first, the most changed before the others.
+pub(super) fn in_order(found: &Certificate) -> Vec<&BranchCalibre> {
+    let mut rows: Vec<&BranchCalibre> = found.branches.iter().collect();
+    let change = |branch: &BranchCalibre| {
+        let change = branch.reduced.largest_change.filter(|_| branch.verdict == Verdict::Changed);
+        change.map_or(0.0, |change| change.percent.abs())
+    };
+    rows.sort_by(|a, b| change(b).total_cmp(&change(a)));
+    rows
+}
+
 /// The verdict in a few words, for the panel.
 pub(in crate::app) fn verdict(state: &State) -> String {
     match state.calibre().map(|calibre| &calibre.found) {
@@ -58,6 +69,10 @@ pub(super) fn sentence(found: &Result<Certificate, String>) -> String {
         ),
         (_, _, None) => format!("{changed} of {} vessels change by more than {tolerance} %.", kept + changed),
     };
+    let by_smoothing = of(Verdict::Changed).filter(|branch| branch.verdict_smoothed == Verdict::Changed).count();
+    if by_smoothing > 0 {
+        text += &format!(" Smoothing itself changes {by_smoothing} of them so much.");
+    }
     if unknown > 0 && kept + changed > 0 {
         text += &match unknown {
             1 => " One is too short or too coarse to be measured.".to_owned(),
@@ -166,10 +181,13 @@ mod tests {
     fn the_sentence_says_how_many_and_which_is_worst() {
         assert_eq!(sentence(&certificate(&[Some(0.5)])), "The vessel keeps its calibre to 2 %.");
         assert_eq!(sentence(&certificate(&[Some(0.5), Some(-2.0)])), "All 2 vessels keep their calibre to 2 %.");
-        let text = sentence(&certificate(&[Some(-9.04), Some(2.5), None, Some(1.0)]));
+        let found = certificate(&[Some(2.5), Some(-9.04), None, Some(1.0)]);
+        let order: Vec<u32> = in_order(found.as_ref().unwrap()).iter().map(|branch| branch.number).collect();
+        assert_eq!(order, [2, 1, 3, 4]);
+        let text = sentence(&found);
         assert_eq!(
             text,
-            "2 of 3 vessels change by more than 2 %, branch 1 the most: -9.0 %. \
+            "2 of 3 vessels change by more than 2 %, branch 2 the most: -9.0 %. \
              One is too short or too coarse to be measured."
         );
         assert_eq!(sentence(&certificate(&[None])), "No vessel can be measured.");

@@ -5,3 +5,4 @@ mod controls;
 mod device;
 mod keys;
 mod trial;
+mod vessels;

@@ -1,0 +1,190 @@
+//! What became of the calibre of each vessel, as a user sees it: by pointer and keys, found by role and name.
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use lumen::app::{LumenApp, PlatformEvent};
+use lumen::engine::Calibre;
+use lumen::pipeline::settings::Smoothing;
+use lumen::vessel::certificate::Verdict;
+use lumen_ui_tests::{app, settle};
+
+const DESKTOP: [f32; 2] = [1280.0, 800.0];
+
+/// What the level makes of the vessels, once that is known: it comes after the other numbers.
+fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {
+    for _ in 0..2000 {
+        if let Some(calibre) = harness.state().state().calibre() {
+            let calibre = calibre.clone();
+            harness.run_steps(2);
+            return calibre;
+        }
+        harness.step();
+    }
+    panic!("the calibre is never told");
+}
+
+/// Opens the sample and shows its vessels.
+fn vessels(size: [f32; 2]) -> Harness<'static, LumenApp> {
+    let (mut harness, _) = app(size);
+    settle(&mut harness);
+    calibre(&mut harness);
+    harness.key_press(Key::V);
+    harness.run_steps(4);
+    harness
+}
+
+#[test]
+fn every_branch_has_a_row_and_a_click_goes_to_where_it_changes_most() {
+    let mut harness = vessels(DESKTOP);
+    let found = calibre(&mut harness).found.unwrap();
+    // The sample has an aorta, two renal and two iliac arteries; the aorta is cut in pieces where they leave.
+    assert!(found.branches.len() >= 5);
+    assert!(harness.query_by_label_contains("keep their calibre to 2 %").is_some());
+    let branch = found.branches.iter().find(|branch| branch.verdict == Verdict::Kept).unwrap();
+    let before = *harness.state().camera();
+    harness.get_by_role_and_label(Role::Button, &branch.name).click();
+    harness.run_steps(3);
+    let (after, change) = (*harness.state().camera(), branch.reduced.largest_change.unwrap());
+    assert_eq!(after.target.to_array(), change.at_mm);
+    assert!(after.distance < before.distance, "{} of {}", after.distance, before.distance);
+    assert_eq!(after.rotation, before.rotation, "the side that is looked at stays");
+    assert!(harness.query_by_label_contains(&format!("Radius along {}", branch.name)).is_some());
+}
+
+#[test]
+fn the_allowed_change_decides_the_verdict_and_is_a_step_to_undo() {
+    let mut harness = vessels(DESKTOP);
+    let before = calibre(&mut harness).found.unwrap();
+    assert_eq!((before.tolerance_percent, before.verdict), (2.0, Verdict::Kept));
+    harness.get_by_role_and_label(Role::SpinButton, "Allowed change").click();
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.event(egui::Event::Text("0.1".to_owned()));
+    harness.run_steps(1);
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    let after = calibre(&mut harness).found.unwrap();
+    assert_eq!((after.tolerance_percent, after.verdict), (0.1, Verdict::Changed));
+    assert!(harness.query_by_label_contains("by more than 0.1 %").is_some());
+    for (before, after) in before.branches.iter().zip(&after.branches) {
+        assert_eq!(before.reduced, after.reduced, "what is measured is the same");
+    }
+    harness.get_by_role_and_label(Role::Button, "Undo").click();
+    harness.run_steps(3);
+    assert_eq!(calibre(&mut harness).found.unwrap().tolerance_percent, 2.0);
+}
+
+#[test]
+fn colours_show_one_thing_at_a_time_and_change_the_picture() {
+    let mut harness = vessels(DESKTOP);
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect().shrink(2.0);
+    let middle = |harness: &mut Harness<'_, LumenApp>| {
+        let picture = harness.render().unwrap();
+        picture.get_pixel(view.center().x as u32, view.center().y as u32).0
+    };
+    let plain = middle(&mut harness);
+    harness.get_by_role_and_label(Role::CheckBox, "Colour the surface").click();
+    harness.run_steps(3);
+    let [red, green, blue, _] = middle(&mut harness);
+    // Viridis in its middle is a green-blue: hardly any change.
+    assert!(plain != [red, green, blue, 255] && green > red && blue > red, "{red} {green} {blue}");
+    harness.key_press(Key::D);
+    harness.run_steps(3);
+    let is_checked = harness.get_by_role_and_label(Role::CheckBox, "Colour the surface").accesskit_node().toggled();
+    assert_eq!(is_checked, Some(egui::accesskit::Toggled::False), "now they are of the deviation");
+}
+
+#[test]
+fn calibre_and_centrelines_are_saved() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let found = calibre(&mut harness).found.unwrap();
+    harness.key_press(Key::V);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, "Save CSV").click();
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, "Save").click();
+    harness.run_steps(3);
+    harness.get_by_label("Centrelines (VTP)...").click();
+    harness.run_steps(8);
+    let offered = &memory.borrow().offered;
+    let [(table, rows), (lines, xml)] = &offered[..] else { panic!("{} files", offered.len()) };
+    assert_eq!((&**table, &**lines), ("abdominal-aorta-calibre.csv", "abdominal-aorta-centrelines.vtp"));
+    let rows = std::str::from_utf8(rows).unwrap();
+    let stations: usize = found.branches.iter().map(|branch| branch.abscissas_mm.len()).sum();
+    assert_eq!(rows.lines().count(), stations + 1);
+    let columns = rows.lines().next().unwrap().split(',').count();
+    assert!(rows.lines().all(|row| row.split(',').count() == columns));
+    let xml = std::str::from_utf8(xml).unwrap();
+    assert!(xml.contains("MaximumInscribedSphereRadius") && xml.contains("GroupIds"));
+    assert!(xml.contains(&format!("NumberOfPoints=\"{stations}\"")));
+}
+
+#[test]
+fn on_a_phone_the_vessels_take_the_place_of_the_controls_and_give_it_back() {
+    let mut harness = vessels([390.0, 844.0]);
+    assert!(harness.query_by_role_and_label(Role::Slider, "Iterations").is_none());
+    assert!(harness.query_by_label_contains("keep their calibre").is_some());
+    harness.get_by_role_and_label(Role::Button, "Back").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_role_and_label(Role::Slider, "Iterations").is_some());
+}
+
+#[test]
+fn what_has_no_vessel_is_told_in_a_sentence() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let bytes = b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec();
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "one.obj".to_owned(), bytes });
+    harness.run_steps(20);
+    assert!(calibre(&mut harness).found.is_err());
+    harness.key_press(Key::V);
+    harness.run_steps(4);
+    assert!(harness.query_by_label_contains("There are no vessels to measure").is_some());
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("There are no vessels to measure").is_none());
+}
+
+#[test]
+fn what_smoothing_draws_shut_is_told_as_changed_by_smoothing() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    // A tube of 1.5 mm on edges of 0.7 mm, which the paper's filter draws shut.
+    let tube = tube(1.5, 40.0, 0.7);
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "tube.obj".to_owned(), bytes: tube });
+    harness.run_steps(20);
+    settle(&mut harness);
+    let found = calibre(&mut harness).found.unwrap();
+    assert!(found.branches.iter().all(|branch| branch.verdict_smoothed == Verdict::Kept), "as it is set by itself");
+    harness.get_by_role_and_label(Role::ComboBox, "Strength").click();
+    harness.run_steps(3);
+    harness.get_by_label("The paper's").click();
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert!(harness.state().state().settings.smoothing.gives_same(&Smoothing::PAPER));
+    let found = calibre(&mut harness).found.unwrap();
+    assert!(found.branches.iter().all(|branch| branch.verdict_smoothed == Verdict::Changed), "{found:?}");
+    harness.key_press(Key::V);
+    harness.run_steps(4);
+    assert!(harness.query_by_label_contains("Smoothing itself changes").is_some());
+}
+
+/// A tube about the z axis as an OBJ file.
+fn tube(radius: f64, length: f64, edge: f64) -> Vec<u8> {
+    let around = (std::f64::consts::TAU * radius / edge).ceil() as usize;
+    let rings = (length / edge) as usize;
+    let vertex = |i: usize| {
+        let angle = std::f64::consts::TAU * (i % around) as f64 / around as f64;
+        format!("v {} {} {}\n", radius * angle.cos(), radius * angle.sin(), (i / around) as f64 * edge)
+    };
+    let quad = |i: usize| {
+        let (ring, next) = (i / around * around, (i + 1) % around);
+        let [a, b, c, d] = [i, ring + next, ring + around + next, i + around].map(|v| v + 1);
+        format!("f {a} {b} {c} {d}\n")
+    };
+    let vertices = (0..around * rings).map(vertex);
+    vertices.chain((0..around * (rings - 1)).map(quad)).collect::<String>().into_bytes()
+}
