@@ -47,8 +47,9 @@ def surfaces():
 class VtkCuts:
     """Sections by vtkCutter: the loop around a point, its area and centroid."""
 
-    def __init__(self, P, F):
-        self.edge, self.plane, self.cutter, self.strips = mean_edge(P, F), vtk.vtkPlane(), vtk.vtkCutter(), vtk.vtkStripper()
+    def __init__(self, P, F, edge=None):
+        self.P, self.F, self.edge = P, F, edge or mean_edge(P, F)
+        self.plane, self.cutter, self.strips = vtk.vtkPlane(), vtk.vtkCutter(), vtk.vtkStripper()
         data = polydata(P, F)
         data.BuildCells()
         # Only what lies in a box around the station is cut.
@@ -61,6 +62,13 @@ class VtkCuts:
         self.strips.SetInputConnection(self.cutter.GetOutputPort())
         self.strips.JoinContiguousSegmentsOn()
         self.strips.SetMaximumLength(1_000_000)
+
+    def along(self, points, radius):
+        """The part that sections of up to `radius` around `points` can reach, alone: it is cut sooner."""
+        middle = self.P[self.F].mean(1)
+        reach = 6 * radius + 12 * self.edge + np.linalg.norm(self.P[self.F] - middle[:, None], axis=2).max(1)
+        far = cKDTree(points).query(middle)[0]
+        return VtkCuts(self.P, self.F[far < reach], self.edge)
 
     def loop(self, point, normal, radius):
         """Area and centroid of the smallest closed loop around `point`; None where there is none."""
@@ -109,10 +117,11 @@ def stations(lines, opened):
     found = {}
     for branch, rows in lines.items():
         points, radius = rows[:, :3].copy(), float(np.median(rows[:, 3]))
+        cuts = opened.along(points, rows[:, 3].max())
         for step in range(2):
             along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
             across = directions(points, along, max(radius, 2 * opened.edge))
-            loops = [opened.loop(*station) for station in zip(points, across, np.maximum(rows[:, 3], radius))]
+            loops = [cuts.loop(*station) for station in zip(points, across, np.maximum(rows[:, 3], radius))]
             for i, loop in enumerate(loops):
                 # To the middle of the section, where that is one vessel.
                 if step == 0 and loop and np.linalg.norm(loop[1] - points[i]) < 0.5 * rows[i, 3]:
@@ -139,11 +148,24 @@ def worst(found, areas, edge, leave_out, where="counts"):
         here = one["counts"] & one[where]
         if branch in leave_out or not here.any():
             continue
-        both = [stretch_radii(one["along"], of, one["radii"], edge) for of in [one["areas"], areas[branch]]]
-        lost += int(np.isnan(both[1][here]).sum())
+        lost += int(np.isnan(areas[branch][here]).sum())
+        # Of the same sections on both.
+        closed = np.isfinite(one["areas"] + areas[branch])
+        both = [stretch_radii(one["along"], np.where(closed, of, np.nan), one["radii"], edge)
+                for of in [one["areas"], areas[branch]]]
         change = np.nan_to_num(100 * (both[1] / both[0] - 1)[here])
         most = max(most, float(change[np.abs(change).argmax()]), key=abs)
     return most, lost
+
+
+def cut_again(found, cuts):
+    """Areas on another surface, in the same planes."""
+    areas = {}
+    for branch, one in found.items():
+        near = cuts.along(one["points"], one["radii"].max())
+        loops = [near.loop(*station) for station in zip(one["points"], one["across"], one["radii"])]
+        areas[branch] = np.array([loop[0] if loop else np.nan for loop in loops])
+    return areas
 
 
 def mark_counted(found, report):
@@ -173,9 +195,7 @@ def row(name, make):
     changed = {branch["number"] for branch in safe["branches"] if branch["changed_by_smoothing"]}
     crossed, rows = crossing(*smoothed).sum(), []
     for surface in [at_safe, above]:
-        cuts = VtkCuts(*surface)
-        areas = {branch: np.array([(cuts.loop(*station) or [np.nan])[0] for station in zip(one["points"], one["across"], one["radii"])])
-                 for branch, one in found.items()}
+        areas = cut_again(found, VtkCuts(*surface))
         own, all_of_them = (worst(found, areas, first.edge, changed, where) for where in ["lumen", "counts"])
         rows.append((own, all_of_them, int(crossing(*surface).sum() - crossed)))
     here, there = rows

@@ -13,7 +13,7 @@ from sections import PAPER, ROOT
 
 FOLDER = ROOT / "docs/images/smoothing"
 #: Colours that all can tell apart (Okabe and Ito 2008), and dashes besides.
-TRUTH, OPENED, LUMEN, VTK = ("#000000", "6 4"), ("#8a8f98", ""), ("#0072b2", ""), ("#d55e00", "9 3")
+TRUTH, OPENED, LUMEN, VTK = ("#000000", "6 4"), ("#a3a9b3", ""), ("#0072b2", ""), ("#d55e00", "9 3")
 BANDS = ["#0072b2", "#009e73", "#e69f00", "#cc79a7"]
 
 
@@ -157,15 +157,15 @@ def radii(found):
              ("cone, 3 to 1 mm, voxels of 0.5 mm", found["cone, 6 to 2 mm", 0.5], None, 3.5),
              ("a fork's branch: the renal artery of sample:aorta, voxels of 0.7 mm", found["sample:aorta", 0.7],
               "left renal artery", 7)]
-    picture = Picture("radius", 760, "Radius along a stepped tube, a cone and a branch of a fork: true, opened, Lumen, VTK")
+    picture = Picture("radius", 740, "Radius along a stepped tube, a cone and a branch of a fork: true, opened, Lumen, VTK")
     for i, (title, one, name, high) in enumerate(shown):
-        line, top = line_of(one, name), 62 + 232 * i
+        line, top = line_of(one, name), 62 + 228 * i
         length = line["along"][-1]
         ticks = np.arange(0, length, 20 if length > 60 else 10)
         panel = Panel(picture, (70, top, 675, top + 150), (0, length, ticks, False),
                       (0, high, np.arange(0, high, 2 if high > 4 else 1), False), "along the centreline, mm", "radius, mm", title)
         step = max(1, len(line["along"]) // 220)
-        for key, (colour, dash), width in [("opened_single", OPENED, 1.5), ("vtk_single", VTK, 2), ("lumen_single", LUMEN, 2),
+        for key, (colour, dash), width in [("opened_single", OPENED, 5), ("vtk_single", VTK, 2), ("lumen_single", LUMEN, 2),
                                            ("truth", TRUTH, 1.5)]:
             panel.curve(line["along"][::step], line[key][::step], colour, dash, width)
     legend(picture, 24, [("true", TRUTH), ("opened", OPENED), ("Lumen, auto", LUMEN), ("VTK at 0.01, 100 iterations", VTK)])
@@ -175,7 +175,7 @@ def radii(found):
 def legend(picture, y, entries):
     x = 70
     for name, (colour, dash) in entries:
-        picture.line([(x, y), (x + 28, y)], colour, dash)
+        picture.line([(x, y), (x + 28, y)], colour, dash, 5 if colour == OPENED[0] else 2)
         picture.text(x + 34, y + 4, name)
         x += 60 + 7.2 * len(name)
 

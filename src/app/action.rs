@@ -33,6 +33,15 @@ pub enum Action {
     Fit,
     /// Look from a side.
     View(StandardView),
+    /// Look at a place, and ring it.
+    GoTo {
+        /// In mm.
+        at_mm: [f32; 3],
+        /// What is to be seen there, in mm.
+        height_mm: f32,
+        /// What there is to say of it.
+        label: String,
+    },
     /// Show other things in the views.
     Show(ViewOptions),
     /// Show the surface as it was opened, for as long as this is so.

@@ -273,8 +273,14 @@ impl LumenApp {
             Action::Undo => state.undo(),
             Action::Redo => state.redo(),
             Action::Cancel => state.cancel(self.platform.link()),
-            Action::Fit => self.views.fit(state.document.as_ref(), keep),
+            Action::Fit => {
+                self.views.spot = None;
+                self.views.fit(state.document.as_ref(), keep);
+            }
             Action::View(view) => self.views.look_from(view, state.document.as_ref(), keep),
+            Action::GoTo { at_mm, height_mm, label } => {
+                self.views.go_to(Spot { at: at_mm.into(), label }, height_mm);
+            }
             Action::Show(options) => self.views.options = options,
             Action::HoldBefore(is_held) => self.views.before_is_held = is_held,
             Action::Compare => state.toggle_comparison(),
@@ -319,9 +325,6 @@ impl LumenApp {
                 }
             }
             vessels::Action::Select(branch) => self.vessels.selected = Some(branch),
-            vessels::Action::GoTo { at_mm, height_mm, label } => {
-                self.views.go_to(Spot { at: at_mm.into(), label }, height_mm);
-            }
             vessels::Action::SaveTable => match self.state.calibre_table() {
                 Some((name, bytes)) => self.platform.offer_file(&name, bytes, ctx),
                 None => self.state.tell("There is nothing to save yet."),

@@ -26,6 +26,9 @@ type Step = fn(&mut Ui, &State, &Views, &mut Vec<Action>);
 /// away in another.
 pub(super) const STEPS: [(&str, Step); 3] = [("surface", surface), ("smooth", smooth), ("reduce", reduce)];
 
+/// Height of what is seen at a place that is gone to, in edges.
+const AROUND: f32 = 60.0;
+
 /// Asks for `settings`, if they are others than those of `state`.
 fn set(settings: Settings, state: &State, asked: &mut Vec<Action>) {
     if settings != state.settings {
@@ -129,7 +132,7 @@ fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
 
 fn smooth(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
     let mut settings = state.settings.clone();
-    smoothing(ui, &mut settings.smoothing, measured(state.document.as_ref()));
+    smoothing(ui, &mut settings.smoothing, measured(state.document.as_ref()), asked);
     set(settings, state, asked);
 }
 
@@ -153,7 +156,7 @@ fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
     });
 }
 
-fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
+fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>, asked: &mut Vec<Action>) {
     step(ui, 2, "Smooth", "Takes off the stair-steps of the scan.");
     preset_list(ui, smoothing);
     let default = Smoothing::default();
@@ -212,7 +215,13 @@ fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>) {
         remark(ui, &warning);
     }
     if let Some(weakened) = report.smoothing_weakened {
-        remark(ui, &format!("Smoothed less at {} vertices: no crossings.", grouped(weakened.vertices)));
+        ui.horizontal_wrapped(|ui| {
+            remark(ui, &format!("Smoothed less at {} vertices: no crossings.", grouped(weakened.vertices)));
+            if ui.small_button("Show").on_hover_text("Goes to where it is smoothed least").clicked() {
+                let height_mm = AROUND * report.smoothing_response.map_or(1.0, |found| found.edge_length_mm) as f32;
+                asked.push(Action::GoTo { at_mm: weakened.at_mm, height_mm, label: "Smoothed less".to_owned() });
+            }
+        });
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -80,6 +80,9 @@ pub struct Optimise {
     /// Print what became of the calibre of each branch
     #[arg(long)]
     branches: bool,
+    /// Write the calibre along each branch to this file, a row a place
+    #[arg(long, value_name = "FILE.csv")]
+    branches_csv: Option<PathBuf>,
     /// The change of calibre that a branch is allowed, in percent, 0 to 100 (2 or 2%)
     #[arg(long, value_name = "PERCENT", value_parser = tolerance, default_value = "2")]
     tolerance: f64,
@@ -208,6 +211,14 @@ impl Optimise {
         if self.report.as_ref() == Some(&self.output) {
             misuse(format!("the surface and the report cannot both go to {}", self.output.display()));
         }
+        if let Some(csv) = &self.branches_csv {
+            if same_file(std::path::Path::new(&self.file), csv) {
+                misuse(format!("{} would be overwritten by the branches", csv.display()));
+            }
+            if [Some(&self.output), self.report.as_ref()].contains(&Some(csv)) {
+                misuse(format!("{} is asked for twice", csv.display()));
+            }
+        }
         if let (None, Reduction::Percent(percent)) = (self.triangles, self.reduction)
             && 0.0 < percent
             && percent < 1.0
@@ -223,7 +234,7 @@ impl Optimise {
         let wants_safe = self.reduction == Reduction::Safe && self.triangles.is_none() && self.max_deviation.is_none();
         if wants_safe {
             pipeline = pipeline.with_safe();
-        } else if self.branches || self.report.is_some() {
+        } else if self.branches || self.report.is_some() || self.branches_csv.is_some() {
             pipeline = pipeline.with_certificate();
         }
         advance(&mut pipeline)?;
@@ -234,6 +245,11 @@ impl Optimise {
             let target = Target::Reduction((percent * 10.0).round() as u32);
             pipeline.set(Settings { target, ..pipeline.settings().clone() })?;
             advance(&mut pipeline)?;
+        }
+        if let Some(path) = &self.branches_csv {
+            let certified = pipeline.certified().context("the calibre was not measured")?;
+            let certified = certified.as_ref().map_err(|error| anyhow!("there is no calibre to write: {error}"))?;
+            write_whole(path, certified.certificate.csv().as_bytes())?;
         }
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         let start = Instant::now();

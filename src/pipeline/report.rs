@@ -7,7 +7,7 @@ use super::lumen::{Narrowing, SHUT};
 use super::pinch::Pinch;
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
-use super::results::{Adapted, StageTimes};
+use super::results::{Adapted, StageTimes, Weakened};
 use super::run::Pipeline;
 use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
@@ -50,12 +50,27 @@ pub struct BoundReport {
 }
 
 /// Where the filter was weakened, in numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WeakenedReport {
     /// Triangles that the filter alone would have made cross.
     pub triangles_spared: usize,
     /// Vertices that were put back, in part or whole.
     pub vertices: usize,
+    /// The first of those that were put back farthest, in mm.
+    #[serde(default)]
+    pub at_mm: [f32; 3],
+}
+
+impl WeakenedReport {
+    fn new(weakened: &Weakened, smoothed: &TriMesh) -> Self {
+        let parts = weakened.parts.iter().copied().enumerate();
+        let most = parts.reduce(|most, next| if next.1 > most.1 { next } else { most });
+        Self {
+            triangles_spared: weakened.spared,
+            vertices: weakened.parts.iter().filter(|&&part| part > 0.0).count(),
+            at_mm: most.map_or([0.0; 3], |(vertex, _)| smoothed.positions[vertex].to_array()),
+        }
+    }
 }
 
 /// What the pipeline made of a surface.
@@ -185,10 +200,7 @@ impl Report {
             smoothing_response: smoothed.response,
             volume_held: smoothed.volume_held,
             smoothing_adapted: smoothed.adapted,
-            smoothing_weakened: smoothed.weakened.as_ref().map(|weakened| WeakenedReport {
-                triangles_spared: weakened.spared,
-                vertices: weakened.parts.iter().filter(|&&part| part > 0.0).count(),
-            }),
+            smoothing_weakened: smoothed.weakened.as_ref().map(|found| WeakenedReport::new(found, &smoothed.mesh)),
             stages_ms: pipeline.times(),
             deviation_mm: comparison(true),
             deviation_from_original_mm: comparison(false),

@@ -316,8 +316,9 @@ fn centrelines_are_written_as_vtp_and_csv() {
 fn the_calibre_of_each_branch_is_told() {
     let folder = Folder::new("branches");
     let (out, report) = (folder.file("out.ply"), folder.file("report.json"));
+    let csv = folder.file("branches.csv");
     let arguments = ["optimise", "sample:aorta", "-o", &out, "--branches", "--report", &report];
-    let table = succeed(&arguments);
+    let table = succeed(&[&arguments[..], &["--branches-csv", &csv]].concat());
     assert!(table.contains("largest change at") && table.contains("branch 7"), "{table}");
     let found = json(&report);
     assert_eq!((&found["calibre"]["tolerance_percent"], &found["calibre"]["verdict"]), (&2.0.into(), &"kept".into()));
@@ -331,6 +332,19 @@ fn the_calibre_of_each_branch_is_told() {
             }
         }
     }
+    let rows = std::fs::read_to_string(&csv).unwrap();
+    let stations = |branch: &Value| branch["abscissas_mm"].as_array().unwrap().len();
+    assert_eq!(rows.lines().count() - 1, branches.iter().map(stations).sum::<usize>());
+    // A row is what the report has of the place.
+    let (branch, i) = (&branches[1], stations(&branches[1]) / 2);
+    let cells: Vec<&str> = rows.lines().nth(1 + stations(&branches[0]) + i).unwrap().split(',').collect();
+    assert_eq!((cells[0], cells[5]), ("2", branch["standings"][i].as_str().unwrap()));
+    for (column, surface) in [(6, "opened"), (7, "smoothed"), (8, "reduced")] {
+        let (area, written) =
+            (branch[surface]["areas_mm2"][i].as_f64().unwrap(), cells[column].parse::<f64>().unwrap());
+        assert!((area - written).abs() < 1e-4, "{surface}: {area} as {written}");
+    }
+    assert_eq!(lumen(&[&arguments[..], &["--branches-csv", &out]].concat()).status.code(), Some(2), "asked for twice");
     // At no tolerance at all, every branch that is measured has changed.
     succeed(&[&arguments[..], &["--tolerance", "0%"]].concat());
     assert_eq!(json(&report)["calibre"]["verdict"], "changed");

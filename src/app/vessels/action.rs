@@ -9,15 +9,6 @@ pub enum Action {
     Toggle,
     /// Draw the radius along the branch of this number.
     Select(u32),
-    /// Look at a place.
-    GoTo {
-        /// In mm.
-        at_mm: [f32; 3],
-        /// What is to be seen there, in mm.
-        height_mm: f32,
-        /// What there is to say of it.
-        label: String,
-    },
     /// Save the calibre at each place of each branch.
     SaveTable,
     /// Save the centrelines.

@@ -150,17 +150,17 @@ fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
     let percent = branch.change_percent(&branch.reduced, i).map(f64::from);
     Some(match percent {
         Some(percent) => go_to(branch, &Change { percent, at_mm, abscissa_mm }),
-        None => Action::Vessels(Asked::GoTo {
+        None => Action::GoTo {
             at_mm,
             height_mm: height(branch, abscissa_mm),
             label: format!("{}: not measured here", branch.name),
-        }),
+        },
     })
 }
 
 fn go_to(branch: &BranchCalibre, change: &Change) -> Action {
     let label = place(branch, change);
-    Action::Vessels(Asked::GoTo { at_mm: change.at_mm, height_mm: height(branch, change.abscissa_mm), label })
+    Action::GoTo { at_mm: change.at_mm, height_mm: height(branch, change.abscissa_mm), label }
 }
 
 /// What is to be seen around a place of a branch, in mm.

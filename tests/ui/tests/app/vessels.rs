@@ -50,7 +50,7 @@ fn every_branch_has_a_row_and_a_click_goes_to_where_it_changes_most() {
     assert_eq!(after.target.to_array(), change.at_mm);
     assert!(after.distance < before.distance, "{} of {}", after.distance, before.distance);
     assert_eq!(after.rotation, before.rotation, "the side that is looked at stays");
-    assert!(harness.query_by_label_contains(&format!("Radius along {}", branch.name)).is_some());
+    harness.get_by_role_and_label(Role::Image, &format!("Radius along {}", branch.name));
 }
 
 #[test]
