@@ -199,19 +199,24 @@ pub struct Decimation {
     /// An edge whose two triangles' normals differ by more than this is a feature edge, for [`Method::Schroeder`];
     /// degrees, 0 to 180.
     pub feature_angle: f64,
+    /// Whether thin vessels are spared: the error that says which vertex goes next counts the more, the thinner its
+    /// vessel is.
+    #[serde(default)]
+    pub spare_thin: bool,
 }
 
 impl Default for Decimation {
     /// 60 degrees: above the 35 to 55 degrees of a marching-cubes stair-step, which is no feature of a vessel.
     fn default() -> Self {
-        Self { method: Method::default(), feature_angle: 60.0 }
+        Self { method: Method::default(), feature_angle: 60.0, spare_thin: false }
     }
 }
 
 impl Decimation {
     /// Whether these make the same levels: [`Method::Quadric`] knows no feature edges.
     pub fn gives_same(&self, other: &Self) -> bool {
-        self == other || (self.method == Method::Quadric && other.method == Method::Quadric)
+        let angle = |of: &Self| (of.method == Method::Schroeder).then_some(of.feature_angle);
+        (self.method, self.spare_thin, angle(self)) == (other.method, other.spare_thin, angle(other))
     }
 }
 
