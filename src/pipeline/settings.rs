@@ -353,6 +353,17 @@ mod tests {
     }
 
     #[test]
+    fn settings_from_before_a_field_was_there_say_what_they_said() {
+        let mut told = serde_json::to_value(Settings::default()).unwrap();
+        told["decimation"].as_object_mut().unwrap().remove("spare_thin");
+        let read: Settings = serde_json::from_value(told).unwrap();
+        assert!(!read.decimation.spare_thin);
+        let spared = Decimation { spare_thin: true, method: Method::Quadric, ..Decimation::default() };
+        assert!(!spared.gives_same(&Decimation { spare_thin: false, ..spared }));
+        assert!(spared.gives_same(&Decimation { feature_angle: 10.0, ..spared }));
+    }
+
+    #[test]
     fn settings_that_are_no_numbers_are_refused() {
         let mut settings = Settings::default();
         assert_eq!(settings.check(), Ok(()));
