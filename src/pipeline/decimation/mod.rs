@@ -375,7 +375,7 @@ mod tests {
         // Errors on a sphere of radius r with edges h grow with h^2 / r, and priorities of quadrics with h^3 / r. So of
         // two spheres at one threshold the number of triangles is as r for Schroeder and as r^(4/3) for quadrics; spared,
         // as r^(1/2) and r^(2/3).
-        let radii = [16.0f32, 1.0];
+        let radii = [8.0f32, 1.0];
         let spheres = radii.map(|radius| icosphere(6, radius, Vec3::X * 3.0 * radius));
         let (mesh, half) = (joined(&spheres), spheres[0].positions.len());
         let widths: Vec<f32> = (0..mesh.positions.len()).map(|v| radii[usize::from(v >= half)]).collect();
@@ -383,8 +383,8 @@ mod tests {
             let exponent = |levels: &ProgressiveMesh| {
                 let level = levels.extract(&levels.level(Target::Triangles(4000)).triangles);
                 assert!((3999..=4000).contains(&level.triangles.len()), "{method:?}");
-                let thick = level.triangles.iter().filter(|t| level.positions[t[0] as usize].x > 20.0).count();
-                (thick as f64 / (level.triangles.len() - thick) as f64).ln() / 16f64.ln()
+                let thick = level.triangles.iter().filter(|t| level.positions[t[0] as usize].x > 10.0).count();
+                (thick as f64 / (level.triangles.len() - thick) as f64).ln() / 8f64.ln()
             };
             let found = [exponent(&levels_of(&mesh, method)), exponent(&spared(&mesh, method, widths.clone()))];
             assert!((found[0] - plain).abs() < 0.08 && (found[1] - root).abs() < 0.08, "{method:?}: {found:?}");
