@@ -43,6 +43,8 @@ def measured(phantom, voxel, folder):
                  warnings=report["warnings"], lines=[])
     for line in phantom.lines:
         row = dict(name=line.name, along=line.along.tolist(), truth=line.radii.tolist(), counts=line.counts.tolist())
+        # The truth too, over the same stretches: a narrow place is no wider for being measured.
+        row["stretched"] = stretch_radii(line.along, np.pi * line.radii**2, line.radii, surfaces[0].edge).tolist()
         for name, cuts in zip(SURFACES, surfaces):
             areas = cuts.areas(line.points, line.directions, line.radii)
             row[name] = stretch_radii(line.along, areas, line.radii, surfaces[0].edge).tolist()
@@ -70,7 +72,8 @@ def errors(rows, over, under, keep=lambda truth: truth > 0, single=False):
     parts = []
     for row in rows:
         line = {key: np.array(value, float) for key, value in row.items() if key != "name"}
-        a, b = line[over + "_single" * single], line[under if under == "truth" else under + "_single" * single]
+        a, b = (line[key] if single is False else line[f"{key}_single"] if key != "stretched" else line["truth"]
+                for key in [over, "stretched" if under == "truth" else under])
         here = line["counts"].astype(bool) & keep(line["truth"]) & ~np.isnan(line["opened"])
         a = np.where(np.isnan(a), 0, a)[here]
         parts.append((100 * (a / b[here] - 1), a - b[here]))

@@ -263,6 +263,10 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
         };
         angle.show(ui, &mut decimation.feature_angle);
     }
+    let spare = ui.checkbox(&mut decimation.spare_thin, "Spare thin vessels");
+    spare.on_hover_text(
+        "An error counts the more, the thinner the vessel is: thin ones keep more of the triangles, wide ones fewer.",
+    );
     let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
     if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
         remark(ui, &format!("{shortfall}."));

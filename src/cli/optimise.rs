@@ -68,6 +68,9 @@ pub struct Optimise {
     /// Edges sharper than this are kept as edges, degrees, 0 to 180; for schroeder
     #[arg(long, value_name = "DEG", default_value_t = Decimation::default().feature_angle)]
     feature_angle: f64,
+    /// Spare thin vessels: an error counts the more, the thinner the vessel is
+    #[arg(long)]
+    spare_thin: bool,
     /// The unit of the numbers in the file: mm, cm or m
     #[arg(long, value_name = "UNIT")]
     unit: Option<Unit>,
@@ -182,7 +185,11 @@ impl Optimise {
         Settings {
             keep: if self.keep_all_components { Keep::All } else { Keep::Largest },
             smoothing: self.smoothing(),
-            decimation: Decimation { method: self.method, feature_angle: self.feature_angle },
+            decimation: Decimation {
+                method: self.method,
+                feature_angle: self.feature_angle,
+                spare_thin: self.spare_thin,
+            },
             target: match (self.triangles, self.max_deviation) {
                 (Some(count), _) => Target::Triangles(count),
                 (None, Some(bound)) => Target::Deviation(bound),

@@ -26,5 +26,6 @@ pub mod smoothing;
 pub mod stage;
 mod stages;
 mod store;
+mod widths;
 
 pub use crate::task;

@@ -3,7 +3,7 @@
 //! "Mesh Optimization of Vessel Surface Model for Computer-Aided Simulation of Percutaneous Coronary Intervention": the
 //! surface was one segment of an abdominal aorta, cut from a CT angiogram by marching cubes. It is not published.
 
-use super::settings::{Keep, Settings, Smoothing, Target};
+use super::settings::{Decimation, Keep, Settings, Smoothing, Target};
 
 /// Table I: polygons of the paper's surface before its connectivity was validated, and after.
 pub const TABLE_I: [usize; 2] = [74_307, 74_307];
@@ -46,9 +46,16 @@ pub const FIGURE_6: [(f64, u32); 6] = [(0.1, 30), (0.1, 60), (0.1, 100), (0.01, 
 /// Figure 7: reduction rates of its three columns, in percent.
 pub const FIGURE_7: [u32; 3] = [10, 90, 99];
 
-/// The paper's settings at a reduction rate in percent: Hamming window, pass band 0.01, 100 iterations.
+/// The paper's settings at a reduction rate in percent: Hamming window, pass band 0.01, 100 iterations, one order for all vessels.
 pub fn reduced(percent: u32, keep: Keep) -> Settings {
-    Settings { keep, smoothing: Smoothing::PAPER, target: Target::Reduction(percent * 10), ..Settings::default() }
+    let decimation = Decimation { spare_thin: false, ..Decimation::default() };
+    Settings {
+        keep,
+        smoothing: Smoothing::PAPER,
+        decimation,
+        target: Target::Reduction(percent * 10),
+        ..Settings::default()
+    }
 }
 
 /// The settings of Figure 6: smoothed in six ways, not reduced.

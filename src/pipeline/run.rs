@@ -124,6 +124,7 @@ impl Pipeline {
         }
         if stale[Stage::Connectivity] {
             self.store.terms = None;
+            self.store.widths = None;
             self.store.bands = None;
             self.store.is_smoothed_again = false;
         }

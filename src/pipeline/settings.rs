@@ -221,19 +221,24 @@ pub struct Decimation {
     /// An edge whose two triangles' normals differ by more than this is a feature edge, for [`Method::Schroeder`];
     /// degrees, 0 to 180.
     pub feature_angle: f64,
+    /// Whether thin vessels are spared: the error that says which vertex goes next counts the more, the thinner its
+    /// vessel is.
+    #[serde(default)]
+    pub spare_thin: bool,
 }
 
 impl Default for Decimation {
     /// 60 degrees: above the 35 to 55 degrees of a marching-cubes stair-step, which is no feature of a vessel.
     fn default() -> Self {
-        Self { method: Method::default(), feature_angle: 60.0 }
+        Self { method: Method::default(), feature_angle: 60.0, spare_thin: false }
     }
 }
 
 impl Decimation {
     /// Whether these make the same levels: [`Method::Quadric`] knows no feature edges.
     pub fn gives_same(&self, other: &Self) -> bool {
-        self == other || (self.method == Method::Quadric && other.method == Method::Quadric)
+        let angle = |of: &Self| (of.method == Method::Schroeder).then_some(of.feature_angle);
+        (self.method, self.spare_thin, angle(self)) == (other.method, other.spare_thin, angle(other))
     }
 }
 
@@ -373,6 +378,17 @@ mod tests {
             let target = Target::Reduction(rate).triangles(74_307);
             assert!(target.abs_diff(printed) <= 1, "{rate}: {target} beside the paper's {printed}");
         }
+    }
+
+    #[test]
+    fn settings_from_before_a_field_was_there_say_what_they_said() {
+        let mut told = serde_json::to_value(Settings::default()).unwrap();
+        told["decimation"].as_object_mut().unwrap().remove("spare_thin");
+        let read: Settings = serde_json::from_value(told).unwrap();
+        assert!(!read.decimation.spare_thin);
+        let spared = Decimation { spare_thin: true, method: Method::Quadric, ..Decimation::default() };
+        assert!(!spared.gives_same(&Decimation { spare_thin: false, ..spared }));
+        assert!(spared.gives_same(&Decimation { feature_angle: 10.0, ..spared }));
     }
 
     #[test]

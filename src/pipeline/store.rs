@@ -16,6 +16,8 @@ pub(super) struct Store {
     /// The pieces: the same for all settings.
     pub(super) connectivity: Option<Arc<Connectivity>>,
     pub(super) now: Results,
+    /// How wide the vessel is at each vertex, as a radius in mm, and the surface that this is of.
+    pub(super) widths: Option<(Arc<Surface>, Arc<[f32]>)>,
     /// The least pass bands that leave vessels their calibre, and the surface that they are of.
     pub(super) bands: Option<(Arc<Surface>, Arc<[f32]>)>,
     /// What makes another pass band cheap.
@@ -27,7 +29,16 @@ pub(super) struct Store {
 impl Store {
     pub(super) fn new(opened: Arc<TriMesh>, settings: Settings, samples: usize) -> Self {
         let now = Results { settings, ..Results::default() };
-        Self { opened, samples, connectivity: None, now, bands: None, terms: None, is_smoothed_again: false }
+        Self {
+            opened,
+            samples,
+            connectivity: None,
+            now,
+            widths: None,
+            bands: None,
+            terms: None,
+            is_smoothed_again: false,
+        }
     }
 
     /// The same surface with the same results. Terms stay behind: they are large.
@@ -37,10 +48,17 @@ impl Store {
             samples: self.samples,
             connectivity: self.connectivity.clone(),
             now: self.now.clone(),
+            widths: self.widths.clone(),
             bands: self.bands.clone(),
             terms: None,
             is_smoothed_again: false,
         }
+    }
+
+    /// The widths of the kept surface, if they are known.
+    pub(super) fn known_widths(&self) -> Option<&Arc<[f32]>> {
+        let (kept, (of, widths)) = (self.now.kept.as_ref()?, self.widths.as_ref()?);
+        Arc::ptr_eq(of, kept).then_some(widths)
     }
 
     /// Whether there are no terms that suit the settings, though they would fit.

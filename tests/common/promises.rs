@@ -26,8 +26,8 @@ pub(crate) fn settings() -> impl Strategy<Value = Settings> {
     let boundary = prop::sample::select(vec![Boundary::Loop, Boundary::Vtk15]);
     let pass_band = (-3.0f64..0.3).prop_map(|power| libm::pow(10.0, power).clamp(0.001, 2.0));
     let rate = prop_oneof![prop::sample::select(RATES.to_vec()), 0u32..=999];
-    (window, pass_band, 0u32..=120, boundary, method, 0.0f64..=180.0, rate).prop_map(
-        |(window, pass_band, iterations, boundary, method, feature_angle, rate)| {
+    (window, pass_band, 0u32..=120, boundary, method, 0.0f64..=180.0, rate, any::<bool>()).prop_map(
+        |(window, pass_band, iterations, boundary, method, feature_angle, rate, spare_thin)| {
             let mut settings = Settings { target: Target::Reduction(rate), ..Settings::default() };
             settings.smoothing = Smoothing {
                 window,
@@ -40,6 +40,7 @@ pub(crate) fn settings() -> impl Strategy<Value = Settings> {
             };
             settings.decimation.method = method;
             settings.decimation.feature_angle = feature_angle;
+            settings.decimation.spare_thin = spare_thin;
             settings
         },
     )

@@ -109,6 +109,21 @@ fn a_count_can_be_asked_for_and_every_piece_kept() {
 }
 
 #[test]
+fn thin_vessels_are_spared_where_that_is_asked_for() {
+    let folder = Folder::new("spare");
+    let (out, report) = (folder.file("out.stl"), folder.file("report.json"));
+    let [plain, spared] = [&[][..], &["--spare-thin"]].map(|option| {
+        succeed(&[&["optimise", "sample:aorta", "-o", &out, "--report", &report][..], option].concat());
+        json(&report)
+    });
+    let is_spared = |report: &Value| report["settings"]["decimation"]["spare_thin"].clone();
+    assert_eq!((is_spared(&plain), is_spared(&spared)), (false.into(), true.into()));
+    assert_ne!(plain["output_fingerprint"], spared["output_fingerprint"]);
+    let count = |report: &Value| report["output"]["triangles"].as_i64().unwrap();
+    assert!((7_429..=7_430).contains(&count(&plain)) && (7_429..=7_430).contains(&count(&spared)));
+}
+
+#[test]
 fn a_deviation_can_be_asked_for_and_is_kept() {
     let folder = Folder::new("deviation");
     let (out, report) = (folder.file("out.stl"), folder.file("report.json"));

@@ -23,6 +23,7 @@ mod pipeline;
 mod route;
 mod smoothing;
 mod smoothing_oracle;
+mod spare_thin;
 mod trial;
 
 use libtest_mimic::{Arguments, Trial};
@@ -36,6 +37,7 @@ fn main() {
                 import::trials,
                 measures::trials,
                 pipeline::trials,
+                spare_thin::trials,
                 route::trials,
                 smoothing::trials,
                 smoothing_oracle::trials,

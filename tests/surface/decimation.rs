@@ -80,7 +80,7 @@ fn feature_edges_lead_from_end_to_end_and_what_is_no_feature_does_not() {
     for (walls, rough, feature_angle) in [(4, 0.3, 60.0), (6, 0.1, 45.0)] {
         let duct = duct(walls, rough);
         let left = |feature_angle: f64, rate: u32| {
-            let levels = levels_of(&duct, &Decimation { method: Method::Schroeder, feature_angle });
+            let levels = levels_of(&duct, &Decimation { feature_angle, ..by(Method::Schroeder) });
             edges_left(walls, &duct, &levels.extract(&levels.level(Target::Reduction(rate)).triangles))
         };
         for rate in [500, 900, 950] {

@@ -19,3 +19,4 @@ mod import_robustness;
 mod lumen_width;
 mod safe;
 mod smoothing;
+mod spare_thin;

@@ -5,7 +5,7 @@ use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Method, Settings, Target};
 
 /// Parts of a setting.
-const PARTS: usize = 7;
+const PARTS: usize = 8;
 
 /// A setting, part by part; a part that does not apply is empty.
 fn parts(settings: &Settings) -> [String; PARTS] {
@@ -42,7 +42,8 @@ fn parts(settings: &Settings) -> [String; PARTS] {
         Method::Schroeder => format!("feature angle {}°", decimation.feature_angle),
         Method::Quadric => String::new(),
     };
-    [band, iterations, window, volume, method, angle, target]
+    let spared = if decimation.spare_thin { "thin vessels spared" } else { "" };
+    [band, iterations, window, volume, method, angle, spared.to_owned(), target]
 }
 
 /// What all settings share, and for each what sets it apart: its title. Where nothing does, the title says the most.
@@ -50,7 +51,7 @@ pub(super) fn titles(all: &[&Settings]) -> (String, Vec<String>) {
     let parts: Vec<_> = all.iter().map(|settings| parts(settings)).collect();
     let differs: [bool; PARTS] = std::array::from_fn(|i| parts.windows(2).any(|pair| pair[0][i] != pair[1][i]));
     // The window, the method and the feature angle say little to most readers.
-    let named = if differs.contains(&true) { differs } else { [true, true, false, true, false, false, true] };
+    let named = if differs.contains(&true) { differs } else { [true, true, false, true, false, false, true, true] };
     let join = |parts: &[String; PARTS], wanted: bool| {
         let chosen = parts.iter().zip(named).filter(|(part, named)| *named == wanted && !part.is_empty());
         capital(&chosen.map(|(part, _)| part.as_str()).collect::<Vec<_>>().join(", "))
@@ -125,6 +126,10 @@ mod tests {
         );
         let (_, names) = titles(&[&Settings::default()]);
         assert_eq!(names, ["Pass band 0.01, 100 iterations, suits this surface, reduction 90 %"]);
+        let mut spared = Settings::default();
+        spared.decimation.spare_thin = true;
+        let (_, names) = titles(&[&Settings::default(), &spared]);
+        assert_eq!(names, ["", "Thin vessels spared"]);
         assert_eq!(titles(&[]), (String::new(), vec![]));
     }
 }

@@ -4,7 +4,7 @@ use glam::Vec3A;
 
 use super::guard::{Guard, Planned};
 use super::method::{Candidate, Judged, Method};
-use super::rings::{Rings, neighbour};
+use super::rings::{Rings, gather, neighbour};
 use super::schedule::Stuck;
 use super::star::{MOST_AROUND, Star};
 use crate::mesh::TriMesh;
@@ -52,6 +52,8 @@ pub(super) struct Surface {
     pub(super) rings: Rings,
     pub(super) method: Box<dyn Method + Send>,
     pub(super) guard: Guard,
+    /// By what the distance of each slot counts (`weights.rs`); empty where all count alike.
+    pub(super) weights: Vec<f32>,
     pub(super) star: Star,
     other: Star,
     candidates: Vec<Candidate>,
@@ -63,6 +65,7 @@ impl Surface {
             rings: Rings::new(mesh),
             method,
             guard: Guard::default(),
+            weights: Vec::new(),
             star: Star::new(),
             other: Star::new(),
             candidates: Vec::new(),
@@ -103,18 +106,24 @@ impl Surface {
         }
     }
 
+    /// Counts distances by these `ratios` of radii, one for each vertex of the mesh. No vertex is gone yet.
+    pub(super) fn weigh(&mut self, ratios: &[f32]) {
+        let weight = |&node: &u32| self.method.weight(ratios[node as usize]);
+        self.weights = self.rings.nodes.iter().map(weight).collect();
+    }
+
     /// Loads the star of `v` and judges it, held to the limits of number `strictness`.
     pub(super) fn judge(&mut self, v: u32, strictness: u8) -> Judged {
         self.star.load(&self.rings, v);
         self.method.judge(&self.rings, &self.star, v, strictness == LAST)
     }
 
-    /// The limits of that number.
-    pub(super) fn limits(&self, strictness: u8) -> Strictness {
-        match strictness {
-            0 => Strictness { quality: self.method.fair_quality(), ..STRICTNESS[0] },
-            eased => STRICTNESS[usize::from(eased)],
-        }
+    /// The limits of that number for `v`, whose weight is in the price.
+    pub(super) fn limits(&self, v: u32, strictness: u8) -> Strictness {
+        let limits = STRICTNESS[usize::from(strictness)];
+        let quality = if strictness == 0 { self.method.fair_quality() } else { limits.quality };
+        let weight = self.weights.get(v as usize).copied().unwrap_or(1.0);
+        Strictness { quality, price: limits.price * weight, ..limits }
     }
 
     /// The cheapest way for `v` to go that passes every test, and how far it reaches out of what it leaves behind.
@@ -251,6 +260,9 @@ impl Surface {
         let kept = self.rings.compact();
         self.method.compact(&kept);
         self.guard.restart(&self.rings);
+        if !self.weights.is_empty() {
+            self.weights = gather(&self.weights, &kept);
+        }
         kept
     }
 }

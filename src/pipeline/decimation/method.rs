@@ -68,6 +68,9 @@ pub(super) trait Method {
     /// The priority of a vertex of that distance.
     fn priority(&self, distance: f32) -> f32;
 
+    /// What the priority counts for where the median of the radii is `ratio` times that of the vessel (`weights.rs`).
+    fn weight(&self, ratio: f32) -> f32;
+
     /// `v` is about to go to `u`, which is at `way` from it and moves to `place`, if to anywhere; `tip` is the distance that
     /// its planes do not know of.
     fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>, tip: f32);

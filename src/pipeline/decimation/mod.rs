@@ -17,6 +17,9 @@
 //!   step, at the price of waiting longer, down to "does not fold" (`star.rs`);
 //! - makes no triangle run into another (`guard/`).
 //!
+//! Where thin vessels are spared, the distance of a vertex counts by the width of its vessel, for the order alone
+//! (`weights.rs`).
+//!
 //! The error of a step is the method's measure, no bound of the true deviation: measure that (`super::deviation`).
 
 mod collapse;
@@ -29,8 +32,10 @@ mod rings;
 mod schedule;
 mod schroeder;
 mod star;
+mod weights;
 
 use std::ops::Deref;
+use std::sync::Arc;
 
 use self::collapse::{LAST, Refusal, Surface};
 use self::method::{Candidate, Judged};
@@ -38,6 +43,7 @@ use self::quadric::Quadric;
 use self::rings::neighbour;
 use self::schedule::{Schedule, Stuck};
 use self::schroeder::Schroeder;
+use self::weights::ratios;
 use super::progressive::{Limit, Merge, ProgressiveMesh};
 use super::settings::{Decimation, Method};
 use super::task::{Budget, Progress, Task};
@@ -76,6 +82,8 @@ pub struct DecimationTask<M, T> {
     surface: Surface,
     schedule: Schedule,
     phase: Phase,
+    /// Radius of the vessel at each vertex of the mesh in mm, where thin vessels are spared.
+    widths: Option<Arc<[f32]>>,
     /// Cosine of the feature angle.
     crease: f32,
     merges: Vec<Merge>,
@@ -97,11 +105,19 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
             topology,
             schedule: Schedule::default(),
             phase: Phase::Linking,
+            widths: None,
             crease: libm::cos(settings.feature_angle.to_radians()) as f32,
             merges: Vec::new(),
             errors: Vec::new(),
             total: 0,
         }
+    }
+
+    /// Spares thin vessels (`weights.rs`): `widths` has the radius of the vessel at each vertex of the mesh in mm, infinite
+    /// where it is in none.
+    #[must_use]
+    pub fn with_widths(self, widths: Arc<[f32]>) -> Self {
+        Self { widths: Some(widths), ..self }
     }
 
     /// The next piece of what comes before the first vertex is met; at most some 20 ms at a million triangles.
@@ -117,6 +133,9 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
                 rings.compact();
                 let count = rings.len();
                 self.surface.method.start(count);
+                if let Some(widths) = self.widths.take() {
+                    self.surface.weigh(&ratios(&widths));
+                }
                 self.schedule = Schedule::new(count);
                 self.merges.reserve(count);
                 self.errors.reserve(count);
@@ -138,7 +157,9 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
         let state = &mut self.schedule.states[v as usize];
         state.stuck = stuck;
         if stuck.is_none() {
-            self.schedule.keys[v as usize] = self.surface.judge(v, state.strictness).priority;
+            let strictness = state.strictness;
+            let price = self.surface.limits(v, strictness).price;
+            self.schedule.keys[v as usize] = self.surface.judge(v, strictness).priority * price;
         }
     }
 
@@ -157,7 +178,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
             state.is_stale = false;
         }
         let judged = self.surface.judge(v, state.strictness);
-        let limits = self.surface.limits(state.strictness);
+        let limits = self.surface.limits(v, state.strictness);
         let (key, threshold) = (judged.priority * limits.price, self.schedule.threshold);
         if key > threshold {
             self.schedule.keys[v as usize] = key;
@@ -168,7 +189,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
             Err(Refusal::Later(key)) => self.schedule.keys[v as usize] = key,
             Err(Refusal::Stuck(stuck)) => match self.eased(v, &judged, stuck) {
                 Some(strictness) => {
-                    self.schedule.keys[v as usize] = judged.priority * self.surface.limits(strictness).price;
+                    self.schedule.keys[v as usize] = judged.priority * self.surface.limits(v, strictness).price;
                 }
                 None => self.schedule.set_stuck(v, stuck),
             },
@@ -295,7 +316,7 @@ pub fn decimate(mesh: &TriMesh, topology: &Topology, settings: &Decimation) -> P
 mod tests {
     use super::*;
     use crate::mesh::self_intersections;
-    use crate::mesh::shapes::{icosphere, joined};
+    use crate::mesh::shapes::{icosphere, joined, tube};
     use crate::pipeline::settings::Target;
     use glam::Vec3;
 
@@ -338,6 +359,64 @@ mod tests {
         // Points of a sphere make a polyhedron inside of it.
         assert!(schroeder < -1e-3, "{schroeder}");
         assert!(quadric.abs() < 1e-4, "{quadric}");
+    }
+
+    /// `mesh` with vessels of these widths.
+    fn spared(mesh: &TriMesh, method: Method, widths: Vec<f32>) -> ProgressiveMesh {
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let settings = Decimation { method, ..Decimation::default() };
+        let levels = DecimationTask::new(mesh, &topology, &settings).with_widths(widths.into()).finish();
+        levels.assert_well_formed();
+        levels
+    }
+
+    #[test]
+    fn thin_vessels_are_spared_by_the_root_of_the_ratio_for_each_length() {
+        // Errors on a sphere of radius r with edges h grow with h^2 / r, and priorities of quadrics with h^3 / r. So of
+        // two spheres at one threshold the number of triangles is as r for Schroeder and as r^(4/3) for quadrics; spared,
+        // as r^(1/2) and r^(2/3).
+        let radii = [8.0f32, 1.0];
+        let spheres = radii.map(|radius| icosphere(6, radius, Vec3::X * 3.0 * radius));
+        let (mesh, half) = (joined(&spheres), spheres[0].positions.len());
+        let widths: Vec<f32> = (0..mesh.positions.len()).map(|v| radii[usize::from(v >= half)]).collect();
+        for (method, plain, root) in [(Method::Schroeder, 1.0, 0.5), (Method::Quadric, 4.0 / 3.0, 2.0 / 3.0)] {
+            let exponent = |levels: &ProgressiveMesh| {
+                let level = levels.extract(&levels.level(Target::Triangles(4000)).triangles);
+                assert!((3999..=4000).contains(&level.triangles.len()), "{method:?}");
+                let thick = level.triangles.iter().filter(|t| level.positions[t[0] as usize].x > 10.0).count();
+                (thick as f64 / (level.triangles.len() - thick) as f64).ln() / 8f64.ln()
+            };
+            let found = [exponent(&levels_of(&mesh, method)), exponent(&spared(&mesh, method, widths.clone()))];
+            assert!((found[0] - plain).abs() < 0.08 && (found[1] - root).abs() < 0.08, "{method:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn where_all_vessels_are_equally_wide_or_none_is_the_order_is_the_plain_one() {
+        let mesh = joined(&[icosphere(4, 3.0, Vec3::ZERO), tube(24, 60, 40.0, |z| 2.0 + 0.1 * libm::sinf(z))]);
+        for method in Method::ALL {
+            let plain = levels_of(&mesh, method);
+            for width in [0.7, f32::INFINITY, f32::NAN, 0.0] {
+                assert!(spared(&mesh, method, vec![width; mesh.positions.len()]) == plain, "{method:?}, {width}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_spared_does_not_depend_on_the_scale() {
+        let mesh = joined(&[icosphere(4, 3.0, Vec3::ZERO), tube(24, 60, 40.0, |z| 1.0 + 0.05 * z)]);
+        let widths: Vec<f32> = mesh.positions.iter().map(|p| 1.0 + 0.05 * p.z.max(0.0)).collect();
+        for method in Method::ALL {
+            let here = spared(&mesh, method, widths.clone());
+            for scale in [1024.0, 1.0 / 1024.0] {
+                let mut scaled = mesh.clone();
+                scaled.positions.iter_mut().for_each(|p| *p *= scale);
+                let there = spared(&scaled, method, widths.iter().map(|width| width * scale).collect());
+                assert!(there.triangles == here.triangles && there.parents == here.parents, "{method:?} at {scale}");
+                let errors: Vec<f32> = here.errors.iter().map(|error| error * scale).collect();
+                assert!(there.errors == errors, "what is told is in mm");
+            }
+        }
     }
 
     #[test]

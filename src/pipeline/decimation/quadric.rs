@@ -201,6 +201,11 @@ impl Method for Quadric {
         distance * self.mean_area().sqrt() as f32
     }
 
+    /// The priority is a length times the root of an area: a root of the ratio for each.
+    fn weight(&self, ratio: f32) -> f32 {
+        ratio
+    }
+
     fn merge(&mut self, v: u32, u: u32, way: Vec3A, place: Option<Vec3A>, tip: f32) {
         let end = place.unwrap_or(way).as_dvec3();
         let mut v = self.forms[v as usize];

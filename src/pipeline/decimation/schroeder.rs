@@ -137,6 +137,11 @@ impl Method for Schroeder {
         distance
     }
 
+    /// The priority is a length.
+    fn weight(&self, ratio: f32) -> f32 {
+        ratio.sqrt()
+    }
+
     fn merge(&mut self, v: u32, u: u32, way: Vec3A, _: Option<Vec3A>, tip: f32) {
         let (mut planes, own) = (self.planes[v as usize], self.own[v as usize]);
         let reach = way.length_squared();

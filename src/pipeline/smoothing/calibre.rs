@@ -5,22 +5,18 @@
 //! the vessel shut, one whose pass band holds them leaves it as wide as it is. At an open end the rim is smoothed along
 //! itself, where the same wave has `k = 1 - cos(h / r)`.
 //!
-//! `r` is the inner ball's radius at the vertex (`mesh::inner_ball`), as the median of its ring, several times over,
-//! for on rough surfaces many vertices have bad normals. From a thin vessel the radius grows by no more than the way
-//! along the surface: so the pass band has no jumps, and a narrow place keeps the surface beside it.
+//! `r` is the width of the vessel at the vertex (`super::super::widths`).
 
 use std::ops::Deref;
+use std::sync::Arc;
 
 use crate::mesh::{Topology, TriMesh, Vec3};
-use crate::pipeline::narrowest::ring_median;
 use crate::pipeline::settings::Smoothing;
 use crate::pipeline::task::{Budget, Progress, Task};
 
 /// By what the pass band is wider than the wave around the vessel needs: waves of half its length pass as well, so that what
 /// changes along the vessel (an open end, a fork, a narrow place) does not make it swing.
 const MARGIN: f64 = 4.0;
-/// By what the radius may grow from vertex to vertex: of the edge between them.
-const SLOPE: f32 = 1.0;
 /// Largest part of a radius that an edge may be: beyond it a vessel has no shape to keep.
 const COARSEST: f64 = 3.0;
 /// Means with the neighbours that the pass bands are evened out by. Filters of other pass bands let even the longest waves
@@ -29,39 +25,32 @@ const COARSEST: f64 = 3.0;
 const EVEN: usize = 16;
 /// Vertices between two looks at the clock.
 const VERTICES: usize = 4096;
-/// Medians that are taken of medians: what is left of a bad ball is two rings wide at most.
-const MEDIANS: usize = 4;
-/// Sweeps at most: each goes all the way in one direction.
-const SWEEPS: usize = 12;
 
 /// The pass bands of `mesh`, worked out in slices; `M` and `T` are any pointers to a mesh and its topology.
 pub(crate) struct LeastPassBands<M, T> {
     mesh: M,
     topology: T,
-    /// Of the inner balls, in mm.
-    radii: Vec<f32>,
-    /// The medians of their rings, and then no steeper than [`SLOPE`].
-    widths: Vec<f32>,
+    /// Radius of the vessel at each vertex, in mm.
+    widths: Arc<[f32]>,
     bands: Vec<f32>,
+    /// Of the pass at work.
+    evened: Vec<f32>,
     step: Step,
     next: usize,
-    has_changed: bool,
 }
 
 #[derive(Clone, Copy, PartialEq)]
 enum Step {
-    Medians(usize),
-    Sweep(usize),
     Bands,
     Even(usize),
 }
 
 impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, T> {
-    /// Of `mesh`, whose inner balls have these `radii` in mm.
-    pub(crate) fn new(mesh: M, topology: T, radii: Vec<f32>) -> Self {
-        let count = radii.len();
-        let (widths, bands) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        Self { mesh, topology, radii, widths, bands, step: Step::Medians(0), next: 0, has_changed: false }
+    /// Of `mesh`, whose vessels have these `widths`, as radii in mm.
+    pub(crate) fn new(mesh: M, topology: T, widths: Arc<[f32]>) -> Self {
+        let count = widths.len();
+        let (bands, evened) = (Vec::with_capacity(count), vec![0.0; count]);
+        Self { mesh, topology, widths, bands, evened, step: Step::Bands, next: 0 }
     }
 
     fn at(&self, v: u32) -> Vec3 {
@@ -70,20 +59,9 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, 
 
     /// The next vertices of the step; whether the last step is done.
     fn advance_some(&mut self) -> bool {
-        let count = self.radii.len();
+        let count = self.widths.len();
         let end = count.min(self.next + VERTICES);
         match self.step {
-            Step::Medians(_) => {
-                let mut ring = Vec::new();
-                for v in self.next..end {
-                    self.widths.push(ring_median(&self.topology, &self.radii, v as u32, &mut ring));
-                }
-            }
-            Step::Sweep(sweep) => {
-                for i in self.next..end {
-                    self.relax(if sweep % 2 == 0 { i } else { count - 1 - i });
-                }
-            }
             Step::Bands => {
                 for v in self.next..end {
                     self.bands.push(self.band(v as u32));
@@ -93,7 +71,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, 
                 for v in self.next..end {
                     let around = self.topology.neighbours(v as u32);
                     let mean = around.iter().map(|&n| self.bands[n as usize]).sum::<f32>() / around.len().max(1) as f32;
-                    self.widths[v] = (self.bands[v] + if around.is_empty() { self.bands[v] } else { mean }) / 2.0;
+                    self.evened[v] = (self.bands[v] + if around.is_empty() { self.bands[v] } else { mean }) / 2.0;
                 }
             }
         }
@@ -103,17 +81,9 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, 
         }
         self.next = 0;
         self.step = match self.step {
-            Step::Medians(pass) if pass + 1 < MEDIANS => {
-                self.radii = std::mem::take(&mut self.widths);
-                self.widths.reserve_exact(count);
-                Step::Medians(pass + 1)
-            }
-            Step::Medians(_) => Step::Sweep(0),
-            Step::Sweep(sweep) if std::mem::take(&mut self.has_changed) && sweep + 1 < SWEEPS => Step::Sweep(sweep + 1),
-            Step::Sweep(_) => Step::Bands,
             Step::Bands => Step::Even(0),
             Step::Even(pass) => {
-                std::mem::swap(&mut self.bands, &mut self.widths);
+                std::mem::swap(&mut self.bands, &mut self.evened);
                 if pass + 1 == EVEN {
                     return true;
                 }
@@ -121,17 +91,6 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> LeastPassBands<M, 
             }
         };
         false
-    }
-
-    /// Lowers the width at `v` to what its neighbours leave it.
-    fn relax(&mut self, v: usize) {
-        let p = self.mesh.positions[v];
-        let reach = |&n: &u32| self.widths[n as usize] + SLOPE * p.distance(self.at(n));
-        let least = self.topology.neighbours(v as u32).iter().map(reach).fold(f32::INFINITY, f32::min);
-        if least < self.widths[v] {
-            self.widths[v] = least;
-            self.has_changed = true;
-        }
     }
 
     /// The least pass band at `v`.
@@ -153,12 +112,10 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for LeastPass
     fn advance(&mut self, budget: Budget) -> Progress<Vec<f32>> {
         while !self.advance_some() {
             if budget.is_spent() {
-                let step = match self.step {
-                    Step::Medians(pass) => 0.2 * pass as f32 / MEDIANS as f32,
-                    Step::Sweep(sweep) => 0.2 + 0.6 * sweep as f32 / SWEEPS as f32,
-                    Step::Bands | Step::Even(_) => 0.9,
-                };
-                return Progress::Working(step);
+                return Progress::Working(match self.step {
+                    Step::Bands => 0.0,
+                    Step::Even(pass) => (1 + pass) as f32 / (1 + EVEN) as f32,
+                });
             }
         }
         Progress::Done(std::mem::take(&mut self.bands))
@@ -169,14 +126,13 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for LeastPass
 mod tests {
     use super::*;
     use crate::mesh::shapes::{square, tube};
-    use crate::mesh::{SurfaceIndex, inner_radii};
     use crate::pipeline::response::{edge_length, eigenvalue};
+    use crate::pipeline::widths::WidthTask;
 
     fn bands(mesh: &TriMesh) -> Vec<f32> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-        let radii = inner_radii(mesh, &topology, &index).radii;
-        LeastPassBands::new(mesh, &topology, radii).finish()
+        let widths = WidthTask::new(mesh, &topology).finish();
+        LeastPassBands::new(mesh, &topology, widths.into()).finish()
     }
 
     #[test]

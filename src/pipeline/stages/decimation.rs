@@ -5,30 +5,79 @@ use std::sync::Arc;
 use super::Run;
 use crate::mesh::{Topology, TriMesh};
 use crate::pipeline::decimation::DecimationTask;
-use crate::pipeline::results::Levels;
-use crate::pipeline::settings::SettingsError;
+use crate::pipeline::results::{Levels, Smoothed, Surface};
+use crate::pipeline::settings::{Decimation, SettingsError};
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
+use crate::pipeline::widths::WidthTask;
 
-pub(super) struct Decimating(DecimationTask<Arc<TriMesh>, Arc<Topology>>);
+pub(super) struct Decimating {
+    kept: Arc<Surface>,
+    smoothed: Arc<Smoothed>,
+    settings: Decimation,
+    step: Step,
+    /// The part of the work that is done when the collapses begin.
+    before: f32,
+}
+
+enum Step {
+    /// How wide the vessels are, where smoothing has not found it.
+    Widths(Box<WidthTask<Arc<TriMesh>, Arc<Topology>>>),
+    Collapses(Box<DecimationTask<Arc<TriMesh>, Arc<Topology>>>),
+}
+
+/// The part of the work that it is to find the widths.
+const WIDTHS: f32 = 0.5;
 
 impl Decimating {
     pub(super) fn start(store: &Store) -> Option<Self> {
-        let (kept, smoothed) = (store.now.kept.as_ref()?, store.now.smoothed.as_ref()?);
-        let settings = &store.now.settings.decimation;
-        Some(Self(DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), settings)))
+        let (kept, smoothed) = (store.now.kept.clone()?, store.now.smoothed.clone()?);
+        let settings = store.now.settings.decimation;
+        // The widths are those of the kept surface, whoever finds them: the levels are the same.
+        let step = match store.known_widths() {
+            None if settings.spare_thin => {
+                let task = WidthTask::new(kept.mesh.clone(), kept.topology.clone());
+                Step::Widths(Box::new(task.with_index(store.now.indices.kept.clone())))
+            }
+            known => collapses(&kept, &smoothed, &settings, known.filter(|_| settings.spare_thin).cloned()),
+        };
+        let before = if matches!(step, Step::Widths(_)) { WIDTHS } else { 0.0 };
+        Some(Self { kept, smoothed, settings, step, before })
     }
+}
+
+fn collapses(kept: &Surface, smoothed: &Smoothed, settings: &Decimation, widths: Option<Arc<[f32]>>) -> Step {
+    let task = DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), settings);
+    Step::Collapses(Box::new(match widths {
+        Some(widths) => task.with_widths(widths),
+        None => task,
+    }))
 }
 
 impl Run for Decimating {
     fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        Ok(match self.0.advance(budget) {
-            Progress::Working(fraction) => Progress::Working(fraction),
-            Progress::Done(progressive) => {
-                let finest = Arc::new(progressive.finest());
-                store.now.levels = Some(Levels { progressive: Arc::new(progressive), finest });
-                Progress::Done(())
+        loop {
+            match &mut self.step {
+                Step::Widths(task) => match task.advance(budget) {
+                    Progress::Working(fraction) => return Ok(Progress::Working(self.before * fraction)),
+                    Progress::Done(widths) => {
+                        store.now.indices.kept = task.index().cloned();
+                        let widths: Arc<[f32]> = widths.into();
+                        store.widths = Some((self.kept.clone(), widths.clone()));
+                        self.step = collapses(&self.kept, &self.smoothed, &self.settings, Some(widths));
+                    }
+                },
+                Step::Collapses(task) => match task.advance(budget) {
+                    Progress::Working(fraction) => {
+                        return Ok(Progress::Working(self.before + (1.0 - self.before) * fraction));
+                    }
+                    Progress::Done(progressive) => {
+                        let finest = Arc::new(progressive.finest());
+                        store.now.levels = Some(Levels { progressive: Arc::new(progressive), finest });
+                        return Ok(Progress::Done(()));
+                    }
+                },
             }
-        })
+        }
     }
 }

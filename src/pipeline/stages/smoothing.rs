@@ -10,12 +10,12 @@ use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, edge_length};
 use crate::pipeline::results::{Adapted, Part, Smoothed, Surface};
 use crate::pipeline::settings::{SettingsError, Smoothing};
-use crate::pipeline::shape::ShapeTask;
 use crate::pipeline::smoothing::{
     Before, GuardTask, Guarded, LeastPassBands, SmoothingTask, TERMS_BYTES, VOLUME_TOLERANCE, VolumeTask, kept_terms,
 };
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
+use crate::pipeline::widths::WidthTask;
 
 pub(super) struct Filtering {
     kept: Arc<Surface>,
@@ -28,7 +28,7 @@ enum Step {
     /// No iterations.
     Skipped,
     /// How wide the vessels are, and by what each may be smoothed.
-    Calibre(Box<ShapeTask<Arc<TriMesh>, Arc<Topology>>>),
+    Calibre(Box<WidthTask<Arc<TriMesh>, Arc<Topology>>>),
     Bands(Box<LeastPassBands<Arc<TriMesh>, Arc<Topology>>>),
     Filter(Box<SmoothingTask<Arc<Topology>>>),
     Volume(Box<VolumeTask>),
@@ -50,17 +50,22 @@ impl Filtering {
             let known = store.bands.as_ref().filter(|(of, _)| Arc::ptr_eq(of, kept));
             stage.step = match known {
                 Some((_, bands)) if settings.adapt => stage.filter_step(store, Some(bands)),
-                None if settings.adapt => {
-                    let task = ShapeTask::radii_only(kept.mesh.clone(), kept.topology.clone());
-                    Step::Calibre(Box::new(match &store.now.indices.kept {
-                        Some(index) => task.with_index(kept.mesh.clone(), index.clone()),
-                        None => task,
-                    }))
-                }
+                None if settings.adapt => match store.known_widths() {
+                    Some(widths) => stage.bands_step(widths.clone()),
+                    None => {
+                        let task = WidthTask::new(kept.mesh.clone(), kept.topology.clone());
+                        Step::Calibre(Box::new(task.with_index(store.now.indices.kept.clone())))
+                    }
+                },
                 _ => stage.filter_step(store, None),
             };
         }
         Some(stage)
+    }
+
+    fn bands_step(&self, widths: Arc<[f32]>) -> Step {
+        let Surface { mesh, topology, .. } = &*self.kept;
+        Step::Bands(Box::new(LeastPassBands::new(mesh.clone(), topology.clone(), widths)))
     }
 
     /// The filter, with a pass band of its own at each vertex where there are `bands`.
@@ -184,11 +189,11 @@ impl Run for Filtering {
                         self.step = Step::Calibre(task);
                         return Ok(Progress::Working(0.5 * fraction * share));
                     }
-                    Progress::Done(measured) => {
+                    Progress::Done(widths) => {
                         store.now.indices.kept = task.index().cloned();
-                        let Surface { mesh, topology, .. } = &*self.kept;
-                        let bands = LeastPassBands::new(mesh.clone(), topology.clone(), measured.balls.radii);
-                        Step::Bands(Box::new(bands))
+                        let widths: Arc<[f32]> = widths.into();
+                        store.widths = Some((self.kept.clone(), widths.clone()));
+                        self.bands_step(widths)
                     }
                 },
                 Step::Bands(mut task) => match task.advance(budget) {

@@ -284,6 +284,18 @@ fn the_volume_is_held_when_the_box_is_ticked() {
 }
 
 #[test]
+fn thin_vessels_are_spared_when_the_box_is_ticked() {
+    let mut harness = open();
+    let before = harness.state().state().document.as_ref().unwrap().levels.clone().unwrap().1;
+    harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").click();
+    settle(&mut harness);
+    let document = harness.state().state().document.as_ref().unwrap();
+    assert!(document.measured.as_ref().unwrap().report.settings.decimation.spare_thin);
+    assert!(document.levels.as_ref().unwrap().1 != before);
+    assert!((7_429..=7_430).contains(&shown(&harness)));
+}
+
+#[test]
 fn the_feature_angle_is_set() {
     let mut harness = open();
     type_into(&mut harness, "Feature angle value", "15");
