@@ -12,8 +12,7 @@ use lumen::mesh::TriMesh;
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Decimation, Method, Settings, Target};
-use lumen::task::Task;
-use lumen::vessel::certificate::{TOLERANCE_PERCENT, Verdict};
+use lumen::vessel::certificate::Verdict;
 
 use crate::long::is_long;
 
@@ -56,7 +55,7 @@ pub(crate) fn trials(data: &Path) -> Vec<Trial> {
 
 /// Prints a row for each method and order, and checks that the counts are exact and nothing new crosses.
 fn check(name: &str, mesh: TriMesh) -> Result<(), Failed> {
-    let mut pipeline = Pipeline::new(Arc::new(mesh), Settings::default()).with_safe(TOLERANCE_PERCENT);
+    let mut pipeline = Pipeline::new(Arc::new(mesh), Settings::default()).with_safe();
     for (method, spare_thin) in Method::ALL.into_iter().flat_map(|method| [(method, false), (method, true)]) {
         let decimation = Decimation { method, spare_thin, ..Decimation::default() };
         let mut columns = vec![Vec::new(); 5];
@@ -75,10 +74,11 @@ fn check(name: &str, mesh: TriMesh) -> Result<(), Failed> {
             if after > before {
                 return Err(format!("{method:?}, {spare_thin} at {rate}: {after} cross, {before} before").into());
             }
-            let Ok(certificate) = pipeline.certificate(TOLERANCE_PERCENT).ok_or("no level")?.finish() else {
+            let Ok(certified) = pipeline.certified().ok_or("no certificate")? else {
                 println!("no tree in {name}");
                 return Ok(());
             };
+            let certificate = &certified.certificate;
             // What smoothing has changed does not tell of the reduction.
             let branches = || certificate.branches.iter().filter(|branch| branch.verdict_smoothed == Verdict::Kept);
             measured = branches().count();
