@@ -196,19 +196,20 @@ def row(name, make):
     crossed, rows = crossing(*smoothed).sum(), []
     for surface in [at_safe, above]:
         areas = cut_again(found, VtkCuts(*surface))
-        own, all_of_them = (worst(found, areas, first.edge, changed, where) for where in ["lumen", "counts"])
-        rows.append((own, all_of_them, int(crossing(*surface).sum() - crossed)))
+        both = [worst(found, areas, first.edge, changed, where) for where in ["lumen", "counts"]]
+        rows.append((*both, int(crossing(*surface).sum() - crossed)))
     here, there = rows
     own = [b["reduced"]["largest_change"]["percent"] for b in report["branches"]
            if b["number"] not in changed and b["reduced"]["largest_change"]]
     judged = sum(int(one["counts"].sum()) for branch, one in found.items() if branch not in changed)
     told = lambda found: f"{found[0]:+.2f}" + (f", {found[1]} no longer close" if found[1] else "")  # noqa: E731
     over, beside = (abs(found[0]) - TOLERANCE for found in here[:2])
-    says = "holds" if over <= 0 else f"**over by {over:.3f}**"
+    says = "not audited: vessels of less than two edges" if not judged else "holds" if over <= 0 else f"**over by {over:.3f}**"
     says += f"; {beside:.2f} over where Lumen does not look" if beside > max(over, 0) else ""
     cells = [f"{name}" + (f" ({len(changed)} of {len(safe['branches'])} branches left out)" if changed else ""),
              f"{safe['percent']:.1f}", f"{judged}", f"{max(own, key=abs):+.2f}" if own else "–",
-             told(here[0]), told(here[1]), told(there[0]), told(there[1]), f"{here[2]:+d}, {there[2]:+d}", f"{100 * (volume(*at_safe) / volume(*smoothed) - 1):+.2f}",
+             told(here[0]), told(here[1]), told(there[0]), told(there[1]),
+             f"{here[2]:+d}, {there[2]:+d}", f"{100 * (volume(*at_safe) / volume(*smoothed) - 1):+.2f}",
              (safe["stopped_by"] or "nothing").split(", at (")[0], says]
     print(cells, here, there, file=sys.stderr, flush=True)
     return "| " + " | ".join(cells) + " |"
