@@ -287,6 +287,8 @@ fn the_volume_is_held_when_the_box_is_ticked() {
 fn thin_vessels_are_spared_when_the_box_is_ticked() {
     let mut harness = open();
     let before = harness.state().state().document.as_ref().unwrap().levels.clone().unwrap().1;
+    harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").scroll_to_me();
+    harness.run_steps(12);
     harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").click();
     settle(&mut harness);
     let document = harness.state().state().document.as_ref().unwrap();
