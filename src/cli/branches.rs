@@ -6,7 +6,7 @@ use tabled::settings::{Alignment, Style};
 
 use super::row;
 use crate::pipeline::report::Report;
-use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, Verdict};
+use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, Verdict, measured_percent};
 
 /// Prints the table.
 pub(super) fn print(report: &Report) {
@@ -22,7 +22,9 @@ pub(super) fn print(report: &Report) {
     table.with(Style::blank()).modify(Columns::new(1..NUMBERS), Alignment::right());
     println!("\n{table}");
     let verdict = calibre.verdict.map_or("", word);
-    row("calibre", format!("{verdict}, at a tolerance of {} %", calibre.tolerance_percent));
+    let part = measured_percent(report.branches.as_deref().unwrap_or_default()).unwrap_or(0.0);
+    let of = format!("over {part:.0} % of the vessels' length");
+    row("calibre", format!("{verdict}, at a tolerance of {} %, {of}", calibre.tolerance_percent));
 }
 
 const HEADS: [&str; 10] = [

@@ -7,8 +7,9 @@
 //! r(s) = sqrt( mean of A over s - r .. s + r / pi )
 //! ```
 //!
-//! with the mean weighted by `1 - |s - t| / r`, and where there is more of the vessel on one side than on the other,
-//! the line of least squares in its place, so that a taper does not tell: the area of one cross-section of a
+//! with the mean weighted by `1 - |s - t| / r`. The mean is over the same stretch on all surfaces, so that a taper does not
+//! tell in the change from one to another; in the radius that is shown, where there is more of the vessel on one side than
+//! on the other, the line of least squares stands in its place. The area of one cross-section of a
 //! stair-stepped surface jumps by whole rows of voxels as the plane goes on, that of a stretch as long as the vessel is
 //! wide does not, and to the first order steps in and out of the wall leave it as it is. The inscribed radius, which
 //! stands beside it, does not have that property: steps that stand in make the ball smaller by a part of a voxel, and
@@ -129,6 +130,10 @@ pub struct OnSurface {
     pub radii_mm: Vec<Option<f32>>,
     /// Radius of the largest ball inside at each station, in mm; null where the centreline is not inside.
     pub inscribed_radii_mm: Vec<Option<f32>>,
+    /// Change of the radius from the opened surface at each station, in percent; null where the station does not count, and
+    /// for the opened surface.
+    #[serde(default)]
+    pub changes_percent: Vec<Option<f32>>,
 }
 
 /// A branch of the vessel tree, on all three surfaces.
@@ -203,7 +208,7 @@ impl Certificate {
                 let surfaces = [&branch.opened, &branch.smoothed, &branch.reduced];
                 let areas = surfaces.map(|of| of.areas_mm2[i]);
                 let radii = surfaces.map(|of| of.radii_mm[i]);
-                let changes = [&branch.smoothed, &branch.reduced].map(|of| branch.change_percent(of, i));
+                let changes = [&branch.smoothed, &branch.reduced].map(|of| of.changes_percent[i]);
                 for value in areas.into_iter().chain(radii).chain(changes) {
                     let _ = match value {
                         Some(value) => write!(text, ",{value:.5}"),
@@ -217,6 +222,13 @@ impl Certificate {
     }
 }
 
+/// The part of these vessels that is measured, by stations, in percent; `None` without a station.
+pub fn measured_percent(branches: &[BranchCalibre]) -> Option<f64> {
+    let counted: usize = branches.iter().map(|branch| branch.stations_counted).sum();
+    let all: usize = branches.iter().map(|branch| branch.standings.len()).sum();
+    (all > 0).then(|| 100.0 * counted as f64 / all as f64)
+}
+
 impl Standing {
     /// As tables have it.
     pub fn label(self) -> &'static str {
@@ -227,15 +239,6 @@ impl Standing {
             Self::Thin => "thin",
             Self::NotClosed => "not_closed",
         }
-    }
-}
-
-impl BranchCalibre {
-    /// Change of the radius at station `i` from the opened surface to `of`, one of the branch's others, in percent; `None`
-    /// where the station does not count.
-    pub fn change_percent(&self, of: &OnSurface, i: usize) -> Option<f32> {
-        let before = self.opened.radii_mm[i].filter(|_| self.standings[i] == Standing::Counts)?;
-        Some(100.0 * (of.radii_mm[i]? / before.max(f32::MIN_POSITIVE) - 1.0))
     }
 }
 
@@ -528,25 +531,31 @@ fn branch_calibre(
     let is_vessel = |standing: &Standing| matches!(standing, Standing::Counts | Standing::Thin);
     let has_vessel = standings.iter().any(is_vessel);
     let shown: Vec<usize> = (0..stations.len()).filter(|&i| !has_vessel || is_vessel(&standings[i])).collect();
-    let radii = calibres.map(|of| radii(stations, of, calibres[0], &standings, edge_mm));
+    let stretches = calibres.map(|of| stretches(stations, of, calibres[0], &standings, edge_mm));
+    let radii = |surface: usize| stretches[surface].iter().map(|stretch| stretch.map(|stretch| stretch.radius));
     let of = |surface: usize| {
-        let counted = (0..stations.len()).filter(|&i| standings[i] == Standing::Counts);
-        let change = |i: usize| Some((100.0 * (radii[surface][i]? / radii[0][i]?.max(f64::MIN_POSITIVE) - 1.0), i));
-        let most =
-            counted.filter_map(change).reduce(|most, next| if next.0.abs() > most.0.abs() { next } else { most });
-        let largest_change = most.filter(|_| surface > 0).map(|(percent, i)| Change {
+        let change = |i: usize| {
+            let is_counted = surface > 0 && standings[i] == Standing::Counts;
+            let [before, after] = [0, surface].map(|surface| stretches[surface][i].filter(|_| is_counted));
+            Some(100.0 * (after?.mean / before?.mean.max(f64::MIN_POSITIVE) - 1.0))
+        };
+        let changes: Vec<Option<f64>> = (0..stations.len()).map(change).collect();
+        let all = changes.iter().enumerate().filter_map(|(i, change)| Some(((*change)?, i)));
+        let most = all.reduce(|most, next| if next.0.abs() > most.0.abs() { next } else { most });
+        let largest_change = most.map(|(percent, i)| Change {
             percent,
             at_mm: stations[i].at.as_vec3().to_array(),
             abscissa_mm: stations[i].abscissa_mm,
         });
         let single = |value: Option<f64>| value.map(|value| value as f32);
         OnSurface {
-            radius_mm: spread(shown.iter().filter_map(|&i| radii[surface][i])),
+            radius_mm: spread(shown.iter().filter_map(|&i| Some(stretches[surface][i]?.radius))),
             inscribed_radius_mm: spread(shown.iter().filter_map(|&i| calibres[surface][i].inscribed_mm)),
             largest_change,
             areas_mm2: calibres[surface].iter().map(|found| single(found.area_mm2)).collect(),
-            radii_mm: radii[surface].iter().map(|&radius| single(radius)).collect(),
+            radii_mm: radii(surface).map(single).collect(),
             inscribed_radii_mm: calibres[surface].iter().map(|found| single(found.inscribed_mm)).collect(),
+            changes_percent: changes.into_iter().map(single).collect(),
         }
     };
     let [opened, smoothed, reduced] = [0, 1, 2].map(of);
@@ -575,20 +584,29 @@ fn branch_calibre(
     }
 }
 
-/// The radius at each station, over a stretch as long as the vessel is wide: of stations of its kind (one vessel, or not),
-/// and where all surfaces have an area, so that the surfaces are compared over the same.
-fn radii(
+/// What a vessel has over a stretch around a station.
+#[derive(Clone, Copy)]
+struct Stretch {
+    /// Radius of the circle of the area at the station, by the line of least squares, in mm.
+    radius: f64,
+    /// Of the circle of the mean area, in mm.
+    mean: f64,
+}
+
+/// What a branch has around each station on one of the surfaces, over stations of one vessel, where all surfaces have an
+/// area: so all are judged over the same. At the station alone where it is not one vessel.
+fn stretches(
     stations: &[Station],
     of: &[Calibre],
     opened: &[Calibre],
     standings: &[Standing],
     edge_mm: f64,
-) -> Vec<Option<f64>> {
+) -> Vec<Option<Stretch>> {
     let is_vessel = |i: usize| matches!(standings[i], Standing::Counts | Standing::Thin);
     let one = |i: usize| {
         let own = of[i].area_mm2?;
         if !is_vessel(i) {
-            return Some(circle(own));
+            return Some(Stretch { radius: circle(own), mean: circle(own) });
         }
         let reach = circle(opened[i].area_mm2?).max(WINDOW_EDGES * edge_mm);
         let (mut line, mut as_opened) = (Line::default(), Line::default());
@@ -615,7 +633,8 @@ fn radii(
         }
         // A line that comes down to nothing says nothing: then the mean does, on all surfaces alike.
         let is_line = as_opened.at_origin() >= LEAST_OF_MEAN * as_opened.mean();
-        Some(circle(if is_line { line.at_origin().max(0.0) } else { line.mean() }))
+        let area = if is_line { line.at_origin().max(0.0) } else { line.mean() };
+        Some(Stretch { radius: circle(area), mean: circle(line.mean()) })
     };
     (0..stations.len()).map(one).collect()
 }

@@ -147,7 +147,7 @@ fn radius(ui: &mut Ui, branch: &BranchCalibre, found: &Certificate, asked: &mut 
 /// A look at station `i` of a branch, if there is such a station.
 fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
     let (at_mm, abscissa_mm) = (*branch.at_mm.get(i)?, f64::from(branch.abscissas_mm[i]));
-    let percent = branch.change_percent(&branch.reduced, i).map(f64::from);
+    let percent = branch.reduced.changes_percent.get(i).copied().flatten().map(f64::from);
     Some(match percent {
         Some(percent) => go_to(branch, &Change { percent, at_mm, abscissa_mm }),
         None => Action::GoTo {

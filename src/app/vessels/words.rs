@@ -2,7 +2,7 @@
 
 use crate::app::state::State;
 use crate::pipeline::safe::Safe;
-use crate::vessel::certificate::{BranchCalibre, Certificate, Change, OnSurface, Standing, Verdict};
+use crate::vessel::certificate::{BranchCalibre, Certificate, Change, OnSurface, Standing, Verdict, measured_percent};
 
 /// Heads of the columns, and what they say.
 pub(super) const COLUMNS: [(&str, &str); 8] = [
@@ -44,6 +44,9 @@ pub(in crate::app) fn verdict(state: &State) -> String {
     }
 }
 
+/// Below this part of all vessels, in percent, a verdict is said to rest on little.
+const LITTLE: f64 = 25.0;
+
 /// What became of all of them, in a sentence or two.
 pub(super) fn sentence(found: &Result<Certificate, String>) -> String {
     let found = match found {
@@ -69,6 +72,11 @@ pub(super) fn sentence(found: &Result<Certificate, String>) -> String {
         ),
         (_, _, None) => format!("{changed} of {} vessels change by more than {tolerance} %.", kept + changed),
     };
+    if let Some(percent) = measured_percent(&found.branches).filter(|&part| part < LITTLE && kept + changed > 0) {
+        text += &format!(
+            " That is said of {percent:.0} % of their length: the rest lies at ends or forks or is too coarse."
+        );
+    }
     let by_smoothing = of(Verdict::Changed).filter(|branch| branch.verdict_smoothed == Verdict::Changed).count();
     if by_smoothing > 0 {
         text += &format!(" Smoothing itself changes {by_smoothing} of them so much.");
@@ -192,6 +200,16 @@ mod tests {
         );
         assert_eq!(sentence(&certificate(&[None])), "No vessel can be measured.");
         assert!(sentence(&Err("the surface has no inside".to_owned())).ends_with("the surface has no inside."));
+    }
+
+    #[test]
+    fn a_verdict_that_rests_on_little_says_so() {
+        let mut found = certificate(&[Some(0.5)]).unwrap();
+        found.branches[0].standings = vec![Standing::Thin; 10];
+        found.branches[0].stations_counted = 2;
+        assert!(sentence(&Ok(found.clone())).contains("That is said of 20 % of their length"));
+        found.branches[0].stations_counted = 3;
+        assert_eq!(sentence(&Ok(found)), "The vessel keeps its calibre to 2 %.");
     }
 
     #[test]

@@ -154,7 +154,7 @@ impl Colouring {
     fn change_at(&mut self, p: Vec3, basis: &Basis, certificate: &Certificate) -> Option<f32> {
         let (branch, station, radii) = basis.beside(p.as_dvec3(), &mut self.last)?;
         let branch = certificate.branches.get(branch).filter(|_| radii <= BESIDE)?;
-        branch.change_percent(&branch.reduced, station)
+        branch.reduced.changes_percent[station]
     }
 
     fn fraction(&self, reduced: &Reduced) -> f32 {
