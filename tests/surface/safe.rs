@@ -51,8 +51,8 @@ fn worst(before: &TriMesh, after: &TriMesh, heights: std::ops::Range<u32>, reach
     heights.map(change).fold(0.0, f64::max)
 }
 
-fn found(mesh: &Arc<TriMesh>, settings: Settings, tolerance: f64) -> (Pipeline, Safe) {
-    let settings = Settings { tolerance_percent: tolerance, ..settings };
+fn found(mesh: &Arc<TriMesh>, settings: &Settings, tolerance: f64) -> (Pipeline, Safe) {
+    let settings = Settings { tolerance_percent: tolerance, ..settings.clone() };
     let mut pipeline = Pipeline::new(mesh.clone(), settings).with_samples(200).with_safe();
     pipeline.finish().unwrap();
     let safe = (**pipeline.safe().unwrap()).clone();
@@ -71,7 +71,7 @@ fn the_marked_rate_keeps_the_calibre_and_the_next_does_not() {
     for (method, tolerance) in [(Method::Schroeder, 2.0), (Method::Schroeder, 5.0), (Method::Quadric, 2.0)] {
         let mut settings = Settings::default();
         settings.decimation.method = method;
-        let (mut pipeline, safe) = found(&mesh, settings, tolerance);
+        let (mut pipeline, safe) = found(&mesh, &settings, tolerance);
         let rate = (safe.percent.unwrap() * 10.0).round() as u32;
         assert!(rate > 500 && safe.branches.len() == 1 && safe.refused.is_none(), "{safe:?}");
         let [here, next] = [rate, rate + 1].map(|rate| {
@@ -90,7 +90,7 @@ fn a_larger_tolerance_is_never_safe_for_less() {
     let narrow = |z: f64| if (25.0..35.0).contains(&z) { 1.6 } else { 4.0 };
     let mesh = Arc::new(turned(36, 60.0, 0.7, 0.05, narrow));
     let percents = [0.5, 1.0, 2.0, 5.0, 20.0].map(|tolerance| {
-        let (_, safe) = found(&mesh, Settings::default(), tolerance);
+        let (_, safe) = found(&mesh, &Settings::default(), tolerance);
         safe.percent.unwrap_or(-1.0)
     });
     assert!(percents.is_sorted() && percents[4] > 90.0, "{percents:?}");
@@ -127,7 +127,7 @@ fn what_is_called_safe_can_be_reached() {
     let mesh = Arc::new(flanged(60));
     let settings = Settings { smoothing: Smoothing::NONE, ..Settings::default() };
     // More than the coarsest level of what is left changes it by.
-    let (mut pipeline, safe) = found(&mesh, settings, 50.0);
+    let (mut pipeline, safe) = found(&mesh, &settings, 50.0);
     let percent = safe.percent.unwrap_or_else(|| panic!("{safe:?}"));
     assert!(percent > 90.0 && percent < 99.0 && safe.stopped_by.is_none(), "{safe:?}");
     let after = level(&mut pipeline, (percent * 10.0).round() as u32);
@@ -143,10 +143,10 @@ fn branches_that_smoothing_changes_are_told_and_do_not_count() {
     // The paper's filter draws a vessel of 1.5 mm on edges of 0.7 mm shut.
     let mesh = Arc::new(tube(1.5, 40.0, 0.7, 0.05));
     let settings = Settings { smoothing: Smoothing::PAPER, ..Settings::default() };
-    let (_, safe) = found(&mesh, settings, 2.0);
+    let (_, safe) = found(&mesh, &settings, 2.0);
     assert!(safe.branches.iter().all(|branch| branch.changed_by_smoothing), "{safe:?}");
     assert!(safe.percent.is_none() && safe.refused.is_some_and(|why| why.contains("smoothing itself")));
-    let (_, safe) = found(&mesh, Settings::default(), 2.0);
+    let (_, safe) = found(&mesh, &Settings::default(), 2.0);
     assert!(safe.percent.is_some_and(|percent| percent > 20.0), "{safe:?}");
     assert!(safe.branches.iter().all(|branch| !branch.changed_by_smoothing), "{safe:?}");
 }
@@ -156,6 +156,6 @@ fn what_has_no_inside_has_no_safe_rate_and_says_why() {
     let positions = (0..400u16).map(|i| Vec3::new(f32::from(i % 20), f32::from(i / 20), 0.0)).collect();
     let square = |i: u32| [[i, i + 1, i + 21], [i, i + 21, i + 20]];
     let triangles = (0..380u32).filter(|i| i % 20 < 19).flat_map(square).collect();
-    let (_, safe) = found(&Arc::new(TriMesh { positions, triangles }), Settings::default(), 2.0);
+    let (_, safe) = found(&Arc::new(TriMesh { positions, triangles }), &Settings::default(), 2.0);
     assert!(safe.percent.is_none() && safe.refused.is_some_and(|why| why.contains("no inside")));
 }

@@ -3,7 +3,7 @@
 use crate::vessel::CentrelineFormat;
 
 /// What can be asked of the vessels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
     /// Show or hide them.
     Toggle,

@@ -65,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) 
         .set_margin_fraction(Vec2::ZERO)
         .custom_x_axes(vec![x_axis])
         .custom_y_axes(vec![y_axis])
-        .label_formatter(|hover| hover_text(hover));
+        .label_formatter(hover_text);
     let shown = plot.show(ui, |plot| {
         plot.set_plot_bounds_x(0.0..=branch.length_mm.max(1e-3));
         plot.set_plot_bounds_y(low..=high);
