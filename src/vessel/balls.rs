@@ -21,6 +21,8 @@ const OPEN: f32 = 0.3;
 const EXPLAINED: f32 = 1.3;
 /// What has to fit through between two linked balls, as a part of the smaller radius.
 const PASSAGE: f32 = 0.5;
+/// The farthest apart that two of which so much fits through can be, in radii of the larger.
+const FARTHEST: f32 = 1.9;
 /// A ball found from others is not smaller than this part of the one that was begun with.
 const SMALLER: f32 = 0.5;
 /// Nor does one begin with a ball whose radius is below this part of a mean edge.
@@ -428,7 +430,38 @@ impl Filling {
         ball
     }
 
+    /// Links the balls of different groups that overlap: what lies in both is in one lumen. In a wide straight vessel every
+    /// ball that is looked for may move back to the one it was looked for from, and two chains come to stand side by side.
+    fn join_groups(&mut self) {
+        let groups: Vec<u32> = (0..self.found.balls.len() as u32).map(|ball| self.root(ball)).collect();
+        if groups.iter().all(|&group| group == 0) {
+            return;
+        }
+        let mut pairs = Vec::new();
+        for (number, ball) in self.found.balls.iter().enumerate() {
+            // From the larger of two.
+            for cell in self.grid.around(ball.centre, FARTHEST * ball.radius) {
+                let mut at = self.first[cell];
+                while at != NONE {
+                    let other = &self.found.balls[at as usize];
+                    let is_larger = (ball.radius, number) > (other.radius, at as usize);
+                    if is_larger && groups[number] != groups[at as usize] {
+                        let clear = ball.passage(other);
+                        if clear >= PASSAGE * other.radius {
+                            pairs.push((number as u32, at));
+                        }
+                    }
+                    at = self.next[at as usize];
+                }
+            }
+        }
+        pairs.into_iter().for_each(|(a, b)| self.link(a, b));
+    }
+
     pub(super) fn finished(mut self) -> Balls {
+        if !self.found.is_sheet {
+            self.join_groups();
+        }
         for ball in 0..self.found.balls.len() as u32 {
             self.found.group[ball as usize] = self.root(ball);
         }
@@ -454,4 +487,51 @@ fn directions() -> [Vec3; 12] {
         *slot = (x * a + y * b + z * c).normalize();
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::mesh::shapes::tube;
+    use crate::mesh::{SurfaceIndex, Topology};
+    use crate::vessel::paths::Graph;
+
+    #[test]
+    fn balls_that_overlap_are_in_one_group_and_others_are_not() {
+        let mesh = tube(48, 120, 60.0, |_| 5.0);
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let index = Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles));
+        let space = Space::new(&mesh, &topology, index);
+        let on = Surface { space: &space, positions: &mesh.positions };
+        let mut filling = Filling::new(&mesh);
+        // 3 mm apart what fits through is 4.8 mm wide; 9.5 mm apart it is 1.6 mm, less than half a radius; then nothing.
+        for z in [15.0, 18.0, 27.5, 40.0] {
+            let (ball, foot) = space.ball(Vec3::Z * z, None).unwrap();
+            filling.add(on, ball, foot, false);
+        }
+        let found = filling.finished();
+        assert_eq!(found.links, [[0, 1]]);
+        assert!(
+            found.group[0] == found.group[1] && found.group[1] != found.group[2] && found.group[2] != found.group[3]
+        );
+    }
+
+    #[test]
+    fn a_chain_beside_another_is_no_vessel_of_its_own() {
+        // Two chains in a vessel of 5 mm, half a place apart, that are linked at one end only.
+        let along = |chain: u32| (0..12u32).map(move |i| (chain, i));
+        let ball = |(chain, i): (u32, u32)| Ball {
+            centre: Vec3::new(2.0 * i as f32 + chain as f32, 0.1 * chain as f32, 0.0),
+            radius: 5.0,
+        };
+        let balls: Vec<Ball> = along(0).chain(along(1)).map(ball).collect();
+        let steps = |first: u32| (first..first + 11).map(|i| [i, i + 1]);
+        let links: Vec<[u32; 2]> = steps(0).chain(steps(12)).chain([[0, 12]]).collect();
+        let (is_passing, group) = (vec![false; balls.len()], vec![0; balls.len()]);
+        let graph = Graph::new(Balls { balls, is_passing, links, group, ..Balls::default() });
+        let paths = graph.tree(0, |_| false);
+        assert_eq!(paths.len(), 1, "{paths:?}");
+    }
 }

@@ -130,7 +130,8 @@ impl Graph {
             .collect();
         order.sort_unstable_by(|&a, &b| ways.length[b as usize].total_cmp(&ways.length[a as usize]).then(a.cmp(&b)));
         let count = self.balls.len();
-        let mut covering = Covering { owner: vec![None; count], seen: vec![NONE; count] };
+        let along_x = AlongX::new(&self.balls);
+        let mut covering = Covering { owner: vec![None; count], seen: vec![NONE; count], along_x };
         let mut paths: Vec<Path> = Vec::new();
         for &end in &order {
             if covering.owner[end as usize].is_some() {
@@ -192,10 +193,11 @@ struct Covering {
     owner: Vec<Option<(usize, usize)>>,
     /// By which ball each was looked at last.
     seen: Vec<u32>,
+    along_x: AlongX,
 }
 
 impl Covering {
-    /// All balls whose middle lies in one of the path's balls, by links.
+    /// All balls of their group whose middle lies in one of the path's balls, or a little out of it, by links.
     fn add(&mut self, graph: &Graph, path: usize, balls: &[u32]) {
         let mut pending = Vec::new();
         for (place, &middle) in balls.iter().enumerate() {
@@ -213,6 +215,30 @@ impl Covering {
                     }
                 }
             }
+            // Two chains of balls may stand side by side in a vessel, and not be linked here.
+            for other in self.along_x.within(by.centre.x - by.radius, by.centre.x + by.radius) {
+                let is_inside = graph.balls[other as usize].centre.distance(by.centre) <= by.radius;
+                if is_inside && graph.group[other as usize] == graph.group[middle as usize] {
+                    self.owner[other as usize].get_or_insert((path, place));
+                }
+            }
         }
+    }
+}
+
+/// The balls in the order of their x.
+struct AlongX(Vec<(f32, u32)>);
+
+impl AlongX {
+    fn new(balls: &[Ball]) -> Self {
+        let mut order: Vec<(f32, u32)> = (0..).zip(balls).map(|(number, ball)| (ball.centre.x, number)).collect();
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Self(order)
+    }
+
+    /// The balls with their middle from `low` to `high`.
+    fn within(&self, low: f32, high: f32) -> impl Iterator<Item = u32> {
+        let [first, end] = [self.0.partition_point(|at| at.0 < low), self.0.partition_point(|at| at.0 <= high)];
+        self.0[first..end].iter().map(|at| at.1)
     }
 }
