@@ -5,6 +5,7 @@
 mod angles;
 mod boundary;
 mod bounds;
+mod branches;
 mod capsule;
 mod closest_point;
 mod components;
@@ -17,6 +18,7 @@ mod inner_ball;
 mod inside;
 mod measures;
 mod nearest;
+mod patch;
 mod planes;
 mod ray;
 mod refit;
@@ -48,8 +50,8 @@ pub use nearest::{Nearest, SurfaceIndex};
 pub(crate) use refit::Refitting;
 pub use roughness::{Roughness, roughness};
 pub(crate) use roughness::{bends, summarise_bends};
-pub(crate) use self_intersections::Crossing;
 pub use self_intersections::self_intersections;
+pub(crate) use self_intersections::{Crossing, Indexed};
 pub use shuffle::shuffled;
 pub use topology::{EdgeCounts, EdgeUse, Topology};
 

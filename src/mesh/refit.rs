@@ -91,7 +91,7 @@ mod tests {
     use super::*;
     use crate::mesh::self_intersections;
     use crate::mesh::shapes::{icosphere, joined};
-    use crate::mesh::{Crossing, distance_to_triangle};
+    use crate::mesh::{Crossing, Indexed, Topology, distance_to_triangle};
 
     #[test]
     fn it_answers_as_one_that_is_built_anew() {
@@ -112,7 +112,9 @@ mod tests {
             }
         };
         let crossing = Crossing::none(&refitted, &moved.triangles);
-        refitted.mark_crossings(&moved.triangles, 0..refitted.slots(), &crossing);
+        let topology = Topology::new(moved.positions.len(), &moved.triangles);
+        let surface = Indexed { mesh: &moved, topology: Some(&topology) };
+        refitted.mark_crossings(surface, 0..refitted.slots(), &crossing);
         let found: Vec<u32> = crossing.triangles().collect();
         assert!(found.len() > 20 && found == self_intersections(&moved), "{} triangles cross", found.len());
         for i in 0..200 {

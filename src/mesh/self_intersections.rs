@@ -1,6 +1,7 @@
 //! The triangles of a surface that run into others, found with the hierarchy of boxes of a [`SurfaceIndex`].
 //!
-//! What counts is said in `crossing.rs`; it is MeshLab's definition.
+//! What counts is said in `crossing.rs`; it is MeshLab's definition. Where the surface is smooth, hundreds of pairs are
+//! answered at once by a patch that cannot run into itself (`patch.rs`).
 
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::ops::Range;
@@ -9,20 +10,31 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use glam::{Vec3, Vec4};
 
 use super::TriMesh;
+use super::branches::{Branch, Branches};
 use super::crossing::{Face, cross};
 use super::hubs::{Hubs, half_way_box};
 use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
+use super::patch::Patch;
+use super::topology::Topology;
 use crate::parallel;
 
 /// Slots that are searched in one piece.
 const PIECE: usize = 1024;
+/// Triangles in a branch, at most: for so many a patch is sought at first, and for its parts where there is none.
+const GROUP: usize = 128;
+/// Fewer triangles are looked at one by one.
+const FEWEST: usize = 8;
 
 /// The triangles of `mesh` that run into another one, ascending. Triangles with a coordinate that is not finite run
 /// into nothing.
 pub fn self_intersections(mesh: &TriMesh) -> Vec<u32> {
     let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
     let crossing = Crossing::none(&index, &mesh.triangles);
-    parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(&mesh.triangles, slots, &crossing));
+    // What repeats a vertex has no adjacency.
+    let is_sound = mesh.triangles.iter().all(|[a, b, c]| a != b && b != c && c != a);
+    let topology = is_sound.then(|| Topology::new(mesh.positions.len(), &mesh.triangles));
+    let surface = Indexed { mesh, topology: topology.as_ref() };
+    parallel::map_ranges(index.slots(), PIECE, |slots| index.mark_crossings(surface, slots, &crossing));
     crossing.triangles().collect()
 }
 
@@ -33,6 +45,8 @@ pub(crate) struct Crossing {
     does: Vec<AtomicBool>,
     /// Whether a triangle was looked at: a sliver stands in several slots.
     was_asked: Vec<AtomicBool>,
+    /// The search goes from one to the next.
+    branches: Branches,
     hubs: Hubs,
 }
 
@@ -40,7 +54,8 @@ impl Crossing {
     /// None yet of the triangles of `index`.
     pub(crate) fn none(index: &SurfaceIndex, triangles: &[[u32; 3]]) -> Self {
         let none = || (0..triangles.len()).map(|_| AtomicBool::new(false)).collect();
-        Self { does: none(), was_asked: none(), hubs: Hubs::of(index, triangles) }
+        let branches = Branches::of(index, GROUP);
+        Self { does: none(), was_asked: none(), branches, hubs: Hubs::of(index, triangles) }
     }
 
     /// Those that do, ascending.
@@ -62,56 +77,137 @@ impl Crossing {
     }
 }
 
+/// The surface that an index is of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Indexed<'a> {
+    /// The surface.
+    pub(crate) mesh: &'a TriMesh,
+    /// Its adjacency: with it a smooth surface is searched several times faster.
+    pub(crate) topology: Option<&'a Topology>,
+}
+
+/// A search for crossings at work.
+struct Search<'a> {
+    index: &'a SurfaceIndex,
+    surface: Indexed<'a>,
+    crossing: &'a Crossing,
+    patch: Patch,
+    /// How many triangles were looked at.
+    looks: usize,
+}
+
+impl Search<'_> {
+    /// Marks what triangles of a branch run into, and them; they stand in the slots `new`, ascending: all at once where they
+    /// lie in a patch that cannot run into itself, else in its parts and at last one by one.
+    fn mark_branch(&mut self, branch: &Branch, new: &[u32]) {
+        let Indexed { mesh: TriMesh { positions, triangles }, topology } = self.surface;
+        let (index, crossing) = (self.index, self.crossing);
+        let leaves = new.iter().map(|&slot| &index.leaves[slot as usize]);
+        let (Some(topology), Some(node)) = (topology.filter(|_| new.len() >= FEWEST), branch.node) else {
+            leaves.for_each(|leaf| self.mark_one(leaf));
+            return;
+        };
+        self.looks += new.len();
+        if self.patch.certify(leaves.clone(), positions, triangles, topology) {
+            self.mark_away(leaves);
+            return;
+        }
+        for part in crossing.branches.below(index, node) {
+            let [start, end] = [part.slots.start, part.slots.end].map(|slot| new.partition_point(|&new| new < slot));
+            self.mark_branch(&part, &new[start..end]);
+        }
+    }
+
+    /// Marks what triangles run into outside of their patch.
+    fn mark_away<'b>(&mut self, leaves: impl Iterator<Item = &'b Leaf> + Clone) {
+        let corners = leaves.clone().flat_map(|leaf| leaf.corners);
+        let (min, max) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let Self { index, surface, crossing, patch, looks } = self;
+        index.overlapping(
+            min,
+            max,
+            |_, lanes| lanes,
+            |slots| {
+                for other in &index.leaves[slots] {
+                    *looks += 1;
+                    if patch.has(surface.mesh.triangles[other.triangle as usize]) || patch.is_away(other.corners) {
+                        continue;
+                    }
+                    for leaf in leaves.clone().filter(|leaf| other.triangle > leaf.triangle) {
+                        *looks += 1;
+                        mark_pair(surface.mesh, leaf, other, crossing);
+                    }
+                }
+            },
+        );
+    }
+
+    /// Marks what a triangle runs into, and itself.
+    fn mark_one(&mut self, leaf: &Leaf) {
+        let Self { index, surface, crossing, looks, .. } = self;
+        let triangles = &surface.mesh.triangles;
+        let [a, b, c] = leaf.corners;
+        let vertices = triangles[leaf.triangle as usize];
+        let mut look = |other: &Leaf| {
+            *looks += 1;
+            mark_pair(surface.mesh, leaf, other, crossing);
+        };
+        let hubs = &crossing.hubs;
+        let of_no_hub_of_ours = |node, lanes: u32| lanes & !hubs.shared(node, vertices);
+        index.overlapping(a.min(b).min(c), a.max(b).max(c), of_no_hub_of_ours, |slots| {
+            index.leaves[slots].iter().filter(|other| other.triangle > leaf.triangle).for_each(&mut look);
+        });
+        for corner in hubs.corners(vertices) {
+            let (min, max) = half_way_box(leaf.corners, corner);
+            // What lacks the hub was found above, or finds this one.
+            let is_of_it = |other: &&Leaf| triangles[other.triangle as usize].contains(&vertices[corner]);
+            index.overlapping(
+                min,
+                max,
+                |_, lanes| lanes,
+                |slots| {
+                    index.leaves[slots].iter().filter(is_of_it).for_each(&mut look);
+                },
+            );
+        }
+    }
+}
+
+/// Marks two triangles where they run into each other; their order does not matter.
+fn mark_pair(mesh: &TriMesh, leaf: &Leaf, other: &Leaf, crossing: &Crossing) {
+    if crossing.has(leaf.triangle) && crossing.has(other.triangle) {
+        return;
+    }
+    let [face, other_face] =
+        [leaf, other].map(|leaf| Face { vertices: mesh.triangles[leaf.triangle as usize], corners: leaf.corners });
+    let meets = match leaf.triangle.cmp(&other.triangle) {
+        Less => cross(&face, &other_face),
+        Equal => false,
+        Greater => cross(&other_face, &face),
+    };
+    if meets {
+        crossing.mark(leaf.triangle);
+        crossing.mark(other.triangle);
+    }
+}
+
 impl SurfaceIndex {
     /// The number of places that [`Self::mark_crossings`] can be asked about.
     pub(crate) fn slots(&self) -> usize {
         self.leaves.len()
     }
 
-    /// Marks the triangles that run into one another, where one of them is in `slots` and in no slot before;
-    /// returns how many pairs were looked at, about. `triangles` are those of the index.
-    pub(crate) fn mark_crossings(&self, triangles: &[[u32; 3]], slots: Range<usize>, crossing: &Crossing) -> usize {
-        let mut looks = 0;
-        for leaf in self.leaves[slots].iter().filter(|leaf| crossing.is_new(leaf.triangle)) {
-            let [a, b, c] = leaf.corners;
-            let vertices = triangles[leaf.triangle as usize];
-            let face = Face { vertices, corners: leaf.corners };
-            let mut look = |other: &Leaf| {
-                looks += 1;
-                if crossing.has(leaf.triangle) && crossing.has(other.triangle) {
-                    return;
-                }
-                let other_face = Face { vertices: triangles[other.triangle as usize], corners: other.corners };
-                let meets = match leaf.triangle.cmp(&other.triangle) {
-                    Less => cross(&face, &other_face),
-                    Equal => false,
-                    Greater => cross(&other_face, &face),
-                };
-                if meets {
-                    crossing.mark(leaf.triangle);
-                    crossing.mark(other.triangle);
-                }
-            };
-            let hubs = &crossing.hubs;
-            let of_no_hub_of_ours = |node, lanes: u32| lanes & !hubs.shared(node, vertices);
-            self.overlapping(a.min(b).min(c), a.max(b).max(c), of_no_hub_of_ours, |slots| {
-                self.leaves[slots].iter().filter(|other| other.triangle > leaf.triangle).for_each(&mut look);
-            });
-            for corner in hubs.corners(vertices) {
-                let (min, max) = half_way_box(leaf.corners, corner);
-                // What lacks the hub was found above, or finds this one.
-                let is_of_it = |other: &&Leaf| triangles[other.triangle as usize].contains(&vertices[corner]);
-                self.overlapping(
-                    min,
-                    max,
-                    |_, lanes| lanes,
-                    |slots| {
-                        self.leaves[slots].iter().filter(is_of_it).for_each(&mut look);
-                    },
-                );
-            }
+    /// Marks the triangles of `surface`, which this is the index of, that run into one another, where one of them is in
+    /// `slots` and in no slot before; returns how many were looked at, about.
+    pub(crate) fn mark_crossings(&self, surface: Indexed, slots: Range<usize>, crossing: &Crossing) -> usize {
+        let mut search = Search { index: self, surface, crossing, patch: Patch::new(), looks: 0 };
+        let mut new = Vec::with_capacity(GROUP);
+        for (branch, slots) in crossing.branches.within(slots) {
+            new.clear();
+            new.extend(slots.filter(|&slot| crossing.is_new(self.leaves[slot as usize].triangle)));
+            search.mark_branch(branch, &new);
         }
-        looks
+        search.looks
     }
 
     /// Calls `each` with the triangles that may come near the box from `min` to `max`, some more than once.
@@ -239,8 +335,10 @@ mod tests {
         let mesh = TriMesh { positions, triangles: triangles.filter(whole).collect() };
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         let crossing = Crossing::none(&index, &mesh.triangles);
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let surface = Indexed { mesh: &mesh, topology: Some(&topology) };
         let looks: Vec<usize> =
-            (0..index.slots()).map(|slot| index.mark_crossings(&mesh.triangles, slot..slot + 1, &crossing)).collect();
+            (0..index.slots()).map(|slot| index.mark_crossings(surface, slot..slot + 1, &crossing)).collect();
         assert!(looks.iter().all(|&looks| looks <= index.slots()));
         assert_eq!(crossing.triangles().collect::<Vec<_>>(), one_by_one(&mesh));
         assert!(crossing.triangles().count() > 1900);
@@ -280,7 +378,9 @@ mod tests {
         let mesh = cones(sides / 3);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         let crossing = Crossing::none(&index, &mesh.triangles);
-        let looks = index.mark_crossings(&mesh.triangles, 0..index.slots(), &crossing);
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let surface = Indexed { mesh: &mesh, topology: Some(&topology) };
+        let looks = index.mark_crossings(surface, 0..index.slots(), &crossing);
         assert!(looks < 2000 * mesh.triangles.len(), "{looks}");
     }
 

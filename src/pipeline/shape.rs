@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::narrowest::{Narrowest, NarrowestSearch};
 use super::task::{Budget, Progress, Task};
 use crate::mesh::{
-    AngleCounts, Angles, Crossing, IndexBuild, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends,
+    AngleCounts, Angles, Crossing, IndexBuild, Indexed, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends,
     summarise_bends,
 };
 use crate::parallel;
@@ -223,7 +223,7 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
     fn work(&mut self, range: Range<usize>, piece: usize) {
         let Some(index) = &self.index else { return };
         let (mesh, topology): (&TriMesh, &Topology) = (&self.mesh, &self.topology);
-        let triangles = &self.indexed.as_ref().unwrap_or(&self.mesh).triangles[..];
+        let indexed: &TriMesh = self.indexed.as_ref().unwrap_or(&self.mesh);
         let part = |part: Range<usize>| range.start + part.start..range.start + part.end;
         match self.stage {
             Stage::Angles => parallel::map_ranges(range.len(), piece, |p| AngleCounts::of(mesh, part(p)))
@@ -235,11 +235,13 @@ impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Shap
             }
             Stage::Crossings => {
                 if range.start == 0 {
-                    self.crossing = Crossing::none(index, triangles);
+                    self.crossing = Crossing::none(index, &indexed.triangles);
                 }
                 let crossing = &self.crossing;
+                let topology = std::ptr::eq(indexed, mesh).then_some(topology);
+                let surface = Indexed { mesh: indexed, topology };
                 let looks =
-                    parallel::map_ranges(range.len(), piece, |p| index.mark_crossings(triangles, part(p), crossing));
+                    parallel::map_ranges(range.len(), piece, |p| index.mark_crossings(surface, part(p), crossing));
                 let most = looks.into_iter().max().unwrap_or(0);
                 self.heavy = if most > LOOKS { (piece / 2).max(1) } else { (2 * piece).min(HEAVY) };
             }
