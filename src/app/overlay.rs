@@ -82,11 +82,15 @@ pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str, 
     let painter = ui.painter_at(rect);
     painter.circle_stroke(middle, RADIUS, Stroke::new(2.0, colour));
     let (beside, align) = if middle.x < rect.center().x {
-        (RADIUS + 4.0, Align2::LEFT_CENTER)
+        (RADIUS + 8.0, Align2::LEFT_CENTER)
     } else {
-        (-RADIUS - 4.0, Align2::RIGHT_CENTER)
+        (-RADIUS - 8.0, Align2::RIGHT_CENTER)
     };
-    painter.text(middle + vec2(beside, 0.0), align, label, FontId::proportional(12.0), colour);
+    // On a plate: below it the surface may have any colour.
+    let text = painter.layout_no_wrap(label.to_owned(), FontId::proportional(12.0), colour);
+    let place = align.anchor_size(middle + vec2(beside, 0.0), text.size());
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, ui.visuals().window_fill.gamma_multiply(0.9));
+    painter.galley(place.min, text, colour);
 }
 
 /// A bar of a round number of millimetres, about a fifth of the view long.

@@ -287,3 +287,21 @@ pub fn settle(harness: &mut Harness<'_, LumenApp>) {
     }
     panic!("the engine does not come to an end");
 }
+
+/// Steps until nothing is under way in the background either: how far is safe, and the calibres.
+///
+/// # Panics
+/// When that takes too long.
+pub fn settle_wholly(harness: &mut Harness<'_, LumenApp>) {
+    settle(harness);
+    for _ in 0..4000 {
+        let state = harness.state().state();
+        let measured = state.document.as_ref().and_then(|document| document.measured.as_ref());
+        if measured.is_some_and(|measured| measured.report.safe.is_some()) && state.calibre().is_some() {
+            harness.run_steps(2);
+            return;
+        }
+        harness.step();
+    }
+    panic!("the background does not come to an end");
+}

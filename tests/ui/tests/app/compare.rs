@@ -8,7 +8,7 @@ use lumen::app::LumenApp;
 use lumen::app::compare::{Arrangement, Cell, Made, Outcome};
 use lumen::pipeline::paper;
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app, settle, settle_wholly};
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
 const PHONE: [f32; 2] = [390.0, 844.0];
@@ -129,6 +129,8 @@ fn keys_open_choose_and_close() {
 #[test]
 fn a_view_that_is_left_and_opened_again_shows_the_same() {
     let mut harness = open();
+    // Marks and verdicts that come later would be seen.
+    settle_wholly(&mut harness);
     let picture = |harness: &mut Harness<'_, LumenApp>| {
         harness.hover_at(egui::pos2(640.0, 20.0));
         harness.run_steps(12);
