@@ -1,7 +1,7 @@
 //! What a device's reports are, however that was learnt: from the bytes of its report descriptor or from what a browser
 //! tells. The same device gives the same model by both ways.
 
-use super::field::{Content, Field};
+use super::field::Field;
 use super::usage::Usage;
 
 /// Which way a report goes.
@@ -121,11 +121,6 @@ impl DeviceModel {
     pub fn report_in(&self, kind: Kind, usage: Usage) -> Option<&Report> {
         let has = |report: &&Report| report.kind == kind && report.fields.iter().any(|field| self.is_in(field, usage));
         self.reports.iter().find(has)
-    }
-
-    /// The first array of a report that is in a collection of this usage, or has that usage's selectors without one.
-    pub fn array_in<'a>(&self, report: &'a Report, usage: Usage) -> Option<&'a Field> {
-        report.fields.iter().find(|field| field.content == Content::Array && self.is_in(field, usage))
     }
 
     /// Puts reports into their order.
