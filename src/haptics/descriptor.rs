@@ -302,72 +302,16 @@ impl Item {
 
 #[cfg(test)]
 mod tests {
-    use hidreport::Report as _;
     use proptest::prelude::*;
 
     use super::*;
-    use crate::haptics::fixtures::{descriptor, descriptors};
+    use crate::haptics::fixtures::{descriptor, descriptors, elements, peer};
     use crate::haptics::usage::{desktop, pid};
-
-    /// What `hidreport` finds: of each report its id, and of each element its first bit, usage, least and greatest.
-    fn peer(bytes: &[u8]) -> Vec<(Kind, u8, u32, Vec<(u32, u32, i64, i64)>)> {
-        use hidreport::Field::{Array, Constant, Variable};
-        let model = hidreport::ReportDescriptor::try_from(bytes).unwrap();
-        let of = |kind: Kind, report: &dyn Fn() -> (u8, u32, Vec<hidreport::Field>)| {
-            let (id, bits, fields) = report();
-            let before = if id == 0 { 0 } else { 8 };
-            let elements = fields.iter().filter_map(|field| match field {
-                Variable(field) => Some((
-                    field.bits.start as u32 - before,
-                    u32::from(field.usage),
-                    i64::from(i32::from(field.logical_minimum)),
-                    i64::from(i32::from(field.logical_maximum)),
-                )),
-                Array(field) => Some((
-                    field.bits.start as u32 - before,
-                    u32::from(*field.usages().first().unwrap()),
-                    i64::from(i32::from(field.logical_minimum)),
-                    i64::from(i32::from(field.logical_maximum)),
-                )),
-                Constant(_) => None,
-            });
-            (kind, id, bits - before, elements.collect())
-        };
-        let mut all = Vec::new();
-        macro_rules! each {
-            ($kind:expr, $reports:expr) => {
-                for report in $reports {
-                    let id = report.report_id().map_or(0, |id| u8::from(id));
-                    all.push(of($kind, &|| (id, report.size_in_bits() as u32, report.fields().to_vec())));
-                }
-            };
-        }
-        each!(Kind::Input, model.input_reports());
-        each!(Kind::Output, model.output_reports());
-        each!(Kind::Feature, model.feature_reports());
-        all.sort_by_key(|(kind, id, ..)| (*kind, *id));
-        all
-    }
 
     #[test]
     fn devices_are_read_as_another_parser_reads_them() {
         for (name, bytes) in descriptors() {
-            let model = parse(&bytes).unwrap();
-            let ours: Vec<_> = model
-                .reports
-                .iter()
-                .map(|report| {
-                    let elements = report.fields.iter().flat_map(|field| {
-                        let count = if field.content == Content::Array { 1 } else { field.count };
-                        (0..count).map(move |element| {
-                            let usage = field.usage(element).unwrap().bits();
-                            (field.offset + element * field.size, usage, field.logical.least, field.logical.greatest)
-                        })
-                    });
-                    (report.kind, report.id, report.bits, elements.collect::<Vec<_>>())
-                })
-                .collect();
-            assert_eq!(ours, peer(&bytes), "{name}");
+            assert_eq!(elements(&parse(&bytes).unwrap()), peer(&bytes), "{name}");
         }
     }
 

@@ -1,7 +1,10 @@
 //! Descriptors of devices, and what Chromium makes of one, for tests.
 
+use hidreport::Report as _;
 use hidreport::hid::{Item, ReportDescriptorItems};
 
+use super::field::{Content, Field};
+use super::model::{DeviceModel, Kind, Report};
 use super::webhid::{CollectionInfo, ReportInfo, ReportItem};
 
 /// The bytes of a file of hexadecimal numbers, with comments behind `#`.
@@ -127,4 +130,61 @@ pub(super) fn chromium(bytes: &[u8]) -> Vec<CollectionInfo> {
         }
     }
     top
+}
+
+/// A report: kind, id, bits, and of each element its first bit, usage, least and greatest; of an array its first usage.
+pub(super) type Elements = (Kind, u8, u32, Vec<(u32, u32, i64, i64)>);
+
+/// What `hidreport` finds: of each report its id, and of each element its first bit, usage, least and greatest.
+pub(super) fn peer(bytes: &[u8]) -> Vec<Elements> {
+    use hidreport::Field::{Array, Constant, Variable};
+    let model = hidreport::ReportDescriptor::try_from(bytes).unwrap();
+    let of = |kind: Kind, report: &dyn Fn() -> (u8, u32, Vec<hidreport::Field>)| {
+        let (id, bits, fields) = report();
+        let before = if id == 0 { 0 } else { 8 };
+        let elements = fields.iter().filter_map(|field| match field {
+            Variable(field) => Some((
+                field.bits.start as u32 - before,
+                u32::from(field.usage),
+                i64::from(i32::from(field.logical_minimum)),
+                i64::from(i32::from(field.logical_maximum)),
+            )),
+            Array(field) => Some((
+                field.bits.start as u32 - before,
+                u32::from(*field.usages().first().unwrap()),
+                i64::from(i32::from(field.logical_minimum)),
+                i64::from(i32::from(field.logical_maximum)),
+            )),
+            Constant(_) => None,
+        });
+        (kind, id, bits - before, elements.collect())
+    };
+    let mut all = Vec::new();
+    macro_rules! each {
+        ($kind:expr, $reports:expr) => {
+            for report in $reports {
+                let id = report.report_id().map_or(0, |id| u8::from(id));
+                all.push(of($kind, &|| (id, report.size_in_bits() as u32, report.fields().to_vec())));
+            }
+        };
+    }
+    each!(Kind::Input, model.input_reports());
+    each!(Kind::Output, model.output_reports());
+    each!(Kind::Feature, model.feature_reports());
+    all.sort_by_key(|(kind, id, ..)| (*kind, *id));
+    all
+}
+
+/// The same of a model.
+pub(super) fn elements(model: &DeviceModel) -> Vec<Elements> {
+    let of = |field: &Field| {
+        let count = if field.content == Content::Array { 1 } else { field.count };
+        let element = |element| {
+            let usage = field.usage(element).unwrap().bits();
+            (field.offset + element * field.size, usage, field.logical.least, field.logical.greatest)
+        };
+        (0..count).map(element).collect::<Vec<_>>()
+    };
+    let of = |report: &Report| (report.kind, report.id, report.bits, report.fields.iter().flat_map(of).collect());
+    model.reports.iter().map(of).collect()
 }

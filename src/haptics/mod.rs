@@ -20,6 +20,7 @@
 
 pub mod controls;
 pub mod descriptor;
+pub mod feeder;
 pub mod field;
 pub mod force;
 pub mod learning;

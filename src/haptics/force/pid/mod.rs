@@ -5,3 +5,6 @@ pub mod driver;
 pub mod layout;
 
 pub use driver::PidDriver;
+
+#[cfg(test)]
+mod tests;
