@@ -134,6 +134,11 @@ impl Controls {
         }
     }
 
+    /// Number of buttons.
+    pub fn buttons(&self) -> usize {
+        self.buttons.len()
+    }
+
     /// The number of the button of this usage.
     pub fn button(&self, usage: Usage) -> Option<usize> {
         self.buttons.iter().position(|(of, _)| *of == usage)

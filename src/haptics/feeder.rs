@@ -2,7 +2,7 @@
 //! what its firmware sends, what the virtual device speaks, and what the browser's tests mimic (`docs/haptics.md`).
 //!
 //! It is a joystick that is a physical interface device, so that other programs drive it too: X is the feed, from -50 to 50
-//! mm, Rx the roll about it, from two turns left to two turns right; a spring, a damper and a constant force on each.
+//! mm, Rx the roll about it, from a turn left to a turn right; a spring, a damper and a constant force on each.
 
 /// Report ids.
 pub mod id {
@@ -33,7 +33,7 @@ pub mod id {
 }
 
 /// Half of the feed's way, in mm, and of the roll's, in radians: what the numbers 32767 stand for.
-pub const HALF_WAY: [f64; 2] = [50.0, 4.0 * std::f64::consts::PI];
+pub const HALF_WAY: [f64; 2] = [50.0, 2.0 * std::f64::consts::PI];
 
 /// Effects that it plays at a time.
 pub const EFFECTS: u8 = 4;
@@ -63,7 +63,7 @@ pub const DESCRIPTOR: &[u8] = &[
     0x75, 0x10, 0x95, 0x01,        //   16 bits
     0x81, 0x02,                    //   Input: variable
     0x09, 0x33,                    //   Usage: Rx, the roll
-    0x36, 0x17, 0xFB, 0x46, 0xE9, 0x04, // means -1257 to 1257
+    0x36, 0x8C, 0xFD, 0x46, 0x74, 0x02, // means -628 to 628
     0x65, 0x12, 0x55, 0x0E,        //   of 10^-2 radians
     0x81, 0x02,                    //   Input: variable
     0x65, 0x00, 0x55, 0x00,        //   No unit

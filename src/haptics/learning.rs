@@ -1,16 +1,12 @@
 //! Learns which axis feeds and which rolls: the user pushes, then turns, and the axis that moved is the one.
 
-use std::f64::consts::PI;
-
 use super::controls::{Axis, Controls, Motion, State};
-use super::mapping::{AxisMapping, Mapping};
+use super::mapping::{AxisMapping, Mapping, TRAVEL};
 
 /// An axis is taken once it has gone this part of its way, or this many counts...
 const ENOUGH: (f64, f64) = (0.25, 12.0);
 /// ... and so many times as far as any other, each by that measure.
 const CLEARLY: f64 = 2.0;
-/// What one way of an axis feeds, in mm, and rolls, in radians, unless the user says otherwise.
-const TRAVEL: [f64; 2] = [100.0, 2.0 * PI];
 
 /// What the user is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

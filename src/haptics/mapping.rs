@@ -1,6 +1,13 @@
 //! Which axis feeds and which rolls, and how: a place that is the wire's own, counts, or a speed.
 
+use std::f64::consts::PI;
+
 use super::controls::{Controls, Motion, State};
+use super::usage::{desktop, simulation};
+
+/// What one way of an axis, or half a second at full speed, feeds, in mm, and rolls, in radians, unless the user says
+/// otherwise.
+pub(super) const TRAVEL: [f64; 2] = [100.0, 4.0 * PI];
 
 /// What an axis's motion becomes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +53,15 @@ impl AxisMapping {
         };
         Self { axis, mode, dead_zone, is_inverted: false }
     }
+
+    /// How far half of the axis's way moves, in mm or radians; of one without ends, a hundred counts or a second.
+    pub fn half_way(&self) -> f64 {
+        match self.mode {
+            Mode::Absolute { travel } => 0.5 * travel,
+            Mode::Relative { per_count } => 100.0 * per_count,
+            Mode::Rate { full } => full,
+        }
+    }
 }
 
 /// What feeds and what rolls.
@@ -57,6 +73,23 @@ pub struct Mapping {
     pub roll: Option<AxisMapping>,
     /// While this button is pressed absolute axes move alone, by its number: the hand goes back for another stroke.
     pub clutch: Option<usize>,
+}
+
+impl Mapping {
+    /// What most devices are held by: the first axis that is pushed feeds, the first that is turned rolls, or else the next
+    /// one; the first button is the clutch of an axis with ends.
+    pub fn proposed(controls: &Controls) -> Self {
+        let turned = [desktop::RX, desktop::RY, desktop::RZ, desktop::DIAL, simulation::STEERING];
+        let axes = &controls.axes;
+        let feed =
+            axes.iter().position(|axis| !turned.contains(&axis.usage)).or(Some(0)).filter(|feed| *feed < axes.len());
+        let turns = axes.iter().position(|axis| turned.contains(&axis.usage)).filter(|roll| Some(*roll) != feed);
+        let roll = turns.or_else(|| (0..axes.len()).find(|other| Some(*other) != feed));
+        let [feed, roll] = [(feed, TRAVEL[0]), (roll, TRAVEL[1])]
+            .map(|(axis, travel)| axis.map(|axis| AxisMapping::new(axis, axes[axis].motion, travel)));
+        let has_ends = feed.is_some_and(|feed| matches!(feed.mode, Mode::Absolute { .. }));
+        Self { feed, roll, clutch: (has_ends && controls.buttons() > 0).then_some(0) }
+    }
 }
 
 /// What has been taken over of the axes' motion.
@@ -114,14 +147,11 @@ impl Mapper {
         moved
     }
 
-    /// Where on its way, -1 to 1, an absolute axis would be had it gone `ahead` mm or radians further than it is; `None` for
-    /// an axis that has no such place. 0 is feed, 1 is roll. This is where a spring has its centre.
-    pub fn place(&self, controls: &Controls, state: &State, which: usize, ahead: f64) -> Option<f64> {
+    /// Where on its way, -1 to 1, an absolute axis is; `None` for one that has no such place. 0 is feed, 1 is roll.
+    pub fn place(&self, controls: &Controls, state: &State, which: usize) -> Option<f64> {
         let of = [self.mapping.feed, self.mapping.roll].get(which).copied()??;
         let (axis, at) = (controls.axes.get(of.axis)?, state.axes.get(of.axis)?);
-        let Mode::Absolute { travel } = of.mode else { return None };
-        let sign = if of.is_inverted { -1.0 } else { 1.0 };
-        (travel > 0.0).then(|| axis.part(at) + sign * 2.0 * ahead / travel)
+        matches!(of.mode, Mode::Absolute { .. }).then(|| axis.part(at))
     }
 }
 
@@ -160,7 +190,7 @@ mod tests {
         state.buttons[clutch.unwrap()] = false;
         put(&mut state, 0, 16384);
         assert!((mapper.advance(&controls, &state, 0.01)[0] - 25.0).abs() < 0.01);
-        assert!((mapper.place(&controls, &state, 0, -25.0).unwrap() - 0.0).abs() < 1e-3);
+        assert!((mapper.place(&controls, &state, 0).unwrap() - 0.5).abs() < 1e-3);
     }
 
     #[test]

@@ -90,11 +90,15 @@ impl Guard {
         self.renewed_ms = now_ms;
     }
 
+    /// Whether the trial has not said for too long that it is there.
+    pub fn is_stale(&self, now_ms: f64) -> bool {
+        now_ms - self.renewed_ms > STALE_MS || now_ms.is_nan()
+    }
+
     /// What of a wish the device may hear at `now_ms`; `None` for a stop. A wish that is no number ends it until it is armed
     /// again.
     pub fn pass(&mut self, wish: &Wish, now_ms: f64) -> Option<Wish> {
-        let is_stale = now_ms - self.renewed_ms > STALE_MS || now_ms.is_nan();
-        if self.halt.is_some() || self.is_paused || is_stale {
+        if self.halt.is_some() || self.is_paused || self.is_stale(now_ms) {
             self.passed = None;
             return None;
         }
