@@ -69,7 +69,7 @@ impl AxisMapping {
 pub struct Mapping {
     /// Feeds, in mm; positive goes in.
     pub feed: Option<AxisMapping>,
-    /// Rolls, in radians; positive as [`Input::roll`](crate::trial::setup::Input) is.
+    /// Rolls, in radians; positive is right-handed about the way in.
     pub roll: Option<AxisMapping>,
     /// While this button is pressed absolute axes move alone, by its number: the hand goes back for another stroke.
     pub clutch: Option<usize>,

@@ -250,13 +250,13 @@ mod tests {
             usage_page: 0x0F,
             usage: 0x90,
             kind: 2,
-            output_reports: report(&[item.clone()]),
+            output_reports: report(std::slice::from_ref(&item)),
             ..CollectionInfo::default()
         };
         let whole = CollectionInfo {
             kind: 1,
             children: vec![child],
-            output_reports: report(&[item]),
+            output_reports: report(std::slice::from_ref(&item)),
             ..CollectionInfo::default()
         };
         let known = model(&[whole]).unwrap();

@@ -244,8 +244,8 @@ impl PidDriver {
     }
 
     /// A step went as it should, or brought an answer.
-    fn stepped(&mut self, step: Step, reply: Reply<'_>) {
-        match step {
+    fn stepped(&mut self, step: &Step, reply: Reply<'_>) {
+        match *step {
             Step::Write(..) => {}
             Step::Create(part) => self.steps.push_front(Step::Load(part, 0)),
             Step::Load(part, tries) => {
@@ -329,7 +329,7 @@ impl ForceDriver for PidDriver {
         }
         self.failures = 0;
         match what {
-            UnderWay::Step(step) => self.stepped(step, reply),
+            UnderWay::Step(step) => self.stepped(&step, reply),
             UnderWay::Stop => self.ended(),
             UnderWay::Parameters(_) | UnderWay::Start(_) => {}
         }

@@ -101,9 +101,9 @@ fn change_arrays(collections: &mut [CollectionInfo], change: &impl Fn(&mut Vec<u
 #[test]
 fn arrays_that_are_told_backwards_or_as_something_else_are_put_right() {
     let right = layout("openffboard-2");
-    let changes: [&dyn Fn(&mut Vec<u32>); 2] =
-        [&|usages| usages.reverse(), &|usages| usages.iter_mut().for_each(|usage| *usage = *usage % 0x10 + 0x7700)];
-    for (i, change) in changes.into_iter().enumerate() {
+    let backwards: fn(&mut Vec<u32>) = |usages| usages.reverse();
+    let others: fn(&mut Vec<u32>) = |usages| usages.iter_mut().for_each(|usage| *usage = *usage % 0x10 + 0x7700);
+    for (i, change) in [backwards, others].into_iter().enumerate() {
         let mut collections = chromium(&descriptor("openffboard-2"));
         change_arrays(&mut collections, &change);
         let layout = Layout::new(&webhid::model(&collections).unwrap(), BOTH).unwrap();
