@@ -1,6 +1,8 @@
-//! What the desktop gives the app: a window, file dialogs, and engines on threads.
+//! What the desktop gives the app: a window, file dialogs, engines and haptic devices on threads.
 
 mod files;
+pub mod haptics;
+mod hid;
 mod thread;
 mod window;
 

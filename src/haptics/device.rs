@@ -262,6 +262,11 @@ impl HapticDevice {
         }
     }
 
+    /// The reports that leave it without force, for when it is let go.
+    pub fn farewell(&self) -> Vec<Request> {
+        self.driver.as_ref().map_or_else(Vec::new, |driver| driver.farewell())
+    }
+
     /// From input report to output report, so far.
     pub fn latency(&self) -> Percentiles {
         self.latency.percentiles()

@@ -83,6 +83,10 @@ impl ForceDriver for Ffbeast {
         }
     }
 
+    fn farewell(&self) -> Vec<Request> {
+        self.told.iter().map(|_| Request::Send { id: REPORT, data: report(0.0) }).collect()
+    }
+
     fn error(&self) -> Option<ForceError> {
         (self.failures >= PATIENCE).then_some(ForceError::Silent)
     }

@@ -87,6 +87,10 @@ impl ForceDriver for Logitech {
         }
     }
 
+    fn farewell(&self) -> Vec<Request> {
+        self.told.iter().map(|_| Request::Send { id: 0, data: OFF.to_vec() }).collect()
+    }
+
     fn error(&self) -> Option<ForceError> {
         (self.failures >= PATIENCE).then_some(ForceError::Silent)
     }

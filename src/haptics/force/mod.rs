@@ -98,6 +98,9 @@ pub trait ForceDriver: Send {
     /// How the last request went.
     fn reply(&mut self, now_ms: f64, reply: Reply<'_>);
 
+    /// The reports that leave the device without force, for when it is let go: all at once, whatever is under way.
+    fn farewell(&self) -> Vec<Request>;
+
     /// Why it gives no force any more, if so.
     fn error(&self) -> Option<ForceError>;
 

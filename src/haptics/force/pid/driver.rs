@@ -265,13 +265,6 @@ impl PidDriver {
             }
         }
     }
-
-    /// The reports that give its effects back, for when the device is let go: all at once, whatever is under way.
-    pub fn farewell(&self) -> Vec<Request> {
-        let stop = self.layout.control(pid::DC_STOP_ALL_EFFECTS).into_iter();
-        let free = self.playing.iter().filter_map(|playing| self.layout.free(playing.index));
-        stop.chain(free).map(|(id, data)| Request::Send { id, data }).collect()
-    }
 }
 
 impl ForceDriver for PidDriver {
@@ -333,6 +326,15 @@ impl ForceDriver for PidDriver {
             UnderWay::Stop => self.ended(),
             UnderWay::Parameters(_) | UnderWay::Start(_) => {}
         }
+    }
+
+    fn farewell(&self) -> Vec<Request> {
+        if !self.is_begun {
+            return Vec::new();
+        }
+        let stop = self.layout.control(pid::DC_STOP_ALL_EFFECTS).into_iter();
+        let free = self.playing.iter().filter_map(|playing| self.layout.free(playing.index));
+        stop.chain(free).map(|(id, data)| Request::Send { id, data }).collect()
     }
 
     fn error(&self) -> Option<ForceError> {
