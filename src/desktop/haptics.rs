@@ -95,7 +95,9 @@ pub fn choices() -> (Vec<Choice>, Option<String>) {
     let mut choices = vec![Choice { name: "Virtual device".to_owned(), found: None }];
     match find() {
         Ok(found) => {
-            choices.extend(found.into_iter().map(|found| Choice { name: found.identity.name.clone(), found: Some(found) }));
+            choices.extend(
+                found.into_iter().map(|found| Choice { name: found.identity.name.clone(), found: Some(found) }),
+            );
             (choices, None)
         }
         Err(error) => (choices, Some(error.to_string())),
