@@ -9,12 +9,9 @@ use std::time::{Duration, Instant};
 use super::hid::{Found, HidPort, find};
 use crate::engine::trial::Exchange;
 use crate::haptics::descriptor::ModelError;
-use crate::haptics::device::{HapticDevice, Identity, Resistance};
-use crate::haptics::latency::Percentiles;
-use crate::haptics::learning::{Ask, Learning};
-use crate::haptics::mapping::Mapping;
+use crate::haptics::device::{HapticDevice, Identity};
 use crate::haptics::port::{Port, PortError, carry_out};
-use crate::haptics::safety::Halt;
+use crate::haptics::service::{DeviceCommand, DeviceStatus, Service};
 use crate::haptics::virtual_feeder::VirtualFeeder;
 
 /// Between two looks at the device: reports come at 1 kHz at most.
@@ -29,48 +26,6 @@ pub struct Choice {
     pub name: String,
     /// The system's, or none for the virtual one.
     found: Option<Found>,
-}
-
-/// What a device is asked.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DeviceCommand {
-    /// The user has seen what will move, and lets it.
-    Arm,
-    /// Force ends until it is armed again.
-    Halt(Halt),
-    /// Force ends while the trial is paused.
-    Pause(bool),
-    /// Other axes feed and roll.
-    Map(Mapping),
-    /// Learns which axes those are: a push, then a turn.
-    Learn,
-    /// The part of the device's most force that 1 N, and 1 N mm, are felt as.
-    Factor([f64; 2]),
-    /// Where the hand on the virtual device wants it, in mm and radians.
-    Want([f64; 2]),
-}
-
-/// How a device is.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct DeviceStatus {
-    /// What it is called.
-    pub name: String,
-    /// Of each axis its name and where it is, -1 to 1, and its last number.
-    pub axes: Vec<(String, f64, i64)>,
-    /// Which feed and roll.
-    pub mapping: Mapping,
-    /// What the user is asked for while a mapping is learnt.
-    pub asks: Option<Ask>,
-    /// Whether it can give a force, and why it does not now.
-    pub has_force: bool,
-    /// Why there is no force now; `None` where it is armed.
-    pub halted: Option<Halt>,
-    /// What is felt now, in N and N mm; none without a trial.
-    pub felt: Option<[f64; 2]>,
-    /// From input report to output report.
-    pub latency: Percentiles,
-    /// Why it is no longer served, in one sentence.
-    pub ended: Option<String>,
 }
 
 /// Why a device is no longer served.
@@ -110,9 +65,10 @@ impl Served {
         let (commands, inbox) = channel();
         let status = Arc::new(Mutex::new(DeviceStatus { name: choice.name.clone(), ..DeviceStatus::default() }));
         let told = Arc::clone(&status);
+        let named = Identity { name: choice.name, ..Identity::default() };
         thread::spawn(move || {
             let ended = match choice.found {
-                None => Server::new(VirtualFeeder::default(), Identity::default(), exchange)
+                None => Server::new(VirtualFeeder::default(), named, exchange)
                     .map(|server| server.serve(&inbox, &told, VirtualFeeder::keep_pace)),
                 Some(found) => HidPort::open(&found).map_err(ServeError::from).and_then(|port| {
                     Server::new(port, found.identity, exchange).map(|server| server.serve(&inbox, &told, |_, _, _| {}))
@@ -153,20 +109,15 @@ impl Paced for VirtualFeeder {
 
 struct Server<P> {
     port: P,
-    device: HapticDevice,
+    service: Service,
     exchange: Exchange,
-    factor: [f64; 2],
-    wanted: [f64; 2],
-    learning: Option<Learning>,
     since: Instant,
 }
 
 impl<P: Port> Server<P> {
     fn new(port: P, identity: Identity, exchange: Exchange) -> Result<Self, ServeError> {
         let device = HapticDevice::from_descriptor(identity, port.descriptor())?;
-        // 1 N, and 10 N mm, are half of what the device gives.
-        let factor = [0.5, 0.05];
-        Ok(Self { port, device, exchange, factor, wanted: [0.0; 2], learning: None, since: Instant::now() })
+        Ok(Self { port, service: Service::new(device), exchange, since: Instant::now() })
     }
 
     fn now_ms(&self) -> f64 {
@@ -184,87 +135,50 @@ impl<P: Port> Server<P> {
         loop {
             loop {
                 match inbox.try_recv() {
-                    Ok(command) => self.handle(command),
+                    Ok(command) => self.service.handle(command),
                     Err(TryRecvError::Empty) => break,
                     Err(TryRecvError::Disconnected) => return self.end(),
                 }
             }
             let now = self.now_ms();
-            pace(&mut self.port, now, self.wanted);
+            pace(&mut self.port, now, self.service.wanted());
             self.look(now, (now - looked_ms) / 1000.0)?;
             looked_ms = now;
-            self.tell(status);
+            *status.lock().unwrap_or_else(PoisonError::into_inner) = self.service.status();
             thread::sleep(LOOK);
-        }
-    }
-
-    fn handle(&mut self, command: DeviceCommand) {
-        match command {
-            DeviceCommand::Arm => self.device.arm(),
-            DeviceCommand::Halt(why) => self.device.halt(why),
-            DeviceCommand::Pause(on) => self.device.pause(on),
-            DeviceCommand::Map(mapping) => self.device.set_mapping(mapping),
-            DeviceCommand::Learn => {
-                self.device.halt(Halt::NotArmed);
-                self.learning = Some(Learning::default());
-            }
-            DeviceCommand::Factor(factor) => self.factor = factor,
-            DeviceCommand::Want(wanted) => self.wanted = wanted,
         }
     }
 
     fn look(&mut self, now: f64, passed_s: f64) -> Result<(), PortError> {
         while let Some(report) = self.port.poll()? {
-            self.device.input(now, report.id, &report.data);
+            self.service.device_mut().input(now, report.id, &report.data);
         }
-        if let Some(learning) = &mut self.learning {
-            learning.observe(self.device.controls(), self.device.state());
-            if learning.ask() == Ask::Done {
-                let clutch = self.device.mapping().clutch;
-                self.device.set_mapping(Mapping { clutch, ..learning.mapping() });
-                self.learning = None;
-            }
-        }
-        let moved = self.device.advance(passed_s);
-        // While it is learnt what moves, nothing does.
-        self.exchange.moves(if self.learning.is_some() { [0.0; 2] } else { moved });
-        if let Some(feels) = self.exchange.feels() {
-            let scaled = |values: [f64; 2]| std::array::from_fn(|i| values[i] * self.factor[i]);
-            let resistance = Resistance { part: scaled(feels.felt), slope: scaled(feels.stiffness) };
-            self.device.resist(now, &resistance);
-        }
+        self.exchange.moves(self.service.advance(passed_s));
+        self.service.feel(now, self.exchange.feels().map(|feels| (feels.felt, feels.stiffness)));
         for _ in 0..REQUESTS {
             let now = self.now_ms();
-            let Some(request) = self.device.next(now) else { break };
-            let (port, device) = (&mut self.port, &mut self.device);
-            carry_out(port, &request, |reply| device.reply(now, reply))?;
+            let device = self.service.device_mut();
+            let Some(request) = device.next(now) else { break };
+            carry_out(&mut self.port, &request, |reply| device.reply(now, reply))?;
         }
         Ok(())
     }
 
     /// The last that a device hears: no force, and what was made for it is given back.
     fn end(mut self) -> Result<(), ServeError> {
-        for request in self.device.farewell() {
+        for request in self.service.device_mut().farewell() {
             carry_out(&mut self.port, &request, |_| {})?;
         }
         Ok(())
-    }
-
-    fn tell(&self, status: &Mutex<DeviceStatus>) {
-        let (device, mut status) = (&self.device, status.lock().unwrap_or_else(PoisonError::into_inner));
-        let axes = device.controls().axes.iter().zip(&device.state().axes);
-        status.axes = axes.map(|(axis, at)| (axis.name(), axis.part(at), at.raw.unwrap_or_default())).collect();
-        status.mapping = *device.mapping();
-        status.asks = self.learning.as_ref().map(Learning::ask);
-        (status.has_force, status.halted) = (device.has_force(), device.halted());
-        status.felt = self.exchange.feels().map(|feels| feels.felt);
-        status.latency = device.latency();
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::haptics::learning::Ask;
+    use crate::haptics::mapping::Mapping;
+    use crate::haptics::safety::Halt;
 
     /// Waits until something is so, or too long.
     fn until(mut is_so: impl FnMut() -> bool) -> bool {
@@ -283,7 +197,7 @@ mod tests {
         assert!(status.has_force && status.halted == Some(Halt::NotArmed) && status.ended.is_none());
         served.ask(DeviceCommand::Arm);
         served.ask(DeviceCommand::Want([10.0, 0.0]));
-        assert!(until(|| served.status().axes[0].1 > 0.19), "{:?}", served.status());
+        assert!(until(|| served.status().axes[0].part > 0.19), "{:?}", served.status());
         assert_eq!(served.status().halted, None);
         served.ask(DeviceCommand::Halt(Halt::Stopped));
         assert!(until(|| served.status().halted == Some(Halt::Stopped)));

@@ -15,7 +15,8 @@
 //!   rolls), [`learning`] (finds that out), [`profile`] (devices that are known by their numbers).
 //! - What a hand feels: [`force`] (drivers that say which report goes next), [`safety`] (what stands before them),
 //!   [`passivity`] (for forces that come late).
-//! - A device in use: [`device`] has all of these; [`port`] is what a transport gives, [`latency`] what is measured.
+//! - A device in use: [`device`] has all of these, [`service`] is what it is asked and how it is; [`port`] is what a transport
+//!   gives, [`latency`] what is measured.
 //! - The open device: [`feeder`] is its descriptor, [`virtual_feeder`] its firmware and a hand, without hardware.
 //!
 //! Times are in ms by any clock that does not go back. A report's bytes are without its id everywhere but in a transport
@@ -35,6 +36,7 @@ pub mod passivity;
 pub mod port;
 pub mod profile;
 pub mod safety;
+pub mod service;
 pub mod usage;
 pub mod virtual_feeder;
 pub mod webhid;
