@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::hid::{Found, HidPort, find};
+use crate::app::Devices;
 use crate::engine::trial::Exchange;
 use crate::haptics::descriptor::ModelError;
 use crate::haptics::device::{HapticDevice, Identity};
@@ -21,9 +22,9 @@ const REQUESTS: usize = 4;
 
 /// A device that can be chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Choice {
+struct Choice {
     /// What it is called.
-    pub name: String,
+    name: String,
     /// The system's, or none for the virtual one.
     found: Option<Found>,
 }
@@ -40,13 +41,13 @@ enum ServeError {
 }
 
 /// A device that is served.
-pub struct Served {
+struct Served {
     commands: Sender<DeviceCommand>,
     status: Arc<Mutex<DeviceStatus>>,
 }
 
 /// What can be chosen: the virtual device, then all that the system has. The second is why the system lists none, if so.
-pub fn choices() -> (Vec<Choice>, Option<String>) {
+fn choices() -> (Vec<Choice>, Option<String>) {
     let mut choices = vec![Choice { name: "Virtual device".to_owned(), found: None }];
     match find() {
         Ok(found) => {
@@ -61,7 +62,7 @@ pub fn choices() -> (Vec<Choice>, Option<String>) {
 
 impl Served {
     /// Serves a device until this is dropped: its hand is the one of `exchange`.
-    pub fn new(choice: Choice, exchange: Exchange) -> Self {
+    fn new(choice: Choice, exchange: Exchange) -> Self {
         let (commands, inbox) = channel();
         let status = Arc::new(Mutex::new(DeviceStatus { name: choice.name.clone(), ..DeviceStatus::default() }));
         let told = Arc::clone(&status);
@@ -82,14 +83,53 @@ impl Served {
     }
 
     /// Asks for something; a device that is no longer served does nothing.
-    pub fn ask(&self, command: DeviceCommand) {
+    fn ask(&self, command: DeviceCommand) {
         // Its status says that it has ended, and why.
         let _ = self.commands.send(command);
     }
 
     /// How it is now.
-    pub fn status(&self) -> DeviceStatus {
+    fn status(&self) -> DeviceStatus {
         self.status.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+/// The desktop's devices, of which one is served.
+pub(super) struct HapticDevices {
+    exchange: Exchange,
+    choices: Vec<Choice>,
+    served: Option<Served>,
+}
+
+impl HapticDevices {
+    /// None is served; whose hand is on the wire, `exchange` says.
+    pub(super) fn new(exchange: Exchange) -> Self {
+        Self { exchange, choices: Vec::new(), served: None }
+    }
+}
+
+impl Devices for HapticDevices {
+    fn look(&mut self) -> (Vec<String>, Option<String>) {
+        let (choices, problem) = choices();
+        self.choices = choices;
+        (self.choices.iter().map(|choice| choice.name.clone()).collect(), problem)
+    }
+
+    fn choose(&mut self, number: Option<usize>) {
+        // The one before is let go first.
+        self.served = None;
+        let choice = number.and_then(|number| self.choices.get(number));
+        self.served = choice.map(|choice| Served::new(choice.clone(), self.exchange.clone()));
+    }
+
+    fn ask(&mut self, command: DeviceCommand) {
+        if let Some(served) = &self.served {
+            served.ask(command);
+        }
+    }
+
+    fn status(&self) -> Option<DeviceStatus> {
+        self.served.as_ref().map(Served::status)
     }
 }
 

@@ -39,9 +39,9 @@ pub struct Grip {
 
 impl Grip {
     /// Along the wire.
-    pub const FEED: Self = Self { stiffness: 0.1, drag: 0.001, most: 2.0, slew: 10.0 };
+    pub const FEED: Self = Self { stiffness: 0.1, drag: 0.001, most: 2.0, slew: 5.0 };
     /// About it.
-    pub const ROLL: Self = Self { stiffness: 1.0, drag: 0.01, most: 5.0, slew: 50.0 };
+    pub const ROLL: Self = Self { stiffness: 1.0, drag: 0.01, most: 5.0, slew: 25.0 };
 }
 
 /// One direction of what is held.
