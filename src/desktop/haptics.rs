@@ -69,8 +69,10 @@ impl Served {
         let named = Identity { name: choice.name, ..Identity::default() };
         thread::spawn(move || {
             let ended = match choice.found {
-                None => Server::new(VirtualFeeder::default(), named, exchange)
-                    .map(|server| server.serve(&inbox, &told, VirtualFeeder::keep_pace)),
+                None => Server::new(VirtualFeeder::default(), named, exchange).map(|server| {
+                    let service = server.service.with_virtual_hand();
+                    Server { service, ..server }.serve(&inbox, &told, VirtualFeeder::keep_pace)
+                }),
                 Some(found) => HidPort::open(&found).map_err(ServeError::from).and_then(|port| {
                     Server::new(port, found.identity, exchange).map(|server| server.serve(&inbox, &told, |_, _, _| {}))
                 }),

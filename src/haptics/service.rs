@@ -56,6 +56,8 @@ pub struct DeviceStatus {
     pub factor: [f64; 2],
     /// What is felt now, in N and N mm; `None` without a trial.
     pub felt: Option<[f64; 2]>,
+    /// Where the hand on the virtual device wants it, in mm and radians; `None` for another device.
+    pub wanted: Option<[f64; 2]>,
     /// From input report to output report.
     pub latency: Percentiles,
     /// Why it is no longer served, in one sentence.
@@ -69,7 +71,7 @@ const FACTOR: [f64; 2] = [0.5, 0.05];
 pub struct Service {
     device: HapticDevice,
     factor: [f64; 2],
-    wanted: [f64; 2],
+    wanted: Option<[f64; 2]>,
     felt: Option<[f64; 2]>,
     learning: Option<Learning>,
 }
@@ -77,7 +79,13 @@ pub struct Service {
 impl Service {
     /// Of a device that has just been opened.
     pub fn new(device: HapticDevice) -> Self {
-        Self { device, factor: FACTOR, wanted: [0.0; 2], felt: None, learning: None }
+        Self { device, factor: FACTOR, wanted: None, felt: None, learning: None }
+    }
+
+    /// The same of a device whose hand is told where to go: the virtual one.
+    #[must_use]
+    pub fn with_virtual_hand(self) -> Self {
+        Self { wanted: Some([0.0; 2]), ..self }
     }
 
     /// The device, for input, requests and replies.
@@ -87,7 +95,7 @@ impl Service {
 
     /// Where the hand on the virtual device wants it, in mm and radians.
     pub fn wanted(&self) -> [f64; 2] {
-        self.wanted
+        self.wanted.unwrap_or_default()
     }
 
     /// Does what is asked.
@@ -107,7 +115,7 @@ impl Service {
             DeviceCommand::Factor(factor) => {
                 self.factor = factor.map(|of| if of.is_finite() { of.max(0.0) } else { 0.0 });
             }
-            DeviceCommand::Want(wanted) => self.wanted = wanted,
+            DeviceCommand::Want(wanted) => self.wanted = self.wanted.map(|_| wanted),
         }
     }
 
@@ -147,6 +155,7 @@ impl Service {
             halted: device.halted(),
             factor: self.factor,
             felt: self.felt,
+            wanted: self.wanted,
             latency: device.latency(),
             ended: None,
         }

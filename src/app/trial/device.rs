@@ -1,10 +1,11 @@
 //! The haptic device in the panel: which one, which of its axes feed and roll, and its force.
 
-use egui::{Button, ComboBox, DragValue, ProgressBar, Ui};
+use egui::{Button, ComboBox, DragValue, ProgressBar, Slider, Ui};
 
 use super::action::{Action, DeviceAsk};
 use crate::app::platform::Devices;
 use crate::app::row::{number, remark, row, warning};
+use crate::haptics::feeder::HALF_WAY;
 use crate::haptics::learning::Ask;
 use crate::haptics::mapping::{AxisMapping, Mapping, Mode};
 use crate::haptics::safety::Halt;
@@ -106,8 +107,25 @@ pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
         warning(ui, ended);
         return;
     }
+    if let Some(wanted) = status.wanted {
+        hand(ui, wanted, &mut ask);
+    }
     axes(ui, status, &mut ask);
     force(ui, device, status, &mut ask);
+}
+
+/// Where the hand on the virtual device wants it.
+fn hand(ui: &mut Ui, mut wanted: [f64; 2], ask: &mut impl FnMut(DeviceAsk)) {
+    let before = wanted;
+    row(ui, "Hand pushes", "Where the hand on the virtual device wants its slide", |ui| {
+        ui.add(Slider::new(&mut wanted[0], -HALF_WAY[0]..=HALF_WAY[0]).suffix(" mm").fixed_decimals(1));
+    });
+    row(ui, "Hand turns", "Where the hand on the virtual device wants its knob", |ui| {
+        ui.add(Slider::new(&mut wanted[1], -HALF_WAY[1]..=HALF_WAY[1]).suffix(" rad").fixed_decimals(2));
+    });
+    if wanted != before {
+        ask(DeviceAsk::Command(DeviceCommand::Want(wanted)));
+    }
 }
 
 /// The axes as they are, and what they do.
