@@ -9,6 +9,7 @@
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
 //! - [`parallel`]: work on all cores, whatever the number of them with the same result.
+//! - [`haptics`]: HID reports to axes and forces, and back; it knows no transport and no mesh.
 //! - [`io`]: bytes to mesh and back, one file a format, with a report of what was mended.
 //! - [`phantom`]: vessel trees that Lumen makes itself, cut from a voxel mask by marching cubes.
 //! - [`vessel`]: the tree in a surface: balls, branches, centrelines, calibres.
@@ -31,6 +32,7 @@ pub mod cli;
 pub mod desktop;
 mod digits;
 pub mod engine;
+pub mod haptics;
 pub mod io;
 pub mod mesh;
 pub mod parallel;

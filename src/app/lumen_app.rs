@@ -14,6 +14,8 @@ use super::trial::{self, Trial, TrialView};
 use super::vessels::{self, Vessels};
 use super::views::{NO_MEMORY, Spot, Views};
 use super::{bar, compare, panel, theme};
+use crate::haptics::safety::Halt;
+use crate::haptics::service::DeviceCommand;
 use crate::phantom::Sample;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::render::{Camera, DeviceHealth, Fault};
@@ -201,6 +203,7 @@ impl LumenApp {
         if has_gamepad
             || self.trial.is_moving()
             || self.trial.is_driven()
+            || self.trial.has_device().0
             || self.state.is_busy()
             || self.trial.is_busy()
         {
@@ -230,10 +233,13 @@ impl LumenApp {
         self.act_on_all(action, ctx);
     }
 
-    /// What takes off one thing, the one that lies on top: the tables, picking, what is going on, the trial, the comparison.
+    /// What takes off one thing, the one that lies on top: a device's force, the tables, picking, what is going on, the trial, the comparison.
     /// Sheets, lists and fields take themselves off.
     fn on_top(&self) -> Option<Action> {
-        if self.trial.tables.is_open {
+        if self.trial.has_device().1 {
+            let stop = DeviceCommand::Halt(Halt::Stopped);
+            Some(Action::Trial(trial::Action::Device(trial::DeviceAsk::Command(stop))))
+        } else if self.trial.tables.is_open {
             Some(Action::Trial(trial::Action::CloseTables))
         } else if self.trial.pick.is_some() {
             Some(Action::Trial(trial::Action::Pick(None)))
@@ -303,6 +309,7 @@ impl LumenApp {
     fn act_on_trial(&mut self, action: trial::Action, ctx: &egui::Context) {
         match action {
             trial::Action::OpenLog => self.platform.choose_file(ctx),
+            trial::Action::Device(ask) => self.trial.act_on_device(ask, self.platform.devices()),
             trial::Action::AdaptSmoothing => {
                 // One step to undo, whatever was changed before it.
                 self.state.history.record(&self.state.settings);
@@ -458,6 +465,8 @@ impl eframe::App for LumenApp {
     /// eyes, and no hand that nobody sees is on the wire.
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.listen(ctx);
+        let is_hidden = ctx.input(|input| !input.raw.focused || input.viewport().visible() == Some(false));
+        self.trial.follow_device(self.platform.devices(), is_hidden);
         if ctx.input(|input| input.viewport().visible() == Some(false)) {
             self.trial.follow_hand(ctx, Keys::Views, None, self.platform.trial());
             self.follow(ctx);

@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::engine::Link;
 use crate::engine::trial::TrialLink;
+use crate::haptics::service::{DeviceCommand, DeviceStatus};
 
 /// A platform. Nothing here blocks: what takes time arrives through [`Platform::poll`].
 pub trait Platform {
@@ -25,6 +26,11 @@ pub trait Platform {
         true
     }
 
+    /// Haptic devices; `None` where the platform has none.
+    fn devices(&mut self) -> Option<&mut dyn Devices> {
+        None
+    }
+
     /// The app goes on in another window: whatever has news wakes this one from now on.
     fn enter(&mut self, ctx: &egui::Context);
 
@@ -43,6 +49,21 @@ pub trait Platform {
 
     /// What has happened since.
     fn poll(&mut self) -> Option<PlatformEvent>;
+}
+
+/// Haptic devices, of which one holds the wire.
+pub trait Devices {
+    /// Names of those that are there now, and why the system lists none, if so.
+    fn look(&mut self) -> (Vec<String>, Option<String>);
+
+    /// Serves one of those that were listed last, and none else; none at all for `None`.
+    fn choose(&mut self, number: Option<usize>);
+
+    /// Asks the one that is served for something.
+    fn ask(&mut self, command: DeviceCommand);
+
+    /// How the one that is served is; `None` where there is none.
+    fn status(&self) -> Option<DeviceStatus>;
 }
 
 /// A file for the user.

@@ -1,6 +1,8 @@
-//! What the desktop gives the app: a window, file dialogs, and engines on threads.
+//! What the desktop gives the app: a window, file dialogs, engines and haptic devices on threads.
 
 mod files;
+mod haptics;
+mod hid;
 mod thread;
 mod window;
 
@@ -8,14 +10,15 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
 pub use self::window::run;
-use crate::app::{Offer, Platform, PlatformEvent, Waker};
-use crate::engine::trial::TrialLink;
+use crate::app::{Devices, Offer, Platform, PlatformEvent, Waker};
+use crate::engine::trial::{Exchange, TrialLink};
 use crate::engine::{Engine, Link, TrialEngine};
 
 /// The desktop.
 pub struct Desktop {
     link: ThreadLink<Engine>,
     trial: ThreadLink<TrialEngine>,
+    devices: haptics::HapticDevices,
     sender: Sender<PlatformEvent>,
     events: Receiver<PlatformEvent>,
     waker: Waker,
@@ -27,8 +30,10 @@ impl Desktop {
         let (sender, events) = channel();
         let waker = Waker::new(ctx);
         let link = ThreadLink::new(waker.clone(), Engine::new);
-        let trial = ThreadLink::new(waker.clone(), TrialEngine::new);
-        Self { link, trial, sender, events, waker }
+        let exchange = Exchange::default();
+        let hand = exchange.clone();
+        let trial = ThreadLink::new(waker.clone(), move || TrialEngine::with_hand(hand.clone()));
+        Self { link, trial, devices: haptics::HapticDevices::new(exchange), sender, events, waker }
     }
 }
 
@@ -39,6 +44,10 @@ impl Platform for Desktop {
 
     fn trial(&mut self) -> &mut TrialLink {
         &mut self.trial
+    }
+
+    fn devices(&mut self) -> Option<&mut dyn Devices> {
+        Some(&mut self.devices)
     }
 
     fn enter(&mut self, ctx: &egui::Context) {

@@ -15,7 +15,7 @@
 //! - The wire: [`wire`], [`setup`], [`placement`].
 //! - A step: [`rod`], [`contact`], `descent` (which contacts press), [`body`] (rod and contacts through a step),
 //!   [`simulation`] (the guide that feeds and rolls), [`report`] (what a step tells of itself).
-//! - A trial: [`session`], [`autopilot`], `press` (what presses the wire to the wall).
+//! - A trial: [`session`], [`autopilot`], [`hold`] (what a hand feels), `press` (what presses the wire to the wall).
 //! - What comes of it: [`meter`], [`stopwatch`], [`felt`], [`log`], [`frame`], [`summary`], [`compare`].
 //! - [`audit`] checks walls and openness, and shares no code with the solver.
 //!
@@ -60,6 +60,7 @@ pub mod course;
 mod descent;
 pub mod felt;
 pub mod frame;
+pub mod hold;
 pub mod log;
 pub mod meter;
 pub mod placement;

@@ -7,6 +7,7 @@ mod tubes;
 
 mod autopilot;
 mod fuzz;
+mod hold;
 mod route;
 mod steps;
 mod wire;

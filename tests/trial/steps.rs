@@ -25,7 +25,7 @@ fn straight(length: f64, radius: f64) -> lumen::mesh::TriMesh {
 }
 
 /// A wire of this name at the entry of the aorta sample.
-fn in_the_aorta(wire: &str) -> Trial {
+pub(super) fn in_the_aorta(wire: &str) -> Trial {
     let mesh = Arc::new(import_mesh(generate(Sample::Aorta, 20_000).unwrap(), "sample").mesh);
     let mut setup = Setup { wire: Wire::preset(wire).unwrap(), ..Setup::default() };
     let course = Course::new(&mesh, Some(Sample::Aorta), &mut setup).unwrap();
@@ -33,7 +33,7 @@ fn in_the_aorta(wire: &str) -> Trial {
 }
 
 /// A wire with a J of 2 mm radius in an S of narrow bends: rolled, it snaps round.
-fn in_an_s() -> Trial {
+pub(super) fn in_an_s() -> Trial {
     let parts = [(15.0, f64::INFINITY), (30.0, 15.0), (30.0, -15.0), (30.0, 15.0), (60.0, f64::INFINITY)];
     let path = curve(&parts, 0.7);
     let mesh = Arc::new(tube(&path, |_| 1.3, 12));

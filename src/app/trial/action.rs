@@ -1,5 +1,6 @@
 //! What is asked of a trial: by a button, a key or a click on the vessel.
 
+use crate::haptics::service::DeviceCommand;
 use crate::mesh::Vec3;
 use crate::trial::setup::Setup;
 
@@ -38,6 +39,8 @@ pub enum Action {
     Place(Pick, Vec3),
     /// Something of the fluoroscope.
     Arm(Arm),
+    /// Something of the haptic device.
+    Device(DeviceAsk),
     /// Show the paper's tables, and run what of them has not been run.
     Tables,
     /// Run them again.
@@ -69,6 +72,7 @@ impl Action {
             | Self::Pick(_)
             | Self::Place(..)
             | Self::Arm(_)
+            | Self::Device(_)
             | Self::RepeatTables
             | Self::CancelTables
             | Self::CloseTables => false,
@@ -83,6 +87,19 @@ pub enum Pick {
     Entry,
     /// Where it should go.
     Target,
+}
+
+/// What is asked of the haptic device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DeviceAsk {
+    /// List those that are there now.
+    Look,
+    /// Hold the wire by this one; by none.
+    Choose(Option<usize>),
+    /// Say what will move once its force is armed, or no longer.
+    Confirm(bool),
+    /// Something of the device itself.
+    Command(DeviceCommand),
 }
 
 /// What is asked of the fluoroscope.

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::action::{Action, Pick};
+use super::action::{Action, DeviceAsk, Pick};
 use super::state::{Coming, Comparing, Preparing, Run, Stage, Subject, Trial, taken_from};
 use super::tables::Tables;
 use crate::app::document::Document;
 use crate::app::keys::Keys;
-use crate::app::platform::Gamepad;
+use crate::app::platform::{Devices, Gamepad};
 use crate::engine::Source;
 use crate::engine::trial::{TrialCommand, TrialLink};
 use crate::mesh::Vec3;
@@ -21,7 +21,7 @@ const SLOW: f32 = 0.25;
 
 impl Trial {
     /// Does what the user asks for. What needs a platform or the settings ([`Action::OpenLog`],
-    /// [`Action::AdaptSmoothing`]) is not for here.
+    /// [`Action::AdaptSmoothing`], [`Action::Device`]) is not for here.
     pub fn act(&mut self, action: Action, document: Option<&Document>, link: &mut TrialLink) {
         if action.is_attempt() {
             self.problem = None;
@@ -64,8 +64,8 @@ impl Trial {
             Action::RepeatTables => self.tables.again(),
             Action::CancelTables => self.cancel_tables(link),
             Action::CloseTables => self.tables.is_open = false,
-            // Files and smoothing are the app's.
-            Action::OpenLog | Action::AdaptSmoothing => {}
+            // Files, smoothing and devices are the app's.
+            Action::OpenLog | Action::AdaptSmoothing | Action::Device(_) => {}
         }
     }
 
@@ -253,6 +253,22 @@ impl Trial {
             self.set_autopilot(false, link);
         }
         link.send(TrialCommand::Drive(input));
+    }
+
+    /// Does what is asked of the haptic device.
+    pub(in crate::app) fn act_on_device(&mut self, ask: DeviceAsk, devices: Option<&mut dyn Devices>) {
+        self.device.act(ask, devices);
+    }
+
+    /// Hears how the haptic device is; in a hidden window its force ends.
+    pub(in crate::app) fn follow_device(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool) {
+        let stands = !self.is_on() || self.run().is_none_or(|run| run.is_paused || run.autopilot);
+        self.device.follow(devices, is_hidden, stands);
+    }
+
+    /// Whether a haptic device is served, and whether its force is armed.
+    pub(in crate::app) fn has_device(&self) -> (bool, bool) {
+        (self.device.is_served(), self.device.is_armed())
     }
 
     /// Whether the hand is on the wire: then the engine has to be told of it.

@@ -2,7 +2,8 @@
 //!
 //! - [`Trial`]: what the app knows of it: `state` says what that is, `events` how it changes by what the engine says,
 //!   `actions` by what the user asks for ([`Action`]). None of them draws.
-//! - `panel`, `setup`, `fluoroscope`, `readout`, `outcome`: the controls and the numbers; `drive`: the hand on the wire;
+//! - `panel`, `setup`, `fluoroscope`, `readout`, `outcome`: the controls and the numbers; `drive`: the hand on the wire; `device`: a haptic
+//!   device's;
 //!   `tables`: the paper's Tables III and IV, `tables_window` what is seen of them.
 //! - `view`, `marks`, `plate`: the three views and what is written over them; `scene`: what stands in GPU memory; `carm`,
 //!   `peaks`, `largest`: the C-arm, the largest forces on the wall and of all.
@@ -10,6 +11,7 @@
 mod action;
 mod actions;
 mod carm;
+mod device;
 mod drive;
 mod events;
 mod fluoroscope;
@@ -27,7 +29,7 @@ mod tables;
 mod tables_window;
 mod view;
 
-pub use self::action::{Action, Arm, Pick};
+pub use self::action::{Action, Arm, DeviceAsk, Pick};
 pub use self::carm::CArm;
 pub(super) use self::panel::{keys, show as panel};
 pub use self::state::{Preparing, Run, Session, Stage, Trial};

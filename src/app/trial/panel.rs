@@ -4,7 +4,7 @@ use egui::{Button, Key, Modifiers, RichText, Ui};
 
 use super::action::Action;
 use super::state::{AWAITS, Stage, Trial};
-use super::{fluoroscope, outcome, readout, setup};
+use super::{device, fluoroscope, outcome, readout, setup};
 use crate::app::control::progress;
 use crate::app::document::Document;
 use crate::app::keys::pressed;
@@ -80,6 +80,7 @@ fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
         remark(ui, "Restart to try the wire and seed as they are set now.");
     }
     ui.separator();
+    ui.push_id("device", |ui| device::show(ui, &trial.device, asked));
     ui.push_id("fluoroscopy", |ui| fluoroscope::show(ui, &trial.carm, asked));
     ui.separator();
     ui.push_id("outcome", |ui| outcome::show(ui, trial, asked));

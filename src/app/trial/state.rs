@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::action::Pick;
 use super::carm::CArm;
+use super::device::Device;
 use super::drive::Hand;
 use super::largest::Largest;
 use super::tables::Tables;
@@ -38,6 +39,8 @@ pub struct Trial {
     pub is_slow: bool,
     /// The operator's hand.
     pub(super) hand: Hand,
+    /// The haptic device.
+    pub(super) device: Device,
     /// Why the last thing asked for could not be done.
     pub(super) problem: Option<Problem>,
     /// The smoothing whose level is awaited: it begins with that.

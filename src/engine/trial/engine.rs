@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use super::grasp::Exchange;
 use super::jobs::Jobs;
 use super::message::{TrialCommand, TrialEvent, TrialReady};
 use super::shown::Shown;
@@ -16,12 +17,19 @@ pub struct TrialEngine {
     pub(super) shown: Option<Shown>,
     pub(super) jobs: Jobs,
     events: VecDeque<TrialEvent>,
+    exchange: Exchange,
 }
 
 impl TrialEngine {
     /// Without a trial.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Without a trial; the wire of each that comes is held by whoever is at the other side of `exchange`, beside keys and
+    /// pads.
+    pub fn with_hand(exchange: Exchange) -> Self {
+        Self { exchange, ..Self::default() }
     }
 
     /// Takes a command.
@@ -34,7 +42,7 @@ impl TrialEngine {
                         let ready = TrialReady::new(id, trial.setup(), trial.course());
                         self.events.push_back(TrialEvent::Ready(Box::new(ready)));
                         self.jobs.drop_comparisons();
-                        self.shown = Some(Shown::new(id, trial));
+                        self.shown = Some(Shown::new(id, trial, self.exchange.clone()));
                     }
                     Err(error) => self.events.push_back(TrialEvent::refused(id, &error)),
                 }

@@ -68,8 +68,8 @@ impl Pace {
         self.clock = None;
     }
 
-    /// Makes as many steps as the clock asks for at `now_s`, and the slice allows.
-    pub(super) fn run(&mut self, trial: &mut Trial, now_s: f64, slice: Duration) {
+    /// Makes as many steps as the clock asks for at `now_s`, and the slice allows, each by `step`.
+    pub(super) fn run(&mut self, trial: &mut Trial, now_s: f64, slice: Duration, mut step: impl FnMut(&mut Trial)) {
         let passed = self.clock.replace(now_s).map_or(0.0, |before| (now_s - before).max(0.0));
         self.owed += passed * self.pace;
         // After a pause of the machine it goes on, and does not hurry after it.
@@ -78,7 +78,7 @@ impl Pace {
         let start = Instant::now();
         let mut steps = 0;
         while self.owed >= STEP && start.elapsed() < slice && trial.progress() == Progress::Running {
-            trial.step();
+            step(trial);
             self.owed -= STEP;
             steps += 1;
         }

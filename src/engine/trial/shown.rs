@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use super::grasp::{Exchange, Grasp};
 use super::message::{HAND, TrialEvent};
 use super::pace::Pace;
 use crate::trial::course::TrialError;
@@ -13,6 +14,9 @@ use crate::trial::setup::Input;
 
 /// Seconds between two frames.
 const FRAME: f64 = 1.0 / 60.0;
+
+/// How often a wire at its entry is looked at for a device's hand.
+const LOOK: Duration = Duration::from_millis(10);
 
 /// The hand on the wire. Whoever holds it tells so again and again; one that is not heard of any more (its window is
 /// hidden, its page has stopped) is off.
@@ -35,6 +39,10 @@ pub(super) struct Shown {
     /// not run.
     has_begun: bool,
     hand: Hand,
+    /// A haptic device's.
+    grasp: Grasp,
+    /// Whether the autopilot steers, or a log.
+    is_steered: bool,
     is_paused: bool,
     pace: Pace,
     /// When the last frame was told, in seconds by the clock.
@@ -45,12 +53,14 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    pub(super) fn new(id: u64, trial: Trial) -> Self {
+    pub(super) fn new(id: u64, trial: Trial, exchange: Exchange) -> Self {
         Self {
             id,
             trial: Box::new(trial),
             has_begun: false,
             hand: Hand::Off,
+            grasp: Grasp::new(exchange),
+            is_steered: false,
             is_paused: false,
             pace: Pace::new(),
             framed: f64::NEG_INFINITY,
@@ -83,6 +93,7 @@ impl Shown {
     /// Goes on with the input of a hand.
     pub(super) fn drive(&mut self, input: Input) {
         self.trial.drive(input);
+        self.grasp.beside = input.limited();
         let is_on = input != Input::default();
         self.hand = if is_on { Hand::Heard } else { Hand::Off };
         self.has_begun |= is_on;
@@ -90,11 +101,13 @@ impl Shown {
 
     pub(super) fn set_autopilot(&mut self, on: bool) {
         self.trial.set_autopilot(on);
+        self.is_steered = on;
         self.has_begun |= on;
     }
 
     pub(super) fn pause(&mut self, on: bool) {
         self.is_paused = on;
+        self.grasp.rest();
     }
 
     pub(super) fn set_pace(&mut self, pace: f32) {
@@ -105,7 +118,7 @@ impl Shown {
     pub(super) fn restart(&mut self) -> Result<(), TrialError> {
         let made = Trial::new(self.trial.course().clone(), self.trial.setup().clone());
         let trial = made.inspect_err(|_| self.hand_over())?;
-        *self = Self { pace: self.pace.anew(), ..Self::new(self.id, trial) };
+        *self = Self { pace: self.pace.anew(), ..Self::new(self.id, trial, self.grasp.exchange()) };
         Ok(())
     }
 
@@ -119,7 +132,8 @@ impl Shown {
     /// Begins again with what a log says.
     pub(super) fn replay(&mut self, csv: &[u8]) -> Result<(), String> {
         let trial = self.recorded(csv).inspect_err(|_| self.hand_over())?;
-        *self = Self { pace: self.pace.anew(), has_begun: true, ..Self::new(self.id, trial) };
+        let anew = Self::new(self.id, trial, self.grasp.exchange());
+        *self = Self { pace: self.pace.anew(), has_begun: true, is_steered: true, ..anew };
         Ok(())
     }
 
@@ -143,6 +157,7 @@ impl Shown {
     /// What was to begin anew could not: it goes on, but in the hand of whoever asked.
     fn hand_over(&mut self) {
         self.trial.set_autopilot(false);
+        self.is_steered = false;
         (self.is_paused, self.is_told) = (false, false);
     }
 
@@ -152,6 +167,7 @@ impl Shown {
             Hand::Heard => self.hand = Hand::Until(now_s + HAND),
             Hand::Until(end) if now_s > end => {
                 self.trial.drive(Input::default());
+                self.grasp.beside = Input::default();
                 self.hand = Hand::Off;
             }
             Hand::Off | Hand::Until(_) => {}
@@ -161,6 +177,7 @@ impl Shown {
     /// Other work is done at `now_s`: the wire waits.
     pub(super) fn wait(&mut self, now_s: f64) {
         self.pace.skip(now_s);
+        self.grasp.rest();
     }
 
     /// Whether it stands, whatever the clock says.
@@ -181,8 +198,11 @@ impl Shown {
     ) -> Option<Duration> {
         if self.stands() || self.is_over() {
             self.pace.stand();
+            let moves = self.grasp.rest();
+            self.has_begun |= moves && !self.is_paused;
         } else {
-            self.pace.run(&mut self.trial, now_s, slice);
+            let Self { pace, trial, grasp, is_steered, .. } = self;
+            pace.run(trial, now_s, slice, |trial| grasp.step(trial, !*is_steered));
         }
         let is_over = self.is_over();
         let is_end = is_over && !self.is_told;
@@ -195,7 +215,12 @@ impl Shown {
             self.is_told = true;
             events.push_back(TrialEvent::Ended { id: self.id, summary: Box::new(self.trial.summary()) });
         }
-        (!is_over && !self.stands()).then(|| self.pace.rest())
+        match (is_over, self.stands()) {
+            (false, false) => Some(self.pace.rest()),
+            // A hand that takes hold of the wire is no command.
+            (false, true) if self.grasp.is_served() && !self.is_paused => Some(LOOK),
+            _ => None,
+        }
     }
 
     fn tell_frame(&mut self, events: &mut VecDeque<TrialEvent>) {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::engine::TrialEngine;
+use super::grasp::Exchange;
 use super::message::{HAND, TrialCommand, TrialEvent};
 use super::pace::BEHIND;
 use crate::mesh::TriMesh;
@@ -233,4 +234,46 @@ fn closing_the_trial_lets_measurements_go_on() {
     assert_eq!(engine.advance(0.0, SLICE), Some(Duration::ZERO));
     engine.handle(TrialCommand::Compare { id: 8, mesh: Arc::default() });
     assert!(matches!(events(&mut engine)[..], [TrialEvent::Refused { id: 8, .. }]), "without a trial");
+}
+
+#[test]
+fn a_device_s_hand_moves_the_wire_and_feels_it_and_one_that_is_silent_does_neither() {
+    let exchange = Exchange::default();
+    let mut engine = TrialEngine::with_hand(exchange.clone());
+    engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample: Some(Sample::Aorta), setup: Setup::default() });
+    let length = |engine: &TrialEngine| engine.shown.as_ref().unwrap().trial().simulation().inserted();
+    let mut now = 0.0;
+    let mut run = |engine: &mut TrialEngine, seconds: f64, speed: Option<f64>| {
+        let mut rest = None;
+        for _ in 0..(seconds * 100.0) as u32 {
+            if let Some(speed) = speed {
+                exchange.moves([speed * 0.01, 0.0]);
+            }
+            now += 0.01;
+            rest = engine.advance(now, Duration::from_millis(50));
+        }
+        rest
+    };
+    assert_eq!(run(&mut engine, 0.1, None), None, "nobody is there");
+    assert!(run(&mut engine, 0.1, Some(0.0)).is_some(), "a device is there, and may move");
+    let entry = length(&engine);
+    run(&mut engine, 1.0, Some(20.0));
+    let fed = length(&engine) - entry;
+    assert!((fed - 20.0).abs() < 2.0, "{fed} mm");
+    let feels = exchange.feels().unwrap();
+    assert!(feels.felt[0].is_finite() && feels.stiffness[0] > 0.0);
+    // Paused: nothing is felt, and what the hand does is not made up for.
+    engine.handle(TrialCommand::Pause(true));
+    run(&mut engine, 0.5, Some(20.0));
+    assert!(exchange.feels().is_none());
+    let stood = length(&engine);
+    engine.handle(TrialCommand::Pause(false));
+    run(&mut engine, 0.5, Some(0.0));
+    assert!((length(&engine) - stood).abs() < 1.0, "{} mm", length(&engine) - stood);
+    // Silent: the wire stands, and what it did before does not come back.
+    exchange.moves([30.0, 0.0]);
+    std::thread::sleep(2 * super::grasp::STALE);
+    let stood = length(&engine);
+    run(&mut engine, 0.5, None);
+    assert!((length(&engine) - stood).abs() < 1e-9 && exchange.feels().is_none());
 }

@@ -1,0 +1,274 @@
+//! A device in use: what its reports say of the hand, and what the hand is to feel, with all that stands between.
+//!
+//! Whoever has the transport tells it input reports and the time, asks it for requests, and tells it how they went; whoever
+//! has the trial asks it how far to feed and roll, and tells it what resists. It does neither by itself.
+
+use super::controls::{Controls, State};
+use super::descriptor::{ModelError, parse};
+use super::force::ffbeast::Ffbeast;
+use super::force::logitech::Logitech;
+use super::force::pid::PidDriver;
+use super::force::{AxisForce, Coupling, ForceDriver, ForceError, Reply, Request, Wish};
+use super::latency::{Latency, Percentiles};
+use super::mapping::{Mapper, Mapping};
+use super::model::DeviceModel;
+use super::passivity::Softness;
+use super::profile::{ForceReports, force_reports, profile};
+use super::safety::{Guard, Halt, Limits};
+
+/// A device's numbers and its name, as the system has them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Identity {
+    /// Its vendor's.
+    pub vendor: u16,
+    /// Its own.
+    pub product: u16,
+    /// What it calls itself.
+    pub name: String,
+}
+
+/// What resists feed, 0, and roll, 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Resistance {
+    /// Parts of the device's most force, -1 to 1; positive against positive feed and roll.
+    pub part: [f64; 2],
+    /// By how much these grow with each mm, and each radian, that the hand goes on; not below 0.
+    pub slope: [f64; 2],
+}
+
+/// The force, as a part of the most, below which a spring is more than half let go.
+const FAINT: f64 = 0.02;
+/// How much the device's own damper brakes where it has one, 0 to 1.
+const DAMPING: f64 = 0.05;
+
+/// A device in use.
+pub struct HapticDevice {
+    identity: Identity,
+    model: DeviceModel,
+    controls: Controls,
+    state: State,
+    mapper: Mapper,
+    guard: Guard,
+    driver: Option<Box<dyn ForceDriver>>,
+    softness: [Softness; 2],
+    latency: Latency,
+    /// When the input report came that no output report has answered yet, in ms.
+    heard_ms: Option<f64>,
+    /// Whether its motors have been asked to be still since force was last let through.
+    is_still: bool,
+}
+
+impl HapticDevice {
+    /// A device whose reports a descriptor describes.
+    ///
+    /// # Errors
+    /// When the descriptor makes no sense. A device without axes or without forces is none.
+    pub fn from_descriptor(identity: Identity, descriptor: &[u8]) -> Result<Self, ModelError> {
+        let own = parse(descriptor)?;
+        Ok(Self::new(identity, own))
+    }
+
+    /// A device of this model. Where it is known to be meant otherwise, that holds.
+    pub fn new(identity: Identity, model: DeviceModel) -> Self {
+        let known = profile(identity.vendor, identity.product).and_then(|profile| profile.descriptor);
+        let model = known.and_then(|descriptor| parse(descriptor).ok()).unwrap_or(model);
+        let controls = Controls::new(&model);
+        let state = controls.state();
+        let mut device = Self {
+            identity,
+            mapper: Mapper::default(),
+            guard: Guard::new(Limits::default()),
+            driver: None,
+            softness: [Softness::default(); 2],
+            latency: Latency::default(),
+            heard_ms: None,
+            is_still: true,
+            model,
+            controls,
+            state,
+        };
+        device.set_mapping(Mapping::proposed(&device.controls));
+        device
+    }
+
+    /// Its numbers and its name.
+    pub fn identity(&self) -> &Identity {
+        &self.identity
+    }
+
+    /// What its reports are.
+    pub fn model(&self) -> &DeviceModel {
+        &self.model
+    }
+
+    /// What a hand can move on it.
+    pub fn controls(&self) -> &Controls {
+        &self.controls
+    }
+
+    /// Where all that is.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Which axes feed and roll.
+    pub fn mapping(&self) -> &Mapping {
+        self.mapper.mapping()
+    }
+
+    /// Feeds and rolls by other axes, from where they are; the force has to be armed again.
+    pub fn set_mapping(&mut self, mapping: Mapping) {
+        self.guard.halt(Halt::NotArmed);
+        let usages = [mapping.feed, mapping.roll].map(|of| Some(self.controls.axes.get(of?.axis)?.usage));
+        let alone = usize::from(mapping.feed.is_none());
+        self.driver = match force_reports(self.identity.vendor, self.identity.product, &self.model) {
+            Some(ForceReports::Pid) => match PidDriver::new(&self.model, usages) {
+                Ok(driver) => Some(Box::new(driver)),
+                Err(_) => None,
+            },
+            Some(ForceReports::Ffbeast) => Some(Box::new(Ffbeast::new(alone))),
+            Some(ForceReports::Logitech) => Some(Box::new(Logitech::new(alone))),
+            None => None,
+        };
+        self.mapper = Mapper::new(mapping);
+        self.softness.iter_mut().for_each(Softness::release);
+        self.is_still = true;
+    }
+
+    /// Drives it by another driver than the one that fits it; the force has to be armed again.
+    pub fn set_driver(&mut self, driver: Box<dyn ForceDriver>) {
+        self.halt(Halt::NotArmed);
+        self.driver = Some(driver);
+    }
+
+    /// How strong and how fast forces may be.
+    pub fn set_limits(&mut self, limits: Limits) {
+        self.guard.set_limits(limits);
+    }
+
+    /// Whether its motors, or its brake, can be driven by the present mapping.
+    pub fn has_force(&self) -> bool {
+        self.driver.is_some()
+    }
+
+    /// Why it gives no force any more, if so.
+    pub fn force_error(&self) -> Option<ForceError> {
+        self.driver.as_ref().and_then(|driver| driver.error())
+    }
+
+    /// The user has armed it.
+    pub fn arm(&mut self) {
+        self.guard.arm();
+    }
+
+    /// Force ends, until it is armed again; the next request says so.
+    pub fn halt(&mut self, why: Halt) {
+        self.guard.halt(why);
+        self.be_still();
+    }
+
+    /// Force ends while the trial is paused.
+    pub fn pause(&mut self, on: bool) {
+        self.guard.pause(on);
+        if on {
+            self.be_still();
+        }
+    }
+
+    /// Why it is not armed; `None` where it is.
+    pub fn halted(&self) -> Option<Halt> {
+        self.guard.halted()
+    }
+
+    fn be_still(&mut self) {
+        self.is_still = true;
+        self.softness.iter_mut().for_each(Softness::release);
+        if let Some(driver) = &mut self.driver {
+            driver.stop();
+        }
+    }
+
+    /// Takes in an input report, without its id, that came at `now_ms`.
+    pub fn input(&mut self, now_ms: f64, id: u8, data: &[u8]) {
+        if self.controls.read(&self.model, &mut self.state, id, data) {
+            self.heard_ms = Some(now_ms);
+        }
+    }
+
+    /// How far to feed, in mm, and to roll, in radians, for what the hand did in the last `dt_s` seconds.
+    pub fn advance(&mut self, dt_s: f64) -> [f64; 2] {
+        self.mapper.advance(&self.controls, &self.state, dt_s)
+    }
+
+    /// Says what resists at `now_ms`. Without that for [`STALE_MS`](super::safety::STALE_MS) there is no force.
+    pub fn resist(&mut self, now_ms: f64, resistance: &Resistance) {
+        self.guard.renew(now_ms);
+        let wish = self.wish(now_ms, resistance);
+        match (self.guard.pass(&wish, now_ms), &mut self.driver) {
+            (Some(wish), Some(driver)) => {
+                driver.wish(&wish);
+                self.is_still = false;
+            }
+            (None, Some(_)) if !self.is_still => self.be_still(),
+            _ => {}
+        }
+    }
+
+    fn wish(&mut self, now_ms: f64, resistance: &Resistance) -> Wish {
+        let mappings = [self.mapping().feed, self.mapping().roll];
+        let has_coupling = self.driver.as_ref().is_some_and(|driver| driver.has_coupling());
+        std::array::from_fn(|which| {
+            let Some(mapping) = mappings[which] else { return AxisForce::default() };
+            let place = self.mapper.place(&self.controls, &self.state, which);
+            let resists = resistance.part[which];
+            // Along half of the axis's way.
+            let slope = resistance.slope[which] * mapping.half_way();
+            let own = if has_coupling && place.is_some() { slope.min(1.0) } else { 0.0 };
+            let soft = self.softness[which].part(now_ms, slope, own, resists == 0.0);
+            let force = soft * if mapping.is_inverted { resists } else { -resists };
+            // A spring that pulls with that force where the axis is now, and goes on at the device's own rate. What nothing
+            // resists has no spring: its centre comes late, and would drag.
+            let stiffness = own * force.abs() / (force.abs() + FAINT);
+            let coupling = place.map(|place| {
+                let centre = if stiffness > 0.0 { place + force / stiffness } else { place };
+                Coupling { centre, stiffness, damping: DAMPING }
+            });
+            AxisForce { force, coupling, limit: 1.0 }
+        })
+    }
+
+    /// The request that goes next at `now_ms`; `None` while one is under way, or if none is due.
+    pub fn next(&mut self, now_ms: f64) -> Option<Request> {
+        // A trial that has fallen silent says nothing that could end its force.
+        if !self.is_still && self.guard.is_stale(now_ms) {
+            self.be_still();
+        }
+        let request = self.driver.as_mut()?.next(now_ms)?;
+        if matches!(request, Request::Send { .. })
+            && let Some(heard) = self.heard_ms.take()
+        {
+            self.latency.count(now_ms - heard);
+        }
+        Some(request)
+    }
+
+    /// How the last request went.
+    pub fn reply(&mut self, now_ms: f64, reply: Reply<'_>) {
+        if let Some(driver) = &mut self.driver {
+            driver.reply(now_ms, reply);
+            if driver.error().is_some() && self.guard.halted().is_none() {
+                self.guard.halt(Halt::Refused);
+            }
+        }
+    }
+
+    /// The reports that leave it without force, for when it is let go.
+    pub fn farewell(&self) -> Vec<Request> {
+        self.driver.as_ref().map_or_else(Vec::new, |driver| driver.farewell())
+    }
+
+    /// From input report to output report, so far.
+    pub fn latency(&self) -> Percentiles {
+        self.latency.percentiles()
+    }
+}

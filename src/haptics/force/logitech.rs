@@ -1,0 +1,137 @@
+//! Logitech's wheels in their own mode: commands of seven bytes (as in npm's `logitech-g29` 2.0.0 and on
+//! wiibrew.org/wiki/Logitech_USB_steering_wheel).
+//!
+//! A wheel plays its last command until another comes, without end. So it is given no force that could move it once the
+//! host is silent, but friction in proportion to the force: that resists a hand, and cannot push.
+
+use super::{ForceDriver, ForceError, Reply, Request, Wish};
+
+/// A command's length; it has no id.
+pub const BYTES: usize = 7;
+/// No centring by the wheel itself.
+const NO_CENTRING: [u8; BYTES] = [0xF5, 0, 0, 0, 0, 0, 0];
+/// All effects end.
+const OFF: [u8; BYTES] = [0xF3, 0, 0, 0, 0, 0, 0];
+/// The strongest friction.
+const MOST: f64 = 7.0;
+const LEAST_MS: f64 = 4.0;
+const PATIENCE: u32 = 5;
+
+/// The command for friction of 0 to 1 in both directions: into the second slot, and played.
+pub fn friction(part: f64) -> [u8; BYTES] {
+    let strength = if part.is_nan() { 0 } else { (part.clamp(0.0, 1.0) * MOST).round() as u8 };
+    if strength == 0 { [0x20, 0, 0, 0, 0, 0, 0] } else { [0x21, 0x02, strength, 0, strength, 0, 0] }
+}
+
+/// Drives one: its only axis feeds, or rolls.
+#[derive(Clone, Debug, Default)]
+pub struct Logitech {
+    axis: usize,
+    is_prepared: bool,
+    wished: Option<f64>,
+    told: Option<(f64, [u8; BYTES])>,
+    is_under_way: bool,
+    must_stop: bool,
+    failures: u32,
+}
+
+impl Logitech {
+    /// Braked by what is wished for feed, 0, or for roll, 1.
+    pub fn new(axis: usize) -> Self {
+        Self { axis: axis.min(1), ..Self::default() }
+    }
+}
+
+impl ForceDriver for Logitech {
+    fn wish(&mut self, wish: &Wish) {
+        let of = wish[self.axis];
+        self.wished = Some(of.force.abs().min(of.limit));
+        self.must_stop = false;
+    }
+
+    fn stop(&mut self) {
+        self.must_stop = self.wished.take().is_some() || self.must_stop;
+    }
+
+    fn next(&mut self, now_ms: f64) -> Option<Request> {
+        if self.is_under_way || self.error().is_some() {
+            return None;
+        }
+        let command = match self.wished {
+            _ if self.must_stop => OFF,
+            None => return None,
+            Some(_) if !self.is_prepared => NO_CENTRING,
+            Some(part) => friction(part),
+        };
+        let is_due =
+            self.must_stop || self.told.is_none_or(|(told, before)| before != command && now_ms - told >= LEAST_MS);
+        is_due.then(|| {
+            self.is_under_way = true;
+            self.told = Some((now_ms, command));
+            Request::Send { id: 0, data: command.to_vec() }
+        })
+    }
+
+    fn reply(&mut self, _now_ms: f64, reply: Reply<'_>) {
+        self.is_under_way = false;
+        if reply == Reply::Failed {
+            self.failures += 1;
+            self.told = None;
+            return;
+        }
+        self.failures = 0;
+        match self.told {
+            Some((_, NO_CENTRING)) => self.is_prepared = true,
+            Some((_, OFF)) => self.must_stop = false,
+            _ => {}
+        }
+    }
+
+    fn farewell(&self) -> Vec<Request> {
+        self.told.iter().map(|_| Request::Send { id: 0, data: OFF.to_vec() }).collect()
+    }
+
+    fn error(&self) -> Option<ForceError> {
+        (self.failures >= PATIENCE).then_some(ForceError::Silent)
+    }
+
+    fn has_coupling(&self) -> bool {
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::haptics::force::AxisForce;
+
+    #[test]
+    fn commands_are_the_published_ones() {
+        // forceFriction(1): 21 02 07 00 07 00 00; forceFriction(0): slot 2 off, 20 and zeros; autoCenter off: f5; all off: f3.
+        assert_eq!(friction(1.0), [0x21, 0x02, 0x07, 0x00, 0x07, 0x00, 0x00]);
+        assert_eq!(friction(0.0), [0x20, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(friction(f64::NAN), friction(-1.0));
+    }
+
+    #[test]
+    fn a_force_of_either_sign_brakes_and_a_stop_ends_it() {
+        let mut driver = Logitech::new(1);
+        let wish = |force| [AxisForce::default(), AxisForce { force, coupling: None, limit: 0.6 }];
+        let mut sent = Vec::new();
+        let mut turn = |driver: &mut Logitech, now| {
+            if let Some(Request::Send { data, .. }) = driver.next(now) {
+                sent.push(data);
+                driver.reply(now, Reply::Done);
+            }
+        };
+        turn(&mut driver, 0.0);
+        driver.wish(&wish(-0.9));
+        turn(&mut driver, 1.0);
+        turn(&mut driver, 6.0);
+        turn(&mut driver, 12.0);
+        driver.stop();
+        turn(&mut driver, 12.1);
+        turn(&mut driver, 20.0);
+        assert_eq!(sent, [NO_CENTRING.to_vec(), friction(0.6).to_vec(), OFF.to_vec()]);
+    }
+}

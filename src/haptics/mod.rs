@@ -1,0 +1,45 @@
+//! Haptic devices: HID reports to axes and forces, and back. It knows no transport, no mesh and no clock but the one that
+//! it is told.
+//!
+//! ```text
+//! descriptor bytes --descriptor--> DeviceModel <--webhid-- collections
+//! input report --controls--> axes --mapping--> feed and roll
+//! what is felt --safety--> what may be felt --force--> output reports
+//! ```
+//!
+//! # Where things are
+//!
+//! - What a device's reports are: [`usage`], [`field`] (bits to numbers and back), [`model`] (reports, fields, collections),
+//!   [`descriptor`] and [`webhid`], which make that of bytes and of what a browser tells.
+//! - What a hand does: [`controls`] (axes, hats, buttons, by their usages), [`mapping`] (which of them feeds and which
+//!   rolls), [`learning`] (finds that out), [`profile`] (devices that are known by their numbers).
+//! - What a hand feels: [`force`] (drivers that say which report goes next), [`safety`] (what stands before them),
+//!   [`passivity`] (for forces that come late).
+//! - A device in use: [`device`] has all of these, [`service`] is what it is asked and how it is; [`port`] is what a transport
+//!   gives, [`latency`] what is measured.
+//! - The open device: [`feeder`] is its descriptor, [`virtual_feeder`] its firmware and a hand, without hardware.
+//!
+//! Times are in ms by any clock that does not go back. A report's bytes are without its id everywhere but in a transport
+//! that wants it.
+
+pub mod controls;
+pub mod descriptor;
+pub mod device;
+pub mod feeder;
+pub mod field;
+pub mod force;
+pub mod latency;
+pub mod learning;
+pub mod mapping;
+pub mod model;
+pub mod passivity;
+pub mod port;
+pub mod profile;
+pub mod safety;
+pub mod service;
+pub mod usage;
+pub mod virtual_feeder;
+pub mod webhid;
+
+#[cfg(test)]
+mod fixtures;
