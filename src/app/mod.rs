@@ -42,7 +42,7 @@ mod window_texture;
 pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
-pub use self::platform::{Devices, Gamepad, Offer, Platform, PlatformEvent, Waker};
+pub use self::platform::{Devices, Gamepad, Listing, Offer, Platform, PlatformEvent, Waker};
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State};
 pub use self::views::{Colours, ViewOptions, Views};

@@ -51,10 +51,26 @@ pub trait Platform {
     fn poll(&mut self) -> Option<PlatformEvent>;
 }
 
+/// The haptic devices that can be chosen.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Listing {
+    /// Their names.
+    pub names: Vec<String>,
+    /// Why the system lists no others, if so.
+    pub problem: Option<String>,
+    /// The one that is served.
+    pub chosen: Option<usize>,
+}
+
 /// Haptic devices, of which one holds the wire.
 pub trait Devices {
     /// Names of those that are there now, and why the system lists none, if so.
     fn look(&mut self) -> (Vec<String>, Option<String>);
+
+    /// Those that can be chosen and which is, where that has changed by itself: one was plugged in, or has been paired.
+    fn changed(&mut self) -> Option<Listing> {
+        None
+    }
 
     /// Serves one of those that were listed last, and none else; none at all for `None`.
     fn choose(&mut self, number: Option<usize>);

@@ -135,20 +135,6 @@ impl Devices for HapticDevices {
     }
 }
 
-/// What the virtual device is told beside reports: the time in ms, and where its hand wants it.
-trait Paced {
-    fn keep_pace(&mut self, now_ms: f64, wanted: [f64; 2]);
-}
-
-impl Paced for VirtualFeeder {
-    fn keep_pace(&mut self, now_ms: f64, wanted: [f64; 2]) {
-        // After a pause of the machine it goes on, and does not hurry after it.
-        let due = (now_ms as u32).saturating_sub(self.now_ms());
-        (0..2).for_each(|axis| self.hands[axis].wanted = wanted[axis]);
-        (0..due.min(50)).for_each(|_| self.advance());
-    }
-}
-
 struct Server<P> {
     port: P,
     service: Service,

@@ -1,5 +1,7 @@
 //! Learns which axis feeds and which rolls: the user pushes, then turns, and the axis that moved is the one.
 
+use serde::{Deserialize, Serialize};
+
 use super::controls::{Axis, Controls, Motion, State};
 use super::mapping::{AxisMapping, Mapping, TRAVEL};
 
@@ -9,7 +11,7 @@ const ENOUGH: (f64, f64) = (0.25, 12.0);
 const CLEARLY: f64 = 2.0;
 
 /// What the user is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ask {
     /// To push forward.
     Push,

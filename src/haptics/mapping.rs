@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use super::controls::{Controls, Motion, State};
 use super::usage::{desktop, simulation};
 
@@ -10,7 +12,7 @@ use super::usage::{desktop, simulation};
 pub(super) const TRAVEL: [f64; 2] = [100.0, 4.0 * PI];
 
 /// What an axis's motion becomes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Mode {
     /// The axis's way is the wire's: from one end to the other it goes so far, in mm or radians.
     Absolute {
@@ -30,7 +32,7 @@ pub enum Mode {
 }
 
 /// What feeds, or what rolls.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AxisMapping {
     /// The axis, by its number in [`Controls::axes`].
     pub axis: usize,
@@ -65,7 +67,7 @@ impl AxisMapping {
 }
 
 /// What feeds and what rolls.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mapping {
     /// Feeds, in mm; positive goes in.
     pub feed: Option<AxisMapping>,

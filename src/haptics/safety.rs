@@ -1,6 +1,8 @@
 //! What stands between a wish and a motor: nothing moves before the user has armed it, nothing is stronger than the cap or
 //! rises faster than the slew limit, and whatever goes wrong ends the force.
 
+use serde::{Deserialize, Serialize};
+
 use super::force::{Coupling, Wish};
 
 /// ms after which a wish that was not renewed is none.
@@ -24,7 +26,7 @@ impl Default for Limits {
 }
 
 /// Why there is no force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Halt {
     /// The user has not armed it.
     NotArmed,

@@ -1,6 +1,8 @@
 //! A device being served: what it is asked, how it is, and what is learnt of it. Whoever has the transport and the clock
 //! calls it; it has neither.
 
+use serde::{Deserialize, Serialize};
+
 use super::device::{HapticDevice, Resistance};
 use super::latency::Percentiles;
 use super::learning::{Ask, Learning};
@@ -8,7 +10,7 @@ use super::mapping::Mapping;
 use super::safety::Halt;
 
 /// What a device is asked.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum DeviceCommand {
     /// The user has seen what will move, and lets it.
     Arm,
@@ -27,7 +29,7 @@ pub enum DeviceCommand {
 }
 
 /// An axis, as it is shown.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AxisStatus {
     /// Its name.
     pub name: String,
@@ -38,7 +40,7 @@ pub struct AxisStatus {
 }
 
 /// How a device is.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DeviceStatus {
     /// What it is called.
     pub name: String,

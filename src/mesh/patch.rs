@@ -46,7 +46,7 @@ struct View {
 
 impl View {
     /// Along the mean normal of `leaves`, as wide as they lie; `None` where they have none.
-    fn of<'a>(leaves: impl Iterator<Item = &'a Leaf> + Clone) -> Option<Self> {
+    fn of<'a>(leaves: &(impl Iterator<Item = &'a Leaf> + Clone)) -> Option<Self> {
         let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a);
         let towards = leaves.clone().map(|leaf| normal(leaf.corners)).sum::<Vec3>().try_normalize()?;
         let around = |seen: &dyn Fn(Vec3) -> Vec3| {
@@ -116,7 +116,7 @@ impl Patch {
         triangles: &[[u32; 3]],
         topology: &Topology,
     ) -> bool {
-        let Some((view, first)) = View::of(leaves.clone()).zip(leaves.clone().next()) else { return false };
+        let Some((view, first)) = View::of(&leaves).zip(leaves.clone().next()) else { return false };
         self.view = view;
         self.table.fill(Self::FREE);
         self.corners.clear();

@@ -109,7 +109,7 @@ impl Search<'_> {
         };
         self.looks += new.len();
         if self.patch.certify(leaves.clone(), positions, triangles, topology) {
-            self.mark_away(leaves);
+            self.mark_away(&leaves);
             return;
         }
         for part in crossing.branches.below(index, node) {
@@ -119,7 +119,7 @@ impl Search<'_> {
     }
 
     /// Marks what triangles run into outside of their patch.
-    fn mark_away<'b>(&mut self, leaves: impl Iterator<Item = &'b Leaf> + Clone) {
+    fn mark_away<'b>(&mut self, leaves: &(impl Iterator<Item = &'b Leaf> + Clone)) {
         let corners = leaves.clone().flat_map(|leaf| leaf.corners);
         let (min, max) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let Self { index, surface, crossing, patch, looks } = self;

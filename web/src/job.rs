@@ -8,12 +8,13 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::time::Duration;
 
-use lumen::engine::trial::is_frame;
+use lumen::engine::trial::{Exchange, is_frame};
 use lumen::engine::{Engine, Machine, TrialEngine};
 use lumen::transfer::Message;
 use wasm_bindgen::prelude::*;
 use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent, MessagePort};
 
+use crate::hid::served::Hands;
 use crate::worker::{Received, pack};
 
 /// The job of the Worker that runs the pipeline.
@@ -31,8 +32,13 @@ pub(crate) const TRIAL: &str = "trial";
 pub fn worker_main(job: &str) -> Result<(), JsValue> {
     crate::page::report_panics();
     match job {
-        PIPELINE => run(Engine::new()),
-        TRIAL => run(TrialEngine::new()),
+        PIPELINE => run(|_| Ok((Engine::new(), None))),
+        TRIAL => run(|again| {
+            let (exchange, again) = (Exchange::default(), Rc::clone(again));
+            // A Worker that cannot be brought back has no engine that could be held.
+            let hands = Hands::new(scope()?, exchange.clone(), move || drop(again.soon()));
+            Ok((TrialEngine::with_hand(exchange), Some(hands)))
+        }),
         _ => Err(format!("there is no job named {job}").into()),
     }
 }
@@ -64,16 +70,28 @@ impl Sent for TrialEngine {
 struct Worker<M> {
     machine: RefCell<M>,
     scope: DedicatedWorkerGlobalScope,
-    again: Again,
+    again: Rc<Again>,
+    /// What serves a haptic device beside the engine.
+    hands: Option<Hands>,
 }
 
-fn run<M: Sent>(machine: M) -> Result<(), JsValue> {
-    let scope: DedicatedWorkerGlobalScope = js_sys::global().dyn_into().map_err(|_| "this is no Worker")?;
-    let worker = Rc::new(Worker { machine: RefCell::new(machine), again: Again::new(&scope)?, scope });
+fn scope() -> Result<DedicatedWorkerGlobalScope, JsValue> {
+    js_sys::global().dyn_into().map_err(|_| "this is no Worker".into())
+}
+
+/// Runs what `make` makes, which is told what brings the Worker back.
+fn run<M: Sent>(make: impl FnOnce(&Rc<Again>) -> Result<(M, Option<Hands>), JsValue>) -> Result<(), JsValue> {
+    let scope = scope()?;
+    let again = Rc::new(Again::new(&scope)?);
+    let (machine, hands) = make(&again)?;
+    let worker = Rc::new(Worker { machine: RefCell::new(machine), again, scope, hands });
 
     let hear = Closure::<dyn Fn(MessageEvent) -> Result<(), JsValue>>::new({
         let worker = Rc::clone(&worker);
         move |event: MessageEvent| {
+            if let Some((hands, line)) = worker.hands.as_ref().zip(event.data().as_string()) {
+                return hands.hear(&line);
+            }
             let message = Received::unpack(&event.data()).ok_or("a message that is none")?;
             let command = message.read().map_err(|error| error.to_string())?;
             worker.machine.borrow_mut().handle(command);

@@ -6,6 +6,7 @@ use lumen::app::Waker;
 use lumen::engine::Link;
 use wasm_bindgen::{JsCast as _, JsValue};
 
+use crate::hid::page::Devices;
 use crate::job::Sent;
 use crate::worker::{Heard, WorkerLine};
 
@@ -14,6 +15,8 @@ pub(crate) struct WorkerLink<M> {
     line: Option<WorkerLine>,
     waker: Waker,
     failure: Option<String>,
+    /// Served beside the engine, where it is that of the trial.
+    devices: Option<Devices>,
     engine: PhantomData<M>,
 }
 
@@ -27,7 +30,17 @@ impl<M: Sent> WorkerLink<M> {
 
     /// A line without an engine: the first command starts one.
     pub(crate) fn idle(waker: Waker) -> Self {
-        Self { line: None, waker, failure: None, engine: PhantomData }
+        Self { line: None, waker, failure: None, devices: None, engine: PhantomData }
+    }
+
+    /// The same, beside whose engine `devices` are served.
+    pub(crate) fn with_devices(self, devices: Devices) -> Self {
+        Self { devices: Some(devices), ..self }
+    }
+
+    /// Whether there is an engine.
+    pub(crate) fn has_begun(&self) -> bool {
+        self.line.is_some()
     }
 
     /// The first failure is the cause; what follows from it says less.
@@ -64,7 +77,9 @@ impl<M: Sent> Link<M::Command, M::Event> for WorkerLink<M> {
             Some(line) => line.restart(),
             None => {
                 let waker = self.waker.clone();
-                WorkerLine::start(M::JOB, M::is_passing_line, move || waker.wake()).map(|line| self.line = Some(line))
+                let devices = self.devices.clone();
+                WorkerLine::start(M::JOB, M::is_passing_line, devices, move || waker.wake())
+                    .map(|line| self.line = Some(line))
             }
         };
         if let Err(error) = started {

@@ -4,6 +4,7 @@
 //!   where it is lost.
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
 //! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads.
+//! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker.
 //! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker; [`link`]: that line as the app's
 //!   line to the engine; [`bytes`]: copies that may fail.
 //!
@@ -17,6 +18,8 @@ mod files;
 mod gamepad;
 #[cfg(target_arch = "wasm32")]
 mod graphics;
+#[cfg(target_arch = "wasm32")]
+mod hid;
 #[cfg(target_arch = "wasm32")]
 mod job;
 #[cfg(target_arch = "wasm32")]

@@ -1,16 +1,19 @@
-//! What a browser gives the app: lines to engines in Workers, gamepads, the file dialog, dropped files, downloads.
+//! What a browser gives the app: lines to engines in Workers, gamepads, haptic devices, the file dialog, dropped files,
+//! downloads.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use lumen::app::{Gamepad, Offer, Platform, PlatformEvent, Waker};
+use lumen::app::{Devices as AppDevices, Gamepad, Listing, Offer, Platform, PlatformEvent, Waker};
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
+use lumen::haptics::service::{DeviceCommand, DeviceStatus};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 
 use crate::files;
+use crate::hid::page::Devices;
 use crate::link::WorkerLink;
 
 /// The extensions the file dialog offers.
@@ -20,6 +23,7 @@ const ACCEPT: &str = ".stl,.ply,.obj,.glb,.gltf,.csv";
 pub(crate) struct Browser {
     link: WorkerLink<Engine>,
     trial: WorkerLink<TrialEngine>,
+    devices: Devices,
     inbox: Rc<RefCell<VecDeque<PlatformEvent>>>,
     waker: Waker,
 }
@@ -29,8 +33,10 @@ impl Browser {
     pub(crate) fn new(ctx: &egui::Context) -> Self {
         let waker = Waker::new(ctx);
         wake_at_gamepad(waker.clone());
-        let (link, trial) = (WorkerLink::new(waker.clone()), WorkerLink::idle(waker.clone()));
-        Self { link, trial, inbox: Rc::default(), waker }
+        let devices = Devices::new(waker.clone());
+        let link = WorkerLink::new(waker.clone());
+        let trial = WorkerLink::idle(waker.clone()).with_devices(devices.clone());
+        Self { link, trial, devices, inbox: Rc::default(), waker }
     }
 
     /// Where news is put, from wherever it comes.
@@ -90,6 +96,10 @@ impl Platform for Browser {
         crate::gamepad::read()
     }
 
+    fn devices(&mut self) -> Option<&mut dyn AppDevices> {
+        Some(self)
+    }
+
     fn choose_file(&mut self, _: &egui::Context) {
         let news = self.news();
         let tell = news.clone();
@@ -128,5 +138,32 @@ impl Platform for Browser {
 
     fn poll(&mut self) -> Option<PlatformEvent> {
         self.inbox.borrow_mut().pop_front()
+    }
+}
+
+impl AppDevices for Browser {
+    fn look(&mut self) -> (Vec<String>, Option<String>) {
+        let Listing { names, problem, .. } = self.devices.listing();
+        (names, problem)
+    }
+
+    fn changed(&mut self) -> Option<Listing> {
+        self.devices.changed()
+    }
+
+    fn choose(&mut self, number: Option<usize>) {
+        // It is served beside the trial's engine.
+        if number.is_some() && !self.trial.has_begun() {
+            self.trial.restart();
+        }
+        self.devices.choose(number);
+    }
+
+    fn ask(&mut self, command: DeviceCommand) {
+        self.devices.ask(command);
+    }
+
+    fn status(&self) -> Option<DeviceStatus> {
+        self.devices.status()
     }
 }

@@ -17,6 +17,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::{ErrorEvent, MessageEvent, Worker, WorkerOptions, WorkerType};
 
 use crate::bytes;
+use crate::hid::page::Devices;
 
 /// A message as a script value, and the list of what is to be transferred rather than copied again.
 ///
@@ -94,7 +95,8 @@ pub(crate) struct WorkerLine {
 
 impl WorkerLine {
     /// Starts a Worker on `job`; `wake` is called whenever [`poll`](Self::poll) has something new. Of messages that
-    /// are `passing`, by their lines, only the newest waits: a hidden page listens to none.
+    /// are `passing`, by their lines, only the newest waits: a hidden page listens to none. What is a text alone is between
+    /// the Worker and `devices`.
     ///
     /// # Errors
     ///
@@ -102,9 +104,10 @@ impl WorkerLine {
     pub(crate) fn start(
         job: &'static str,
         passing: fn(&str) -> bool,
+        devices: Option<Devices>,
         wake: impl Fn() + 'static,
     ) -> Result<Self, JsValue> {
-        let inbox = Inbox { queue: Rc::default(), passing, wake: Rc::new(wake) };
+        let inbox = Inbox { queue: Rc::default(), passing, devices, wake: Rc::new(wake) };
         let (worker, listeners) = spawn(job, &inbox)?;
         Ok(Self { job, inbox, worker, _listeners: listeners })
     }
@@ -132,6 +135,7 @@ impl WorkerLine {
     pub(crate) fn restart(&mut self) -> Result<(), JsValue> {
         self.worker.terminate();
         self.inbox.queue.borrow_mut().clear();
+        self.inbox.tell_devices(None);
         (self.worker, self._listeners) = spawn(self.job, &self.inbox)?;
         Ok(())
     }
@@ -140,6 +144,7 @@ impl WorkerLine {
 impl Drop for WorkerLine {
     fn drop(&mut self) {
         self.worker.terminate();
+        self.inbox.tell_devices(None);
     }
 }
 
@@ -147,10 +152,18 @@ impl Drop for WorkerLine {
 struct Inbox {
     queue: Rc<RefCell<VecDeque<Heard>>>,
     passing: fn(&str) -> bool,
+    devices: Option<Devices>,
     wake: Rc<dyn Fn()>,
 }
 
 impl Inbox {
+    /// Which Worker there is now to serve a device.
+    fn tell_devices(&self, worker: Option<&Worker>) {
+        if let Some(devices) = &self.devices {
+            devices.worker(worker);
+        }
+    }
+
     fn put(&self, heard: Heard) {
         let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(&message.line));
         {
@@ -184,7 +197,9 @@ fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
         let inbox = inbox.clone();
         let dead = Rc::clone(&dead);
         move |event: MessageEvent| {
-            if !dead.get() {
+            if let Some((devices, line)) = inbox.devices.as_ref().zip(event.data().as_string()) {
+                devices.hear(&line);
+            } else if !dead.get() {
                 inbox.put(match Received::unpack(&event.data()) {
                     Some(message) => Heard::Message(message),
                     None => Heard::Died("The message could not be read.".to_owned()),
@@ -197,6 +212,7 @@ fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
         move |event: web_sys::Event| {
             event.prevent_default();
             if !dead.replace(true) {
+                inbox.tell_devices(None);
                 let why = event.dyn_ref::<ErrorEvent>().map(ErrorEvent::message);
                 inbox.put(Heard::Died(why.unwrap_or_else(|| "The Worker's script could not be loaded.".to_owned())));
             }
@@ -209,6 +225,7 @@ fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
     Reflect::set(&first, &"module".into(), &wasm_bindgen::module())?;
     Reflect::set(&first, &"job".into(), &job.into())?;
     worker.post_message(&first)?;
+    inbox.tell_devices(Some(&worker));
     Ok((worker, Listeners { _message: message, _error: error }))
 }
 

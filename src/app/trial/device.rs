@@ -3,7 +3,7 @@
 use egui::{Button, ComboBox, DragValue, ProgressBar, Slider, Ui};
 
 use super::action::{Action, DeviceAsk};
-use crate::app::platform::Devices;
+use crate::app::platform::{Devices, Listing};
 use crate::app::row::{number, remark, row, warning};
 use crate::haptics::feeder::HALF_WAY;
 use crate::haptics::learning::Ask;
@@ -42,6 +42,9 @@ impl Device {
         let Some(devices) = devices else { return };
         if self.choices.is_none() {
             self.look(devices);
+        }
+        if let Some(Listing { names, problem, chosen }) = devices.changed() {
+            (self.choices, self.problem, self.chosen) = (Some(names), problem, chosen);
         }
         self.status = devices.status();
         if is_hidden && self.is_armed() {

@@ -56,6 +56,8 @@ pub struct VirtualFeeder {
     /// Whether the clutch is pressed.
     pub clutch: bool,
     now_ms: u32,
+    /// The time by the clock of whoever paces it, up to which it has gone.
+    paced_ms: Option<f64>,
     heard_ms: u32,
     are_motors_on: bool,
     gain: f64,
@@ -72,6 +74,7 @@ impl Default for VirtualFeeder {
             hands: [Hand::feed(), Hand::roll()],
             clutch: false,
             now_ms: 0,
+            paced_ms: None,
             heard_ms: 0,
             are_motors_on: false,
             gain: 0.0,
@@ -101,12 +104,28 @@ impl VirtualFeeder {
 
     /// Unplugs it: what it was told is forgotten.
     pub fn unplug(&mut self) {
-        *self = Self { is_plugged: false, hands: self.hands, now_ms: self.now_ms, ..Self::default() };
+        *self = Self {
+            is_plugged: false,
+            hands: self.hands,
+            now_ms: self.now_ms,
+            paced_ms: self.paced_ms,
+            ..Self::default()
+        };
     }
 
     /// Plugs it in again.
     pub fn plug_in(&mut self) {
         self.is_plugged = true;
+    }
+
+    /// Lets as much time pass as has by a clock that shows `now_ms`, its hand wanting it at these places in mm and radians.
+    /// After a pause of more than 50 ms it goes on, and does not hurry after it.
+    pub fn keep_pace(&mut self, now_ms: f64, wanted: [f64; 2]) {
+        (0..2).for_each(|axis| self.hands[axis].wanted = wanted[axis]);
+        let from = self.paced_ms.unwrap_or(now_ms).max(now_ms - 50.0);
+        let steps = (now_ms - from).max(0.0) as u32;
+        (0..steps).for_each(|_| self.advance());
+        self.paced_ms = Some(from + f64::from(steps));
     }
 
     /// Lets a ms pass: motors and hands, then an input report.

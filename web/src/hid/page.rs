@@ -1,0 +1,262 @@
+//! The page's end of haptic devices: which there are, pairing one by a click, and the line to the Worker that serves it.
+//!
+//! The page's own events end a force at once: what egui hears a frame later would be late.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use js_sys::{Array, Object, Reflect};
+use lumen::app::{Listing, Waker};
+use lumen::haptics::safety::Halt;
+use lumen::haptics::service::{DeviceCommand, DeviceStatus};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::Worker;
+
+use super::api::{self, Hid, HidDevice};
+use super::{Asked, Choice, Told};
+
+/// The name of the choice that asks for a device.
+const PAIR: &str = "Pair a device...";
+const NO_HID: &str = "This browser reaches no devices: Chrome and Edge do, on a computer. Gamepads work everywhere.";
+const NOT_PAIRED: &str = "The browser did not ask for a device: choose \"Pair a device...\" once more.";
+
+/// What a device that can be held has: the pages and numbers of its outermost usage, or its vendor's number.
+const USAGES: [(u16, u16); 5] = [(1, 4), (1, 5), (1, 8), (1, 0x0E), (0x0F, 1)];
+const VENDORS: [u16; 5] = [0x1209, 0x045B, 0x046D, 0x256F, 0x0B33];
+
+/// The page's end.
+#[derive(Clone)]
+pub(crate) struct Devices(Rc<Inner>);
+
+struct Inner {
+    hid: Option<Hid>,
+    waker: Waker,
+    paired: RefCell<Vec<Choice>>,
+    /// What the Worker is to serve.
+    wanted: RefCell<Option<Choice>>,
+    status: RefCell<Option<DeviceStatus>>,
+    problem: RefCell<Option<String>>,
+    has_changed: Cell<bool>,
+    /// The Worker that serves, while it runs.
+    worker: RefCell<Option<Worker>>,
+}
+
+impl Devices {
+    /// Finds what is paired already, and hears of what comes and goes.
+    pub(crate) fn new(waker: Waker) -> Self {
+        let hid = api::hid();
+        let problem = hid.is_none().then(|| NO_HID.to_owned());
+        let devices = Self(Rc::new(Inner {
+            hid,
+            waker,
+            paired: RefCell::default(),
+            wanted: RefCell::default(),
+            status: RefCell::default(),
+            problem: RefCell::new(problem),
+            has_changed: Cell::new(false),
+            worker: RefCell::default(),
+        }));
+        devices.find();
+        devices.listen();
+        devices
+    }
+
+    fn listen(&self) {
+        if let Some(hid) = &self.0.hid {
+            for (name, is_there) in [("connect", true), ("disconnect", false)] {
+                let devices = self.clone();
+                let hear = Closure::<dyn Fn()>::new(move || {
+                    devices.find();
+                    if is_there {
+                        devices.resume();
+                    }
+                });
+                // Where it cannot be heard, the user looks again.
+                let _ = hid.add_event_listener_with_callback(name, hear.as_ref().unchecked_ref());
+                // It lives as long as the page.
+                hear.forget();
+            }
+        }
+        let Some(window) = web_sys::window() else { return };
+        let devices = self.clone();
+        let end = Closure::<dyn Fn()>::new(move || {
+            if devices.0.wanted.borrow().is_some() {
+                devices.ask(DeviceCommand::Halt(Halt::Hidden));
+            }
+        });
+        let callback = end.as_ref().unchecked_ref();
+        let _ = window.add_event_listener_with_callback("blur", callback);
+        let _ = window.add_event_listener_with_callback("pagehide", callback);
+        if let Some(document) = window.document() {
+            let _ = document.add_event_listener_with_callback("visibilitychange", callback);
+        }
+        end.forget();
+    }
+
+    /// Lists what is paired, when the browser has told.
+    fn find(&self) {
+        let Some(hid) = self.0.hid.clone() else { return };
+        let devices = self.clone();
+        spawn_local(async move {
+            let list = JsFuture::from(hid.get_devices()).await;
+            devices.list(list.map(|list| api::devices(&list)).unwrap_or_default());
+        });
+    }
+
+    fn list(&self, found: Vec<HidDevice>) {
+        let mut paired: Vec<Choice> = Vec::new();
+        for device in found {
+            let choice = named(&device);
+            // A device has an entry for each of its interfaces.
+            if !paired.contains(&choice) {
+                paired.push(choice);
+            }
+        }
+        *self.0.paired.borrow_mut() = paired;
+        self.change();
+    }
+
+    fn change(&self) {
+        self.0.has_changed.set(true);
+        self.0.waker.wake();
+    }
+
+    /// Serves again what was pulled out and is there again; its force has to be armed anew.
+    fn resume(&self) {
+        let has_ended = self.0.status.borrow().as_ref().is_some_and(|status| status.ended.is_some());
+        if has_ended {
+            self.send(&Asked::Serve(self.0.wanted.borrow().clone()));
+        }
+    }
+
+    fn choices(&self) -> Vec<Choice> {
+        std::iter::once(Choice::Virtual).chain(self.0.paired.borrow().iter().cloned()).collect()
+    }
+
+    /// What can be chosen now.
+    pub(crate) fn listing(&self) -> Listing {
+        let choices = self.choices();
+        let wanted = self.0.wanted.borrow();
+        let chosen = wanted.as_ref().and_then(|wanted| choices.iter().position(|choice| choice == wanted));
+        let mut names: Vec<String> = choices.iter().map(name).collect();
+        if self.0.hid.is_some() {
+            names.push(PAIR.to_owned());
+        }
+        Listing { names, problem: self.0.problem.borrow().clone(), chosen }
+    }
+
+    /// The same, where it has changed since this was asked.
+    pub(crate) fn changed(&self) -> Option<Listing> {
+        self.0.has_changed.take().then(|| self.listing())
+    }
+
+    /// Serves one of the listed ones, or asks the user for one.
+    pub(crate) fn choose(&self, number: Option<usize>) {
+        let choices = self.choices();
+        match number {
+            Some(number) if number >= choices.len() => self.pair(),
+            number => self.serve(number.map(|number| choices[number].clone())),
+        }
+    }
+
+    fn serve(&self, choice: Option<Choice>) {
+        self.0.wanted.replace(choice.clone());
+        self.0.status.take();
+        self.send(&Asked::Serve(choice));
+    }
+
+    fn pair(&self) {
+        let Some(hid) = &self.0.hid else { return };
+        // Now: the browser asks only while the click is fresh.
+        let asked = hid.request_device(&filters());
+        let devices = self.clone();
+        spawn_local(async move {
+            match JsFuture::from(asked).await {
+                Ok(list) => {
+                    let found = api::devices(&list);
+                    devices.0.problem.take();
+                    if let Some(device) = found.first() {
+                        let choice = named(device);
+                        if !devices.0.paired.borrow().contains(&choice) {
+                            devices.0.paired.borrow_mut().push(choice.clone());
+                        }
+                        devices.serve(Some(choice));
+                    }
+                }
+                Err(_) => {
+                    devices.0.problem.replace(Some(NOT_PAIRED.to_owned()));
+                }
+            }
+            devices.change();
+        });
+    }
+
+    /// Asks the one that is served for something.
+    pub(crate) fn ask(&self, command: DeviceCommand) {
+        self.send(&Asked::Command(command));
+    }
+
+    /// How the one that is served is.
+    pub(crate) fn status(&self) -> Option<DeviceStatus> {
+        self.0.status.borrow().clone()
+    }
+
+    fn send(&self, asked: &Asked) {
+        // Without a Worker nothing is served: one that starts is told what to serve.
+        if let (Some(worker), Ok(line)) = (&*self.0.worker.borrow(), serde_json::to_string(asked)) {
+            // Short texts: a Worker that does not take them has died, and is heard of as such.
+            let _ = worker.post_message(&JsValue::from_str(&line));
+        }
+    }
+
+    /// A Worker has started, or has ended. What was served goes on in the next, unarmed.
+    pub(crate) fn worker(&self, worker: Option<&Worker>) {
+        self.0.worker.replace(worker.cloned());
+        self.0.status.take();
+        let wanted = self.0.wanted.borrow().clone();
+        if wanted.is_some() {
+            self.send(&Asked::Serve(wanted));
+        }
+    }
+
+    /// Hears how the device is.
+    pub(crate) fn hear(&self, line: &str) {
+        // What cannot be read is of another build.
+        if let Ok(told) = serde_json::from_str::<Told>(line) {
+            self.0.status.replace(told);
+            self.0.waker.wake();
+        }
+    }
+}
+
+fn named(device: &HidDevice) -> Choice {
+    Choice::Paired { vendor: device.vendor_id(), product: device.product_id(), name: device.product_name() }
+}
+
+fn name(choice: &Choice) -> String {
+    match choice {
+        Choice::Virtual => "Virtual device".to_owned(),
+        Choice::Paired { vendor, product, name } if name.is_empty() => format!("Device {vendor:04X}:{product:04X}"),
+        Choice::Paired { name, .. } => name.clone(),
+    }
+}
+
+/// Which devices the browser offers.
+fn filters() -> Object {
+    let filter = |entries: &[(&str, u16)]| {
+        let filter = Object::new();
+        for &(key, value) in entries {
+            // A plain object takes any entry.
+            let _ = Reflect::set(&filter, &key.into(), &value.into());
+        }
+        filter
+    };
+    let all: Array = USAGES.iter().map(|&(page, usage)| filter(&[("usagePage", page), ("usage", usage)])).collect();
+    VENDORS.iter().for_each(|&vendor| {
+        all.push(&filter(&[("vendorId", vendor)]));
+    });
+    let options = Object::new();
+    let _ = Reflect::set(&options, &"filters".into(), &all);
+    options
+}
