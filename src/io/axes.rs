@@ -66,6 +66,19 @@ mod tests {
                         let at = bytes.windows(8).position(|part| part == b"element ").unwrap();
                         stated.splice(at..at, format!("comment {words}\n").into_bytes());
                     }
+                    Format::Vtk => {
+                        let at = bytes.windows(7).position(|part| part == b"Surface").unwrap();
+                        stated.splice(at..at, words.into_bytes());
+                    }
+                    Format::Vtp => {
+                        let letters = if expected == Axes::Lps { "76 80 83 0" } else { "82 65 83 0" };
+                        let at = bytes.windows(7).position(|part| part == b"<Piece ").unwrap();
+                        let array = format!(
+                            "<FieldData><Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">\n\
+                             {letters}\n</Array></FieldData>"
+                        );
+                        stated.splice(at..at, array.into_bytes());
+                    }
                     Format::Obj => drop(stated.splice(..0, format!("# {words}\n").into_bytes())),
                     Format::Glb => continue,
                 }

@@ -15,13 +15,17 @@ pub enum Format {
     Ply,
     /// Wavefront object, text.
     Obj,
+    /// VTK's XML format for polygonal data, written in compressed binary.
+    Vtp,
+    /// VTK's legacy format, written in binary.
+    Vtk,
     /// Binary glTF 2.0.
     Glb,
 }
 
 impl Format {
     /// All formats, in the order in which menus show them.
-    pub const ALL: [Self; 4] = [Self::Stl, Self::Ply, Self::Obj, Self::Glb];
+    pub const ALL: [Self; 6] = [Self::Stl, Self::Ply, Self::Obj, Self::Vtp, Self::Vtk, Self::Glb];
 
     /// The format of an extension such as `stl` or `.STL`.
     pub fn from_extension(extension: &str) -> Option<Self> {
@@ -40,6 +44,8 @@ impl Format {
             Self::Stl => "stl",
             Self::Ply => "ply",
             Self::Obj => "obj",
+            Self::Vtp => "vtp",
+            Self::Vtk => "vtk",
             Self::Glb => "glb",
         }
     }
@@ -55,6 +61,8 @@ impl Format {
             Self::Stl => "STL",
             Self::Ply => "PLY",
             Self::Obj => "OBJ",
+            Self::Vtp => "VTP",
+            Self::Vtk => "VTK",
             Self::Glb => "GLB",
         }
     }

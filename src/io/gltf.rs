@@ -17,26 +17,17 @@ use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Node, Root, deserialize};
 use base64::Engine as _;
-use base64::alphabet;
-use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::Unit;
 use super::error::{ReadError, WriteError};
 use super::import::RawSurface;
+use super::text::BASE64;
 use crate::mesh::{TriMesh, Vec3};
 
 const FORMAT: &str = "glTF";
 const JSON_CHUNK: u32 = 0x4e4f_534a;
 const BIN_CHUNK: u32 = 0x004e_4942;
-
-/// Base64 as files have it: with or without its padding.
-const BASE64: GeneralPurpose = GeneralPurpose::new(
-    &alphabet::STANDARD,
-    GeneralPurposeConfig::new()
-        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
-        .with_decode_allow_trailing_bits(true),
-);
 
 /// Reads a GLB file; its positions come in mm, relative to `origin`.
 pub(super) fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<RawSurface, ReadError> {

@@ -45,6 +45,11 @@ impl Faces {
         }
     }
 
+    /// How many triangles the faces will be cut into.
+    pub(super) fn triangles(&self) -> usize {
+        self.ends.last().map_or(0, |&end| end - 2 * self.ends.len())
+    }
+
     /// Adds a whole face.
     pub(super) fn push(&mut self, corners: &[u32]) {
         self.corners.extend_from_slice(corners);
