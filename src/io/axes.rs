@@ -1,7 +1,8 @@
 //! Which way the patient lies in a surface's coordinates, as far as its file says.
 //!
-//! None of the formats has a place for it. 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the header of an STL file and
-//! the comments of PLY and OBJ; glTF says which way is up (y, which is read as z: `gltf.rs`), but not that a patient stands
+//! None of the formats has a place for it. 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the header of an STL file, the
+//! comments of PLY and OBJ and the title of a legacy VTK file, and the letters alone into a string `SPACE` of the field
+//! data of VTP (`vtk/xml.rs`); glTF says which way is up (y, which is read as z: `gltf.rs`), but not that a patient stands
 //! upright in it. Everywhere else nothing is known, and nothing is asserted.
 
 use serde::{Deserialize, Serialize};
@@ -33,7 +34,7 @@ impl Axes {
 /// Where a header or comments end at the latest.
 const HEADER: usize = 4096;
 
-/// What stands in the text before the numbers of an STL, PLY or OBJ file.
+/// What stands in the text before the numbers of an STL, PLY or OBJ file, or in the title of a VTK file.
 pub(super) fn stated(bytes: &[u8]) -> Axes {
     let head = &bytes[..bytes.len().min(HEADER)];
     let holds = |words: &[u8]| head.windows(words.len()).any(|part| part == words);

@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A format that Lumen reads and writes. (It also reads glTF as text.)
+/// A format that Lumen reads and writes. (It also reads glTF as text, and the flat cells of VTK's unstructured grids.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
@@ -26,6 +26,9 @@ pub enum Format {
 impl Format {
     /// All formats, in the order in which menus show them.
     pub const ALL: [Self; 6] = [Self::Stl, Self::Ply, Self::Obj, Self::Vtp, Self::Vtk, Self::Glb];
+
+    /// The extensions of all files that can be opened, those of formats that are not written included.
+    pub const OPENED: [&str; 8] = ["stl", "ply", "obj", "vtp", "vtu", "vtk", "glb", "gltf"];
 
     /// The format of an extension such as `stl` or `.STL`.
     pub fn from_extension(extension: &str) -> Option<Self> {
@@ -134,6 +137,7 @@ mod tests {
         assert_eq!(Format::from_extension(".glb"), Some(Format::Glb));
         assert_eq!(Format::from_name("surface.gltf"), None, "glTF as text is read, not written");
         assert_eq!(Format::from_name("stl"), None);
+        assert!(Format::ALL.iter().all(|format| Format::OPENED.contains(&format.extension())));
         assert_eq!("cm".parse(), Ok(Unit::Centimetre));
         assert_eq!("inch".parse::<Unit>(), Err(UnknownUnit("inch".to_owned())));
         assert_eq!(serde_json::to_string(&Unit::Metre).unwrap(), "\"m\"");

@@ -22,6 +22,7 @@ use glam::{DMat3, DMat4, DQuat, DVec3};
 use super::Unit;
 use super::error::{ReadError, WriteError};
 use super::import::RawSurface;
+use super::room::Room;
 use super::text::BASE64;
 use crate::mesh::{TriMesh, Vec3};
 
@@ -81,6 +82,8 @@ fn read_scene(
     file_length: usize,
     origin: DVec3,
 ) -> Result<RawSurface, ReadError> {
+    let room = Room::of(file_length);
+    room.check_parts(FORMAT, json.iter().filter(|&&byte| byte == b'{').count())?;
     let root: Root = deserialize::from_slice(json).map_err(|error| {
         malformed(format!("its JSON is wrong or incomplete at line {}, column {}", error.line(), error.column()))
     })?;
@@ -89,11 +92,7 @@ fn read_scene(
         return Err(ReadError::Unsupported { format: FORMAT, feature: feature.clone() });
     }
     let buffers = Buffers::new(&root, binary)?;
-    let mut collected = Collected {
-        raw: RawSurface::new(label, Vec::new(), Vec::new()),
-        // A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
-        limit: (4 * file_length as u64).max(1 << 25),
-    };
+    let mut collected = Collected { raw: RawSurface::new(label, Vec::new(), Vec::new()), room };
     collected.raw.in_mm = true;
     (collected.raw.has_doubles, collected.raw.origin) = (root.nodes.iter().any(is_moved), origin);
     let to_mm = DMat4::from_translation(-origin) * upright() * DMat4::from_scale(DVec3::splat(unit.to_mm()));
@@ -170,8 +169,8 @@ fn decimal(x: f32) -> f64 {
 /// What has been read so far.
 struct Collected {
     raw: RawSurface,
-    /// The most positions and corners that may be collected.
-    limit: u64,
+    /// A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
+    room: Room,
 }
 
 impl Collected {
@@ -214,11 +213,9 @@ impl Collected {
         }
         let indices = primitive.indices.map(|index| buffers.items(root, index, Type::Scalar)).transpose()?;
         let corners = indices.as_ref().map_or(positions.count, |indices| indices.count);
-        let so_far = self.raw.positions.len() + self.raw.triangles.len() * 3;
-        let total = so_far as u64 + positions.count as u64 + 3 * corners as u64;
-        if total > self.limit {
-            return Err(ReadError::TooLarge { corners: total, limit: self.limit });
-        }
+        let more = if mode == Mode::Triangles { corners / 3 } else { corners };
+        let (vertices, triangles) = (self.raw.positions.len(), self.raw.triangles.len());
+        self.room.check(FORMAT, vertices.saturating_add(positions.count), triangles.saturating_add(more))?;
         let base = self.raw.positions.len() as u32;
         self.raw.positions.extend(positions.iter().map(|item| {
             let [x, y, z] =

@@ -14,7 +14,8 @@
 //! A surface far from the origin of its coordinates is read relative to a place within it (`far`), so that its detail
 //! is not rounded away; the report says by what it was moved.
 //!
-//! No memory is allocated because a header claims it: every count is checked against the bytes that are there.
+//! No memory is allocated because a header claims it: every count is checked against the bytes that are there, and what
+//! a few bytes unfold to against the room that a file of their number has (`room`).
 
 mod axes;
 mod detect;
@@ -46,6 +47,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mesh::{TriMesh, Vec3};
 use detect::Content;
+use room::Room;
 
 /// What the user says about a file that the file does not say itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -75,11 +77,13 @@ pub fn read(bytes: &[u8], name: &str, options: &ImportOptions) -> Result<Importe
         Content::Glb => gltf::read_binary(bytes, unit, origin),
         Content::Gltf => gltf::read_text(bytes, unit, origin),
     };
-    let raw = relative_to(DVec3::ZERO)?;
-    let raw = match far::origin_for(&raw, unit) {
-        Some(origin) => relative_to(origin)?,
-        None => raw,
-    };
+    let mut raw = relative_to(DVec3::ZERO)?;
+    if let Some(origin) = far::origin_for(&raw, unit) {
+        // Never both at once.
+        drop(raw);
+        raw = relative_to(origin)?;
+    }
+    Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
     let axes = match content {
         Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
         Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,

@@ -10,6 +10,8 @@ const MB: u64 = 1_000_000;
 /// What a vertex and a triangle take at most on their way through the import stage, in bytes (`tests/formats` measures).
 const VERTEX: u64 = 64;
 const TRIANGLE: u64 = 104;
+/// And a part of a structure, such as a node of a scene or a list of cells, while lists of them grow.
+const PART: u64 = 1024;
 
 /// The room for one file.
 #[derive(Clone, Copy, Debug)]
@@ -29,11 +31,23 @@ impl Room {
         16 * MB + 8 * self.file
     }
 
+    /// Refuses a structure of so many parts that, each taking a few bytes in the file, would not fit.
+    pub(super) fn check_parts(self, format: &'static str, parts: usize) -> Result<(), ReadError> {
+        if PART * parts as u64 > self.bytes() {
+            return Err(ReadError::Unfolds { format, what: format!("{parts} parts"), file: self.file });
+        }
+        Ok(())
+    }
+
+    /// All of it.
+    fn bytes(self) -> u64 {
+        64 * MB + 20 * self.file
+    }
+
     /// Refuses a surface that would not fit.
     pub(super) fn check(self, format: &'static str, vertices: usize, triangles: usize) -> Result<(), ReadError> {
-        let room = 64 * MB + 20 * self.file;
         let needed = VERTEX * vertices as u64 + TRIANGLE * triangles as u64;
-        if needed > room {
+        if needed > self.bytes() {
             let what = format!("{vertices} vertices and {triangles} triangles");
             return Err(ReadError::Unfolds { format, what, file: self.file });
         }

@@ -32,8 +32,11 @@ impl Compressor {
     }
 }
 
-/// The largest dictionary that an LZMA block may ask for: that of the highest level.
+/// The largest dictionary that an LZMA block may ask for: that of the highest level, and half of it in small files.
 const DICTIONARY: usize = 64 << 20;
+const DICTIONARY_OF_SMALL: usize = 32 << 20;
+/// Bytes of a file that is not small.
+const LARGE: usize = 2_000_000;
 
 /// An array as it stands in the file.
 #[derive(Clone, Copy, Debug)]
@@ -155,7 +158,7 @@ impl Encoding {
             let done = match compressor {
                 Compressor::Zlib => inflate(block, target),
                 Compressor::Lz4 => lz4_flex::block::decompress_into(block, target).is_ok_and(|n| n == target.len()),
-                Compressor::Lzma => self.unpack(block, target, lzma.get_or_insert_with(decoder))?,
+                Compressor::Lzma => self.unpack(block, target, lzma.get_or_insert_with(|| decoder(source.length())))?,
             };
             if !done {
                 return Err(self.broken("a compressed block is damaged"));
@@ -206,9 +209,9 @@ impl Encoding {
     }
 }
 
-/// One for all blocks of an array: it keeps its dictionary.
-fn decoder() -> XzDecoder<'static> {
-    XzDecoder::with_alloc_dict_size(0, DICTIONARY)
+/// One for all blocks of an array of so many bytes: it keeps its dictionary.
+fn decoder(file: usize) -> XzDecoder<'static> {
+    XzDecoder::with_alloc_dict_size(0, if file > LARGE { DICTIONARY } else { DICTIONARY_OF_SMALL })
 }
 
 /// Fills `target` from a zlib stream; false where that is damaged or of another length.

@@ -9,6 +9,7 @@ use super::super::axes;
 use super::super::error::ReadError;
 use super::super::import::RawSurface;
 use super::super::numbers::Scalar;
+use super::super::room::Room;
 use super::super::text;
 use super::array::Array;
 use super::legacy_text::Cursor;
@@ -41,7 +42,7 @@ pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, Rea
     }
     cursor.rest_of_line();
     let label = cursor.label();
-    let parts = Parts::read(&mut cursor)?;
+    let parts = Parts::read(&mut cursor, Room::of(bytes.len()))?;
     let mut surface = Surface::new(label, bytes.len(), origin);
     if let Some((points, count)) = &parts.points {
         surface.add_points(points, *count)?;
@@ -54,9 +55,10 @@ pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, Rea
 
 impl<'a> Parts<'a> {
     /// Finds points and cells. As in VTK itself, what follows the first array on cells or points is not looked at.
-    fn read(cursor: &mut Cursor<'a>) -> Result<Self, ReadError> {
+    fn read(cursor: &mut Cursor<'a>, room: Room) -> Result<Self, ReadError> {
         let mut parts = Self::default();
         while let Some(word) = cursor.word() {
+            room.check_parts(cursor.label(), parts.cells.len())?;
             match word.to_ascii_lowercase().as_slice() {
                 b"dataset" => {
                     let kind = cursor.word().unwrap_or_default();

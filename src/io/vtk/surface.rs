@@ -135,6 +135,9 @@ impl Surface {
             }
             cell.clear();
             self.faces_read += 1;
+            // A number makes a triangle at most.
+            let most = usize::try_from(length as u64).unwrap_or(usize::MAX).min(cells.points.most());
+            self.room.check(format, self.positions.len(), self.faces.triangles() + most)?;
             // A length that is a lie ends with the numbers.
             for _ in 0..length as u64 {
                 let Some(number) = points.number(kind) else {
@@ -149,11 +152,8 @@ impl Surface {
                     None => return Err(self.ended(&mut **types, "types of cells", cells.count, n)),
                 },
             }
-            if n % 4096 == 0 {
-                self.room.check(format, self.positions.len(), self.faces.triangles())?;
-            }
         }
-        self.room.check(format, self.positions.len(), self.faces.triangles())
+        Ok(())
     }
 
     fn add_face(&mut self, shape: Shape, cell: &mut [u32]) {

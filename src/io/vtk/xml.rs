@@ -56,9 +56,19 @@ struct Piece<'a> {
     /// Number of points, vertices, lines, strips, polygons and cells of a grid, as the file claims them.
     counts: [u64; 6],
     points: Option<DataArray<'a>>,
-    /// The arrays of each kind of cells: connectivity, offsets, types.
-    cells: [[Option<DataArray<'a>>; 3]; 6],
+    /// The arrays of its cells, each with its place in [`KINDS`] and in [`PARTS`].
+    cells: Vec<(usize, usize, DataArray<'a>)>,
 }
+
+impl<'a> Piece<'a> {
+    /// An array of a kind of cells.
+    fn cells(&self, kind: usize, part: usize) -> Option<&DataArray<'a>> {
+        self.cells.iter().find(|array| (array.0, array.1) == (kind, part)).map(|array| &array.2)
+    }
+}
+
+/// The names of the arrays of cells.
+const PARTS: [&str; 3] = ["connectivity", "offsets", "types"];
 
 /// The names of the counts of a piece, and of the elements that hold what is counted.
 const KINDS: [(&str, &str, Shape); 6] = [
@@ -73,7 +83,8 @@ const KINDS: [(&str, &str, Shape); 6] = [
 /// Where an array's numbers are.
 #[derive(Clone, Copy, Debug)]
 enum Place<'a> {
-    Text(&'a [u8]),
+    /// As text, from this byte of the file on.
+    Text(&'a [u8], usize),
     Binary(&'a [u8]),
     Appended(u64),
 }
@@ -111,6 +122,7 @@ impl<'a> Structure<'a> {
         let start = bytes.len() - text::without_mark(bytes).trim_ascii_start().len();
         let mut file = None;
         let mut section = Section::Elsewhere;
+        let room = Room::of(bytes.len());
         loop {
             let event = reader.read_event().map_err(|_| broken(bytes, start + reader.error_position() as usize))?;
             let (element, is_open) = match event {
@@ -133,13 +145,13 @@ impl<'a> Structure<'a> {
                 continue;
             };
             match name.as_ref() {
-                b"Piece" => file.pieces.push(Piece {
-                    counts: KINDS
-                        .map(|(count, ..)| attribute(&element, count).and_then(|n| n.parse().ok()).unwrap_or(0)),
-                    ..Piece::default()
-                }),
+                b"Piece" => {
+                    let count = |name| attribute(&element, name).and_then(|n| n.parse().ok()).unwrap_or(0);
+                    file.pieces.push(Piece { counts: KINDS.map(|(name, ..)| count(name)), ..Piece::default() });
+                    room.check_parts(file.format, file.pieces.len())?;
+                }
                 b"DataArray" | b"Array" => {
-                    let inline = if is_open { inline_text(&mut reader, bytes, start)? } else { b"" };
+                    let inline = if is_open { inline_text(&mut reader, bytes, start)? } else { (&b""[..], 0) };
                     file.add_array(section, &element, inline)?;
                 }
                 b"AppendedData" => {
@@ -179,7 +191,12 @@ impl<'a> Structure<'a> {
     }
 
     /// Keeps an array that matters.
-    fn add_array(&mut self, section: Section, element: &BytesStart, inline: &'a [u8]) -> Result<(), ReadError> {
+    fn add_array(
+        &mut self,
+        section: Section,
+        element: &BytesStart,
+        (inline, at): (&'a [u8], usize),
+    ) -> Result<(), ReadError> {
         let name = attribute(element, "Name").unwrap_or_default();
         let place = match attribute(element, "format").as_deref() {
             Some("appended") => {
@@ -189,15 +206,16 @@ impl<'a> Structure<'a> {
                 )
             }
             Some("binary") => Place::Binary(inline),
-            _ => Place::Text(inline),
+            _ => Place::Text(inline, at),
         };
         let array = DataArray { kind: attribute(element, "type").unwrap_or_default(), place };
         match (section, self.pieces.last_mut()) {
             (Section::FieldData, _) if name == "SPACE" => self.space = Some(array),
             (Section::Kind(0), Some(piece)) => piece.points = piece.points.take().or(Some(array)),
             (Section::Kind(kind), Some(piece)) => {
-                if let Some(part) = ["connectivity", "offsets", "types"].iter().position(|&part| part == name) {
-                    piece.cells[kind][part] = Some(array);
+                let part = PARTS.iter().position(|&part| part == name);
+                if let Some(part) = part.filter(|&part| piece.cells(kind, part).is_none()) {
+                    piece.cells.push((kind, part, array));
                 }
             }
             _ => {}
@@ -215,16 +233,21 @@ fn section_named(name: &[u8]) -> Option<Section> {
     }
 }
 
-/// The text of the element that has just begun, without that of elements in it; the reader is then past its end.
-fn inline_text<'a>(reader: &mut Reader<&'a [u8]>, bytes: &'a [u8], start: usize) -> Result<&'a [u8], ReadError> {
-    let (mut depth, mut found) = (0, &b""[..]);
+/// The text of the element that has just begun, without that of elements in it, and where it begins; the reader is then
+/// past its end.
+fn inline_text<'a>(
+    reader: &mut Reader<&'a [u8]>,
+    bytes: &'a [u8],
+    start: usize,
+) -> Result<(&'a [u8], usize), ReadError> {
+    let (mut depth, mut found) = (0, (&b""[..], start));
     loop {
         let from = start + reader.buffer_position() as usize;
         let event = reader.read_event().map_err(|_| broken(bytes, start + reader.error_position() as usize))?;
         match event {
-            Event::Text(_) if depth == 0 && found.is_empty() => {
+            Event::Text(_) if depth == 0 && found.0.is_empty() => {
                 let to = start + reader.buffer_position() as usize;
-                found = bytes.get(from..to).unwrap_or_default().trim_ascii();
+                found = (bytes.get(from..to).unwrap_or_default().trim_ascii_end(), from);
             }
             Event::Start(_) => depth += 1,
             Event::End(_) if depth == 0 => return Ok(found),
@@ -260,16 +283,17 @@ impl<'a> Arrays<'a> {
         if let (Some(array), true) = (&piece.points, points > 0) {
             surface.add_points(&self.open(array)?, points)?;
         }
-        for (&count, (cells, (_, element, shape))) in kinds.iter().zip(piece.cells[1..].iter().zip(&KINDS[1..])) {
+        for (kind, (&count, &(_, element, shape))) in kinds.iter().zip(&KINDS[1..]).enumerate() {
             if count == 0 {
                 continue;
             }
             let missing = || malformed(self.file.format, format!("\"{element}\" has no arrays"));
-            let [Some(connectivity), Some(offsets), types] = cells else { return Err(missing()) };
+            let [connectivity, offsets, types] = [0, 1, 2].map(|part| piece.cells(kind + 1, part));
+            let (Some(connectivity), Some(offsets)) = (connectivity, offsets) else { return Err(missing()) };
             if piece.points.is_none() {
                 return Err(malformed(self.file.format, "a piece has no points"));
             }
-            if *shape == Shape::Typed && types.is_none() {
+            if shape == Shape::Typed && types.is_none() {
                 return Err(missing());
             }
             // Vertices and lines are only counted.
@@ -277,8 +301,8 @@ impl<'a> Arrays<'a> {
             let none = || Ok(Array { kind: Scalar::U8, content: Content::Little(Cow::Borrowed(b"")) });
             let mut open = |array| if is_surface { self.open_whole(array) } else { none() };
             let (ends, points) = (open(offsets)?, open(connectivity)?);
-            let types = types.as_ref().filter(|_| *shape == Shape::Typed).map(open).transpose()?;
-            surface.add_cells(&Cells { shape: *shape, count, lengths: Lengths::Ends(ends), points, types })?;
+            let types = types.filter(|_| shape == Shape::Typed).map(open).transpose()?;
+            surface.add_cells(&Cells { shape, count, lengths: Lengths::Ends(ends), points, types })?;
         }
         Ok(())
     }
@@ -300,8 +324,7 @@ impl<'a> Arrays<'a> {
         })?;
         let encoding = self.file.encoding;
         let bytes = match array.place {
-            Place::Text(text) => {
-                let at = text.as_ptr().addr() - self.bytes.as_ptr().addr();
+            Place::Text(text, at) => {
                 return Ok(Array { kind, content: Content::Text { text, line: line_of(self.bytes, at) } });
             }
             Place::Binary(text) => match compact(text) {
