@@ -248,3 +248,20 @@ pub(crate) fn vtp(coding: Coding) -> Vec<u8> {
     out.extend_from_slice(b"</VTKFile>\n");
     out
 }
+
+/// Writes the samples into the folder that `LUMEN_SEEDS` names, a folder in it for each reader: `cargo xtask fuzz-files`
+/// begins with them.
+#[test]
+fn seeds_are_written_where_they_are_asked_for() {
+    let Some(folder) = std::env::var_os("LUMEN_SEEDS") else { return };
+    for (i, (name, bytes)) in valid().into_iter().enumerate() {
+        let reader = match name.trim_start_matches("a.") {
+            "glb" => "gltf",
+            "vtu" => "vtp",
+            extension => extension,
+        };
+        let folder = std::path::Path::new(&folder).join(reader);
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join(format!("seed-{i:02}")), bytes).unwrap();
+    }
+}

@@ -95,7 +95,7 @@ fn broken_files_say_what_is_wrong_and_where() {
         xml("</Polys>", "</Points>"),
         "The VTK file is broken at line 16: its XML is wrong or incomplete there."
     );
-    assert!(xml("90 90 50<", "90 x 50<").contains("line 14: \"x\" stands where a number should"));
+    assert!(xml("90 90 50<", "90 x 50<").contains("line 15: \"x\" stands where a number should"));
     assert!(xml("type=\"Int64\"", "type=\"Int128\"").contains("\"Int128\" is no type of number"));
     assert!(xml(" version=\"0.1\"", " compressor=\"zstd\"").contains("uses the compressor \"zstd\""));
     let mut cut = write(&tetrahedra(3), None, Format::Vtp).unwrap();
