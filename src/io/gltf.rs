@@ -207,8 +207,8 @@ impl Collected {
         to_world: DMat4,
     ) -> Result<(), ReadError> {
         let positions = buffers.items(root, positions, Type::Vec3)?;
-        if positions.component != ComponentType::F32 {
-            let feature = "positions that are not 32-bit floating-point numbers".to_owned();
+        if positions.component == ComponentType::U32 {
+            let feature = "positions of 32-bit whole numbers".to_owned();
             return Err(ReadError::Unsupported { format: FORMAT, feature });
         }
         let indices = primitive.indices.map(|index| buffers.items(root, index, Type::Scalar)).transpose()?;
@@ -218,8 +218,8 @@ impl Collected {
         self.room.check(FORMAT, vertices.saturating_add(positions.count), triangles.saturating_add(more))?;
         let base = self.raw.positions.len() as u32;
         self.raw.positions.extend(positions.iter().map(|item| {
-            let [x, y, z] =
-                [0, 4, 8].map(|i| f64::from(f32::from_le_bytes([item[i], item[i + 1], item[i + 2], item[i + 3]])));
+            let size = item.len() / 3;
+            let [x, y, z] = [0, 1, 2].map(|i| positions.number(&item[i * size..(i + 1) * size]));
             to_world.transform_point3(DVec3::new(x, y, z)).as_vec3()
         }));
         let order: Vec<u32> = match indices {
@@ -313,7 +313,7 @@ impl<'a> Buffers<'a> {
                 needed.is_some_and(|needed| needed <= rest.len() as u64)
             })
             .ok_or_else(|| broken("lies beyond the end of the data"))?;
-        Ok(Items { bytes, component, size, stride, count: count as usize })
+        Ok(Items { bytes, component, size, stride, count: count as usize, is_normalized: accessor.normalized })
     }
 }
 
@@ -325,11 +325,27 @@ struct Items<'a> {
     size: usize,
     stride: usize,
     count: usize,
+    /// Whether whole numbers stand for parts of their largest.
+    is_normalized: bool,
 }
 
 impl Items<'_> {
     fn iter(&self) -> impl Iterator<Item = &[u8]> {
         (0..self.count).map(|i| &self.bytes[i * self.stride..i * self.stride + self.size])
+    }
+
+    /// A number of an item, which may be quantised (KHR_mesh_quantization).
+    fn number(&self, bytes: &[u8]) -> f64 {
+        let (number, largest) = match (self.component, bytes) {
+            (ComponentType::I8, &[a]) => (f64::from(a as i8), f64::from(i8::MAX)),
+            (ComponentType::U8, &[a]) => (f64::from(a), f64::from(u8::MAX)),
+            (ComponentType::I16, &[a, b]) => (f64::from(i16::from_le_bytes([a, b])), f64::from(i16::MAX)),
+            (ComponentType::U16, &[a, b]) => (f64::from(u16::from_le_bytes([a, b])), f64::from(u16::MAX)),
+            (_, &[a, b, c, d]) => return f64::from(f32::from_le_bytes([a, b, c, d])),
+            _ => (f64::NAN, 1.0),
+        };
+        // The least of signed numbers stands for -1 too.
+        if self.is_normalized { (number / largest).max(-1.0) } else { number }
     }
 
     /// The items as vertex numbers.
@@ -460,6 +476,39 @@ mod tests {
         assert!(problem("\"asset\"", "asset").contains("its JSON is wrong"));
         let other = problem("data:application/octet-stream;base64,", "square.bin?");
         assert!(other.starts_with("The glTF file keeps its data in another file (square.bin?AAAA"), "{other}");
+    }
+
+    #[test]
+    fn quantised_positions_are_those_that_they_stand_for() {
+        let text = |component: u32, is_normalized: bool, bytes: &[u8]| {
+            let data = BASE64.encode(bytes);
+            format!(
+                "{{\"asset\":{{\"version\":\"2.0\"}},\"extensionsRequired\":[\"KHR_mesh_quantization\"],\
+                 \"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{{\"mesh\":0}}],\
+                 \"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}}}}]}}],\
+                 \"accessors\":[{{\"bufferView\":0,\"componentType\":{component},\"count\":3,\"type\":\"VEC3\",\
+                 \"normalized\":{is_normalized}}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":{0}}}],\
+                 \"buffers\":[{{\"byteLength\":{0},\"uri\":\"data:;base64,{data}\"}}]}}",
+                bytes.len(),
+            )
+        };
+        let shorts = |numbers: [i16; 9]| numbers.map(i16::to_le_bytes).concat();
+        // The least and the largest number; y is up in the file, z here.
+        let normalized = text(5122, true, &shorts([0, 0, 0, 32767, 0, 0, 0, -32768, 0]));
+        assert_eq!(read(&normalized).unwrap().positions, [Vec3::ZERO, Vec3::X * 1000.0, Vec3::Z * -1000.0]);
+        let whole = text(5122, false, &shorts([0, 0, 0, 3, 0, 0, 0, -2, 0]));
+        assert_eq!(read(&whole).unwrap().positions, [Vec3::ZERO, Vec3::X * 3000.0, Vec3::Z * -2000.0]);
+        let bytes = text(5121, true, &[0, 0, 0, 255, 0, 0, 0, 51, 0]);
+        assert_eq!(read(&bytes).unwrap().positions[2], Vec3::Z * 200.0);
+    }
+
+    #[test]
+    fn compressed_meshes_are_refused_by_the_name_of_the_compression() {
+        for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
+            let text = square("{\"mesh\":0}", "").replacen('{', &format!("{{\"extensionsRequired\":[\"{name}\"],"), 1);
+            let error = read(&text).err().unwrap().to_string();
+            assert_eq!(error, format!("The glTF file uses {name}, which Lumen does not read."));
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! VTK's files: every way to write the same square, several pieces, grids, axes, and what is refused.
 
+use base64::Engine as _;
 use lumen::io::{Axes, Format, ImportOptions, Imported, ReadError, read, write};
 
 use crate::samples::{Coding, LEGACY_GRID, LEGACY_TEXT, VTP_TEXT, VTU_TEXT, legacy_binary_51, tetrahedra, vtp};
@@ -101,6 +102,25 @@ fn broken_files_say_what_is_wrong_and_where() {
     let mut cut = write(&tetrahedra(3), None, Format::Vtp).unwrap();
     cut.truncate(cut.len() - 60);
     assert!(refused(&cut).contains("goes on beyond the end of its data"), "{}", refused(&cut));
+}
+
+/// What libFuzzer found: counts near the end of 64 bits.
+#[test]
+fn counts_that_overflow_are_refused() {
+    for coding in Coding::ALL.into_iter().filter(|coding| coding.is_wide && coding.is_base64) {
+        for words in [vec![u64::MAX], vec![u64::MAX - 8], vec![1, 32, 0, u64::MAX - 40], vec![u64::MAX / 2, 1, 1]] {
+            let claim: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            let text = format!(
+                "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"{}\"><PolyData>\
+                 <Piece NumberOfPoints=\"4\" NumberOfPolys=\"1\"><Points>\
+                 <DataArray type=\"Float32\" format=\"binary\">{}AAAA</DataArray></Points></Piece></PolyData></VTKFile>",
+                coding.compressor,
+                base64::engine::general_purpose::STANDARD.encode(claim),
+            );
+            let problem = refused(text.as_bytes());
+            assert!(problem.contains("goes on beyond the end"), "{words:?}: {problem}");
+        }
+    }
 }
 
 #[test]

@@ -106,5 +106,5 @@ pub(in crate::io) fn legacy(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result<
 
 /// The bytes of vectors, one after another.
 fn vectors(vectors: &[Vec3], bytes: fn(f32) -> [u8; 4]) -> Vec<u8> {
-    vectors.iter().flat_map(|v| v.to_array()).flat_map(bytes).collect()
+    vectors.iter().copied().flat_map(|v| [v.x, v.y, v.z]).flat_map(bytes).collect()
 }
