@@ -118,7 +118,10 @@ fn counts_that_overflow_are_refused() {
                 base64::engine::general_purpose::STANDARD.encode(claim),
             );
             let problem = refused(text.as_bytes());
-            assert!(problem.contains("goes on beyond the end"), "{words:?}: {problem}");
+            // Without compression the first word alone is the header.
+            let is_short = words[0] == 1 && coding.compressor.is_empty();
+            let expected = if is_short { "is cut short: it announces 4 points" } else { "goes on beyond the end" };
+            assert!(problem.contains(expected), "{words:?}: {problem}");
         }
     }
 }
