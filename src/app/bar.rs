@@ -44,7 +44,7 @@ pub(super) fn top(
             ui.add_space(8.0);
         }
         ask(
-            ui.button("Open...").on_hover_text("STL, PLY, OBJ, GLB, glTF (Ctrl+O); or drop a file").clicked(),
+            ui.button("Open...").on_hover_text("STL, PLY, OBJ, VTP, VTK, GLB, glTF (Ctrl+O); or drop a file").clicked(),
             Action::Open,
         );
         let open_in = ui.menu_button("Open in", |ui| {

@@ -94,7 +94,7 @@ fn misuse(error: impl std::fmt::Display) -> ! {
 /// The format that the name of an output file asks for.
 fn output_format(path: &std::path::Path) -> crate::io::Format {
     crate::io::Format::from_name(&path.to_string_lossy())
-        .unwrap_or_else(|| misuse(format!("{} does not end in .stl, .ply, .obj or .glb", path.display())))
+        .unwrap_or_else(|| misuse(format!("{} does not end in .stl, .ply, .obj, .vtp, .vtk or .glb", path.display())))
 }
 
 /// Writes `bytes` to `path` whole or not at all: what was there before stays if the disk is full.

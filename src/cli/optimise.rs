@@ -26,7 +26,7 @@ use crate::pipeline::task::Budget;
 pub struct Optimise {
     /// A surface file, or sample:aorta, sample:coronary
     file: String,
-    /// Where to write: .stl, .ply, .obj or .glb
+    /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// How to smooth: auto leaves every vessel its calibre and makes no triangles cross; paper is 0.01 and 100 iterations

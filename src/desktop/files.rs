@@ -10,14 +10,16 @@ use std::thread;
 use rfd::FileDialog;
 
 use crate::app::{Offer, PlatformEvent, Waker};
+use crate::io::Format;
 
-/// Extensions that can be opened: those of surfaces, and that of a trial's log.
-const EXTENSIONS: [&str; 6] = ["stl", "ply", "obj", "glb", "gltf", "csv"];
+/// What a trial's log ends in.
+const LOG: &str = "csv";
 
 /// Lets the user choose a file and reads it.
 pub(super) fn choose(events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
-        if let Some(path) = FileDialog::new().add_filter("Surfaces and logs", &EXTENSIONS).pick_file() {
+        let extensions: Vec<&str> = Format::OPENED.into_iter().chain([LOG]).collect();
+        if let Some(path) = FileDialog::new().add_filter("Surfaces and logs", &extensions).pick_file() {
             send(&events, &waker, load(&path));
         }
     });

@@ -1,7 +1,8 @@
 //! Which way the patient lies in a surface's coordinates, as far as its file says.
 //!
-//! None of the formats has a place for it. 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the header of an STL file and
-//! the comments of PLY and OBJ; glTF says which way is up (y, which is read as z: `gltf.rs`), but not that a patient stands
+//! None of the formats has a place for it. 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the header of an STL file, the
+//! comments of PLY and OBJ and the title of a legacy VTK file, and the letters alone into a string `SPACE` of the field
+//! data of VTP (`vtk/xml.rs`); glTF says which way is up (y, which is read as z: `gltf.rs`), but not that a patient stands
 //! upright in it. Everywhere else nothing is known, and nothing is asserted.
 
 use serde::{Deserialize, Serialize};
@@ -33,7 +34,7 @@ impl Axes {
 /// Where a header or comments end at the latest.
 const HEADER: usize = 4096;
 
-/// What stands in the text before the numbers of an STL, PLY or OBJ file.
+/// What stands in the text before the numbers of an STL, PLY or OBJ file, or in the title of a VTK file.
 pub(super) fn stated(bytes: &[u8]) -> Axes {
     let head = &bytes[..bytes.len().min(HEADER)];
     let holds = |words: &[u8]| head.windows(words.len()).any(|part| part == words);
@@ -65,6 +66,19 @@ mod tests {
                     Format::Ply => {
                         let at = bytes.windows(8).position(|part| part == b"element ").unwrap();
                         stated.splice(at..at, format!("comment {words}\n").into_bytes());
+                    }
+                    Format::Vtk => {
+                        let at = bytes.windows(7).position(|part| part == b"Surface").unwrap();
+                        stated.splice(at..at, words.into_bytes());
+                    }
+                    Format::Vtp => {
+                        let letters = if expected == Axes::Lps { "76 80 83 0" } else { "82 65 83 0" };
+                        let at = bytes.windows(7).position(|part| part == b"<Piece ").unwrap();
+                        let array = format!(
+                            "<FieldData><Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">\n\
+                             {letters}\n</Array></FieldData>"
+                        );
+                        stated.splice(at..at, array.into_bytes());
                     }
                     Format::Obj => drop(stated.splice(..0, format!("# {words}\n").into_bytes())),
                     Format::Glb => continue,

@@ -1,7 +1,7 @@
 //! What a file is: by its content first, by its extension where the content does not say.
 
 use super::error::ReadError;
-use super::{obj, stl, text};
+use super::{obj, stl, text, vtk};
 
 /// A kind of file that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +9,10 @@ pub(super) enum Content {
     Stl,
     Ply,
     Obj,
+    /// VTK's XML.
+    Vtp,
+    /// VTK's legacy format.
+    Vtk,
     Glb,
     Gltf,
 }
@@ -32,8 +36,9 @@ pub(super) fn detect(bytes: &[u8], name: &str) -> Result<Content, ReadError> {
         "obj" => Ok(Content::Obj),
         "glb" => Ok(Content::Glb),
         "gltf" => Ok(Content::Gltf),
-        "vtp" => Err(ReadError::NotReadYet { format: "VTP" }),
-        "vtk" => Err(ReadError::NotReadYet { format: "VTK" }),
+        "vtp" | "vtu" => Ok(Content::Vtp),
+        "vtk" => Ok(Content::Vtk),
+        "vti" => Err(ReadError::ImageVolume { format: "VTK image data" }),
         "nii" | "hdr" | "img" => Err(ReadError::ImageVolume { format: "NIfTI" }),
         "mha" | "mhd" => Err(ReadError::ImageVolume { format: "MetaImage" }),
         "nrrd" | "nhdr" => Err(ReadError::ImageVolume { format: "NRRD" }),
@@ -72,11 +77,11 @@ fn by_magic(bytes: &[u8], name: &str) -> Result<Option<Content>, ReadError> {
     if begins_with(b"ply\n") || begins_with(b"ply\r") {
         return Ok(Some(Content::Ply));
     }
-    if begins_with(b"# vtk DataFile") {
-        return Err(ReadError::NotReadYet { format: "VTK" });
+    if vtk::is_legacy(text) {
+        return Ok(Some(Content::Vtk));
     }
-    if begins_with(b"<") && contains(b"<VTKFile") {
-        return Err(ReadError::NotReadYet { format: "VTP" });
+    if vtk::is_xml(text) {
+        return Ok(Some(Content::Vtp));
     }
     if (begins_with(b"ObjectType") || begins_with(b"NDims")) && contains(b"ElementType") {
         return Err(ReadError::ImageVolume { format: "MetaImage" });
@@ -100,6 +105,8 @@ mod tests {
         assert_eq!(detect(b"\xef\xbb\xbfSOLID x\n facet", "a.obj"), Ok(Content::Stl));
         assert_eq!(detect(b"{\"asset\":{}}", "a"), Ok(Content::Gltf));
         assert_eq!(detect(b"# a cube\nv 1 2 3\n", "cube"), Ok(Content::Obj));
+        assert_eq!(detect(b"# vtk DataFile Version 3.0\n", "a.obj"), Ok(Content::Vtk));
+        assert_eq!(detect(b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "a"), Ok(Content::Vtp));
     }
 
     #[test]
@@ -107,6 +114,5 @@ mod tests {
         assert_eq!(detect(b"", "a.stl"), Err(ReadError::Empty));
         assert_eq!(detect(b"Dear colleague", "letter"), Err(ReadError::Unknown { name: "letter".to_owned() }));
         assert_eq!(detect(b"\x1f\x8b\x08", "a.nii.gz"), Err(ReadError::ImageVolume { format: "NIfTI" }));
-        assert_eq!(detect(b"# vtk DataFile Version 3.0\n", "a"), Err(ReadError::NotReadYet { format: "VTK" }));
     }
 }

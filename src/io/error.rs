@@ -10,16 +10,22 @@ pub enum ReadError {
     #[error("The file is empty.")]
     Empty,
     /// Neither the content nor the extension is one that Lumen knows.
-    #[error("\"{name}\" is not a surface that Lumen knows: it opens STL, PLY, OBJ, GLB and glTF files.")]
+    #[error("\"{name}\" is not a surface that Lumen knows: it opens STL, PLY, OBJ, VTP, VTK, GLB and glTF files.")]
     Unknown {
         /// The file's name.
         name: String,
     },
-    /// A surface format that a later version will read.
-    #[error("{format} files are not read yet: save the surface as STL, PLY, OBJ or GLB and open that.")]
-    NotReadYet {
-        /// The format.
-        format: &'static str,
+    /// VTK data of another kind than surfaces.
+    #[error("This is VTK data of another kind ({kind}), and Lumen opens surfaces: extract its surface and save that.")]
+    VtkKind {
+        /// What VTK calls it.
+        kind: String,
+    },
+    /// A VTK file that only names others.
+    #[error("This VTK file ({kind}) only names others that hold the data: open one of those.")]
+    VtkIndex {
+        /// What VTK calls it.
+        kind: String,
     },
     /// An image volume, not a surface.
     #[error("This is an image volume ({format}), and Lumen opens surfaces: segment it and save the surface first.")]
@@ -112,6 +118,24 @@ pub enum ReadError {
         format: &'static str,
         /// Vertices in the file.
         vertices: usize,
+    },
+    /// A readable file of lines or points alone.
+    #[error("The {format} file holds no surface, only {found}: Lumen does not open centrelines.")]
+    NoSurface {
+        /// The format.
+        format: &'static str,
+        /// What it holds: "145 lines".
+        found: String,
+    },
+    /// A few bytes that stand for more than can be honest.
+    #[error("The {format} file would unfold to {what}, more than a file of {file} bytes can honestly hold.")]
+    Unfolds {
+        /// The format.
+        format: &'static str,
+        /// What it unfolds to.
+        what: String,
+        /// Bytes that it has for that.
+        file: u64,
     },
     /// Triangles, but each with a repeated vertex.
     #[error("None of the {triangles} triangles of the {format} file has an area: each repeats one of its vertices.")]

@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A format that Lumen reads and writes. (It also reads glTF as text.)
+/// A format that Lumen reads and writes. (It also reads glTF as text, and the flat cells of VTK's unstructured grids.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
@@ -15,13 +15,20 @@ pub enum Format {
     Ply,
     /// Wavefront object, text.
     Obj,
+    /// VTK's XML format for polygonal data, written in compressed binary.
+    Vtp,
+    /// VTK's legacy format, written in binary.
+    Vtk,
     /// Binary glTF 2.0.
     Glb,
 }
 
 impl Format {
     /// All formats, in the order in which menus show them.
-    pub const ALL: [Self; 4] = [Self::Stl, Self::Ply, Self::Obj, Self::Glb];
+    pub const ALL: [Self; 6] = [Self::Stl, Self::Ply, Self::Obj, Self::Vtp, Self::Vtk, Self::Glb];
+
+    /// The extensions of all files that can be opened, those of formats that are not written included.
+    pub const OPENED: [&str; 8] = ["stl", "ply", "obj", "vtp", "vtu", "vtk", "glb", "gltf"];
 
     /// The format of an extension such as `stl` or `.STL`.
     pub fn from_extension(extension: &str) -> Option<Self> {
@@ -40,6 +47,8 @@ impl Format {
             Self::Stl => "stl",
             Self::Ply => "ply",
             Self::Obj => "obj",
+            Self::Vtp => "vtp",
+            Self::Vtk => "vtk",
             Self::Glb => "glb",
         }
     }
@@ -55,6 +64,8 @@ impl Format {
             Self::Stl => "STL",
             Self::Ply => "PLY",
             Self::Obj => "OBJ",
+            Self::Vtp => "VTP",
+            Self::Vtk => "VTK",
             Self::Glb => "GLB",
         }
     }
@@ -126,6 +137,7 @@ mod tests {
         assert_eq!(Format::from_extension(".glb"), Some(Format::Glb));
         assert_eq!(Format::from_name("surface.gltf"), None, "glTF as text is read, not written");
         assert_eq!(Format::from_name("stl"), None);
+        assert!(Format::ALL.iter().all(|format| Format::OPENED.contains(&format.extension())));
         assert_eq!("cm".parse(), Ok(Unit::Centimetre));
         assert_eq!("inch".parse::<Unit>(), Err(UnknownUnit("inch".to_owned())));
         assert_eq!(serde_json::to_string(&Unit::Metre).unwrap(), "\"m\"");

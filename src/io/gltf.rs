@@ -17,26 +17,18 @@ use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Node, Root, deserialize};
 use base64::Engine as _;
-use base64::alphabet;
-use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::Unit;
 use super::error::{ReadError, WriteError};
 use super::import::RawSurface;
+use super::room::Room;
+use super::text::BASE64;
 use crate::mesh::{TriMesh, Vec3};
 
 const FORMAT: &str = "glTF";
 const JSON_CHUNK: u32 = 0x4e4f_534a;
 const BIN_CHUNK: u32 = 0x004e_4942;
-
-/// Base64 as files have it: with or without its padding.
-const BASE64: GeneralPurpose = GeneralPurpose::new(
-    &alphabet::STANDARD,
-    GeneralPurposeConfig::new()
-        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
-        .with_decode_allow_trailing_bits(true),
-);
 
 /// Reads a GLB file; its positions come in mm, relative to `origin`.
 pub(super) fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<RawSurface, ReadError> {
@@ -90,6 +82,8 @@ fn read_scene(
     file_length: usize,
     origin: DVec3,
 ) -> Result<RawSurface, ReadError> {
+    let room = Room::of(file_length);
+    room.check_parts(FORMAT, json.iter().filter(|&&byte| byte == b'{').count())?;
     let root: Root = deserialize::from_slice(json).map_err(|error| {
         malformed(format!("its JSON is wrong or incomplete at line {}, column {}", error.line(), error.column()))
     })?;
@@ -98,11 +92,7 @@ fn read_scene(
         return Err(ReadError::Unsupported { format: FORMAT, feature: feature.clone() });
     }
     let buffers = Buffers::new(&root, binary)?;
-    let mut collected = Collected {
-        raw: RawSurface::new(label, Vec::new(), Vec::new()),
-        // A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
-        limit: (4 * file_length as u64).max(1 << 25),
-    };
+    let mut collected = Collected { raw: RawSurface::new(label, Vec::new(), Vec::new()), room };
     collected.raw.in_mm = true;
     (collected.raw.has_doubles, collected.raw.origin) = (root.nodes.iter().any(is_moved), origin);
     let to_mm = DMat4::from_translation(-origin) * upright() * DMat4::from_scale(DVec3::splat(unit.to_mm()));
@@ -179,8 +169,8 @@ fn decimal(x: f32) -> f64 {
 /// What has been read so far.
 struct Collected {
     raw: RawSurface,
-    /// The most positions and corners that may be collected.
-    limit: u64,
+    /// A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
+    room: Room,
 }
 
 impl Collected {
@@ -217,21 +207,19 @@ impl Collected {
         to_world: DMat4,
     ) -> Result<(), ReadError> {
         let positions = buffers.items(root, positions, Type::Vec3)?;
-        if positions.component != ComponentType::F32 {
-            let feature = "positions that are not 32-bit floating-point numbers".to_owned();
+        if positions.component == ComponentType::U32 {
+            let feature = "positions of 32-bit whole numbers".to_owned();
             return Err(ReadError::Unsupported { format: FORMAT, feature });
         }
         let indices = primitive.indices.map(|index| buffers.items(root, index, Type::Scalar)).transpose()?;
         let corners = indices.as_ref().map_or(positions.count, |indices| indices.count);
-        let so_far = self.raw.positions.len() + self.raw.triangles.len() * 3;
-        let total = so_far as u64 + positions.count as u64 + 3 * corners as u64;
-        if total > self.limit {
-            return Err(ReadError::TooLarge { corners: total, limit: self.limit });
-        }
+        let more = if mode == Mode::Triangles { corners / 3 } else { corners };
+        let (vertices, triangles) = (self.raw.positions.len(), self.raw.triangles.len());
+        self.room.check(FORMAT, vertices.saturating_add(positions.count), triangles.saturating_add(more))?;
         let base = self.raw.positions.len() as u32;
         self.raw.positions.extend(positions.iter().map(|item| {
-            let [x, y, z] =
-                [0, 4, 8].map(|i| f64::from(f32::from_le_bytes([item[i], item[i + 1], item[i + 2], item[i + 3]])));
+            let size = item.len() / 3;
+            let [x, y, z] = [0, 1, 2].map(|i| positions.number(&item[i * size..(i + 1) * size]));
             to_world.transform_point3(DVec3::new(x, y, z)).as_vec3()
         }));
         let order: Vec<u32> = match indices {
@@ -325,7 +313,7 @@ impl<'a> Buffers<'a> {
                 needed.is_some_and(|needed| needed <= rest.len() as u64)
             })
             .ok_or_else(|| broken("lies beyond the end of the data"))?;
-        Ok(Items { bytes, component, size, stride, count: count as usize })
+        Ok(Items { bytes, component, size, stride, count: count as usize, is_normalized: accessor.normalized })
     }
 }
 
@@ -337,11 +325,27 @@ struct Items<'a> {
     size: usize,
     stride: usize,
     count: usize,
+    /// Whether whole numbers stand for parts of their largest.
+    is_normalized: bool,
 }
 
 impl Items<'_> {
     fn iter(&self) -> impl Iterator<Item = &[u8]> {
         (0..self.count).map(|i| &self.bytes[i * self.stride..i * self.stride + self.size])
+    }
+
+    /// A number of an item, which may be quantised (KHR_mesh_quantization).
+    fn number(&self, bytes: &[u8]) -> f64 {
+        let (number, largest) = match (self.component, bytes) {
+            (ComponentType::I8, &[a]) => (f64::from(a as i8), f64::from(i8::MAX)),
+            (ComponentType::U8, &[a]) => (f64::from(a), f64::from(u8::MAX)),
+            (ComponentType::I16, &[a, b]) => (f64::from(i16::from_le_bytes([a, b])), f64::from(i16::MAX)),
+            (ComponentType::U16, &[a, b]) => (f64::from(u16::from_le_bytes([a, b])), f64::from(u16::MAX)),
+            (_, &[a, b, c, d]) => return f64::from(f32::from_le_bytes([a, b, c, d])),
+            _ => (f64::NAN, 1.0),
+        };
+        // The least of signed numbers stands for -1 too.
+        if self.is_normalized { (number / largest).max(-1.0) } else { number }
     }
 
     /// The items as vertex numbers.
@@ -472,6 +476,39 @@ mod tests {
         assert!(problem("\"asset\"", "asset").contains("its JSON is wrong"));
         let other = problem("data:application/octet-stream;base64,", "square.bin?");
         assert!(other.starts_with("The glTF file keeps its data in another file (square.bin?AAAA"), "{other}");
+    }
+
+    #[test]
+    fn quantised_positions_are_those_that_they_stand_for() {
+        let text = |component: u32, is_normalized: bool, bytes: &[u8]| {
+            let data = BASE64.encode(bytes);
+            format!(
+                "{{\"asset\":{{\"version\":\"2.0\"}},\"extensionsRequired\":[\"KHR_mesh_quantization\"],\
+                 \"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{{\"mesh\":0}}],\
+                 \"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0}}}}]}}],\
+                 \"accessors\":[{{\"bufferView\":0,\"componentType\":{component},\"count\":3,\"type\":\"VEC3\",\
+                 \"normalized\":{is_normalized}}}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":{0}}}],\
+                 \"buffers\":[{{\"byteLength\":{0},\"uri\":\"data:;base64,{data}\"}}]}}",
+                bytes.len(),
+            )
+        };
+        let shorts = |numbers: [i16; 9]| numbers.map(i16::to_le_bytes).concat();
+        // The least and the largest number; y is up in the file, z here.
+        let normalized = text(5122, true, &shorts([0, 0, 0, 32767, 0, 0, 0, -32768, 0]));
+        assert_eq!(read(&normalized).unwrap().positions, [Vec3::ZERO, Vec3::X * 1000.0, Vec3::Z * -1000.0]);
+        let whole = text(5122, false, &shorts([0, 0, 0, 3, 0, 0, 0, -2, 0]));
+        assert_eq!(read(&whole).unwrap().positions, [Vec3::ZERO, Vec3::X * 3000.0, Vec3::Z * -2000.0]);
+        let bytes = text(5121, true, &[0, 0, 0, 255, 0, 0, 0, 51, 0]);
+        assert_eq!(read(&bytes).unwrap().positions[2], Vec3::Z * 200.0);
+    }
+
+    #[test]
+    fn compressed_meshes_are_refused_by_the_name_of_the_compression() {
+        for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
+            let text = square("{\"mesh\":0}", "").replacen('{', &format!("{{\"extensionsRequired\":[\"{name}\"],"), 1);
+            let error = read(&text).err().unwrap().to_string();
+            assert_eq!(error, format!("The glTF file uses {name}, which Lumen does not read."));
+        }
     }
 
     #[test]

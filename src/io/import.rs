@@ -35,6 +35,8 @@ pub(super) struct RawSurface {
     pub(super) has_doubles: bool,
     /// What the positions are relative to, where the file has more digits than f32 (`far`).
     pub(super) origin: DVec3,
+    /// What the file says about its axes.
+    pub(super) axes: Axes,
     /// Whether the positions are in mm already, as those of a glTF scene, whose transforms take the unit with them.
     pub(super) in_mm: bool,
     pub(super) polygons: usize,
@@ -47,8 +49,8 @@ impl RawSurface {
     pub(super) fn new(label: &'static str, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
         let (skipped, warnings) = (Skipped::default(), Vec::new());
         let origin = DVec3::ZERO;
-        let (has_doubles, in_mm) = (false, false);
-        Self { label, positions, triangles, has_doubles, origin, in_mm, polygons: 0, skipped, warnings }
+        let (has_doubles, in_mm, axes) = (false, false, Axes::Unknown);
+        Self { label, positions, triangles, has_doubles, origin, axes, in_mm, polygons: 0, skipped, warnings }
     }
 
     /// A surface of polygons, whose corners must be in range.
@@ -272,7 +274,7 @@ fn length(mm: f64) -> String {
     }
 }
 
-fn count(n: usize, one: &str, many: &str) -> String {
+pub(super) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 

@@ -1,6 +1,6 @@
 //! Bytes to mesh and back, one file a format, with a report of what was found and what was mended.
 //!
-//! Reading is two steps. A format's file (`stl`, `ply`, `obj`, `gltf`) turns bytes into the polygons that stand in
+//! Reading is two steps. A format's file (`stl`, `ply`, `obj`, `gltf`) or folder (`vtk`) turns bytes into the polygons that stand in
 //! them and judges nothing but its own syntax; the import stage (`import`) then welds, triangulates, cleans and
 //! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
 //! the content first and by the extension only where the content does not say (`detect`).
@@ -14,7 +14,8 @@
 //! A surface far from the origin of its coordinates is read relative to a place within it (`far`), so that its detail
 //! is not rounded away; the report says by what it was moved.
 //!
-//! No memory is allocated because a header claims it: every count is checked against the bytes that are there.
+//! No memory is allocated because a header claims it: every count is checked against the bytes that are there, and what
+//! a few bytes unfold to against the room that a file of their number has (`room`).
 
 mod axes;
 mod detect;
@@ -28,8 +29,10 @@ mod obj;
 mod ply;
 mod polygons;
 mod report;
+mod room;
 mod stl;
 mod text;
+mod vtk;
 mod weld;
 mod winding;
 
@@ -44,6 +47,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mesh::{TriMesh, Vec3};
 use detect::Content;
+use room::Room;
 
 /// What the user says about a file that the file does not say itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,23 +66,27 @@ pub fn read(bytes: &[u8], name: &str, options: &ImportOptions) -> Result<Importe
     let content = detect::detect(bytes, name)?;
     let unit = options.unit.unwrap_or(match content {
         Content::Glb | Content::Gltf => Unit::Metre,
-        Content::Stl | Content::Ply | Content::Obj => Unit::Millimetre,
+        _ => Unit::Millimetre,
     });
     let relative_to = |origin: DVec3| match content {
         Content::Stl => stl::read(bytes, origin),
         Content::Ply => ply::read(bytes, origin),
         Content::Obj => obj::read(bytes, origin),
+        Content::Vtp => vtk::read_xml(bytes, origin),
+        Content::Vtk => vtk::read_legacy(bytes, origin),
         Content::Glb => gltf::read_binary(bytes, unit, origin),
         Content::Gltf => gltf::read_text(bytes, unit, origin),
     };
-    let raw = relative_to(DVec3::ZERO)?;
-    let raw = match far::origin_for(&raw, unit) {
-        Some(origin) => relative_to(origin)?,
-        None => raw,
-    };
+    let mut raw = relative_to(DVec3::ZERO)?;
+    if let Some(origin) = far::origin_for(&raw, unit) {
+        // Never both at once.
+        drop(raw);
+        raw = relative_to(origin)?;
+    }
+    Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
     let axes = match content {
         Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
-        Content::Glb | Content::Gltf => Axes::Unknown,
+        Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,
     };
     import::import(raw, unit, axes)
 }
@@ -96,6 +104,8 @@ pub fn write(mesh: &TriMesh, normals: Option<&[Vec3]>, format: Format) -> Result
         Format::Stl => stl::write(mesh),
         Format::Ply => Ok(ply::write(mesh, normals)),
         Format::Obj => Ok(obj::write(mesh, normals)),
+        Format::Vtp => Ok(vtk::write_xml(mesh, normals)),
+        Format::Vtk => vtk::write_legacy(mesh, normals),
         Format::Glb => gltf::write(mesh, normals),
     }
 }

@@ -12,14 +12,28 @@ pub(super) enum Scalar {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
+}
+
+impl Scalar {
+    /// Bytes of a number in binary.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::I64 | Self::U64 | Self::F64 => 8,
+        }
+    }
 }
 
 /// The numbers of a body, one after another. `None` is the end of the file, or a [`Numbers::fault`]: these calls
 /// are the inner loop, so they return what fits into registers.
 pub(super) trait Numbers {
-    /// The next number, of any type: `f64` holds them all.
+    /// The next number, of any type: `f64` holds them all, whole ones exactly up to 2^53.
     fn number(&mut self, kind: Scalar) -> Option<f64>;
 
     /// The next number relative to `origin`; where that is 0, rounded once to `f32`.
@@ -128,6 +142,8 @@ impl<const BIG: bool> Numbers for BinaryNumbers<'_, BIG> {
             Scalar::U16 => self.take().map(|b| f64::from(u16::from_le_bytes(b))),
             Scalar::I32 => self.take().map(|b| f64::from(i32::from_le_bytes(b))),
             Scalar::U32 => self.take().map(|b| f64::from(u32::from_le_bytes(b))),
+            Scalar::I64 => self.take().map(|b| i64::from_le_bytes(b) as f64),
+            Scalar::U64 => self.take().map(|b| u64::from_le_bytes(b) as f64),
             Scalar::F32 => self.take().map(|b| f64::from(f32::from_le_bytes(b))),
             Scalar::F64 => self.take().map(f64::from_le_bytes),
         }

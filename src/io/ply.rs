@@ -10,6 +10,7 @@ use super::error::ReadError;
 use super::import::RawSurface;
 use super::numbers::{BinaryNumbers, Numbers, Scalar, TextNumbers};
 use super::polygons::Faces;
+use super::room::Room;
 use super::text::{self, Words};
 use crate::mesh::{TriMesh, Vec3};
 
@@ -89,19 +90,19 @@ pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError>
     let header = header(bytes)?;
     let body = &bytes[header.body..];
     match header.encoding {
-        Encoding::Ascii => read_ascii(&header, body, origin),
-        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false>::new(body), origin),
-        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true>::new(body), origin),
+        Encoding::Ascii => read_ascii(&header, body, origin, bytes.len()),
+        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false>::new(body), origin, bytes.len()),
+        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true>::new(body), origin, bytes.len()),
     }
 }
 
 /// Reads a body of text. White space is white space to the format; but where the numbers do not come out even, a
 /// header has left out some that stand at the ends of lines (MeshLab once wrote colours so), and taking every row to
 /// be a line gets over them.
-fn read_ascii(header: &Header, body: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
+fn read_ascii(header: &Header, body: &[u8], origin: DVec3, file: usize) -> Result<RawSurface, ReadError> {
     let attempt = |row_is_line| {
         let mut numbers = TextNumbers::new("PLY", Words::new(body, header.body_line), row_is_line);
-        let result = read_body(header, &mut numbers, origin);
+        let result = read_body(header, &mut numbers, origin, file);
         let even = result.is_ok() && numbers.is_at_end();
         (result, even)
     };
@@ -148,7 +149,8 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
         line += 1;
         let syntax = |problem: String| ReadError::Syntax { format: "PLY", line, problem };
         let row = String::from_utf8_lossy(&rest[..length]);
-        let words: Vec<&str> = row.split_ascii_whitespace().collect();
+        // No line that means anything has more.
+        let words: Vec<&str> = row.split_ascii_whitespace().take(6).collect();
         let property = |name: &str, kind: &str, length: Option<&str>| {
             let scalar = |kind: &str| {
                 let unknown = || syntax(format!("{} is no type of number", text::quoted(kind.as_bytes())));
@@ -216,12 +218,14 @@ fn meaning(element: &Element) -> Result<Meaning, ReadError> {
     })
 }
 
-fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3) -> Result<RawSurface, ReadError> {
+/// Reads the numbers of a file of `file` bytes.
+fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3, file: usize) -> Result<RawSurface, ReadError> {
     let mut positions: Vec<Vec3> = Vec::new();
     let mut faces = Faces::default();
     // An index beyond this can stand for no vertex, and may be too large to be kept as one.
     let claimed: u64 =
         header.elements.iter().filter(|e| e.name == "vertex").map(|e| e.count).fold(0, u64::saturating_add);
+    let room = Room::of(file);
     let mut row = Row::default();
     for element in &header.elements {
         let meaning = meaning(element)?;
@@ -260,6 +264,8 @@ fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3) -> Resu
                     vertices: usize::try_from(claimed).unwrap_or(usize::MAX),
                 })
             };
+            // A number makes a triangle at most.
+            room.check(header.encoding.label(), positions.len(), faces.triangles() + row.list.len())?;
             match meaning {
                 Meaning::Vertices(places) => positions.push(Vec3::from(places.map(|place| row.scalars[place]))),
                 Meaning::Faces(_) => {
@@ -328,6 +334,9 @@ impl Row {
                 return None;
             }
             // A length that is a lie ends with the file.
+            if wanted == Some(place) {
+                self.list.reserve(numbers.remaining().min(length as usize));
+            }
             for _ in 0..length as u64 {
                 let value = numbers.number(property.kind)?;
                 if wanted == Some(place) {

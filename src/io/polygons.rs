@@ -9,6 +9,10 @@ use glam::DVec3;
 
 use crate::mesh::Vec3;
 
+/// Corners of a face beyond which it is fanned at once: ears would use up their time before they had cut much of it, and
+/// the lists for them take more memory than the file may have been long.
+const LARGEST: usize = 1 << 18;
+
 /// The faces of a file in its order.
 #[derive(Default)]
 pub(super) struct Faces {
@@ -45,6 +49,11 @@ impl Faces {
         }
     }
 
+    /// How many triangles the faces will be cut into.
+    pub(super) fn triangles(&self) -> usize {
+        self.ends.last().map_or(0, |&end| end - 2 * self.ends.len())
+    }
+
     /// Adds a whole face.
     pub(super) fn push(&mut self, corners: &[u32]) {
         self.corners.extend_from_slice(corners);
@@ -62,6 +71,12 @@ impl Faces {
         for &end in &self.ends {
             match &self.corners[start..end] {
                 &[a, b, c] => result.triangles.push([a, b, c]),
+                polygon if polygon.len() > LARGEST => {
+                    result.polygons += 1;
+                    result.fanned += 1;
+                    let hub = polygon[0];
+                    result.triangles.extend(polygon[1..].windows(2).map(|two| [hub, two[0], two[1]]));
+                }
                 polygon => {
                     result.polygons += 1;
                     result.fanned += usize::from(!cutter.cut(polygon, positions, &mut result.triangles));

@@ -19,7 +19,7 @@ pub struct Imported {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImportReport {
     /// What the file is: "STL binary", "STL ascii", "PLY ascii", "PLY binary little-endian",
-    /// "PLY binary big-endian", "OBJ", "GLB", "glTF", or what a generated surface calls itself.
+    /// "PLY binary big-endian", "OBJ", "VTP", "VTU", "VTK ascii", "VTK binary", "GLB", "glTF", or what a generated surface calls itself.
     pub format: String,
     /// The unit that the file's numbers were taken in.
     pub unit: Unit,

@@ -2,6 +2,17 @@
 //!
 //! Works on bytes: names in any encoding pass through, and only what is used is looked at.
 
+use base64::alphabet;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+
+/// Base64 as files have it: with or without its padding.
+pub(super) const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &alphabet::STANDARD,
+    GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true),
+);
+
 /// The words of a text, one after another, separated by white space.
 pub(super) struct Words<'a> {
     bytes: &'a [u8],

@@ -15,7 +15,6 @@ mod bad_input;
 mod calibre;
 mod decimation;
 mod fuzz;
-mod import_robustness;
 mod lumen_width;
 mod safe;
 mod smoothing;

@@ -9,6 +9,7 @@ use lumen::app::{Devices as AppDevices, Gamepad, Listing, Offer, Platform, Platf
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
 use lumen::haptics::service::{DeviceCommand, DeviceStatus};
+use lumen::io::Format;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 
@@ -16,8 +17,8 @@ use crate::files;
 use crate::hid::page::Devices;
 use crate::link::WorkerLink;
 
-/// The extensions the file dialog offers.
-const ACCEPT: &str = ".stl,.ply,.obj,.glb,.gltf,.csv";
+/// What a trial's log ends in.
+const LOG: &str = "csv";
 
 /// The browser as a platform.
 pub(crate) struct Browser {
@@ -103,7 +104,8 @@ impl Platform for Browser {
     fn choose_file(&mut self, _: &egui::Context) {
         let news = self.news();
         let tell = news.clone();
-        if files::open(ACCEPT, move |file| tell(chosen(file))).is_err() {
+        let accept: Vec<String> = Format::OPENED.into_iter().chain([LOG]).map(|end| format!(".{end}")).collect();
+        if files::open(&accept.join(","), move |file| tell(chosen(file))).is_err() {
             news(PlatformEvent::Failed { message: "The browser opened no file dialog.".to_owned() });
         }
     }

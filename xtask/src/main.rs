@@ -1,5 +1,5 @@
 //! Developer commands: `cargo xtask serve | build | test | peers | curve | bench-trial | fuzz-trial |
-//! fuzz-surfaces | validation`.
+//! fuzz-surfaces | fuzz-files | read-back | validation`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -12,6 +12,7 @@ mod estimate;
 mod fuzz;
 mod page;
 mod peers;
+mod read_back;
 mod serve;
 mod step;
 mod test;
@@ -72,6 +73,17 @@ enum Command {
         #[arg(long, default_value_t = 1)]
         seed: u32,
     },
+    /// Let libFuzzer make up files for every reader.
+    FuzzFiles {
+        /// Readers, by the extension of their files; all where none is named.
+        #[arg(long, value_delimiter = ',')]
+        only: Vec<String>,
+        /// Minutes for each reader.
+        #[arg(long, default_value_t = 10)]
+        minutes: u64,
+    },
+    /// Read what Lumen writes with VTK, trimesh and meshio.
+    ReadBack,
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
     /// Run the wire's analytic benchmarks, draw them and write docs/validation.md.
@@ -87,6 +99,8 @@ fn main() -> ExitCode {
         Command::BenchTrial => bench_trial::bench_trial(),
         Command::FuzzTrial { steps } => fuzz::trial(steps),
         Command::FuzzSurfaces { count, seed } => fuzz::surfaces(count, seed),
+        Command::FuzzFiles { only, minutes } => fuzz::files(&only, minutes),
+        Command::ReadBack => read_back::read_back(),
         Command::Curve => curve::curve(),
         Command::Validation => validation::validation(),
     };

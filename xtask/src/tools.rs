@@ -8,7 +8,7 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::step::{on_path, output, root, run, step, target};
+use crate::step::{cargo, on_path, output, root, run, step, target};
 
 /// The wasm target of the toolchain in use.
 pub(crate) fn wasm_target() -> Result<()> {
@@ -66,7 +66,23 @@ pub(crate) fn npm_packages(asked: &str, folder: &str, what: &str) -> Result<Path
 
 /// A Python with what `benches/peers/requirements.txt` asks for, in a virtual environment below `folder`.
 pub(crate) fn peers_python(folder: &Path) -> Result<PathBuf> {
-    let asked = root().join("benches/peers/requirements.txt");
+    let what = "Install VTK, fast-simplification, Open3D and MeshLab with pip (a minute or two, once)";
+    let bin = python(folder, "benches/peers/requirements.txt", what)?;
+    // Open3D and MeshLab load libraries of the system.
+    if output(Command::new(&bin).args(["-c", "import open3d, pymeshlab, vtk"])).is_none() {
+        apt("What Open3D loads", "libusb-1.0-0 libgomp1 libgl1 libegl1", "see what `import open3d` says")?;
+    }
+    Ok(bin)
+}
+
+/// A Python with what `tests/formats/requirements.txt` asks for, in a virtual environment below `folder`.
+pub(crate) fn read_back_python(folder: &Path) -> Result<PathBuf> {
+    python(folder, "tests/formats/requirements.txt", "Install VTK, trimesh and meshio with pip (a minute, once)")
+}
+
+/// A Python with what the list `asked` of the checkout asks for, in a virtual environment below `folder`.
+fn python(folder: &Path, asked: &str, what: &str) -> Result<PathBuf> {
+    let asked = root().join(asked);
     let (environment, done) = (folder.join("venv"), folder.join("venv/requirements.txt"));
     let bin = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if bin.is_file() && std::fs::read(&done).ok() == std::fs::read(&asked).ok() {
@@ -77,20 +93,33 @@ pub(crate) fn peers_python(folder: &Path) -> Result<PathBuf> {
     if output(Command::new(&python).args(["-c", "import ensurepip, venv"])).is_none() {
         apt("Python's venv", "python3-venv", "install Python with its standard library")?;
     }
-    step("Install VTK, fast-simplification, Open3D and MeshLab with pip (a minute or two, once)", || {
+    step(what, || {
         run(Command::new(&python).args(["-m", "venv"]).arg(&environment))?;
         run(Command::new(&bin)
             .args(["-m", "pip", "--quiet", "--disable-pip-version-check", "install", "--requirement"])
             .arg(&asked))?;
         Ok(())
     })?;
-    // Open3D and MeshLab load libraries of the system.
-    let loads = |python: &Path| output(Command::new(python).args(["-c", "import open3d, pymeshlab, vtk"])).is_some();
-    if !loads(&bin) {
-        apt("What Open3D loads", "libusb-1.0-0 libgomp1 libgl1 libegl1", "see what `import open3d` says")?;
-    }
     std::fs::copy(&asked, &done)?;
     Ok(bin)
+}
+
+/// cargo-fuzz, in the target directory, and a nightly toolchain for it.
+pub(crate) fn cargo_fuzz() -> Result<PathBuf> {
+    if output(Command::new("rustup").args(["run", "nightly", "cargo", "--version"])).is_none() {
+        step("Install a nightly toolchain", || {
+            run(Command::new("rustup").args(["toolchain", "install", "nightly", "--profile", "minimal"]))
+        })?;
+    }
+    cpp_compiler()?;
+    let folder = target().join("tools");
+    let program = folder.join(format!("bin/cargo-fuzz{}", std::env::consts::EXE_SUFFIX));
+    if !program.is_file() {
+        step("Install cargo-fuzz (a minute or two, once)", || {
+            run(cargo().args(["install", "cargo-fuzz", "--version", "0.13.2", "--locked", "--root"]).arg(&folder))
+        })?;
+    }
+    Ok(program)
 }
 
 /// Sees to it that C++ can be compiled.

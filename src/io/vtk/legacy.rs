@@ -1,0 +1,142 @@
+//! Legacy VTK files (.vtk) of polygonal data and unstructured grids, text and binary, versions 1.0 to 5.1.
+//!
+//! Up to version 4.2 each cell stands with its length; from 5.0 on lengths and points are two arrays. Which it is shows at
+//! the first word. What stands after the cells, arrays on points and cells, is not read.
+
+use glam::DVec3;
+
+use super::super::axes;
+use super::super::error::ReadError;
+use super::super::import::RawSurface;
+use super::super::numbers::Scalar;
+use super::super::room::Room;
+use super::super::text;
+use super::array::Array;
+use super::legacy_text::Cursor;
+use super::no_surface;
+use super::surface::{Cells, Lengths, Shape, Surface, is_whole};
+
+const MAGIC: &[u8] = b"# vtk DataFile";
+
+/// Whether a text begins as legacy VTK files do.
+pub(in crate::io) fn is_legacy(text: &[u8]) -> bool {
+    text.len() >= MAGIC.len() && text[..MAGIC.len()].eq_ignore_ascii_case(MAGIC)
+}
+
+/// What a file holds, as it stands there.
+#[derive(Default)]
+struct Parts<'a> {
+    points: Option<(Array<'a>, u64)>,
+    cells: Vec<Cells<'a>>,
+}
+
+/// Reads a file, with positions relative to `origin`.
+pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
+    let mut cursor = Cursor::new(text::without_mark(bytes).trim_ascii_start());
+    cursor.rest_of_line();
+    let title = cursor.rest_of_line();
+    let encoding = cursor.word().unwrap_or_default();
+    cursor.is_binary = encoding.eq_ignore_ascii_case(b"binary");
+    if !cursor.is_binary && !encoding.eq_ignore_ascii_case(b"ascii") {
+        return Err(cursor.broken("neither \"ASCII\" nor \"BINARY\" stands in its third line"));
+    }
+    cursor.rest_of_line();
+    let label = cursor.label();
+    let parts = Parts::read(&mut cursor, Room::of(bytes.len()))?;
+    let mut surface = Surface::new(label, bytes.len(), origin);
+    if let Some((points, count)) = &parts.points {
+        surface.add_points(points, *count)?;
+    }
+    for cells in &parts.cells {
+        surface.add_cells(cells)?;
+    }
+    surface.finish(label, axes::stated(title))
+}
+
+impl<'a> Parts<'a> {
+    /// Finds points and cells. As in VTK itself, what follows the first array on cells or points is not looked at.
+    fn read(cursor: &mut Cursor<'a>, room: Room) -> Result<Self, ReadError> {
+        let mut parts = Self::default();
+        while let Some(word) = cursor.word() {
+            room.check_parts(cursor.label(), parts.cells.len())?;
+            match word.to_ascii_lowercase().as_slice() {
+                b"dataset" => {
+                    let kind = cursor.word().unwrap_or_default();
+                    if !kind.eq_ignore_ascii_case(b"polydata") && !kind.eq_ignore_ascii_case(b"unstructured_grid") {
+                        return Err(no_surface(&String::from_utf8_lossy(kind)));
+                    }
+                }
+                b"points" => {
+                    let (count, kind) = (cursor.count()?, cursor.kind()?);
+                    parts.points = Some((cursor.numbers(kind, count.saturating_mul(3)), count));
+                }
+                b"vertices" => parts.read_cells(cursor, Shape::Vertices)?,
+                b"lines" => parts.read_cells(cursor, Shape::Lines)?,
+                b"polygons" => parts.read_cells(cursor, Shape::Polygons)?,
+                b"triangle_strips" => parts.read_cells(cursor, Shape::Strips)?,
+                b"cells" => parts.read_cells(cursor, Shape::Typed)?,
+                b"cell_types" => {
+                    let count = cursor.count()?;
+                    let types = cursor.numbers(Scalar::I32, count);
+                    if let Some(cells) = parts.cells.last_mut() {
+                        cells.types = Some(types);
+                    }
+                }
+                b"field" => skip_field(cursor)?,
+                b"metadata" => cursor.skip_metadata(),
+                b"cell_data" | b"point_data" => break,
+                _ => return Err(cursor.broken(format!("{} is no part of a surface", text::quoted(word)))),
+            }
+        }
+        if parts.cells.iter().any(|cells| cells.shape == Shape::Typed && cells.types.is_none()) {
+            return Err(cursor.broken("its cells have no types"));
+        }
+        Ok(parts)
+    }
+
+    /// Reads a list of cells.
+    fn read_cells(&mut self, cursor: &mut Cursor<'a>, shape: Shape) -> Result<(), ReadError> {
+        let (count, size) = (cursor.count()?, cursor.count()?);
+        let part = |cursor: &mut Cursor<'a>, name: &str, count| {
+            if !cursor.comes(name.as_bytes()) {
+                return Err(cursor.broken(format!("{name} of its cells are missing")));
+            }
+            cursor.word();
+            let kind = cursor.kind()?;
+            if !is_whole(kind) {
+                return Err(cursor.broken("its cells are numbered with fractions"));
+            }
+            Ok(cursor.numbers(kind, count))
+        };
+        let (count, lengths, points) = if cursor.comes(b"OFFSETS") {
+            let bounds = part(cursor, "OFFSETS", count)?;
+            let points = part(cursor, "CONNECTIVITY", size)?;
+            (count.saturating_sub(1), Lengths::Bounds(bounds), points)
+        } else {
+            (count, Lengths::Inline, cursor.numbers(Scalar::I32, size))
+        };
+        self.cells.push(Cells { shape, count, lengths, points, types: None });
+        Ok(())
+    }
+}
+
+/// Steps over field data.
+fn skip_field(cursor: &mut Cursor) -> Result<(), ReadError> {
+    cursor.word();
+    let arrays = cursor.count()?;
+    for _ in 0..arrays {
+        while cursor.comes(b"METADATA") {
+            cursor.skip_metadata();
+        }
+        match cursor.word() {
+            None => break,
+            Some(b"NULL_ARRAY") => {}
+            Some(_) => {
+                let (components, tuples) = (cursor.count()?, cursor.count()?);
+                let kind = cursor.word().unwrap_or_default();
+                cursor.skip_array(kind, components.saturating_mul(tuples))?;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,170 @@
+//! The skeleton of a legacy VTK file: its words, its lines, and the numbers between them as text or big-endian binary.
+
+use std::borrow::Cow;
+
+use super::super::error::ReadError;
+use super::super::numbers::Scalar;
+use super::super::text::{self, Words};
+use super::array::{Array, Content};
+
+/// A place in the file.
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+    pub(super) is_binary: bool,
+}
+
+impl<'a> Cursor<'a> {
+    /// Begins at the start of `bytes`.
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, line: 1, is_binary: false }
+    }
+
+    /// The label for errors.
+    pub(super) fn label(&self) -> &'static str {
+        if self.is_binary { "VTK binary" } else { "VTK ascii" }
+    }
+
+    /// What is wrong here.
+    pub(super) fn broken(&self, problem: impl Into<String>) -> ReadError {
+        let (format, problem) = (self.label(), problem.into());
+        if self.is_binary {
+            // Binary numbers have no lines.
+            ReadError::Malformed { format, problem: format!("{problem} at byte {}", self.at) }
+        } else {
+            ReadError::Syntax { format, line: self.line, problem }
+        }
+    }
+
+    /// What is left of the line; the next one begins after it.
+    pub(super) fn rest_of_line(&mut self) -> &'a [u8] {
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+        self.at += (length + 1).min(rest.len());
+        self.line += 1;
+        rest[..length].trim_ascii()
+    }
+
+    /// The next word, on this line or a later one.
+    pub(super) fn word(&mut self) -> Option<&'a [u8]> {
+        let mut words = Words::new(&self.bytes[self.at..], self.line);
+        let word = words.next();
+        self.at = self.bytes.len() - words.remaining();
+        self.line = words.line();
+        word
+    }
+
+    /// The next word, without going past it.
+    fn peek(&self) -> Option<&'a [u8]> {
+        Words::new(&self.bytes[self.at..], self.line).next()
+    }
+
+    /// Whether the next word is `word`, in any case.
+    pub(super) fn comes(&self, word: &[u8]) -> bool {
+        self.peek().is_some_and(|next| next.eq_ignore_ascii_case(word))
+    }
+
+    /// The next word as a count.
+    pub(super) fn count(&mut self) -> Result<u64, ReadError> {
+        let word = self.word().ok_or_else(|| self.broken("it ends where a count should stand"))?;
+        text::number(word).ok_or_else(|| self.broken(format!("{} is no count", text::quoted(word))))
+    }
+
+    /// The next word as a type of number.
+    pub(super) fn kind(&mut self) -> Result<Scalar, ReadError> {
+        let word = self.word().ok_or_else(|| self.broken("it ends where a type should stand"))?;
+        scalar(word).ok_or_else(|| self.broken(format!("{} is no type of number", text::quoted(word))))
+    }
+
+    /// The `count` numbers that begin on the next line if they are binary, and with the next word if they are text; those
+    /// that are there where the file ends before.
+    pub(super) fn numbers(&mut self, kind: Scalar, count: u64) -> Array<'a> {
+        if self.is_binary {
+            self.rest_of_line();
+            let bytes = self.take(count.saturating_mul(kind.size() as u64));
+            return Array { kind, content: Content::Big(Cow::Borrowed(bytes)) };
+        }
+        let (text, line) = (&self.bytes[self.at..], self.line);
+        let mut words = Words::new(text, line);
+        for _ in 0..count {
+            if words.next().is_none() {
+                break;
+            }
+        }
+        let length = text.len() - words.remaining();
+        (self.at, self.line) = (self.at + length, words.line());
+        Array { kind, content: Content::Text { text: &text[..length], line } }
+    }
+
+    /// The next bytes, as many of `count` as there are.
+    fn take(&mut self, count: u64) -> &'a [u8] {
+        let rest = &self.bytes[self.at..];
+        let length = usize::try_from(count).unwrap_or(rest.len()).min(rest.len());
+        self.at += length;
+        &rest[..length]
+    }
+
+    /// Steps over an array of field data: its numbers, bits or strings.
+    pub(super) fn skip_array(&mut self, kind: &[u8], count: u64) -> Result<(), ReadError> {
+        if kind.eq_ignore_ascii_case(b"string") || kind.eq_ignore_ascii_case(b"utf8_string") {
+            self.rest_of_line();
+            for _ in 0..count {
+                if self.at == self.bytes.len() {
+                    break;
+                }
+                if self.is_binary {
+                    self.skip_string();
+                } else {
+                    self.rest_of_line();
+                }
+            }
+        } else if kind.eq_ignore_ascii_case(b"bit") && self.is_binary {
+            self.rest_of_line();
+            self.take(count.div_ceil(8));
+        } else {
+            let kind = scalar(kind);
+            let kind = kind.ok_or_else(|| self.broken("a field has values of a type that is not known"))?;
+            self.numbers(kind, count);
+        }
+        Ok(())
+    }
+
+    /// Steps over a string in binary: its length comes first, in 1, 2, 4 or 8 bytes by its first two bits.
+    fn skip_string(&mut self) {
+        let first = self.bytes.get(self.at).copied().unwrap_or(0);
+        let bytes = match first >> 6 {
+            3 => 1,
+            2 => 2,
+            1 => 4,
+            _ => 8,
+        };
+        let head = self.take(bytes);
+        let length = head.iter().fold(0, |sum: u64, &byte| sum << 8 | u64::from(byte));
+        self.take(length & ((1 << (8 * bytes - 2)) - 1));
+    }
+
+    /// Steps over a block of metadata, which ends with an empty line.
+    pub(super) fn skip_metadata(&mut self) {
+        self.rest_of_line();
+        while self.at < self.bytes.len() && !self.rest_of_line().is_empty() {}
+    }
+}
+
+/// The type that a file calls `name`; a `long` has 64 bits, as where VTK is mostly used.
+fn scalar(name: &[u8]) -> Option<Scalar> {
+    Some(match name.to_ascii_lowercase().as_slice() {
+        b"char" | b"signed_char" => Scalar::I8,
+        b"unsigned_char" | b"bit" => Scalar::U8,
+        b"short" => Scalar::I16,
+        b"unsigned_short" => Scalar::U16,
+        // VTK writes its own type for ids as an int.
+        b"int" | b"vtkidtype" => Scalar::I32,
+        b"unsigned_int" => Scalar::U32,
+        b"long" | b"long_long" | b"vtktypeint64" => Scalar::I64,
+        b"unsigned_long" | b"unsigned_long_long" | b"vtktypeuint64" => Scalar::U64,
+        b"float" => Scalar::F32,
+        b"double" => Scalar::F64,
+        _ => return None,
+    })
+}
