@@ -62,7 +62,7 @@ impl HapticDevice {
     /// A device whose reports a descriptor describes.
     ///
     /// # Errors
-    /// When the descriptor makes no sense. A device without axes or without forces is none.
+    /// When the descriptor makes no sense. That a device has no axes, or no force, is no error.
     pub fn from_descriptor(identity: Identity, descriptor: &[u8]) -> Result<Self, ModelError> {
         let own = parse(descriptor)?;
         Ok(Self::new(identity, own))
@@ -270,5 +270,68 @@ impl HapticDevice {
     /// From input report to output report, so far.
     pub fn latency(&self) -> Percentiles {
         self.latency.percentiles()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::haptics::fixtures::{descriptor, hostile};
+    use crate::haptics::model::Kind;
+
+    /// What a device that says anything at all is asked and answers.
+    fn use_it(device: &mut HapticDevice, reports: &[(u8, Vec<u8>)], value: f64) {
+        device.arm();
+        for (i, (id, data)) in reports.iter().enumerate() {
+            let now = 4.0 * i as f64;
+            device.input(now, *id, data);
+            let moved = device.advance(0.004);
+            assert!(moved.iter().all(|way| way.is_finite()));
+            device.resist(now, &Resistance { part: [value; 2], slope: [value.abs(); 2] });
+            while let Some(request) = device.next(now) {
+                match &request {
+                    Request::Send { id, data } => {
+                        let report = device.model().report(Kind::Output, *id);
+                        assert_eq!(report.map(crate::haptics::model::Report::bytes), Some(data.len()));
+                        device.reply(now, Reply::Done);
+                    }
+                    Request::SetFeature { .. } => device.reply(now, Reply::Done),
+                    Request::GetFeature { .. } => device.reply(now, Reply::Feature(data)),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_wheel_of_a_vendor_is_driven_by_its_own_reports() {
+        let identity = |vendor, product| Identity { vendor, product, name: String::new() };
+        let board = HapticDevice::from_descriptor(identity(0x1209, 0xFFB0), &descriptor("openffboard-1")).unwrap();
+        assert!(board.has_force());
+        let knob = HapticDevice::from_descriptor(identity(0x046D, 0xC626), &descriptor("spacenavigator")).unwrap();
+        assert!(!knob.has_force() && knob.mapping().feed.is_some() && knob.mapping().roll.is_some());
+        // A G29 in its PlayStation mode has no seven bytes without an id.
+        let wheel = HapticDevice::from_descriptor(identity(0x046D, 0xC260), &descriptor("logitech-g29")).unwrap();
+        assert!(!wheel.has_force());
+        let native = [
+            5, 1, 9, 4, 0xA1, 1, 9, 0x30, 0x15, 0, 0x26, 0xFF, 0, 0x75, 8, 0x95, 1, 0x81, 2, 6, 0, 0xFF, 9, 1, 0x95, 7,
+            0x91, 2, 0xC0,
+        ];
+        assert!(HapticDevice::from_descriptor(identity(0x046D, 0xC24F), &native).unwrap().has_force());
+        assert!(!HapticDevice::from_descriptor(identity(0x1234, 0xC24F), &native).unwrap().has_force());
+    }
+
+    proptest! {
+        #[test]
+        fn no_device_makes_it_panic(
+            bytes in hostile(),
+            reports in proptest::collection::vec((0_u8..20, proptest::collection::vec(any::<u8>(), 0..30)), 0..12),
+            value in prop_oneof![-2.0..2.0, Just(f64::NAN), Just(f64::INFINITY)],
+        ) {
+            if let Ok(mut device) = HapticDevice::from_descriptor(Identity::default(), &bytes) {
+                use_it(&mut device, &reports, value);
+            }
+        }
     }
 }
