@@ -233,13 +233,10 @@ impl LumenApp {
         self.act_on_all(action, ctx);
     }
 
-    /// What takes off one thing, the one that lies on top: a device's force, the tables, picking, what is going on, the trial, the comparison.
+    /// What takes off one thing, the one that lies on top: the tables, picking, what is going on, the trial, the comparison.
     /// Sheets, lists and fields take themselves off.
     fn on_top(&self) -> Option<Action> {
-        if self.trial.has_device().1 {
-            let stop = DeviceCommand::Halt(Halt::Stopped);
-            Some(Action::Trial(trial::Action::Device(trial::DeviceAsk::Command(stop))))
-        } else if self.trial.tables.is_open {
+        if self.trial.tables.is_open {
             Some(Action::Trial(trial::Action::CloseTables))
         } else if self.trial.pick.is_some() {
             Some(Action::Trial(trial::Action::Pick(None)))
@@ -482,6 +479,11 @@ impl eframe::App for LumenApp {
             return;
         }
         self.heed_memory();
+        // Before sheets, lists and fields: whoever presses it because a device pushes wants that to end.
+        if self.trial.has_device().1 && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            let stop = DeviceCommand::Halt(Halt::Stopped);
+            self.act_on_trial(trial::Action::Device(trial::DeviceAsk::Command(stop)), &ctx);
+        }
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {
             // The unit was chosen for a file of the dialog.

@@ -305,7 +305,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::haptics::fixtures::{descriptor, descriptors, elements, peer};
+    use crate::haptics::fixtures::{descriptor, descriptors, elements, hostile, peer};
     use crate::haptics::usage::{desktop, pid};
 
     #[test]
@@ -346,28 +346,6 @@ mod tests {
         // Two thousand million elements, which another parser makes room for.
         let endless = [0xA1, 1, 0x09, 1, 0x75, 8, 0x97, 0xFF, 0xFF, 0xFF, 0x7F, 0x81, 2];
         assert_eq!(parse(&endless), Err(ModelError::Report { id: 0 }));
-    }
-
-    /// Bytes that look like a descriptor.
-    fn hostile() -> impl Strategy<Value = Vec<u8>> {
-        let tags = [
-            0x05, 0x09, 0x0B, 0x15, 0x17, 0x19, 0x25, 0x27, 0x29, 0x75, 0x77, 0x81, 0x85, 0x91, 0x95, 0x97, 0xA1, 0xA4,
-            0xB1, 0xB4, 0xC0,
-        ];
-        let bytes = prop_oneof![any::<u8>(), proptest::sample::select(tags.to_vec())];
-        prop_oneof![
-            proptest::collection::vec(bytes, 0..200),
-            // A device's own with a few bytes changed.
-            (0..descriptors().len(), proptest::collection::vec((any::<proptest::sample::Index>(), any::<u8>()), 0..6))
-                .prop_map(|(device, changes)| {
-                    let mut bytes = descriptors().swap_remove(device).1;
-                    for (at, byte) in changes {
-                        let at = at.index(bytes.len());
-                        bytes[at] = byte;
-                    }
-                    bytes
-                }),
-        ]
     }
 
     proptest! {

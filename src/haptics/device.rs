@@ -3,6 +3,8 @@
 //! Whoever has the transport tells it input reports and the time, asks it for requests, and tells it how they went; whoever
 //! has the trial asks it how far to feed and roll, and tells it what resists. It does neither by itself.
 
+use std::collections::VecDeque;
+
 use super::controls::{Controls, State};
 use super::descriptor::{ModelError, parse};
 use super::force::ffbeast::Ffbeast;
@@ -41,6 +43,15 @@ const FAINT: f64 = 0.02;
 /// How much the device's own damper brakes where it has one, 0 to 1.
 const DAMPING: f64 = 0.05;
 
+/// Whose request is under way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum UnderWay {
+    /// The driver's.
+    Driver,
+    /// That of one which no longer drives.
+    Parted,
+}
+
 /// A device in use.
 pub struct HapticDevice {
     identity: Identity,
@@ -50,6 +61,9 @@ pub struct HapticDevice {
     mapper: Mapper,
     guard: Guard,
     driver: Option<Box<dyn ForceDriver>>,
+    /// What a driver before has left to say, so that its force ends.
+    farewells: VecDeque<Request>,
+    under_way: Option<UnderWay>,
     softness: [Softness; 2],
     latency: Latency,
     /// When the input report came that no output report has answered yet, in ms.
@@ -62,7 +76,7 @@ impl HapticDevice {
     /// A device whose reports a descriptor describes.
     ///
     /// # Errors
-    /// When the descriptor makes no sense. A device without axes or without forces is none.
+    /// When the descriptor makes no sense. That a device has no axes, or no force, is no error.
     pub fn from_descriptor(identity: Identity, descriptor: &[u8]) -> Result<Self, ModelError> {
         let own = parse(descriptor)?;
         Ok(Self::new(identity, own))
@@ -79,6 +93,8 @@ impl HapticDevice {
             mapper: Mapper::default(),
             guard: Guard::new(Limits::default()),
             driver: None,
+            farewells: VecDeque::new(),
+            under_way: None,
             softness: [Softness::default(); 2],
             latency: Latency::default(),
             heard_ms: None,
@@ -121,6 +137,7 @@ impl HapticDevice {
         self.guard.halt(Halt::NotArmed);
         let usages = [mapping.feed, mapping.roll].map(|of| Some(self.controls.axes.get(of?.axis)?.usage));
         let alone = usize::from(mapping.feed.is_none());
+        self.part();
         self.driver = match force_reports(self.identity.vendor, self.identity.product, &self.model) {
             Some(ForceReports::Pid) => match PidDriver::new(&self.model, usages) {
                 Ok(driver) => Some(Box::new(driver)),
@@ -138,7 +155,14 @@ impl HapticDevice {
     /// Drives it by another driver than the one that fits it; the force has to be armed again.
     pub fn set_driver(&mut self, driver: Box<dyn ForceDriver>) {
         self.halt(Halt::NotArmed);
+        self.part();
         self.driver = Some(driver);
+    }
+
+    /// The present driver ends its force, and drives no more.
+    fn part(&mut self) {
+        self.farewells.extend(self.driver.take().iter().flat_map(|driver| driver.farewell()));
+        self.under_way = self.under_way.map(|_| UnderWay::Parted);
     }
 
     /// How strong and how fast forces may be.
@@ -243,7 +267,16 @@ impl HapticDevice {
         if !self.is_still && self.guard.is_stale(now_ms) {
             self.be_still();
         }
-        let request = self.driver.as_mut()?.next(now_ms)?;
+        let request = match self.under_way {
+            Some(UnderWay::Parted) => return None,
+            None if !self.farewells.is_empty() => {
+                self.under_way = Some(UnderWay::Parted);
+                return self.farewells.pop_front();
+            }
+            // The driver hears for how long its request is under way.
+            Some(UnderWay::Driver) | None => self.driver.as_mut()?.next(now_ms)?,
+        };
+        self.under_way = Some(UnderWay::Driver);
         if matches!(request, Request::Send { .. })
             && let Some(heard) = self.heard_ms.take()
         {
@@ -254,7 +287,9 @@ impl HapticDevice {
 
     /// How the last request went.
     pub fn reply(&mut self, now_ms: f64, reply: Reply<'_>) {
-        if let Some(driver) = &mut self.driver {
+        if self.under_way.take() == Some(UnderWay::Driver)
+            && let Some(driver) = &mut self.driver
+        {
             driver.reply(now_ms, reply);
             if driver.error().is_some() && self.guard.halted().is_none() {
                 self.guard.halt(Halt::Refused);
@@ -264,11 +299,75 @@ impl HapticDevice {
 
     /// The reports that leave it without force, for when it is let go.
     pub fn farewell(&self) -> Vec<Request> {
-        self.driver.as_ref().map_or_else(Vec::new, |driver| driver.farewell())
+        let present = self.driver.iter().flat_map(|driver| driver.farewell());
+        self.farewells.iter().cloned().chain(present).collect()
     }
 
     /// From input report to output report, so far.
     pub fn latency(&self) -> Percentiles {
         self.latency.percentiles()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::haptics::fixtures::{descriptor, hostile};
+    use crate::haptics::model::Kind;
+
+    /// What a device that says anything at all is asked and answers.
+    fn use_it(device: &mut HapticDevice, reports: &[(u8, Vec<u8>)], value: f64) {
+        device.arm();
+        for (i, (id, data)) in reports.iter().enumerate() {
+            let now = 4.0 * i as f64;
+            device.input(now, *id, data);
+            let moved = device.advance(0.004);
+            assert!(moved.iter().all(|way| way.is_finite()));
+            device.resist(now, &Resistance { part: [value; 2], slope: [value.abs(); 2] });
+            while let Some(request) = device.next(now) {
+                match &request {
+                    Request::Send { id, data } => {
+                        let report = device.model().report(Kind::Output, *id);
+                        assert_eq!(report.map(crate::haptics::model::Report::bytes), Some(data.len()));
+                        device.reply(now, Reply::Done);
+                    }
+                    Request::SetFeature { .. } => device.reply(now, Reply::Done),
+                    Request::GetFeature { .. } => device.reply(now, Reply::Feature(data)),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_wheel_of_a_vendor_is_driven_by_its_own_reports() {
+        let identity = |vendor, product| Identity { vendor, product, name: String::new() };
+        let board = HapticDevice::from_descriptor(identity(0x1209, 0xFFB0), &descriptor("openffboard-1")).unwrap();
+        assert!(board.has_force());
+        let knob = HapticDevice::from_descriptor(identity(0x046D, 0xC626), &descriptor("spacenavigator")).unwrap();
+        assert!(!knob.has_force() && knob.mapping().feed.is_some() && knob.mapping().roll.is_some());
+        // A G29 in its PlayStation mode has no seven bytes without an id.
+        let wheel = HapticDevice::from_descriptor(identity(0x046D, 0xC260), &descriptor("logitech-g29")).unwrap();
+        assert!(!wheel.has_force());
+        let native = [
+            5, 1, 9, 4, 0xA1, 1, 9, 0x30, 0x15, 0, 0x26, 0xFF, 0, 0x75, 8, 0x95, 1, 0x81, 2, 6, 0, 0xFF, 9, 1, 0x95, 7,
+            0x91, 2, 0xC0,
+        ];
+        assert!(HapticDevice::from_descriptor(identity(0x046D, 0xC24F), &native).unwrap().has_force());
+        assert!(!HapticDevice::from_descriptor(identity(0x1234, 0xC24F), &native).unwrap().has_force());
+    }
+
+    proptest! {
+        #[test]
+        fn no_device_makes_it_panic(
+            bytes in hostile(),
+            reports in proptest::collection::vec((0_u8..20, proptest::collection::vec(any::<u8>(), 0..30)), 0..12),
+            value in prop_oneof![-2.0..2.0, Just(f64::NAN), Just(f64::INFINITY)],
+        ) {
+            if let Ok(mut device) = HapticDevice::from_descriptor(Identity::default(), &bytes) {
+                use_it(&mut device, &reports, value);
+            }
+        }
     }
 }

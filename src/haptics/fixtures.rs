@@ -2,6 +2,7 @@
 
 use hidreport::Report as _;
 use hidreport::hid::{Item, ReportDescriptorItems};
+use proptest::prelude::*;
 
 use super::field::{Content, Field};
 use super::model::{DeviceModel, Kind, Report};
@@ -187,4 +188,26 @@ pub(super) fn elements(model: &DeviceModel) -> Vec<Elements> {
     };
     let of = |report: &Report| (report.kind, report.id, report.bits, report.fields.iter().flat_map(of).collect());
     model.reports.iter().map(of).collect()
+}
+
+/// Bytes that look like a descriptor.
+pub(super) fn hostile() -> impl Strategy<Value = Vec<u8>> {
+    let tags = [
+        0x05, 0x09, 0x0B, 0x15, 0x17, 0x19, 0x25, 0x27, 0x29, 0x75, 0x77, 0x81, 0x85, 0x91, 0x95, 0x97, 0xA1, 0xA4,
+        0xB1, 0xB4, 0xC0,
+    ];
+    let bytes = prop_oneof![any::<u8>(), proptest::sample::select(tags.to_vec())];
+    prop_oneof![
+        proptest::collection::vec(bytes, 0..200),
+        // A device's own with a few bytes changed.
+        (0..descriptors().len(), proptest::collection::vec((any::<proptest::sample::Index>(), any::<u8>()), 0..6))
+            .prop_map(|(device, changes)| {
+                let mut bytes = descriptors().swap_remove(device).1;
+                for (at, byte) in changes {
+                    let at = at.index(bytes.len());
+                    bytes[at] = byte;
+                }
+                bytes
+            }),
+    ]
 }

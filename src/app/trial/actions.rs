@@ -263,7 +263,8 @@ impl Trial {
     /// Hears how the haptic device is; in a hidden window its force ends.
     pub(in crate::app) fn follow_device(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool) {
         let stands = !self.is_on() || self.run().is_none_or(|run| run.is_paused || run.autopilot);
-        self.device.follow(devices, is_hidden, stands);
+        let is_open = self.is_open();
+        self.device.follow(devices, is_hidden, stands, is_open);
     }
 
     /// Whether a haptic device is served, and whether its force is armed.

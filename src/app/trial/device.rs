@@ -37,10 +37,10 @@ impl Device {
     }
 
     /// Hears how the device is. A window that is hidden, or has no keys, has no hand on it: its force ends. `stands` says that
-    /// nothing moves in the trial.
-    pub(super) fn follow(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool, stands: bool) {
+    /// nothing moves in the trial; devices are listed once one `is_open`.
+    pub(super) fn follow(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool, stands: bool, is_open: bool) {
         let Some(devices) = devices else { return };
-        if self.choices.is_none() {
+        if self.choices.is_none() && is_open {
             self.look(devices);
         }
         if let Some(Listing { names, problem, chosen }) = devices.changed() {

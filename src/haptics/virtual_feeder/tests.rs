@@ -238,8 +238,8 @@ fn a_mapping_is_armed_anew() {
     let mapping = Mapping { roll: None, ..*rig.device.mapping() };
     rig.device.set_mapping(mapping);
     assert_eq!(rig.device.halted(), Some(Halt::NotArmed));
-    // What the device was playing ends by itself, if not before.
-    rig.run(150);
+    // What the device was playing is stopped, and would end by itself.
+    rig.run(20);
     assert_eq!(peak(&rig.run(300)), 0.0);
 }
 
