@@ -256,4 +256,13 @@ mod tests {
         assert_eq!(webhid::model(&chromium(DESCRIPTOR)).unwrap(), model);
         assert_eq!(peer(DESCRIPTOR), crate::haptics::fixtures::elements(&model));
     }
+
+    /// The device that the browser's tests put into the page (tests/browser/fake-hid.js) has this file.
+    #[test]
+    fn the_browser_s_tests_have_what_chromium_tells_of_it() {
+        let file: serde_json::Value =
+            serde_json::from_str(include_str!("../../tests/haptics/feeder-collections.json")).unwrap();
+        let told = serde_json::to_value(chromium(DESCRIPTOR)).unwrap();
+        assert!(file == told, "it should be:\n{told}");
+    }
 }

@@ -50,11 +50,11 @@ export function launch(more = []) {
 
 /**
  * Serves dist/ and opens a page of its own for one test, closed when the test ends. `before(page)` runs before the
- * address is opened. The result has the page, the address, and what went wrong so far: errors that were thrown or
+ * address is opened; `files` are served in place of those in dist/. The result has the page, the address, and what went wrong so far: errors that were thrown or
  * written to the console, where the browser writes violations of the page's policy too.
  */
-export async function openPage(t, browser, { before, query = "", slow, context: options = {} } = {}) {
-  const server = await serve(dist, { slow });
+export async function openPage(t, browser, { before, query = "", slow, files, context: options = {} } = {}) {
+  const server = await serve(dist, { slow, files });
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   t.after(async () => {
     await context.close();

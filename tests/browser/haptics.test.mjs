@@ -1,0 +1,123 @@
+// A haptic device by WebHID: paired by a click, served in the trial's Worker, felt and stopped. The device is a mock behind
+// `navigator.hid` (fake-hid.js) with the descriptor of the open feeder; nothing here was tried on hardware.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { after, before, test } from "node:test";
+import { atEntry, atRest, fed, inserted, settled } from "./app.mjs";
+import { dist, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
+
+const beside = (name) => readFile(new URL(name, import.meta.url), "utf8");
+const fake = (await beside("fake-hid.js")).replace(/^/, `const COLLECTIONS = ${await beside("../haptics/feeder-collections.json")};\n`);
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+/** Opens the app with the mock in the page and in its Workers, and the trial. */
+async function openTrial(t) {
+  const worker = await readFile(`${dist}/worker.js`, "utf8");
+  const opened = await openApp(t, browser, {
+    before: (page) => page.addInitScript(fake),
+    files: { "worker.js": { type: "text/javascript", body: `${fake}\n${worker}` } },
+  });
+  await settled(opened.page);
+  await press(opened.page, "button", "Trial");
+  await atEntry(opened.page);
+  return opened;
+}
+
+/** Turns the wheel over the panel until a control is in sight, and presses it. */
+async function find(page, role, name) {
+  await page.mouse.move(150, 500);
+  await eventually(
+    async () => {
+      const box = await twin(page, role, name).first().boundingBox({ timeout: 500 }).catch(() => null);
+      if (box && box.y > 60 && box.y + box.height < 740) return true;
+      await page.mouse.wheel(0, box && box.y < 60 ? -120 : 120);
+      await frames(page, 10);
+      return false;
+    },
+    (is) => is,
+    { what: `${role} ${name}` },
+  );
+  await press(page, role, name);
+}
+
+async function choose(page, name) {
+  await find(page, "combobox", /None|Virtual device|Lumen feeder|Pair/);
+  const option = eventually(async () => await texts(page), (all) => all.includes(name), { what: name });
+  await option;
+  for (const role of ["button", "option", "menuitem", "radio", "checkbox"]) {
+    if (await twin(page, role, name).count()) return press(page, role, name);
+  }
+  assert.fail(`${name} has no role`);
+}
+
+const heard = (page) => page.evaluate(() => globalThis.fakeHid.heard);
+const shows = (page, pattern, what) => eventually(() => texts(page), (all) => all.some((text) => pattern.test(text)), { what });
+
+test("a device is paired, feeds the wire, pushes back once armed, and is stopped", { timeout: 300_000 }, async (t) => {
+  const { page, wrong } = await openTrial(t);
+  await choose(page, "Pair a device...");
+  await shows(page, /Arm force/, "the device's panel");
+  assert.equal((await heard(page)).filter(({ id }) => id === 4).length, 0, "no effect is started before it is armed");
+
+  const start = await inserted(page);
+  await page.evaluate(() => globalThis.fakeHid.go(0.8, 0, 2000));
+  await fed(page, start, 2);
+  t.diagnostic(`fed to ${await inserted(page)} cm`);
+
+  await find(page, "button", "Arm force...");
+  await find(page, "button", "Arm force");
+  await shows(page, /Stop force/, "an armed device");
+  // Once the hand pushes, effects are started and renewed.
+  await page.evaluate(() => globalThis.fakeHid.go(-0.5, 0.3, 1500));
+  await eventually(() => heard(page), (all) => all.some(({ id, bytes }) => id === 4 && bytes[1] < 3), { what: "an effect that is started" });
+
+  // Escape stops it.
+  await page.keyboard.press("Escape");
+  await shows(page, /Arm force/, "a stopped device");
+  await atRest(page, 300);
+  const last = await heard(page);
+  const stop = last.findLastIndex(({ id, bytes }) => (id === 4 && bytes[1] === 3) || (id === 6 && bytes[0] === 3));
+  assert(stop >= 0, "a stop was sent");
+  assert.equal(last.slice(stop).filter(({ id, bytes }) => id === 4 && bytes[1] < 3).length, 0, "and nothing starts after it");
+  assert.deepEqual(await page.evaluate(() => globalThis.fakeHid.wrong), [], "every report was of its length");
+  assert.deepEqual(wrong, []);
+});
+
+test("leaving the window ends the force at once; unplugged, the wire stands, and plugged in again it is held", { timeout: 300_000 }, async (t) => {
+  const { page } = await openTrial(t);
+  await choose(page, "Pair a device...");
+  await shows(page, /Arm force/, "the device's panel");
+  await find(page, "button", "Arm force...");
+  await find(page, "button", "Arm force");
+  await page.evaluate(() => globalThis.fakeHid.go(0.6, 0, 1500));
+  await eventually(() => heard(page), (all) => all.some(({ id, bytes }) => id === 4 && bytes[1] < 3), { what: "an effect that is started" });
+  const left = await page.evaluate(() => (dispatchEvent(new Event("blur")), globalThis.fakeHid.now()));
+  const isStop = ({ id, bytes, at }) => at >= left - 1 && ((id === 4 && bytes[1] === 3) || (id === 6 && bytes[0] === 3));
+  const all = await eventually(() => heard(page), (all) => all.some(isStop), { what: "the stop" });
+  t.diagnostic(`the stop came ${(all.find(isStop).at - left).toFixed(1)} ms after the window was left`);
+  await shows(page, /ended as the window was left/, "why");
+
+  await page.evaluate(() => globalThis.fakeHid.plug(false));
+  await shows(page, /no longer there/, "that it is gone");
+  const stood = await inserted(page);
+  await page.evaluate(() => globalThis.fakeHid.plug(true));
+  await shows(page, /Arm force/, "the device again");
+  const before = (await heard(page)).length;
+  await page.evaluate(() => globalThis.fakeHid.go(-0.4, 0, 100));
+  await new Promise((later) => setTimeout(later, 500));
+  await page.evaluate(() => globalThis.fakeHid.go(0.8, 0, 1500));
+  await fed(page, stood, 1);
+  const since = (await heard(page)).slice(before);
+  assert.equal(since.filter(({ id, bytes }) => id === 4 && bytes[1] < 3).length, 0, "its force has to be armed again");
+});
+
+test("without a device the virtual one holds the wire", { timeout: 300_000 }, async (t) => {
+  const { page, wrong } = await openTrial(t);
+  await choose(page, "Virtual device");
+  await shows(page, /Arm force/, "the device's panel");
+  assert.deepEqual(wrong, []);
+});
