@@ -26,6 +26,11 @@ pub(super) struct Device {
 }
 
 impl Device {
+    /// Whether the platform has any to choose from.
+    pub(super) fn is_offered(&self) -> bool {
+        self.choices.is_some()
+    }
+
     /// Whether one is served.
     pub(super) fn is_served(&self) -> bool {
         self.status.as_ref().is_some_and(|status| status.ended.is_none())
@@ -142,8 +147,8 @@ fn axes(ui: &mut Ui, status: &DeviceStatus, ask: &mut impl FnMut(DeviceAsk)) {
         Some(Ask::Done) | None => {}
     }
     let mut mapping = status.mapping;
-    mapped(ui, "Feed by", "mm", &mut mapping.feed, status);
-    mapped(ui, "Roll by", "rad", &mut mapping.roll, status);
+    mapped(ui, "Feed", "mm", &mut mapping.feed, status);
+    mapped(ui, "Roll", "rad", &mut mapping.roll, status);
     if mapping != status.mapping {
         ask(DeviceAsk::Command(DeviceCommand::Map(mapping)));
     }
