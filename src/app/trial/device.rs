@@ -122,10 +122,10 @@ pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
 /// Where the hand on the virtual device wants it.
 fn hand(ui: &mut Ui, mut wanted: [f64; 2], ask: &mut impl FnMut(DeviceAsk)) {
     let before = wanted;
-    row(ui, "Hand pushes", "Where the hand on the virtual device wants its slide", |ui| {
+    row(ui, "Hand at", "Where the hand on the virtual device wants its slide", |ui| {
         ui.add(Slider::new(&mut wanted[0], -HALF_WAY[0]..=HALF_WAY[0]).suffix(" mm").fixed_decimals(1));
     });
-    row(ui, "Hand turns", "Where the hand on the virtual device wants its knob", |ui| {
+    row(ui, "Turned to", "Where the hand on the virtual device wants its knob", |ui| {
         ui.add(Slider::new(&mut wanted[1], -HALF_WAY[1]..=HALF_WAY[1]).suffix(" rad").fixed_decimals(2));
     });
     if wanted != before {
@@ -224,7 +224,9 @@ fn force(ui: &mut Ui, device: &Device, status: &DeviceStatus, ask: &mut impl FnM
     if let Some(why) = status.halted.and_then(why) {
         remark(ui, why);
     }
-    if let Some([force, torque]) = status.felt {
+    if let Some(felt) = status.felt {
+        // Nought has no sign.
+        let [force, torque] = felt.map(|value| if value.abs() < 5e-4 { 0.0 } else { value });
         number(ui, "Felt", &format!("{force:.3} N, {torque:.3} N mm"), "What the hand holds at the guide");
     }
     let latency = status.latency;
