@@ -26,6 +26,11 @@ pub(super) struct Device {
 }
 
 impl Device {
+    /// Whether the platform has any to choose from.
+    pub(super) fn is_offered(&self) -> bool {
+        self.choices.is_some()
+    }
+
     /// Whether one is served.
     pub(super) fn is_served(&self) -> bool {
         self.status.as_ref().is_some_and(|status| status.ended.is_none())
@@ -120,10 +125,10 @@ pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
 /// Where the hand on the virtual device wants it.
 fn hand(ui: &mut Ui, mut wanted: [f64; 2], ask: &mut impl FnMut(DeviceAsk)) {
     let before = wanted;
-    row(ui, "Hand pushes", "Where the hand on the virtual device wants its slide", |ui| {
+    row(ui, "Hand at", "Where the hand on the virtual device wants its slide", |ui| {
         ui.add(Slider::new(&mut wanted[0], -HALF_WAY[0]..=HALF_WAY[0]).suffix(" mm").fixed_decimals(1));
     });
-    row(ui, "Hand turns", "Where the hand on the virtual device wants its knob", |ui| {
+    row(ui, "Turned to", "Where the hand on the virtual device wants its knob", |ui| {
         ui.add(Slider::new(&mut wanted[1], -HALF_WAY[1]..=HALF_WAY[1]).suffix(" rad").fixed_decimals(2));
     });
     if wanted != before {
@@ -145,8 +150,8 @@ fn axes(ui: &mut Ui, status: &DeviceStatus, ask: &mut impl FnMut(DeviceAsk)) {
         Some(Ask::Done) | None => {}
     }
     let mut mapping = status.mapping;
-    mapped(ui, "Feed by", "mm", &mut mapping.feed, status);
-    mapped(ui, "Roll by", "rad", &mut mapping.roll, status);
+    mapped(ui, "Feed", "mm", &mut mapping.feed, status);
+    mapped(ui, "Roll", "rad", &mut mapping.roll, status);
     if mapping != status.mapping {
         ask(DeviceAsk::Command(DeviceCommand::Map(mapping)));
     }
@@ -222,7 +227,9 @@ fn force(ui: &mut Ui, device: &Device, status: &DeviceStatus, ask: &mut impl FnM
     if let Some(why) = status.halted.and_then(why) {
         remark(ui, why);
     }
-    if let Some([force, torque]) = status.felt {
+    if let Some(felt) = status.felt {
+        // Nought has no sign.
+        let [force, torque] = felt.map(|value| if value.abs() < 5e-4 { 0.0 } else { value });
         number(ui, "Felt", &format!("{force:.3} N, {torque:.3} N mm"), "What the hand holds at the guide");
     }
     let latency = status.latency;

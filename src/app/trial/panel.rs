@@ -81,6 +81,9 @@ fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     }
     ui.separator();
     ui.push_id("device", |ui| device::show(ui, &trial.device, asked));
+    if trial.device.is_offered() {
+        ui.separator();
+    }
     ui.push_id("fluoroscopy", |ui| fluoroscope::show(ui, &trial.carm, asked));
     ui.separator();
     ui.push_id("outcome", |ui| outcome::show(ui, trial, asked));

@@ -17,7 +17,7 @@ pub struct TrialEngine {
     pub(super) shown: Option<Shown>,
     pub(super) jobs: Jobs,
     events: VecDeque<TrialEvent>,
-    exchange: Exchange,
+    exchange: Option<Exchange>,
 }
 
 impl TrialEngine {
@@ -29,7 +29,7 @@ impl TrialEngine {
     /// Without a trial; the wire of each that comes is held by whoever is at the other side of `exchange`, beside keys and
     /// pads.
     pub fn with_hand(exchange: Exchange) -> Self {
-        Self { exchange, ..Self::default() }
+        Self { exchange: Some(exchange), ..Self::default() }
     }
 
     /// Takes a command.

@@ -76,6 +76,8 @@ impl Exchange {
 #[derive(Default)]
 pub(super) struct Grasp {
     exchange: Exchange,
+    /// Whether a device may take hold at any time.
+    is_awaited: bool,
     hold: Hold,
     /// Whether a device is served.
     is_held: bool,
@@ -84,19 +86,19 @@ pub(super) struct Grasp {
 }
 
 impl Grasp {
-    /// Of whoever is at the other side.
-    pub(super) fn new(exchange: Exchange) -> Self {
-        Self { exchange, ..Self::default() }
+    /// Of whoever is at the other side, if there may be somebody.
+    pub(super) fn new(exchange: Option<Exchange>) -> Self {
+        Self { is_awaited: exchange.is_some(), exchange: exchange.unwrap_or_default(), ..Self::default() }
     }
 
     /// Where it meets the device.
-    pub(super) fn exchange(&self) -> Exchange {
-        self.exchange.clone()
+    pub(super) fn exchange(&self) -> Option<Exchange> {
+        self.is_awaited.then(|| self.exchange.clone())
     }
 
-    /// Whether a device is served.
-    pub(super) fn is_served(&self) -> bool {
-        self.exchange.lock().told.is_some_and(is_fresh)
+    /// Whether a device may take hold at any time: it does so without a command.
+    pub(super) fn is_awaited(&self) -> bool {
+        self.is_awaited
     }
 
     /// Nothing moves: the hand feels nothing, and what it does meanwhile is not made up for. Says whether it moves.

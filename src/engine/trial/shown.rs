@@ -16,7 +16,7 @@ use crate::trial::setup::Input;
 const FRAME: f64 = 1.0 / 60.0;
 
 /// How often a wire at its entry is looked at for a device's hand.
-const LOOK: Duration = Duration::from_millis(10);
+const LOOK: Duration = Duration::from_millis(20);
 
 /// The hand on the wire. Whoever holds it tells so again and again; one that is not heard of any more (its window is
 /// hidden, its page has stopped) is off.
@@ -53,7 +53,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    pub(super) fn new(id: u64, trial: Trial, exchange: Exchange) -> Self {
+    pub(super) fn new(id: u64, trial: Trial, exchange: Option<Exchange>) -> Self {
         Self {
             id,
             trial: Box::new(trial),
@@ -218,7 +218,7 @@ impl Shown {
         match (is_over, self.stands()) {
             (false, false) => Some(self.pace.rest()),
             // A hand that takes hold of the wire is no command.
-            (false, true) if self.grasp.is_served() && !self.is_paused => Some(LOOK),
+            (false, true) if self.grasp.is_awaited() && !self.is_paused => Some(LOOK),
             _ => None,
         }
     }
