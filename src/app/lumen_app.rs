@@ -306,6 +306,11 @@ impl LumenApp {
     fn act_on_trial(&mut self, action: trial::Action, ctx: &egui::Context) {
         match action {
             trial::Action::OpenLog => self.platform.choose_file(ctx),
+            trial::Action::Device(trial::DeviceAsk::SaveLatency) => {
+                if let Some(table) = self.trial.latency_table() {
+                    self.platform.offer_file("lumen-haptic-latency.csv", table.into_bytes(), ctx);
+                }
+            }
             trial::Action::Device(ask) => self.trial.act_on_device(ask, self.platform.devices()),
             trial::Action::AdaptSmoothing => {
                 // One step to undo, whatever was changed before it.
@@ -463,7 +468,9 @@ impl eframe::App for LumenApp {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.listen(ctx);
         let is_hidden = ctx.input(|input| !input.raw.focused || input.viewport().visible() == Some(false));
-        self.trial.follow_device(self.platform.devices(), is_hidden);
+        if self.trial.follow_device(self.platform.devices(), is_hidden) {
+            self.trial.act(trial::Action::Pause, None, self.platform.trial());
+        }
         if ctx.input(|input| input.viewport().visible() == Some(false)) {
             self.trial.follow_hand(ctx, Keys::Views, None, self.platform.trial());
             self.follow(ctx);

@@ -45,7 +45,7 @@ async function find(page, role, name) {
 }
 
 async function choose(page, name) {
-  await find(page, "combobox", /None|Virtual device|Lumen feeder|Pair/);
+  await find(page, "combobox", "Device");
   const option = eventually(async () => await texts(page), (all) => all.includes(name), { what: name });
   await option;
   for (const role of ["button", "option", "menuitem", "radio", "checkbox"]) {
@@ -103,6 +103,7 @@ test("leaving the window ends the force at once; unplugged, the wire stands, and
 
   await page.evaluate(() => globalThis.fakeHid.plug(false));
   await shows(page, /no longer there/, "that it is gone");
+  await shows(page, /^Paused/, "the trial, which waits");
   const stood = await inserted(page);
   await page.evaluate(() => globalThis.fakeHid.plug(true));
   await shows(page, /Arm force/, "the device again");

@@ -98,6 +98,8 @@ pub enum DeviceAsk {
     Choose(Option<usize>),
     /// Say what will move once its force is armed, or no longer.
     Confirm(bool),
+    /// Save how long it takes from report to report.
+    SaveLatency,
     /// Something of the device itself.
     Command(DeviceCommand),
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::action::{Action, DeviceAsk, Pick};
+use super::device::TrialState;
 use super::state::{Coming, Comparing, Preparing, Run, Stage, Subject, Trial, taken_from};
 use super::tables::Tables;
 use crate::app::document::Document;
@@ -260,11 +261,21 @@ impl Trial {
         self.device.act(ask, devices);
     }
 
-    /// Hears how the haptic device is; in a hidden window its force ends.
-    pub(in crate::app) fn follow_device(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool) {
-        let stands = !self.is_on() || self.run().is_none_or(|run| run.is_paused || run.autopilot);
-        let is_open = self.is_open();
-        self.device.follow(devices, is_hidden, stands, is_open);
+    /// Hears how the haptic device is; in a hidden window its force ends. Says whether the trial has to be paused, or has to go
+    /// on ([`Action::Pause`]).
+    pub(in crate::app) fn follow_device(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool) -> bool {
+        let run = self.run().filter(|_| self.is_on());
+        let state = TrialState {
+            is_open: self.is_open(),
+            is_driven: run.is_some_and(|run| !run.autopilot),
+            is_paused: run.is_some_and(|run| run.is_paused),
+        };
+        self.device.follow(devices, is_hidden, state)
+    }
+
+    /// How long the haptic device takes from report to report, as a table; `None` before it is known.
+    pub(in crate::app) fn latency_table(&self) -> Option<String> {
+        self.device.latency_table()
     }
 
     /// Whether a haptic device is served, and whether its force is armed.

@@ -1,11 +1,14 @@
 //! The haptic device in the panel: which one, which of its axes feed and roll, and its force.
 
-use egui::{Button, ComboBox, DragValue, ProgressBar, Slider, Ui};
+use egui::{Button, ComboBox, DragValue, ProgressBar, Role, Slider, Ui};
 
 use super::action::{Action, DeviceAsk};
+use crate::app::assist::name;
+use crate::app::overlay::NOT_CLINICAL;
 use crate::app::platform::{Devices, Listing};
 use crate::app::row::{number, remark, row, warning};
 use crate::haptics::feeder::HALF_WAY;
+use crate::haptics::latency::Percentiles;
 use crate::haptics::learning::Ask;
 use crate::haptics::mapping::{AxisMapping, Mapping, Mode};
 use crate::haptics::safety::Halt;
@@ -23,6 +26,19 @@ pub(super) struct Device {
     /// Whether the user is being told what will move.
     is_confirming: bool,
     is_paused: bool,
+    /// Whether it went in the middle of a trial, which waits for it.
+    is_missed: bool,
+}
+
+/// What a device has to know of its trial.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TrialState {
+    /// Whether there is one.
+    pub(super) is_open: bool,
+    /// Whether it goes on by hand.
+    pub(super) is_driven: bool,
+    /// Whether it is paused.
+    pub(super) is_paused: bool,
 }
 
 impl Device {
@@ -41,24 +57,32 @@ impl Device {
         self.is_served() && self.status.as_ref().is_some_and(|status| status.has_force && status.halted.is_none())
     }
 
-    /// Hears how the device is. A window that is hidden, or has no keys, has no hand on it: its force ends. `stands` says that
-    /// nothing moves in the trial; devices are listed once one `is_open`.
-    pub(super) fn follow(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool, stands: bool, is_open: bool) {
-        let Some(devices) = devices else { return };
-        if self.choices.is_none() && is_open {
+    /// Hears how the device is. A window that is hidden, or has no keys, has no hand on it: its force ends. Devices are listed
+    /// once there is a trial. Says whether the trial has to be paused, as the device that held its wire is gone, or has to go on,
+    /// as one is there again.
+    pub(super) fn follow(&mut self, devices: Option<&mut dyn Devices>, is_hidden: bool, trial: TrialState) -> bool {
+        let Some(devices) = devices else { return false };
+        if self.choices.is_none() && trial.is_open {
             self.look(devices);
         }
         if let Some(Listing { names, problem, chosen }) = devices.changed() {
             (self.choices, self.problem, self.chosen) = (Some(names), problem, chosen);
         }
+        let was_served = self.is_served();
         self.status = devices.status();
         if is_hidden && self.is_armed() {
             devices.ask(DeviceCommand::Halt(Halt::Hidden));
         }
-        if stands != self.is_paused {
+        let stands = !trial.is_driven || trial.is_paused;
+        if stands != self.is_paused || self.is_served() && !was_served {
             self.is_paused = stands;
             devices.ask(DeviceCommand::Pause(stands));
         }
+        if was_served && self.status.as_ref().is_some_and(|status| status.ended.is_some()) && trial.is_driven {
+            self.is_missed = true;
+            return !trial.is_paused;
+        }
+        self.is_served() && std::mem::take(&mut self.is_missed) && trial.is_paused
     }
 
     /// Does what is asked of it.
@@ -73,11 +97,24 @@ impl Device {
                 self.status = devices.status();
             }
             DeviceAsk::Confirm(on) => self.is_confirming = on,
+            // Files are the app's.
+            DeviceAsk::SaveLatency => {}
             DeviceAsk::Command(command) => {
                 self.is_confirming = false;
                 devices.ask(command);
             }
         }
+    }
+
+    /// The times of the device that is served, as a table of one line; `None` before it has any.
+    pub(super) fn latency_table(&self) -> Option<String> {
+        let DeviceStatus { name, latency, .. } = self.status.as_ref().filter(|status| status.latency.count > 0)?;
+        let Percentiles { count, p50_ms, p95_ms, p99_ms } = latency;
+        let (version, name) = (env!("CARGO_PKG_VERSION"), name.replace('"', "\"\""));
+        Some(format!(
+            "# From input report to output report; Lumen {version}. {NOT_CLINICAL}.\n\
+             device,reports,p50_ms,p95_ms,p99_ms\n\"{name}\",{count},{p50_ms:.1},{p95_ms:.1},{p99_ms:.1}\n"
+        ))
     }
 
     fn look(&mut self, devices: &mut dyn Devices) {
@@ -95,17 +132,18 @@ pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
         if ui.button("Look again").on_hover_text("Lists the devices that are plugged in now").clicked() {
             ask(DeviceAsk::Look);
         }
-        let name = device.chosen.and_then(|chosen| choices.get(chosen)).map_or("None", String::as_str);
-        ComboBox::from_id_salt("device").selected_text(name).show_ui(ui, |ui| {
+        let chosen = device.chosen.and_then(|chosen| choices.get(chosen)).map_or("None", String::as_str);
+        let list = ComboBox::from_id_salt("device").selected_text(chosen).show_ui(ui, |ui| {
             if ui.selectable_label(device.chosen.is_none(), "None").clicked() {
                 ask(DeviceAsk::Choose(None));
             }
-            for (i, name) in choices.iter().enumerate() {
-                if ui.selectable_label(device.chosen == Some(i), name).clicked() {
+            for (i, choice) in choices.iter().enumerate() {
+                if ui.selectable_label(device.chosen == Some(i), choice).clicked() {
                     ask(DeviceAsk::Choose(Some(i)));
                 }
             }
         });
+        name(&list.response, Role::ComboBox, "Device");
     });
     if let Some(problem) = &device.problem {
         warning(ui, problem);
@@ -126,10 +164,12 @@ pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
 fn hand(ui: &mut Ui, mut wanted: [f64; 2], ask: &mut impl FnMut(DeviceAsk)) {
     let before = wanted;
     row(ui, "Hand at", "Where the hand on the virtual device wants its slide", |ui| {
-        ui.add(Slider::new(&mut wanted[0], -HALF_WAY[0]..=HALF_WAY[0]).suffix(" mm").fixed_decimals(1));
+        let slider = Slider::new(&mut wanted[0], -HALF_WAY[0]..=HALF_WAY[0]).suffix(" mm").fixed_decimals(1);
+        name(&ui.add(slider), Role::Slider, "Hand at");
     });
     row(ui, "Turned to", "Where the hand on the virtual device wants its knob", |ui| {
-        ui.add(Slider::new(&mut wanted[1], -HALF_WAY[1]..=HALF_WAY[1]).suffix(" rad").fixed_decimals(2));
+        let slider = Slider::new(&mut wanted[1], -HALF_WAY[1]..=HALF_WAY[1]).suffix(" rad").fixed_decimals(2);
+        name(&ui.add(slider), Role::Slider, "Turned to");
     });
     if wanted != before {
         ask(DeviceAsk::Command(DeviceCommand::Want(wanted)));
@@ -177,13 +217,15 @@ fn mapped(ui: &mut Ui, what: &str, unit: &str, mapping: &mut Option<AxisMapping>
             Mode::Relative { per_count } => (per_count, format!(" {unit}/count")),
             Mode::Rate { full } => (full, format!(" {unit}/s")),
         };
-        ui.add(DragValue::new(value).range(0.01..=1000.0).suffix(suffix).max_decimals(2));
-        let name = status.axes.get(of.axis).map_or("-", |axis| axis.name.as_str());
-        ComboBox::from_id_salt(what).selected_text(name).width(56.0).show_ui(ui, |ui| {
+        let far = ui.add(DragValue::new(value).range(0.01..=1000.0).suffix(suffix).max_decimals(2));
+        name(&far, Role::SpinButton, &format!("{what}: how far"));
+        let axis = status.axes.get(of.axis).map_or("-", |axis| axis.name.as_str());
+        let list = ComboBox::from_id_salt(what).selected_text(axis).width(56.0).show_ui(ui, |ui| {
             for (i, axis) in status.axes.iter().enumerate() {
                 ui.selectable_value(&mut of.axis, i, &axis.name);
             }
         });
+        name(&list.response, Role::ComboBox, &format!("{what}: axis"));
     });
 }
 
@@ -194,10 +236,12 @@ fn force(ui: &mut Ui, device: &Device, status: &DeviceStatus, ask: &mut impl FnM
     }
     let mut factor = status.factor;
     row(ui, "Felt as", "The part of the device's most force that 1 N along the wire is felt as", |ui| {
-        ui.add(DragValue::new(&mut factor[0]).range(0.0..=20.0).speed(0.01).suffix(" /N").max_decimals(2));
+        let value = DragValue::new(&mut factor[0]).range(0.0..=20.0).speed(0.01).suffix(" /N").max_decimals(2);
+        name(&ui.add(value), Role::SpinButton, "Felt as");
     });
     row(ui, "Torque as", "The part of the device's most force that 1 N mm about the wire is felt as", |ui| {
-        ui.add(DragValue::new(&mut factor[1]).range(0.0..=5.0).speed(0.001).suffix(" /N mm").max_decimals(3));
+        let value = DragValue::new(&mut factor[1]).range(0.0..=5.0).speed(0.001).suffix(" /N mm").max_decimals(3);
+        name(&ui.add(value), Role::SpinButton, "Torque as");
     });
     if factor != status.factor {
         ask(DeviceAsk::Command(DeviceCommand::Factor(factor)));
@@ -236,6 +280,10 @@ fn force(ui: &mut Ui, device: &Device, status: &DeviceStatus, ask: &mut impl FnM
     if latency.count > 0 {
         let times = format!("{:.1} / {:.1} / {:.1} ms", latency.p50_ms, latency.p95_ms, latency.p99_ms);
         number(ui, "Latency", &times, "From input report to output report: half, 95 % and 99 % are not longer");
+        let what = "Saves these times, the device's name and Lumen's version as a small table, and nothing else";
+        if ui.button("Save latency").on_hover_text(what).clicked() {
+            ask(DeviceAsk::SaveLatency);
+        }
     }
 }
 
