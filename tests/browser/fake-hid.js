@@ -58,7 +58,12 @@
       if (wrong) return channel.postMessage({ wrong: id }), wrong;
       const bytes = Array.from(new Uint8Array(data.buffer ?? data, data.byteOffset ?? 0, data.byteLength));
       channel.postMessage({ heard: { id, bytes, at: now() } });
-      return new Promise((done) => setTimeout(done, 0));
+      // Done in a task of its own, at once: a timer would take 4 ms.
+      return new Promise((done) => {
+        const { port1, port2 } = new MessageChannel();
+        port1.onmessage = () => (port1.close(), done());
+        port2.postMessage(0);
+      });
     }
 
     sendFeatureReport(id, data) {

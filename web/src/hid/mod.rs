@@ -12,6 +12,8 @@ pub(crate) mod served;
 use lumen::haptics::service::{DeviceCommand, DeviceStatus};
 use serde::{Deserialize, Serialize};
 
+use self::api::HidDevice;
+
 /// A device that can be served.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Choice {
@@ -27,6 +29,13 @@ pub(crate) enum Choice {
         /// What it calls itself.
         name: String,
     },
+}
+
+impl Choice {
+    /// That of an interface of a device.
+    pub(crate) fn of(device: &HidDevice) -> Self {
+        Self::Paired { vendor: device.vendor_id(), product: device.product_id(), name: device.product_name() }
+    }
 }
 
 /// What the page asks of the Worker.

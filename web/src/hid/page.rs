@@ -107,7 +107,7 @@ impl Devices {
     fn list(&self, found: Vec<HidDevice>) {
         let mut paired: Vec<Choice> = Vec::new();
         for device in found {
-            let choice = named(&device);
+            let choice = Choice::of(&device);
             // A device has an entry for each of its interfaces.
             if !paired.contains(&choice) {
                 paired.push(choice);
@@ -177,7 +177,7 @@ impl Devices {
                     let found = api::devices(&list);
                     devices.0.problem.take();
                     if let Some(device) = found.first() {
-                        let choice = named(device);
+                        let choice = Choice::of(device);
                         if !devices.0.paired.borrow().contains(&choice) {
                             devices.0.paired.borrow_mut().push(choice.clone());
                         }
@@ -228,10 +228,6 @@ impl Devices {
             self.0.waker.wake();
         }
     }
-}
-
-fn named(device: &HidDevice) -> Choice {
-    Choice::Paired { vendor: device.vendor_id(), product: device.product_id(), name: device.product_name() }
 }
 
 fn name(choice: &Choice) -> String {

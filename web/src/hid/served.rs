@@ -50,11 +50,13 @@ struct Inner {
     /// Brings the engine back: a wire at rest waits for no clock.
     wake: Box<dyn Fn()>,
     served: RefCell<Option<Served>>,
+    /// What is to be served, whether it is there or not.
+    wanted: RefCell<Option<Choice>>,
     /// Counts those that were asked for: what comes late of one before is let go.
     number: Cell<u32>,
     look: RefCell<Option<Timer>>,
-    /// Hears that a device is pulled out.
-    unplugged: RefCell<Option<OnConnection>>,
+    /// Hear that a device is pulled out, and plugged in.
+    connections: RefCell<Option<[OnConnection; 2]>>,
 }
 
 /// Looks after the device again and again, until it is dropped.
@@ -91,9 +93,10 @@ impl Hands {
             exchange,
             wake: Box::new(wake),
             served: RefCell::default(),
+            wanted: RefCell::default(),
             number: Cell::new(0),
             look: RefCell::default(),
-            unplugged: RefCell::default(),
+            connections: RefCell::default(),
         }))
     }
 
@@ -121,6 +124,11 @@ impl Hands {
     }
 
     fn serve(&self, choice: Option<Choice>) -> Result<(), JsValue> {
+        let is_served = choice.is_some() && *self.0.wanted.borrow() == choice && self.0.served.borrow().is_some();
+        if is_served {
+            return Ok(());
+        }
+        self.0.wanted.replace(choice.clone());
         let number = self.0.number.get() + 1;
         self.0.number.set(number);
         self.let_go();
@@ -153,7 +161,7 @@ impl Hands {
     /// The interface that can be held, opened; a device may have several, and some say nothing of a hand.
     async fn open(&self, identity: &Identity, number: u32) -> Result<(), String> {
         let hid = api::hid().ok_or(NO_HID)?;
-        self.hear_unplugged(&hid);
+        self.hear_connections(&hid);
         let list = JsFuture::from(hid.get_devices()).await.map_err(|_| NOT_THERE)?;
         let is_it = |device: &HidDevice| {
             device.vendor_id() == identity.vendor
@@ -190,13 +198,21 @@ impl Hands {
         self.begin(Service::new(haptic), line).map_err(|_| "The browser gives no timer.".to_owned())
     }
 
-    fn hear_unplugged(&self, hid: &Hid) {
-        let mut unplugged = self.0.unplugged.borrow_mut();
-        if unplugged.is_some() {
+    fn hear_connections(&self, hid: &Hid) {
+        let mut connections = self.0.connections.borrow_mut();
+        if connections.is_some() {
             return;
         }
         let hands = self.clone();
-        let hear = OnConnection::new(move |event: HidConnectionEvent| {
+        let plugged = OnConnection::new(move |event: HidConnectionEvent| {
+            let wanted = hands.0.wanted.borrow().clone();
+            if hands.0.served.borrow().is_none() && wanted == Some(Choice::of(&event.device())) {
+                // To serve a paired device is asked for, and takes no answer.
+                let _ = hands.serve(wanted);
+            }
+        });
+        let hands = self.clone();
+        let unplugged = OnConnection::new(move |event: HidConnectionEvent| {
             let name = match &*hands.0.served.borrow() {
                 Some(Served { service, line: Line::Device { device, .. }, .. }) if *device == event.device() => {
                     service.status().name
@@ -205,9 +221,10 @@ impl Hands {
             };
             hands.end(&name, NOT_THERE);
         });
-        // Where it cannot be heard, the next request that fails says it.
-        let _ = hid.add_event_listener_with_callback("disconnect", hear.as_ref().unchecked_ref());
-        *unplugged = Some(hear);
+        // Where they cannot be heard, the next request that fails says it, and the user looks again.
+        let _ = hid.add_event_listener_with_callback("connect", plugged.as_ref().unchecked_ref());
+        let _ = hid.add_event_listener_with_callback("disconnect", unplugged.as_ref().unchecked_ref());
+        *connections = Some([plugged, unplugged]);
     }
 
     fn begin(&self, service: Service, line: Line) -> Result<(), JsValue> {
