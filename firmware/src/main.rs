@@ -2,84 +2,107 @@
 //!
 //! | task | when | what |
 //! |---|---|---|
-//! | [`follow_feed`], [`follow_roll`] | a word of samples | lines to counts |
-//! | [`control`] | every ms | counts to motors and to the next input report |
-//! | `main` | USB | reports in and out |
+//! | `encoders` | a word of samples came | lines to counts |
+//! | [`control`] | every ms | counts to motors and to the next input reports |
+//! | `usb` | the host asks | reports in and out |
 //!
-//! All share one executor in thread mode; no task works for longer than the 0.6 ms for which samples wait.
+//! All share one executor in thread mode. Samples wait for 0.6 ms; no task works for as long. A panic stops the program, and
+//! 20 ms later the chip starts anew.
 
 #![no_std]
 #![no_main]
 
-mod board;
+mod encoders;
+mod motors;
 mod usb;
 
-use core::cell::{Cell, RefCell};
+use core::cell::RefCell;
 
+use cortex_m_rt as _;
 use embassy_executor::Spawner;
-use embassy_rp::Peri;
 use embassy_rp::gpio::{Input, Level, Output, Pull};
-use embassy_rp::peripherals::{PIO0, WATCHDOG};
-use embassy_rp::pio::{self, StateMachine};
-use embassy_rp::pwm::Pwm;
+use embassy_rp::peripherals::{PIO0, USB};
 use embassy_rp::watchdog::Watchdog;
 use embassy_sync::blocking_mutex::Mutex;
 use embassy_sync::blocking_mutex::raw::ThreadModeRawMutex;
-use embassy_sync::signal::Signal;
 use embassy_time::{Duration, Ticker};
 use lumen_feeder::device::{Device, Seen};
-use lumen_feeder::quadrature::{Decoder, Steps};
 use panic_halt as _;
 
+use encoders::Lines;
+use motors::Motors;
+
 embassy_rp::bind_interrupts!(struct Interrupts {
-    PIO0_IRQ_0 => pio::InterruptHandler<PIO0>;
-    USBCTRL_IRQ => embassy_rp::usb::InterruptHandler<embassy_rp::peripherals::USB>;
+    PIO0_IRQ_0 => embassy_rp::pio::InterruptHandler<PIO0>;
+    USBCTRL_IRQ => embassy_rp::usb::InterruptHandler<USB>;
 });
 
-/// A value of the tasks', one at a time.
+/// What several tasks use, one at a time.
 type Shared<T> = Mutex<ThreadModeRawMutex, T>;
 
-/// What is sent to the host: the state, and what plays.
-type Reports = ([u8; 6], [u8; 2]);
-
-/// ms after which the chip starts anew, with its pins let go, if [`control`] has not run.
-const STUCK_MS: u64 = 20;
+/// How long [`control`] may not have run before the chip starts anew, which lets its pins go.
+const STUCK: Duration = Duration::from_millis(20);
 
 static DEVICE: Shared<RefCell<Device>> = Mutex::new(RefCell::new(Device::new()));
-static STEPS: [Shared<Cell<Steps>>; 2] = [const { Mutex::new(Cell::new(Steps { counts: 0, missed: 0 })) }; 2];
-static REPORTS: Signal<ThreadModeRawMutex, Reports> = Signal::new();
 
-/// What the control has its hands on.
+/// What [`control`] sees and moves, beside the encoders.
 struct Hardware {
-    /// Of feed and roll.
-    motors: [Pwm<'static>; 2],
+    motors: Motors,
     clutch: Input<'static>,
     centre: Input<'static>,
     power: Input<'static>,
     fault: Input<'static>,
+    /// The driver sleeps while it is low.
     driver: Output<'static>,
     light: Output<'static>,
-    watchdog: Peri<'static, WATCHDOG>,
+    watchdog: Watchdog,
 }
 
+// The pins' numbers are those of the wiring table in docs/haptic-device.md.
 #[embassy_executor::main]
 async fn main(spawner: Spawner) {
     let p = embassy_rp::init(embassy_rp::config::Config::default());
-    let [feed, roll] = board::motor_timer(&Default::default());
-    // The numbers of the pins are those of `docs/haptic-device.md`.
     let hardware = Hardware {
-        motors: [
-            Pwm::new_output_ab(p.PWM_SLICE0, p.PIN_16, p.PIN_17, feed),
-            Pwm::new_output_ab(p.PWM_SLICE1, p.PIN_18, p.PIN_19, roll),
-        ],
+        motors: Motors::new((p.PWM_SLICE0, p.PIN_16, p.PIN_17), (p.PWM_SLICE1, p.PIN_18, p.PIN_19)),
         clutch: Input::new(p.PIN_6, Pull::Up),
         centre: Input::new(p.PIN_7, Pull::Up),
         power: Input::new(p.PIN_22, Pull::Down),
         fault: Input::new(p.PIN_21, Pull::Up),
         driver: Output::new(p.PIN_20, Level::Low),
         light: Output::new(p.PIN_25, Level::Low),
-        watchdog: p.WATCHDOG,
+        watchdog: Watchdog::new(p.WATCHDOG),
     };
-    let [feed, roll] = board::encoders(p.PIO0, [(p.PIN_2.into(), p.PIN_3.into()), (p.PIN_4.into(), p.PIN_5.into())]);
-    usb::run(p.USB).await;
+    let feed = Lines { a: p.PIN_2, b: p.PIN_3 };
+    let roll = Lines { a: p.PIN_4, b: p.PIN_5 };
+    encoders::start(spawner, embassy_rp::pio::Pio::new(p.PIO0, Interrupts), feed, roll);
+    usb::start(spawner, embassy_rp::usb::Driver::new(p.USB, Interrupts));
+    spawner.spawn(control(hardware).expect("it is spawned once"));
+}
+
+/// Lets the device live, a ms at a time.
+#[embassy_executor::task]
+async fn control(mut hardware: Hardware) {
+    let mut ticker = Ticker::every(Duration::from_millis(1));
+    hardware.watchdog.start(STUCK);
+    loop {
+        ticker.next().await;
+        hardware.watchdog.feed(STUCK);
+        let seen = Seen {
+            steps: encoders::taken(),
+            is_clutched: hardware.clutch.is_low(),
+            is_centred: hardware.centre.is_low(),
+            has_power: hardware.power.is_high(),
+            // A driver that sleeps says nothing of itself.
+            is_faulty: hardware.driver.is_set_high() && hardware.fault.is_low(),
+        };
+        let (parts, state, playing) = DEVICE.lock(|device| {
+            let mut device = device.borrow_mut();
+            (device.advance(&seen), device.state(), device.playing())
+        });
+        let pushes = parts != [0.0; 2];
+        hardware.motors.push(parts);
+        hardware.driver.set_level(Level::from(seen.has_power));
+        hardware.light.set_level(Level::from(pushes));
+        usb::tell(state, playing);
+    }
 }
