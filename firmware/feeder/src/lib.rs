@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! samples of two lines --quadrature--> counts --axis--> place and speed
-//! output reports --effects--> parts of the greatest force --motor--> duties
+//! output reports --effects--> parts of the greatest force --motor--> inputs of the bridge
 //! ```
 //!
 //! [`device`] joins these, a ms at a time. The report descriptor and the ids are Lumen's own file, [`feeder`]: the firmware

@@ -1,7 +1,9 @@
-//! A motor on an H bridge: which of its two inputs is switched, for how much of the time.
+//! A motor on an H bridge with two inputs: high and low drives it one way, low and high the other, both high short its winding,
+//! both low let it go.
 //!
-//! A winding that stands still draws duty x supply / resistance. That bounds the duty, once and for all reports. A hand that
-//! turns the motor against its force adds what the motor induces: the driver's own current limit is there for that
+//! Between driving it is shorted (slow decay): then the current follows the duty from the first percent on. A winding that
+//! stands still draws duty x supply / resistance. That bounds the duty, once and for all reports. A hand that turns the motor
+//! against its force adds what the motor induces; the driver's own current limit is there for that
 //! (`docs/haptic-device.md`).
 
 /// A motor and its supply.
@@ -15,12 +17,12 @@ pub struct Motor {
     pub most_a: f32,
 }
 
-/// How long the bridge's inputs are on in a period, in counts of its timer: one of the two, never both.
+/// How long each of the bridge's inputs is high in a period, in counts of its timer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Duty {
-    /// The input that pushes to greater places.
+pub struct Inputs {
+    /// The one that pushes to greater places.
     pub up: u16,
-    /// The input that pushes to smaller ones.
+    /// The one that pushes to smaller ones.
     pub down: u16,
 }
 
@@ -31,11 +33,17 @@ impl Motor {
         if most.is_finite() { most.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// The duty for a part of its greatest force, -1 to 1, of a timer that counts to `top`. No number is no force.
-    pub fn duty(&self, part: f32, top: u16) -> Duty {
+    /// The inputs for a part of its greatest force, -1 to 1, with a period of so many counts. Without a force both are low;
+    /// no number is no force.
+    pub fn inputs(&self, part: f32, period: u16) -> Inputs {
         let part = if part.is_nan() { 0.0 } else { part.clamp(-1.0, 1.0) };
-        let counts = libm::floorf(part.abs() * self.most_duty() * f32::from(top)) as u16;
-        if part < 0.0 { Duty { up: 0, down: counts } } else { Duty { up: counts, down: 0 } }
+        let driven = libm::floorf(part.abs() * self.most_duty() * f32::from(period)) as u16;
+        let shorted = period.saturating_sub(driven);
+        match driven {
+            0 => Inputs::default(),
+            _ if part < 0.0 => Inputs { up: shorted, down: period },
+            _ => Inputs { up: period, down: shorted },
+        }
     }
 }
 
@@ -50,16 +58,17 @@ mod tests {
         // 0.4 A through 5 ohm are 2 V of the 5 V.
         assert_eq!(MOTOR.most_duty(), 0.4);
         for part in [1.0, 7.0, f32::INFINITY] {
-            assert_eq!(MOTOR.duty(part, 1000), Duty { up: 400, down: 0 });
-            assert_eq!(MOTOR.duty(-part, 1000), Duty { up: 0, down: 400 });
+            assert_eq!(MOTOR.inputs(part, 1000), Inputs { up: 1000, down: 600 });
+            assert_eq!(MOTOR.inputs(-part, 1000), Inputs { up: 600, down: 1000 });
         }
-        assert_eq!(MOTOR.duty(0.5, 1000), Duty { up: 200, down: 0 });
+        assert_eq!(MOTOR.inputs(0.5, 1000), Inputs { up: 1000, down: 800 });
+        assert_eq!(MOTOR.inputs(0.001, 1000), Inputs::default(), "less than a count");
     }
 
     #[test]
     fn no_number_is_no_force() {
-        assert_eq!(MOTOR.duty(f32::NAN, 1000), Duty::default());
-        assert_eq!(Motor { supply_v: 0.0, ..MOTOR }.duty(0.0, 1000), Duty::default());
-        assert_eq!(Motor { most_a: f32::NAN, ..MOTOR }.duty(1.0, 1000), Duty::default());
+        assert_eq!(MOTOR.inputs(f32::NAN, 1000), Inputs::default());
+        assert_eq!(Motor { supply_v: 0.0, ..MOTOR }.inputs(0.0, 1000), Inputs::default());
+        assert_eq!(Motor { most_a: f32::NAN, ..MOTOR }.inputs(1.0, 1000), Inputs::default());
     }
 }
