@@ -63,7 +63,6 @@ fn sample<const N: usize>(
     config.shift_in = ShiftConfig { auto_fill: true, threshold: 2 * SAMPLES as u8, direction: ShiftDirection::Left };
     config.clock_divider = FixedU32::<U8>::from_num(embassy_rp::clocks::clk_sys_freq() / RATE);
     machine.set_config(&config);
-    machine.set_enable(true);
 }
 
 #[embassy_executor::task]
@@ -78,6 +77,8 @@ async fn follow_roll(machine: StateMachine<'static, PIO0, 1>) {
 
 async fn follow<const N: usize>(mut machine: StateMachine<'static, PIO0, N>, steps: &Shared<Cell<Steps>>) {
     let mut decoder = Decoder::default();
+    // Not sooner, or samples would have been lost before anybody counts.
+    machine.set_enable(true);
     loop {
         let more = decoder.take(machine.rx().wait_pull().await);
         // Where the queue was full the samples paused, and steps may be lost.
