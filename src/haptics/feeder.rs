@@ -1,6 +1,9 @@
 //! The open feeder: a device with two axes, one that is pushed and one that is turned, each with a motor. This descriptor is
 //! what its firmware sends, what the virtual device speaks, and what the browser's tests mimic (`docs/haptics.md`).
 //!
+//! The firmware (`firmware/`) has this very file among its own, so it names nothing but `core`; its tests are in
+//! `feeder_tests.rs`.
+//!
 //! It is a joystick that is a physical interface device, so that other programs drive it too: X is the feed, from -50 to 50
 //! mm, Rx the roll about it, from a turn left to a turn right; a spring, a damper and a constant force on each.
 
@@ -33,7 +36,7 @@ pub mod id {
 }
 
 /// Half of the feed's way, in mm, and of the roll's, in radians: what the numbers 32767 stand for.
-pub const HALF_WAY: [f64; 2] = [50.0, 2.0 * std::f64::consts::PI];
+pub const HALF_WAY: [f64; 2] = [50.0, 2.0 * core::f64::consts::PI];
 
 /// Effects that it plays at a time.
 pub const EFFECTS: u8 = 4;
@@ -226,43 +229,3 @@ pub const DESCRIPTOR: &[u8] = &[
     0xC0,
     0xC0,
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::haptics::descriptor::parse;
-    use crate::haptics::fixtures::{chromium, peer};
-    use crate::haptics::model::{Kind, Report};
-    use crate::haptics::usage::desktop;
-    use crate::haptics::webhid;
-
-    #[test]
-    fn it_says_what_the_firmware_sends_and_takes() {
-        let model = parse(DESCRIPTOR).unwrap();
-        let bytes = |kind, id| model.report(kind, id).map_or(0, Report::bytes);
-        assert_eq!([1, 2].map(|id| bytes(Kind::Input, id)), [5, 1]);
-        assert_eq!([1, 2, 3, 4, 5, 6, 7].map(|id| bytes(Kind::Output, id)), [9, 14, 3, 3, 1, 1, 1]);
-        assert_eq!([0x11, 0x12, 0x13].map(|id| bytes(Kind::Feature, id)), [3, 4, 4]);
-        let state = model.report(Kind::Input, id::STATE).unwrap();
-        let feed = state.find(desktop::X).unwrap().field;
-        assert_eq!((feed.to_physical(32767), feed.unit_exponent), (50.0, -1));
-        let roll = state.find(desktop::RX).unwrap().field;
-        assert!((roll.to_physical(32767) * 1e-2 - HALF_WAY[1]).abs() < 0.01);
-    }
-
-    #[test]
-    fn others_read_it_the_same() {
-        let model = parse(DESCRIPTOR).unwrap();
-        assert_eq!(webhid::model(&chromium(DESCRIPTOR)).unwrap(), model);
-        assert_eq!(peer(DESCRIPTOR), crate::haptics::fixtures::elements(&model));
-    }
-
-    /// The device that the browser's tests put into the page (tests/browser/fake-hid.js) has this file.
-    #[test]
-    fn the_browser_s_tests_have_what_chromium_tells_of_it() {
-        let file: serde_json::Value =
-            serde_json::from_str(include_str!("../../tests/haptics/feeder-collections.json")).unwrap();
-        let told = serde_json::to_value(chromium(DESCRIPTOR)).unwrap();
-        assert!(file == told, "it should be:\n{told}");
-    }
-}

@@ -42,4 +42,6 @@ pub mod virtual_feeder;
 pub mod webhid;
 
 #[cfg(test)]
+mod feeder_tests;
+#[cfg(test)]
 mod fixtures;

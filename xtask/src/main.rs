@@ -1,5 +1,5 @@
 //! Developer commands: `cargo xtask serve | build | test | peers | curve | bench-trial | fuzz-trial |
-//! fuzz-surfaces | fuzz-files | read-back | validation`.
+//! fuzz-surfaces | fuzz-files | read-back | validation | firmware`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -9,6 +9,7 @@ mod build;
 mod curve;
 mod document;
 mod estimate;
+mod firmware;
 mod fuzz;
 mod page;
 mod peers;
@@ -84,6 +85,8 @@ enum Command {
     },
     /// Read what Lumen writes with VTK, trimesh and meshio.
     ReadBack,
+    /// Test the open feeder's firmware and build it for its board where that target is there.
+    Firmware,
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
     /// Run the wire's analytic benchmarks, draw them and write docs/validation.md.
@@ -101,6 +104,7 @@ fn main() -> ExitCode {
         Command::FuzzSurfaces { count, seed } => fuzz::surfaces(count, seed),
         Command::FuzzFiles { only, minutes } => fuzz::files(&only, minutes),
         Command::ReadBack => read_back::read_back(),
+        Command::Firmware => firmware::firmware(),
         Command::Curve => curve::curve(),
         Command::Validation => validation::validation(),
     };

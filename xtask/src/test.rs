@@ -9,12 +9,12 @@ use clap::ValueEnum;
 
 use crate::estimate::Estimate;
 use crate::step::{cargo, name, root, step, target};
-use crate::{build, tools};
+use crate::{build, firmware, tools};
 
 /// A part of the tests.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Suite {
-    /// Library, command line and window, as `cargo test` runs them.
+    /// Library, command line and window, as `cargo test` runs them, and the firmware.
     Native,
     /// The built app in headless Chromium.
     Browser,
@@ -47,7 +47,11 @@ pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
     let done = std::thread::scope(|scope| {
         // Linking and wasm-opt are one thread for minutes: they go on beside the native tests.
         let dist = wanted(Suite::Browser).then(|| scope.spawn(build::build));
-        let native = if wanted(Suite::Native) { native(long, &mut estimate).map(&mut add) } else { Ok(()) };
+        let native = if wanted(Suite::Native) {
+            native(long, &mut estimate).map(&mut add).and_then(|()| firmware::firmware())
+        } else {
+            Ok(())
+        };
         estimate.end();
         let browser = match dist.map(std::thread::ScopedJoinHandle::join) {
             None => Ok(()),

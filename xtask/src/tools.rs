@@ -13,8 +13,7 @@ use crate::step::{cargo, on_path, output, root, run, step, target};
 /// The wasm target of the toolchain in use.
 pub(crate) fn wasm_target() -> Result<()> {
     const TARGET: &str = "wasm32-unknown-unknown";
-    let libraries = output(Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]));
-    if libraries.is_some_and(|dir| Path::new(&dir).is_dir()) {
+    if has_target(TARGET) {
         return Ok(());
     }
     step("Install the wasm target", || {
@@ -24,6 +23,12 @@ pub(crate) fn wasm_target() -> Result<()> {
              -Z build-std=std,panic_abort --target wasm32-unknown-unknown, with -C linker=rust-lld",
         )
     })
+}
+
+/// Whether the toolchain in use has the libraries of a target.
+pub(crate) fn has_target(target: &str) -> bool {
+    let libraries = output(Command::new("rustc").args(["--print", "target-libdir", "--target", target]));
+    libraries.is_some_and(|dir| Path::new(&dir).is_dir())
 }
 
 /// The version of a package in a lock file of the checkout.

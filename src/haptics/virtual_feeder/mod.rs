@@ -60,6 +60,7 @@ pub struct VirtualFeeder {
     paced_ms: Option<f64>,
     heard_ms: u32,
     are_motors_on: bool,
+    is_paused: bool,
     gain: f64,
     effects: [Option<Effect>; EFFECTS as usize],
     loaded: [u8; 2],
@@ -77,6 +78,7 @@ impl Default for VirtualFeeder {
             paced_ms: None,
             heard_ms: 0,
             are_motors_on: false,
+            is_paused: false,
             gain: 0.0,
             effects: [None; EFFECTS as usize],
             loaded: [0, 2],
@@ -132,7 +134,12 @@ impl VirtualFeeder {
     pub fn advance(&mut self) {
         self.now_ms += 1;
         let is_heard = self.now_ms - self.heard_ms <= WATCHDOG_MS;
-        let is_on = self.is_plugged && self.are_motors_on && is_heard;
+        let is_on = self.is_plugged && self.are_motors_on && !self.is_paused && is_heard;
+        let now = self.now_ms;
+        for effect in self.effects.iter_mut().flatten() {
+            let lasts = |&started: &u32| effect.duration_ms == 0 || now - started <= u32::from(effect.duration_ms);
+            effect.started_ms = effect.started_ms.filter(lasts);
+        }
         for axis in 0..2 {
             let part = if is_on { self.part(axis) } else { 0.0 };
             let hand = &mut self.hands[axis];
@@ -161,9 +168,7 @@ impl VirtualFeeder {
         let (place, speed) = (self.hands[axis].part(), self.hands[axis].part_per_s());
         let playing = self.effects.iter().flatten().filter(|effect| {
             let is_on = effect.axes >> axis & 1 == 1 || effect.has_direction && effect.kind == Kind::Constant;
-            let lasts =
-                |started: u32| effect.duration_ms == 0 || self.now_ms - started <= u32::from(effect.duration_ms);
-            is_on && effect.started_ms.is_some_and(lasts)
+            is_on && effect.started_ms.is_some()
         });
         let sum: f64 = playing
             .map(|effect| {
@@ -200,9 +205,11 @@ impl VirtualFeeder {
             4 => {
                 self.effects = [None; EFFECTS as usize];
                 self.are_motors_on = false;
+                self.is_paused = false;
                 self.gain = 1.0;
             }
-            5 | 6 => {}
+            5 => self.is_paused = true,
+            6 => self.is_paused = false,
             _ => return Err(refused(id::CONTROL, "there is no such command")),
         }
         Ok(())
@@ -347,5 +354,7 @@ impl Port for VirtualFeeder {
     }
 }
 
+#[cfg(test)]
+mod firmware;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,20 @@
+//! What the open feeder's firmware does, without a board: it runs and is tested on any machine (`docs/haptic-device.md`).
+//!
+//! ```text
+//! samples of two lines --quadrature--> counts --axis--> place and speed
+//! output reports --effects--> parts of the greatest force --motor--> inputs of the bridge
+//! ```
+//!
+//! [`device`] joins these, a ms at a time. The report descriptor and the ids are Lumen's own file, [`feeder`]: the firmware
+//! cannot say anything else. Lumen's virtual feeder is the same device written a second time; a test of Lumen's gives both
+//! the same reports.
+
+#![no_std]
+
+pub mod axis;
+pub mod device;
+pub mod effects;
+#[path = "../../../src/haptics/feeder.rs"]
+pub mod feeder;
+pub mod motor;
+pub mod quadrature;
