@@ -81,7 +81,9 @@ impl Devices {
         let Some(window) = web_sys::window() else { return };
         let devices = self.clone();
         let end = Closure::<dyn Fn()>::new(move || {
-            if devices.0.wanted.borrow().is_some() {
+            // One that was armed a moment ago, and is not told of yet, ends with the app's next look.
+            let is_armed = devices.0.status.borrow().as_ref().is_some_and(|status| status.halted.is_none());
+            if is_armed {
                 devices.ask(DeviceCommand::Halt(Halt::Hidden));
             }
         });

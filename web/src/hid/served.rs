@@ -54,6 +54,8 @@ struct Inner {
     wanted: RefCell<Option<Choice>>,
     /// Counts those that were asked for: what comes late of one before is let go.
     number: Cell<u32>,
+    /// The number of the one that is being opened.
+    opening: Cell<Option<u32>>,
     look: RefCell<Option<Timer>>,
     /// Hear that a device is pulled out, and plugged in.
     connections: RefCell<Option<[OnConnection; 2]>>,
@@ -95,6 +97,7 @@ impl Hands {
             served: RefCell::default(),
             wanted: RefCell::default(),
             number: Cell::new(0),
+            opening: Cell::new(None),
             look: RefCell::default(),
             connections: RefCell::default(),
         }))
@@ -124,8 +127,9 @@ impl Hands {
     }
 
     fn serve(&self, choice: Option<Choice>) -> Result<(), JsValue> {
-        let is_served = choice.is_some() && *self.0.wanted.borrow() == choice && self.0.served.borrow().is_some();
-        if is_served {
+        // Page and Worker both hear that a device is plugged in again: it is opened once.
+        let is_under_way = self.0.served.borrow().is_some() || self.0.opening.get() == Some(self.0.number.get());
+        if choice.is_some() && *self.0.wanted.borrow() == choice && is_under_way {
             return Ok(());
         }
         self.0.wanted.replace(choice.clone());
@@ -145,8 +149,12 @@ impl Hands {
             }
             Some(Choice::Paired { vendor, product, name }) => {
                 let (hands, identity) = (self.clone(), Identity { vendor, product, name });
+                self.0.opening.set(Some(number));
                 spawn_local(async move {
                     let opened = hands.open(&identity, number).await;
+                    if hands.0.opening.get() == Some(number) {
+                        hands.0.opening.set(None);
+                    }
                     if let Err(why) = opened
                         && hands.0.number.get() == number
                     {
