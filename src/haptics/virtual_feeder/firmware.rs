@@ -79,7 +79,7 @@ proptest! {
             for _ in 0..ms {
                 let forces = firmware.advance(&motions(&feeder));
                 feeder.advance();
-                for (axis, &force) in forces.iter().enumerate() {
+                for (axis, force) in forces.into_iter().enumerate() {
                     let part = feeder.forces()[axis] / feeder.hands[axis].most_force;
                     prop_assert!((part - f64::from(force)).abs() < 1e-4, "{:?}: {} {}", said, part, force);
                 }
