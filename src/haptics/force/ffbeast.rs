@@ -1,6 +1,7 @@
 //! FFBeast's wheels, joysticks and rudders: one report on their vendor's interface holds the force, and the device lets go
 //! by itself where that does not come again (layout as in npm's `@shubham0x13/ffbeast-wheel-webhid-api` 0.1.1).
 
+use super::single::SingleReport;
 use super::{ForceDriver, ForceError, Reply, Request, Wish};
 
 /// The report's id.
@@ -15,9 +16,6 @@ const OVERRIDE: u8 = 0x10;
 const KEEP_MS: f64 = 20.0;
 const LEAST_MS: f64 = 2.0;
 
-/// Failures in a row after which the device counts as gone.
-const PATIENCE: u32 = 5;
-
 /// The report for a constant force of -1 to 1.
 pub fn report(force: f64) -> Vec<u8> {
     let mut data = vec![0; BYTES];
@@ -28,67 +26,43 @@ pub fn report(force: f64) -> Vec<u8> {
 }
 
 /// Drives one: its only axis feeds, or rolls.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Ffbeast {
     axis: usize,
-    wished: Option<f64>,
-    told: Option<(f64, Vec<u8>)>,
-    is_under_way: bool,
-    must_stop: bool,
-    failures: u32,
+    line: SingleReport,
 }
 
 impl Ffbeast {
     /// Moved by what is wished for feed, 0, or for roll, 1.
     pub fn new(axis: usize) -> Self {
-        Self { axis: axis.min(1), ..Self::default() }
+        Self { axis: axis.min(1), line: SingleReport::new(LEAST_MS, Some(KEEP_MS), report(0.0)) }
     }
 }
 
 impl ForceDriver for Ffbeast {
     fn wish(&mut self, wish: &Wish) {
         let of = wish[self.axis];
-        self.wished = Some(of.force.clamp(-of.limit, of.limit));
-        self.must_stop = false;
+        self.line.wish(of.force.clamp(-of.limit, of.limit));
     }
 
     fn stop(&mut self) {
-        self.must_stop = self.wished.take().is_some() || self.must_stop;
+        self.line.stop();
     }
 
     fn next(&mut self, now_ms: f64) -> Option<Request> {
-        if self.is_under_way || self.error().is_some() {
-            return None;
-        }
-        let data = if self.must_stop { report(0.0) } else { report(self.wished?) };
-        let is_due = self.told.as_ref().is_none_or(|(told, before)| {
-            self.must_stop || now_ms - told >= KEEP_MS || *before != data && now_ms - told >= LEAST_MS
-        });
-        is_due.then(|| {
-            self.is_under_way = true;
-            self.told = Some((now_ms, data.clone()));
-            Request::Send { id: REPORT, data }
-        })
+        self.line.next(now_ms, report).map(|data| Request::Send { id: REPORT, data })
     }
 
     fn reply(&mut self, _now_ms: f64, reply: Reply<'_>) {
-        self.is_under_way = false;
-        if reply == Reply::Failed {
-            self.failures += 1;
-            self.told = None;
-        } else {
-            self.failures = 0;
-            // A stop is said once it has arrived.
-            self.must_stop &= self.told.as_ref().is_none_or(|(_, data)| *data != report(0.0));
-        }
+        self.line.reply(reply);
     }
 
     fn farewell(&self) -> Vec<Request> {
-        self.told.iter().map(|_| Request::Send { id: REPORT, data: report(0.0) }).collect()
+        self.line.farewell().map(|data| Request::Send { id: REPORT, data }).into_iter().collect()
     }
 
     fn error(&self) -> Option<ForceError> {
-        (self.failures >= PATIENCE).then_some(ForceError::Silent)
+        self.line.error()
     }
 
     fn has_coupling(&self) -> bool {

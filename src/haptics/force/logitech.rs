@@ -4,6 +4,7 @@
 //! A wheel plays its last command until another comes, without end. So it is given no force that could move it once the
 //! host is silent, but friction in proportion to the force: that resists a hand, and cannot push.
 
+use super::single::SingleReport;
 use super::{ForceDriver, ForceError, Reply, Request, Wish};
 
 /// A command's length; it has no id.
@@ -15,7 +16,6 @@ const OFF: [u8; BYTES] = [0xF3, 0, 0, 0, 0, 0, 0];
 /// The strongest friction.
 const MOST: f64 = 7.0;
 const LEAST_MS: f64 = 4.0;
-const PATIENCE: u32 = 5;
 
 /// The command for friction of 0 to 1 in both directions: into the second slot, and played.
 pub fn friction(part: f64) -> [u8; BYTES] {
@@ -24,75 +24,46 @@ pub fn friction(part: f64) -> [u8; BYTES] {
 }
 
 /// Drives one: its only axis feeds, or rolls.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Logitech {
     axis: usize,
     is_prepared: bool,
-    wished: Option<f64>,
-    told: Option<(f64, [u8; BYTES])>,
-    is_under_way: bool,
-    must_stop: bool,
-    failures: u32,
+    line: SingleReport,
 }
 
 impl Logitech {
     /// Braked by what is wished for feed, 0, or for roll, 1.
     pub fn new(axis: usize) -> Self {
-        Self { axis: axis.min(1), ..Self::default() }
+        Self { axis: axis.min(1), is_prepared: false, line: SingleReport::new(LEAST_MS, None, OFF.to_vec()) }
     }
 }
 
 impl ForceDriver for Logitech {
     fn wish(&mut self, wish: &Wish) {
         let of = wish[self.axis];
-        self.wished = Some(of.force.abs().min(of.limit));
-        self.must_stop = false;
+        self.line.wish(of.force.abs().min(of.limit));
     }
 
     fn stop(&mut self) {
-        self.must_stop = self.wished.take().is_some() || self.must_stop;
+        self.line.stop();
     }
 
     fn next(&mut self, now_ms: f64) -> Option<Request> {
-        if self.is_under_way || self.error().is_some() {
-            return None;
-        }
-        let command = match self.wished {
-            _ if self.must_stop => OFF,
-            None => return None,
-            Some(_) if !self.is_prepared => NO_CENTRING,
-            Some(part) => friction(part),
-        };
-        let is_due =
-            self.must_stop || self.told.is_none_or(|(told, before)| before != command && now_ms - told >= LEAST_MS);
-        is_due.then(|| {
-            self.is_under_way = true;
-            self.told = Some((now_ms, command));
-            Request::Send { id: 0, data: command.to_vec() }
-        })
+        let is_prepared = self.is_prepared;
+        let saying = |part| if is_prepared { friction(part) } else { NO_CENTRING }.to_vec();
+        self.line.next(now_ms, saying).map(|data| Request::Send { id: 0, data })
     }
 
     fn reply(&mut self, _now_ms: f64, reply: Reply<'_>) {
-        self.is_under_way = false;
-        if reply == Reply::Failed {
-            self.failures += 1;
-            self.told = None;
-            return;
-        }
-        self.failures = 0;
-        match self.told {
-            Some((_, NO_CENTRING)) => self.is_prepared = true,
-            Some((_, OFF)) => self.must_stop = false,
-            _ => {}
-        }
+        self.is_prepared |= self.line.reply(reply) == Some(&NO_CENTRING);
     }
 
     fn farewell(&self) -> Vec<Request> {
-        self.told.iter().map(|_| Request::Send { id: 0, data: OFF.to_vec() }).collect()
+        self.line.farewell().map(|data| Request::Send { id: 0, data }).into_iter().collect()
     }
 
     fn error(&self) -> Option<ForceError> {
-        (self.failures >= PATIENCE).then_some(ForceError::Silent)
+        self.line.error()
     }
 
     fn has_coupling(&self) -> bool {

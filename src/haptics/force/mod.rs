@@ -6,6 +6,7 @@
 pub mod ffbeast;
 pub mod logitech;
 pub mod pid;
+mod single;
 
 /// A spring and a damper that the device itself renders, at its own rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
