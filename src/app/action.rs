@@ -44,6 +44,8 @@ pub enum Action {
     },
     /// Show other things in the views.
     Show(ViewOptions),
+    /// Show the surface as it was opened beside the level in one picture, or no longer.
+    Reveal,
     /// Show the surface as it was opened, for as long as this is so.
     HoldBefore(bool),
     /// Show or leave the compare view.

@@ -87,7 +87,13 @@ pub(super) fn top(
             ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
             let in_views = !(in_trial || state.comparison.is_open());
-            ui.add_enabled_ui(in_views, |ui| before_button(ui, views, &mut ask));
+            ui.add_enabled_ui(in_views, |ui| {
+                let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
+                let split = ui.add(Button::new("Split").selected(is_split));
+                let help = "As opened and as it is now in one picture; drag the line between them (R)";
+                ask(split.on_hover_text(help).clicked(), Action::Reveal);
+                before_button(ui, views, &mut ask);
+            });
             ask(
                 compare(ui, state, in_trial).on_hover_text("Several settings side by side (C)").clicked(),
                 Action::Compare,
@@ -176,6 +182,8 @@ fn more(
     let mut chosen = views.options;
     ui.checkbox(&mut chosen.before, "Show before");
     ask(chosen != views.options, Action::Show(chosen));
+    let mut is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
+    ask(ui.checkbox(&mut is_split, "Split view").clicked(), Action::Reveal);
     ask(compare(ui, state, in_trial).clicked(), Action::Compare);
     ask(trial(ui, state, in_trial).clicked(), Action::ToggleTrial);
     let in_views = !(in_trial || state.comparison.is_open());

@@ -103,6 +103,9 @@ pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
     if pressed(Key::D) {
         return Some(Action::Show(ViewOptions { colours: options.colours.toggled(Colours::Deviation), ..options }));
     }
+    if pressed(Key::R) {
+        return Some(Action::Reveal);
+    }
     if pressed(Key::V) {
         return Some(Action::Vessels(vessels::Action::Toggle));
     }

@@ -13,7 +13,7 @@ use super::state::{Effect, State};
 use super::trial::{self, Trial, TrialView};
 use super::vessels::{self, Vessels};
 use super::views::{NO_MEMORY, Spot, Views};
-use super::{bar, compare, panel, theme};
+use super::{bar, compare, panel, theme, verdict};
 use crate::haptics::safety::Halt;
 use crate::haptics::service::DeviceCommand;
 use crate::phantom::Sample;
@@ -69,6 +69,9 @@ impl LumenApp {
             was_typing: false,
             look_next: false,
         };
+        if !app.platform.prefers_less_motion() {
+            app.views.divider.sweep();
+        }
         app.enter(ctx, render_state);
         app
     }
@@ -285,6 +288,7 @@ impl LumenApp {
                 self.views.go_to(Spot { at: at_mm.into(), label }, height_mm);
             }
             Action::Show(options) => self.views.options = options,
+            Action::Reveal => self.views.toggle_reveal(state.document.as_ref()),
             Action::HoldBefore(is_held) => self.views.before_is_held = is_held,
             Action::Compare => state.toggle_comparison(),
             Action::Comparison(action) => state.comparison.act(action, &state.settings),
@@ -374,6 +378,8 @@ impl LumenApp {
             }
             if in_trial {
                 self.trial.pads(ui);
+            } else {
+                verdict::show(ui, &self.state, &mut asked);
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Room for the scroll bar beside what stands at the right.

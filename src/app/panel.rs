@@ -8,7 +8,7 @@ use super::assist::name;
 use super::control::Setting;
 use super::document::Document;
 use super::response;
-use super::row::{number, remark, row, step, warning};
+use super::row::{number, remark, row, step};
 use super::state::State;
 use super::vessels;
 use super::views::{ViewOptions, Views};
@@ -208,12 +208,6 @@ fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, report: Option<&Report>, as
     let thinnest = lumen.map(|lumen| lumen.diameter_mm);
     response::show(ui, smoothing, response::Scale { edge_length, thinnest });
     let Some(report) = report.filter(|report| report.settings.smoothing == *smoothing) else { return };
-    if report.pass_band_missed {
-        remark(ui, "Too few iterations for this pass band: more are needed to smooth.");
-    }
-    if let Some(warning) = report.volume_held_warning() {
-        remark(ui, &warning);
-    }
     if let Some(weakened) = report.smoothing_weakened {
         ui.horizontal_wrapped(|ui| {
             remark(ui, &format!("Smoothed less at {} vertices: no crossings.", grouped(weakened.vertices)));
@@ -270,9 +264,6 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
     let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
     if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
         remark(ui, &format!("{shortfall}."));
-    }
-    if let Some(pinch) = state.document.as_ref().and_then(Document::pinch) {
-        warning(ui, &format!("{pinch}."));
     }
 }
 
@@ -342,17 +333,6 @@ fn largest_deviation(ui: &mut Ui, state: &State, settings: &mut Settings) {
     number(ui, "Next coarser level", next.as_deref().unwrap_or("–"), help);
 }
 
-/// How far a reduction is safe by these settings, if that is known.
-fn safe<'a>(state: &'a State, settings: &Settings) -> Option<&'a Safe> {
-    // The same for every level.
-    let of_these = |report: &&Report| {
-        let target = settings.target;
-        let is_same_tolerance = report.settings.tolerance_percent == settings.tolerance_percent;
-        is_same_tolerance && Settings { target, ..report.settings.clone() }.gives_same(settings)
-    };
-    measured(state.document.as_ref()).filter(of_these)?.safe.as_ref()
-}
-
 /// What is safe in words, and a way there. The row is there before it is known: what lies below must not move when it is.
 fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Target) {
     let mut help = format!(
@@ -387,7 +367,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
 }
 
 fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
-    let safe = safe(state, settings);
+    let safe = state.safe();
     let target = &mut settings.target;
     let entering = state.document.as_ref().and_then(|d| Some(d.levels.as_ref()?.1.triangles.len()));
     let mut rate = target.percent(entering.unwrap_or(0));
@@ -441,10 +421,6 @@ pub(super) fn result(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
     let Some(measured) = &document.measured else { return };
     let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
     let report = &measured.report;
-    let warnings = [report.volume_warning(), report.smoothing_warning()];
-    for text in warnings.into_iter().flatten().filter(|_| is_current) {
-        warning(ui, &text);
-    }
     let percent =
         |change: Option<f64>| change.filter(|_| is_current).map_or("–".to_owned(), |c| format!("{c:+.2} %"));
     let distance = |pick: fn(&crate::pipeline::deviation::Deviation) -> f64| {

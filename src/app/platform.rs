@@ -26,6 +26,11 @@ pub trait Platform {
         true
     }
 
+    /// Whether the user asks for less motion on the screen.
+    fn prefers_less_motion(&self) -> bool {
+        false
+    }
+
     /// Haptic devices; `None` where the platform has none.
     fn devices(&mut self) -> Option<&mut dyn Devices> {
         None

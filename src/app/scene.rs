@@ -13,8 +13,8 @@ use crate::render::{
     Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError, unique_edges,
 };
 
-/// The two views, side by side.
-pub(super) const VIEWS: usize = 2;
+/// The two views, side by side, and what is revealed behind the first.
+pub(super) const VIEWS: usize = 3;
 
 /// What one view shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +72,7 @@ impl Scene {
             before_of: None,
             left_out_of: None,
             normals: Vec::new(),
-            views: [view(), view()],
+            views: [view(), view(), view()],
             device,
             queue,
         })

@@ -13,7 +13,7 @@ pub enum Sheet {
     About,
 }
 
-const KEYS: [(&str, &str); 19] = [
+const KEYS: [(&str, &str); 20] = [
     ("Drag", "Turn"),
     ("Shift or right button + drag, two fingers", "Move"),
     ("Wheel, pinch", "Zoom towards the pointer"),
@@ -21,6 +21,7 @@ const KEYS: [(&str, &str); 19] = [
     ("F, double click", "Fit into the view"),
     ("1 to 6", "Anterior, posterior, left, right, superior, inferior"),
     ("B, held", "The surface as it was opened"),
+    ("R", "As opened and as it is now in one picture; drag the line between"),
     ("L", "Show what is left out; click a piece to keep it"),
     ("D", "Colour by deviation"),
     ("V", "The vessels and what became of their calibre"),

@@ -9,6 +9,7 @@ use crate::engine::{Calibre, Command, Event, Link, Source, Work};
 use crate::io::{Format, ImportOptions, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::paper;
+use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::vessel::CentrelineFormat;
 
@@ -245,6 +246,14 @@ impl State {
         self.notice = None;
         self.writing.push(name.clone());
         link.send(Command::WriteCentrelines { name, format });
+    }
+
+    /// How far a reduction is safe by the present settings, if that is known. It is the same for every level.
+    pub fn safe(&self) -> Option<&Safe> {
+        let report = &self.document.as_ref()?.measured.as_ref()?.report;
+        let is_same_tolerance = report.settings.tolerance_percent == self.settings.tolerance_percent;
+        let is_same = Settings { target: self.settings.target, ..report.settings.clone() }.gives_same(&self.settings);
+        report.safe.as_ref().filter(|_| is_same_tolerance && is_same)
     }
 
     /// The calibre of each vessel as a file, a row a place: its name and its bytes.

@@ -6,10 +6,14 @@ use glam::{Vec2, Vec3};
 use super::assist::name;
 use super::document::{Document, Revision};
 use super::overlay;
+use super::reveal::{Divider, Reveal};
 use super::scene::{Picture, Scene, colour_map};
 use super::theme;
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, ColourMap, Look, StandardView, pick};
+
+/// The target of the surface as it was opened, behind the first view.
+const REVEALED: usize = 2;
 
 /// Said where the surface is not drawn because an allocation on the graphics device failed.
 pub(super) const NO_MEMORY: &str = "The graphics memory is full, so this surface cannot be drawn; it is still open and can be reduced further or saved.";
@@ -27,6 +31,8 @@ pub struct ViewOptions {
     pub colours: Colours,
     /// The surface as it was opened, where nothing can be held.
     pub before: bool,
+    /// Both in one picture.
+    pub reveal: Reveal,
 }
 
 /// What the colours of the shaded view mean.
@@ -68,6 +74,8 @@ pub struct Views {
     pub before_is_held: bool,
     /// The surface is shown as it was opened, in this frame.
     pub show_before: bool,
+    /// Between the surface as it was opened and the level, where both are shown in one picture.
+    pub(super) divider: Divider,
     /// The place that a ring is drawn around.
     pub(super) spot: Option<Spot>,
     scene: Option<Scene>,
@@ -91,6 +99,7 @@ impl Views {
             options: ViewOptions::default(),
             before_is_held: false,
             show_before: false,
+            divider: Divider::default(),
             spot: None,
             scene: None,
             failure: None,
@@ -180,6 +189,17 @@ impl Views {
         self.frames_per_second.map_or("idle".to_owned(), |rate| format!("{rate:.0} fps"))
     }
 
+    /// Whether the surface is shown as it was opened beside the level.
+    pub fn reveals(&self, document: &Document) -> bool {
+        self.options.reveal.holds(document) && document.shown.is_some() && !self.show_before
+    }
+
+    /// Shows both in one picture, or no longer.
+    pub(super) fn toggle_reveal(&mut self, document: Option<&Document>) {
+        let is_on = document.is_some_and(|document| self.options.reveal.holds(document));
+        self.options.reveal = if is_on { Reveal::Off } else { Reveal::On };
+    }
+
     /// Takes how fast frames come, while something moves.
     pub(super) fn measure_rate(&mut self, ui: &Ui, moves: bool) {
         self.frames_per_second = moves.then(|| 1.0 / ui.input(|input| input.stable_dt).max(1e-3));
@@ -240,14 +260,23 @@ impl Views {
             before: self.show_before,
             left_out: self.options.left_out,
         };
-        let drawn = self.scene.as_mut().map(|scene| scene.draw(index, &picture, document, keep));
-        match drawn {
-            Some(Ok(texture)) => {
-                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
+        let reveals = index == 0 && document.is_some_and(|document| self.reveals(document));
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let at = self.divider.at();
+        let (opened, now) = (rect.split_left_right_at_fraction(at), whole.split_left_right_at_fraction(at));
+        let before = reveals.then(|| Picture { before: true, ..picture.clone() });
+        let parts = match &before {
+            Some(before) => vec![(index, &picture, opened.1, now.1), (REVEALED, before, opened.0, now.0)],
+            None => vec![(index, &picture, rect, whole)],
+        };
+        for (index, picture, rect, part) in parts {
+            match self.scene.as_mut().map(|scene| scene.draw(index, picture, document, keep)) {
+                Some(Ok(texture)) => {
+                    ui.painter_at(rect).image(texture, rect, part, Color32::WHITE);
+                }
+                Some(Err(error)) => self.failure = Some(format!("The surface cannot be drawn: {error}.")),
+                None => {}
             }
-            Some(Err(error)) => self.failure = Some(format!("The surface cannot be drawn: {error}.")),
-            None => {}
         }
         if let Some(failure) = &self.failure {
             let font = egui::TextStyle::Body.resolve(ui.style());
@@ -279,6 +308,9 @@ impl Views {
         }
         if let Some(spot) = &self.spot {
             overlay::ring(ui, rect, &self.camera, spot.at, &spot.label, ui.visuals().hyperlink_color);
+        }
+        if reveals {
+            self.divider.show(ui, rect);
         }
         let is_click = response.clicked() && self.options.left_out;
         is_click.then(|| self.piece_at(response.interact_pointer_pos()?, rect, document?)).flatten()

@@ -4,24 +4,18 @@
 //! vertices left out, numbers turned into mm, windings made to agree, inward components turned. Welding comes before
 //! the change of unit, because rounding to f32 after a multiplication can make two places one.
 
-use std::ops::RangeInclusive;
-
 use glam::DVec3;
 
 use super::error::ReadError;
 use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
+use super::size::length;
 use super::weld::weld;
 use super::{Axes, Unit, winding};
 use crate::mesh::{Topology, TriMesh, Vec3, compacted, components, measures};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 pub(super) const FARTHEST_MM: f64 = 1e9;
-
-/// Diagonals, in mm, that draw no warning.
-const USUAL_DIAGONAL_MM: RangeInclusive<f64> = 20.0..=2000.0;
-/// Mean calibres, in mm, that draw none: coronary arteries have some 3, an aneurysm of the aorta 40.
-const USUAL_CALIBRE_MM: RangeInclusive<f64> = 2.5..=45.0;
 
 /// What a format's file hands over: the triangles as they stand there.
 pub(super) struct RawSurface {
@@ -205,7 +199,7 @@ fn duplicates(triangles: &[[u32; 3]], topology: &Topology) -> usize {
 /// Puts into sentences what a user should hear about.
 fn warn(report: &mut ImportReport) {
     let mut sentences = Vec::new();
-    sentences.extend(size_warning(report).filter(|_| report.vertices > 0));
+    sentences.extend(report.unusual_size().map(|found| found.sentence));
     if report.moved_mm != [0.0; 3] {
         let [x, y, z] = report.moved_mm.map(length);
         sentences.push(format!(
@@ -230,48 +224,6 @@ fn warn(report: &mut ImportReport) {
         sentences.push("The surface has no inside and outside (its triangles cannot be made to agree).".to_owned());
     }
     report.warnings.append(&mut sentences);
-}
-
-/// What to say about an unusual size, with the units that would make it a usual one.
-///
-/// A body of vessels may be a few centimetres across or a metre; how wide they are tells more: the mean calibre, by area,
-/// is four times the volume over the area, as it is of a cylinder.
-fn size_warning(report: &ImportReport) -> Option<String> {
-    let diagonal = f64::from(report.bounds_mm.diagonal());
-    let calibre = report.volume_mm3.map(|volume| 4.0 * volume / report.area_mm2);
-    let in_unit = |mm: f64, other: Unit| mm / report.unit.to_mm() * other.to_mm();
-    let is_as_long = |&other: &Unit| USUAL_DIAGONAL_MM.contains(&in_unit(diagonal, other));
-    let is_as_wide = |&other: &Unit| calibre.is_none_or(|mm| USUAL_CALIBRE_MM.contains(&in_unit(mm, other)));
-    let others = || Unit::ALL.into_iter().filter(|&other| other != report.unit).filter(is_as_long);
-    let fitting: Vec<Unit> = others().filter(is_as_wide).collect();
-    let list = |units: &[Unit], mm: f64| {
-        let each = units.iter().map(|&other| format!("{other} ({} mm)", length(in_unit(mm, other))));
-        each.collect::<Vec<_>>().join(" or in ")
-    };
-    if !is_as_long(&report.unit) {
-        let fitting = if fitting.is_empty() { others().collect() } else { fitting };
-        let advice = if fitting.is_empty() {
-            "check its unit of length".to_owned()
-        } else {
-            format!("its numbers may be in {}", list(&fitting, diagonal))
-        };
-        return Some(format!("The surface is {} mm across, which is unusual for vessels: {advice}.", length(diagonal)));
-    }
-    let calibre = calibre.filter(|_| !is_as_wide(&report.unit) && !fitting.is_empty())?;
-    let (wide, advice) = (length(calibre), list(&fitting, calibre));
-    Some(format!(
-        "Its vessels are {wide} mm wide on average, which is unusual: the numbers of the file may be in {advice}."
-    ))
-}
-
-/// A length in mm to three digits or to the mm, whichever is more.
-fn length(mm: f64) -> String {
-    match mm.abs() {
-        x if x >= 100.0 || x == 0.0 => format!("{mm:.0}"),
-        x if x >= 10.0 => format!("{mm:.1}"),
-        x if x >= 0.01 => format!("{mm:.3}"),
-        _ => format!("{mm:.2e}"),
-    }
 }
 
 pub(super) fn count(n: usize, one: &str, many: &str) -> String {

@@ -30,6 +30,7 @@ mod ply;
 mod polygons;
 mod report;
 mod room;
+mod size;
 mod stl;
 mod text;
 mod vtk;
@@ -41,6 +42,7 @@ pub use error::{ReadError, WriteError};
 pub use format::{Format, Unit, UnknownUnit};
 pub use import::import_mesh;
 pub use report::{ImportReport, Imported, Skipped};
+pub use size::UnusualSize;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

@@ -9,7 +9,8 @@ import { fileURLToPath } from "node:url";
 import { serve } from "./server.mjs";
 
 const checkout = fileURLToPath(new URL("../../", import.meta.url));
-const npm = process.env.LUMEN_NPM ?? `${checkout}target/npm`;
+/** Where what comes from npm is. */
+export const npm = process.env.LUMEN_NPM ?? `${checkout}target/npm`;
 const { chromium } = createRequire(`${npm}/`)("playwright-core");
 
 /** The built app. */
@@ -55,7 +56,7 @@ export function launch(more = []) {
  */
 export async function openPage(t, browser, { before, query = "", slow, files, context: options = {} } = {}) {
   const server = await serve(dist, { slow, files });
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: "reduce", ...options });
   t.after(async () => {
     await context.close();
     await server.close();

@@ -127,6 +127,10 @@ impl Stage {
         let create: eframe::AppCreator<'static> = Box::new(move |cc| Ok(Box::new(stage.enter(cc, &shown)?)));
         self.watch(&canvas)?;
         self.runner.start(canvas, options, create).await?;
+        // What eframe puts into the page to be typed into has no name.
+        if let Some(field) = self.document.query_selector("input[type=text]:not([aria-label])")? {
+            field.set_attribute("aria-label", "What is typed")?;
+        }
         self.with_webgpu.set(!is_webgl);
         Ok(())
     }

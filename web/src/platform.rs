@@ -75,6 +75,13 @@ fn save(name: &str, bytes: &[u8]) -> Result<(), String> {
 }
 
 impl Platform for Browser {
+    fn prefers_less_motion(&self) -> bool {
+        let window = web_sys::window();
+        // Where it cannot be asked, nobody has asked for less.
+        let query = window.and_then(|window| window.match_media("(prefers-reduced-motion: reduce)").ok().flatten());
+        query.is_some_and(|query| query.matches())
+    }
+
     fn has_attention(&self) -> bool {
         let document = web_sys::window().and_then(|window| window.document());
         // Where it cannot be told, eframe's own word counts.

@@ -83,7 +83,7 @@ fn head(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut 
         let copy = ui.add_enabled(found.is_some(), Button::new("Copy"));
         if let (Some(found), true) = (found, copy.on_hover_text("The table as text, a tab between columns").clicked()) {
             let of = state.document.as_ref().map_or("", |document| &document.name);
-            ui.ctx().copy_text(text(of, found, safe(state)));
+            ui.ctx().copy_text(text(of, found, state.safe()));
         }
         let save = ui.add_enabled(found.is_some(), Button::new("Save CSV"));
         if save.on_hover_text("Area and radius at each place of each vessel").clicked() {
@@ -96,16 +96,8 @@ fn head(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut 
     });
 }
 
-fn safe(state: &State) -> Option<&crate::pipeline::safe::Safe> {
-    let report = &state.document.as_ref()?.measured.as_ref()?.report;
-    let is_same = report.settings.tolerance_percent == state.settings.tolerance_percent
-        && report.settings.smoothing.gives_same(&state.settings.smoothing)
-        && report.settings.decimation.gives_same(&state.settings.decimation);
-    report.safe.as_ref().filter(|_| is_same)
-}
-
 fn table(ui: &mut Ui, rows: &[&BranchCalibre], chosen: &BranchCalibre, state: &State, asked: &mut Vec<Action>) {
-    let safe = safe(state);
+    let safe = state.safe();
     ui.spacing_mut().interact_size.y = 18.0;
     ui.spacing_mut().button_padding.y = 1.0;
     Grid::new("vessels").num_columns(COLUMNS.len()).striped(true).spacing([12.0, 2.0]).show(ui, |ui| {
@@ -158,7 +150,8 @@ fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
     })
 }
 
-fn go_to(branch: &BranchCalibre, change: &Change) -> Action {
+/// A look at the place of a change.
+pub(in crate::app) fn go_to(branch: &BranchCalibre, change: &Change) -> Action {
     let label = place(branch, change);
     Action::GoTo { at_mm: change.at_mm, height_mm: height(branch, change.abscissa_mm), label }
 }

@@ -17,7 +17,7 @@ pub(super) const COLUMNS: [(&str, &str); 8] = [
 ];
 
 /// The branches as they are listed: those that change first, the most changed before the others.
-pub(super) fn in_order(found: &Certificate) -> Vec<&BranchCalibre> {
+pub(in crate::app) fn in_order(found: &Certificate) -> Vec<&BranchCalibre> {
     let mut rows: Vec<&BranchCalibre> = found.branches.iter().collect();
     let change = |branch: &BranchCalibre| {
         let change = branch.reduced.largest_change.filter(|_| branch.verdict == Verdict::Changed);
@@ -48,7 +48,7 @@ pub(in crate::app) fn verdict(state: &State) -> String {
 const LITTLE: f64 = 25.0;
 
 /// What became of all of them, in a sentence or two.
-pub(super) fn sentence(found: &Result<Certificate, String>) -> String {
+pub(in crate::app) fn sentence(found: &Result<Certificate, String>) -> String {
     let found = match found {
         Ok(found) => found,
         Err(why) => return format!("There are no vessels to measure: {why}."),

@@ -44,6 +44,8 @@ pub struct Memory {
     pub trial_failure: Option<String>,
     /// The gamepad that is plugged in.
     pub gamepad: Option<Gamepad>,
+    /// Whether what moves by itself is welcome.
+    pub likes_motion: bool,
     /// Lets a trial run too, by a clock that goes on by 1/60 s a frame.
     pub trial_runs: bool,
 }
@@ -133,6 +135,10 @@ impl Platform for MemoryPlatform {
         &mut self.trial
     }
 
+    fn prefers_less_motion(&self) -> bool {
+        !self.memory.borrow().likes_motion
+    }
+
     fn enter(&mut self, _: &egui::Context) {
         self.memory.borrow_mut().windows += 1;
     }
@@ -177,7 +183,21 @@ pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) 
 
 /// The same, with so many seconds between two frames.
 pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    app_of(platform(), size, step_dt)
+}
+
+/// The same where what moves by itself is welcome.
+pub fn moving_app(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
+    memory.borrow_mut().likes_motion = true;
+    app_of((platform, memory), size, step_dt)
+}
+
+fn app_of(
+    (platform, memory): (MemoryPlatform, Rc<RefCell<Memory>>),
+    size: [f32; 2],
+    step_dt: f32,
+) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let harness = Harness::builder()
         .with_size(size)
         .with_max_steps(4000)
@@ -304,4 +324,21 @@ pub fn settle_wholly(harness: &mut Harness<'_, LumenApp>) {
         harness.step();
     }
     panic!("the background does not come to an end");
+}
+
+/// A tube about the z axis as an OBJ file: its radius, length and edges in the file's unit.
+pub fn tube(radius: f64, length: f64, edge: f64) -> Vec<u8> {
+    let around = (std::f64::consts::TAU * radius / edge).ceil() as usize;
+    let rings = (length / edge) as usize;
+    let vertex = |i: usize| {
+        let angle = std::f64::consts::TAU * (i % around) as f64 / around as f64;
+        format!("v {} {} {}\n", radius * angle.cos(), radius * angle.sin(), (i / around) as f64 * edge)
+    };
+    let quad = |i: usize| {
+        let (ring, next) = (i / around * around, (i + 1) % around);
+        let [a, b, c, d] = [i, ring + next, ring + around + next, i + around].map(|v| v + 1);
+        format!("f {a} {b} {c} {d}\n")
+    };
+    let vertices = (0..around * rings).map(vertex);
+    vertices.chain((0..around * (rings - 1)).map(quad)).collect::<String>().into_bytes()
 }

@@ -69,6 +69,8 @@ type Description = (Vec<(&'static str, String)>, Option<String>);
 fn describe(node: &Node, nodes: &HashMap<NodeId, &Node>, above: &Above) -> Option<Description> {
     let name = name(node, nodes);
     let role = aria_role(node, above, name.is_some())?;
+    // What has no name is called as it begins.
+    let name = name.or_else(|| matches!(role, "dialog" | "alertdialog").then(|| first_text(node, nodes)).flatten());
     let is_text = node.role() == Role::Label;
     let is_field = matches!(role, "textbox" | "searchbox" | "combobox" | "status" | "alert");
     let text = match (is_text, is_field) {
@@ -176,6 +178,14 @@ fn name(node: &Node, nodes: &HashMap<NodeId, &Node>) -> Option<String> {
     .filter(|name| !name.is_empty())
 }
 
+/// The first text in a node, in reading order.
+fn first_text(node: &Node, nodes: &HashMap<NodeId, &Node>) -> Option<String> {
+    node.children().iter().filter_map(|id| nodes.get(id)).find_map(|child| {
+        let own = child.value().or_else(|| child.label()).filter(|_| child.role() == Role::Label);
+        own.map(str::to_owned).or_else(|| first_text(child, nodes))
+    })
+}
+
 /// Numeric value and bounds, with the value as it is drawn (unit and all) for tools to read out.
 fn values(node: &Node, role: &str, is_field: bool) -> impl Iterator<Item = (&'static str, String)> {
     let ranged = matches!(role, "slider" | "spinbutton" | "progressbar" | "meter" | "separator");
@@ -215,7 +225,8 @@ fn states(node: &Node, role: &str) -> impl Iterator<Item = (&'static str, String
     [
         (toggled_key, toggled),
         ("aria-selected", node.is_selected().filter(|_| toggled.is_none()).map(yes_no)),
-        ("aria-expanded", node.is_expanded().map(yes_no)),
+        // A list that says nothing of it is closed.
+        ("aria-expanded", node.is_expanded().or((role == "combobox").then_some(false)).map(yes_no)),
         ("aria-disabled", node.is_disabled().then_some("true")),
         ("aria-modal", node.is_modal().then_some("true")),
         ("aria-readonly", node.is_read_only().then_some("true")),
@@ -293,6 +304,20 @@ mod tests {
         assert_eq!(attribute(find(&twins, "radio", "Hamming"), "aria-checked"), Some("false"));
         assert_eq!(attribute(find(&twins, "button", "Save..."), "aria-disabled"), Some("true"));
         assert_eq!(attribute(find(&twins, "button", "Before"), "aria-pressed"), Some("true"));
+    }
+
+    #[test]
+    fn a_sheet_is_called_as_it_begins_and_a_closed_list_says_so() {
+        let twins = twins_of(1.0, |ui| {
+            egui::ComboBox::from_id_salt("window").selected_text("Hamming").show_ui(ui, |_| {});
+            egui::Modal::new(egui::Id::new("help")).show(ui.ctx(), |ui| {
+                ui.vertical(|ui| ui.label("Keys and gestures"));
+                ui.label("Drag");
+            });
+        });
+        find(&twins, "dialog", "Keys and gestures");
+        let list = twins.iter().find(|twin| attribute(twin, "role") == Some("combobox")).expect("a list");
+        assert_eq!(attribute(list, "aria-expanded"), Some("false"));
     }
 
     #[test]

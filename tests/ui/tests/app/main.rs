@@ -5,4 +5,5 @@ mod controls;
 mod device;
 mod keys;
 mod trial;
+mod verdict;
 mod vessels;

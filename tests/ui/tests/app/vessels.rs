@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app, settle, tube};
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
@@ -170,21 +170,4 @@ fn what_smoothing_draws_shut_is_told_as_changed_by_smoothing() {
     harness.key_press(Key::V);
     harness.run_steps(4);
     assert!(harness.query_by_label_contains("Smoothing itself changes").is_some());
-}
-
-/// A tube about the z axis as an OBJ file.
-fn tube(radius: f64, length: f64, edge: f64) -> Vec<u8> {
-    let around = (std::f64::consts::TAU * radius / edge).ceil() as usize;
-    let rings = (length / edge) as usize;
-    let vertex = |i: usize| {
-        let angle = std::f64::consts::TAU * (i % around) as f64 / around as f64;
-        format!("v {} {} {}\n", radius * angle.cos(), radius * angle.sin(), (i / around) as f64 * edge)
-    };
-    let quad = |i: usize| {
-        let (ring, next) = (i / around * around, (i + 1) % around);
-        let [a, b, c, d] = [i, ring + next, ring + around + next, i + around].map(|v| v + 1);
-        format!("f {a} {b} {c} {d}\n")
-    };
-    let vertices = (0..around * rings).map(vertex);
-    vertices.chain((0..around * (rings - 1)).map(quad)).collect::<String>().into_bytes()
 }
