@@ -378,8 +378,6 @@ impl LumenApp {
             }
             if in_trial {
                 self.trial.pads(ui);
-            } else {
-                verdict::show(ui, &self.state, &mut asked);
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Room for the scroll bar beside what stands at the right.
@@ -389,6 +387,12 @@ impl LumenApp {
                 asked.extend(of_trial);
             });
         });
+        if !(in_trial || self.state.comparison.is_open() || takes_panel) {
+            let strip = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
+            Panel::top("verdict").frame(strip).exact_size(verdict::height(is_narrow) + 8.0).show(ui, |ui| {
+                verdict::show(ui, &self.state, is_narrow, &mut asked);
+            });
+        }
         if self.shows_vessels() && !is_narrow {
             let height = (ui.available_height() * 0.4).clamp(160.0, 320.0);
             let below = Panel::bottom("vessels").resizable(true).default_size(height).size_range(120.0..=480.0);

@@ -1,7 +1,7 @@
-//! The verdict on what is shown, above everything that is set: whether a trial may rest on it, else what is to be looked at,
+//! The verdict on what is shown, above the views: whether a trial may rest on it, else what is to be looked at,
 //! where that is, and what would help.
 
 mod findings;
 mod view;
 
-pub(super) use self::view::show;
+pub(super) use self::view::{height, show};

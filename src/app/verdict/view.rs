@@ -1,5 +1,4 @@
-//! The verdict as it is shown: in a place of its own above the controls, of the same height whatever it says, so that what
-//! lies below never moves under the hand.
+//! The verdict as it is shown: a strip above the views, of the same height whatever it says.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align, Color32, FontSelection, Layout, RichText, Role, Shape, Stroke, Ui, pos2, vec2};
@@ -10,91 +9,97 @@ use crate::app::assist::name;
 use crate::app::state::State;
 use crate::app::vessels;
 
-/// Height of all of it, in points.
-const HEIGHT: f32 = 92.0;
-/// Lines of the sentence; the rest is seen under the pointer.
-const LINES: usize = 2;
+/// Height of a line, in points.
+const LINE: f32 = 24.0;
 
-/// Shows the verdict on what is shown, and says what is asked for there.
-pub(in crate::app) fn show(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
-    let Some(document) = &state.document else { return };
-    let verdict = Verdict::new(state, document);
-    let size = vec2(ui.available_width(), HEIGHT);
-    ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
-        ui.set_min_size(size);
-        ui.spacing_mut().item_spacing.y = 2.0;
-        ui.spacing_mut().interact_size.y = 22.0;
-        ui.horizontal(|ui| {
-            mark(ui, verdict.is_safe);
-            ui.label(RichText::new(&verdict.head).strong());
-        });
-        let first = verdict.findings.first().filter(|finding| finding.is_grave);
-        let text = match (first, &verdict.calibre) {
-            (Some(finding), _) => &finding.text,
-            (None, Some(sentence)) => sentence,
-            (None, None) => "Calibre, deviation and shape follow.",
-        };
-        sentence(ui, text);
-        ui.horizontal(|ui| buttons(ui, &verdict, first, asked));
-    });
-    ui.separator();
+/// Height of the strip, in points; in a narrow window the sentence has a line of its own.
+pub(in crate::app) fn height(is_narrow: bool) -> f32 {
+    if is_narrow { 2.0 * LINE } else { LINE }
 }
 
-fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, asked: &mut Vec<Action>) {
-    match first {
-        Some(finding) => act(ui, finding, asked),
-        None => {
-            let vessels = ui.add_enabled(verdict.calibre.is_some(), egui::Button::new("Show vessels").small());
-            if vessels.on_hover_text("What became of each, and where (V)").clicked() {
-                asked.push(Action::Vessels(vessels::Action::Toggle));
+/// Shows the verdict on what is shown, and says what is asked for there.
+pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &mut Vec<Action>) {
+    let Some(document) = &state.document else { return };
+    let verdict = Verdict::new(state, document);
+    let first = verdict.findings.first().filter(|finding| finding.is_grave);
+    let text = match (first, &verdict.calibre) {
+        (Some(finding), _) => &finding.text,
+        (None, Some(sentence)) => sentence,
+        (None, None) => "Calibre and shape follow.",
+    };
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ui.spacing_mut().interact_size.y = LINE;
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), Layout::left_to_right(Align::Center), |ui| {
+        mark(ui, verdict.is_safe);
+        ui.label(RichText::new(&verdict.head).strong());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            buttons(ui, &verdict, first, asked);
+            if !is_narrow {
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| sentence(ui, text));
             }
-        }
+        });
+    });
+    if is_narrow {
+        sentence(ui, text);
     }
+}
+
+/// From right to left.
+fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, asked: &mut Vec<Action>) {
     let others: Vec<&Finding> = verdict.findings.iter().skip(usize::from(first.is_some())).collect();
-    if others.is_empty() {
-        return;
-    }
     let words = match (first, others.len()) {
         (Some(_), count) => format!("{count} more"),
         (None, 1) => "1 note".to_owned(),
         (None, count) => format!("{count} notes"),
     };
-    ui.menu_button(RichText::new(words).small(), |ui| {
-        ui.set_max_width(320.0);
-        for (i, finding) in others.iter().enumerate() {
-            if i > 0 {
-                ui.separator();
+    if !others.is_empty() {
+        ui.menu_button(words, |ui| {
+            ui.set_max_width(320.0);
+            for (i, finding) in others.iter().enumerate() {
+                if i > 0 {
+                    ui.separator();
+                }
+                ui.add(egui::Label::new(RichText::new(&finding.text).small()).wrap());
+                ui.horizontal(|ui| act(ui, finding, asked));
             }
-            ui.add(egui::Label::new(RichText::new(&finding.text).small()).wrap());
-            ui.horizontal(|ui| act(ui, finding, asked));
+        });
+    }
+    match first {
+        Some(finding) => act(ui, finding, asked),
+        None => {
+            let vessels = ui.add_enabled(verdict.calibre.is_some(), egui::Button::new("Show vessels"));
+            if vessels.on_hover_text("What became of each, and where (V)").clicked() {
+                asked.push(Action::Vessels(vessels::Action::Toggle));
+            }
         }
-    });
+    }
 }
 
 /// What can be done about a finding.
 fn act(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
     if let Some(place) = &finding.place
-        && ui.small_button("Show me").on_hover_text("Goes to where it is").clicked()
+        && ui.button("Show me").on_hover_text("Goes to where it is").clicked()
     {
         asked.push(place.clone());
     }
     for (words, action) in &finding.remedies {
-        if ui.small_button(words).on_hover_text("Would help; can be undone").clicked() {
+        if ui.button(words).on_hover_text("Would help; can be undone").clicked() {
             asked.push(action.clone());
         }
     }
 }
 
-/// A sentence of as many lines as there is room for; whole under the pointer and for assistive tools.
+/// A sentence in as much of a line as there is; whole under the pointer and for assistive tools.
 fn sentence(ui: &mut Ui, text: &str) {
-    let font = FontSelection::from(egui::TextStyle::Small).resolve(ui.style());
+    let font = FontSelection::from(egui::TextStyle::Body).resolve(ui.style());
     let colour = ui.visuals().text_color();
     let mut job = LayoutJob::simple(text.to_owned(), font, colour, ui.available_width());
-    job.wrap = TextWrapping { max_rows: LINES, ..job.wrap };
+    job.wrap = TextWrapping { max_rows: 1, break_anywhere: true, ..job.wrap };
     let galley = ui.painter().layout_job(job);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), galley.size().y), egui::Sense::hover());
+    let size = vec2(ui.available_width(), LINE);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
     let is_cut = galley.elided;
-    ui.painter().galley(rect.min, galley, colour);
+    ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, colour);
     name(&response, Role::Label, text);
     if is_cut {
         response.on_hover_text(text);

@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use eframe::App as _;
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
 use lumen::app::{Gamepad, LastingApp, LumenApp, Offer, Platform, PlatformEvent, State};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
@@ -341,4 +342,9 @@ pub fn tube(radius: f64, length: f64, edge: f64) -> Vec<u8> {
     };
     let vertices = (0..around * rings).map(vertex);
     vertices.chain((0..around * (rings - 1)).map(quad)).collect::<String>().into_bytes()
+}
+
+/// Whether some text that is shown holds this one.
+pub fn says(harness: &Harness<'_, LumenApp>, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
 }

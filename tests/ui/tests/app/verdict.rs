@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::pipeline::settings::{Smoothing, Target};
-use lumen_ui_tests::{Memory, app, moving_app, settle, settle_wholly, tube};
+use lumen_ui_tests::{Memory, app, moving_app, says, settle, settle_wholly, tube};
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
 /// The line in the shaded view.
@@ -21,10 +21,6 @@ fn open(harness: &mut Harness<'_, LumenApp>, memory: &Shared, name: &str, bytes:
     settle_wholly(harness);
 }
 
-fn says(harness: &Harness<'_, LumenApp>, text: &str) -> bool {
-    harness.query_all_by_label_contains(text).next().is_some()
-}
-
 fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
     harness.get_by_role_and_label(Role::Button, label).click();
     harness.run_steps(3);
@@ -36,8 +32,8 @@ fn what_is_safe_is_told_above_everything_and_leads_to_the_vessels() {
     assert!(!says(&harness, "Safe to simulate on"), "before it is known");
     settle_wholly(&mut harness);
     let head = harness.get_by_label("Safe to simulate on").rect();
-    let slider = harness.get_by_role_and_label(Role::Slider, "Pass band").rect();
-    assert!(head.bottom() < slider.top());
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+    assert!(head.bottom() < view.top() && head.left() >= view.left());
     assert!(says(&harness, "keep their calibre to 2 %"));
     click(&mut harness, "Show vessels");
     assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some());
@@ -96,11 +92,11 @@ fn a_vessel_that_smoothing_draws_shut_is_mended_by_what_suits_it() {
     harness.get_by_label("The paper's").click();
     harness.run_steps(3);
     settle_wholly(&mut harness);
-    assert!(says(&harness, "to look at"));
+    assert!(says(&harness, "Smoothing has drawn a vessel shut at"));
     click(&mut harness, "Suits this surface");
     settle_wholly(&mut harness);
     assert!(harness.state().state().settings.smoothing.gives_same(&Smoothing::AUTO));
-    assert!(!says(&harness, "to look at"));
+    assert!(!says(&harness, "shut at"));
 }
 
 #[test]
@@ -113,10 +109,10 @@ fn what_has_no_vessel_is_not_called_safe() {
 }
 
 #[test]
-fn what_lies_below_the_verdict_does_not_move_with_it() {
+fn nothing_moves_with_what_the_verdict_says() {
     let (mut harness, _) = app(DESKTOP);
     settle(&mut harness);
-    let top = |harness: &Harness<'_, LumenApp>| harness.get_by_role_and_label(Role::Slider, "Pass band").rect().top();
+    let top = |harness: &Harness<'_, LumenApp>| harness.get_by_role_and_label(Role::Image, "Shaded view").rect().min;
     let before = top(&harness);
     settle_wholly(&mut harness);
     assert_eq!(top(&harness), before);
@@ -143,13 +139,19 @@ fn the_line_parts_what_was_opened_from_what_it_has_become() {
     let other = part(&mut harness, 0.5, 1.0);
     harness.key_down(Key::B);
     harness.run_steps(3);
-    assert!(half == part(&mut harness, 0.0, 0.4), "as it was opened");
-    assert!(other != part(&mut harness, 0.5, 1.0), "as it is now");
+    assert!(is_same(&half, &part(&mut harness, 0.0, 0.4)), "as it was opened");
+    assert!(!is_same(&other, &part(&mut harness, 0.5, 1.0)), "as it is now");
     harness.key_up(Key::B);
     harness.run_steps(3);
     click(&mut harness, "Split");
-    assert!(half != part(&mut harness, 0.0, 0.4), "as it is now, once it is not split");
-    assert!(other == part(&mut harness, 0.5, 1.0));
+    assert!(!is_same(&half, &part(&mut harness, 0.0, 0.4)), "as it is now, once it is not split");
+    assert!(is_same(&other, &part(&mut harness, 0.5, 1.0)));
+}
+
+/// Whether two pictures are the same but for rounding.
+fn is_same(a: &[[u8; 4]], b: &[[u8; 4]]) -> bool {
+    let differ = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > 2);
+    a.iter().zip(b).filter(|&pair| differ(pair)).count() * 1000 < a.len()
 }
 
 #[test]
