@@ -97,6 +97,17 @@ async function start() {
   document.getElementById("loading-text").textContent = "Starting";
   await checkPixels(document.getElementById("lumen"));
   await glue.default({ module_or_path: module });
+  keepBuild();
+}
+
+/** From the next start on there need be no network. A build that bears no version (Trunk's) is not kept. */
+async function keepBuild() {
+  if (!query || !navigator.serviceWorker) return;
+  try {
+    await navigator.serviceWorker.register(new URL("service-worker.js", import.meta.url), { updateViaCache: "none" });
+  } catch (error) {
+    console.warn(`Lumen will need a network at the next start: ${error.message}`);
+  }
 }
 
 async function copyDetails() {

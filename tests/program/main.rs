@@ -1,5 +1,8 @@
 //! The program from outside: its subcommands and the files that it writes.
 
+mod batch;
 mod cli;
 #[cfg(feature = "gui")]
 mod figures;
+mod program;
+mod settings;
