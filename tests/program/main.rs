@@ -4,5 +4,6 @@ mod batch;
 mod cli;
 #[cfg(feature = "gui")]
 mod figures;
+mod privacy;
 mod program;
 mod settings;

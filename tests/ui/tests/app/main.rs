@@ -4,5 +4,7 @@ mod compare;
 mod controls;
 mod device;
 mod keys;
+mod recovery;
+mod sharing;
 mod trial;
 mod vessels;
