@@ -4,7 +4,7 @@
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! parallel < mesh < io, phantom, vessel < pipeline < trial < engine < app < desktop, web
+//! parallel < mesh < io, phantom, vessel < pipeline < sharing, trial < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
@@ -14,6 +14,7 @@
 //! - [`phantom`]: vessel trees that Lumen makes itself, cut from a voxel mask by marching cubes.
 //! - [`vessel`]: the tree in a surface: balls, branches, centrelines, calibres.
 //! - [`pipeline`]: connectivity, windowed-sinc smoothing, normals, decimation, the progressive mesh, deviation.
+//! - [`sharing`]: what another person needs to see the same: settings as a file, in a link, and a file's hash.
 //! - [`trial`]: the guidewire: rod, contact, route, autopilot, log.
 //! - [`engine`]: the pipeline as work that never blocks a frame: commands in, events out.
 //! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
@@ -40,6 +41,7 @@ pub mod phantom;
 pub mod pipeline;
 #[cfg(feature = "gui")]
 pub mod render;
+pub mod sharing;
 pub mod task;
 pub mod transfer;
 pub mod trial;

@@ -10,6 +10,9 @@ const SIMD_MODULE = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11,
 ]);
 
+/** What the result is saved as when the program has stopped. */
+const RESULT = "lumen-result.stl";
+
 /** What the browser lacks, as a sentence, or null. */
 async function missing() {
   if (typeof WebAssembly !== "object" || !WebAssembly.validate(SIMD_MODULE)) {
@@ -29,8 +32,40 @@ function showUnsupported(sentence) {
 function showFailed(details) {
   if (root.dataset.state === "failed" || root.dataset.state === "unsupported") return;
   document.getElementById("failed-details").textContent = `${details}\n\n${navigator.userAgent}`;
+  document.getElementById("failed-save").hidden = !globalThis.lumenEngine;
   root.dataset.state = "failed";
-  document.getElementById("failed-reload").focus();
+  /** What the engine's Worker, which outlives the page's program, has as the newest level: an STL file, or null. */
+function rescued() {
+  const engine = globalThis.lumenEngine;
+  return new Promise((resolve) => {
+    setTimeout(() => resolve(null), 10_000);
+    engine.onerror = () => resolve(null);
+    engine.onmessage = ({ data }) => {
+      const { Written, NotWritten } = JSON.parse(data[0]);
+      if (Written || NotWritten) resolve(Written ? data[1] : null);
+    };
+    // As src/engine/message.rs has it.
+    engine.postMessage([JSON.stringify({ WriteLevel: { name: RESULT, format: "stl" } })]);
+  });
+}
+
+async function saveResult() {
+  const bytes = await rescued();
+  const said = document.getElementById("failed-copied");
+  if (!bytes) {
+    said.textContent = "There is no result to be had: the computation has ended too, or had none yet.";
+    return;
+  }
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes], { type: "application/octet-stream" }));
+  link.download = RESULT;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  said.textContent = `The newest result was saved as ${RESULT}.`;
+}
+
+document.getElementById("failed-save").addEventListener("click", saveResult);
+document.getElementById("failed-reload").focus();
 }
 
 function showProgress(bytes, total) {
@@ -90,13 +125,28 @@ async function start() {
   const total = Number(document.querySelector('meta[name="lumen-module-bytes"]')?.content ?? 0);
   let glue, module;
   try {
-    [glue, module] = await Promise.all([import(at("lumen-web.js")), fetchModule(at("lumen-web_bg.wasm"), total)]);
+    [glue, module] = await Promise.all([
+      import(at("lumen-web.js")),
+      fetchModule(at("lumen-web_bg.wasm"), total),
+      import(at("store.js")),
+    ]);
   } catch (error) {
     return showFailed(`The program could not be downloaded: ${error.message}`);
   }
   document.getElementById("loading-text").textContent = "Starting";
   await checkPixels(document.getElementById("lumen"));
   await glue.default({ module_or_path: module });
+  keepBuild();
+}
+
+/** From the next start on there need be no network. A build that bears no version (Trunk's) is not kept. */
+async function keepBuild() {
+  if (!query || !navigator.serviceWorker) return;
+  try {
+    await navigator.serviceWorker.register(new URL("service-worker.js", import.meta.url), { updateViaCache: "none" });
+  } catch (error) {
+    console.warn(`Lumen will need a network at the next start: ${error.message}`);
+  }
 }
 
 async function copyDetails() {

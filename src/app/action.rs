@@ -2,7 +2,7 @@
 //! place.
 
 use super::views::ViewOptions;
-use super::{compare, trial, vessels};
+use super::{compare, recovery, sharing, trial, vessels};
 use crate::io::{Format, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
@@ -58,6 +58,10 @@ pub enum Action {
     Trial(trial::Action),
     /// Something of the vessels and their calibre.
     Vessels(vessels::Action),
+    /// Something of what is shared.
+    Share(sharing::Action),
+    /// Something of what is kept on this device.
+    Recovery(recovery::Action),
     /// The other theme.
     Theme,
     /// Show or hide the keys.

@@ -7,8 +7,8 @@ use super::assist::name;
 use super::control::progress;
 use super::icon::{self, Icon};
 use super::state::State;
-use super::vessels;
 use super::views::{Colours, ViewOptions, Views};
+use super::{recovery, sharing, vessels};
 use crate::digits::grouped;
 use crate::io::{Axes, Format, Unit};
 use crate::phantom::Sample;
@@ -23,6 +23,10 @@ pub(super) struct Shown {
     pub(super) is_narrow: bool,
     /// The vessels' calibre.
     pub(super) are_vessels_open: bool,
+    /// Whether surfaces are kept on this device, where they can be.
+    pub(super) keeps_surface: Option<bool>,
+    /// Links can be made here.
+    pub(super) has_links: bool,
 }
 
 /// The bar above.
@@ -30,7 +34,7 @@ pub(super) fn top(
     ui: &mut Ui,
     state: &State,
     views: &Views,
-    Shown { in_trial, is_narrow, are_vessels_open }: Shown,
+    Shown { in_trial, is_narrow, are_vessels_open, keeps_surface, has_links }: Shown,
     asked: &mut Vec<Action>,
 ) {
     let mut ask = |wanted: bool, what: Action| {
@@ -74,6 +78,19 @@ pub(super) fn top(
                         ask(ui.button(text).on_hover_text(help).clicked(), Action::Vessels(what));
                     }
                 });
+                ui.separator();
+                let help = "For whoever has the same file, and for lumen optimise --settings; opened as a surface is";
+                let save = ui.button("Settings...").on_hover_text(help).clicked();
+                ask(save, Action::Share(sharing::Action::SaveSettings));
+                if has_links {
+                    let help = "The settings and the first digits of the file's hash, and nothing of the surface";
+                    let copy = ui.button("Copy link").on_hover_text(help).clicked();
+                    ask(copy, Action::Share(sharing::Action::CopyLink));
+                }
+                if let Some(mut keeps) = keeps_surface {
+                    ui.separator();
+                    kept_here(ui, &mut keeps, &mut ask);
+                }
             });
         });
         if is_narrow {
@@ -113,6 +130,17 @@ pub(super) fn top(
             });
         }
     });
+}
+
+/// What is kept on this device.
+fn kept_here(ui: &mut Ui, keeps: &mut bool, ask: &mut impl FnMut(bool, Action)) {
+    let help =
+        "The file itself, for the next start, in this browser; otherwise only its name, the settings and the view";
+    let chosen = ui.checkbox(keeps, "Keep this surface on this device").on_hover_text(help).changed();
+    ask(chosen, Action::Recovery(recovery::Action::KeepSurface(*keeps)));
+    let help = "Settings, names and surfaces that are kept in this browser";
+    let forget = ui.button("Forget what is kept here").on_hover_text(help).clicked();
+    ask(forget, Action::Recovery(recovery::Action::Forget));
 }
 
 fn compare(ui: &mut Ui, state: &State, in_trial: bool) -> Response {

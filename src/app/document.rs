@@ -10,6 +10,7 @@ use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Target};
+use crate::sharing::Digest;
 
 /// The pieces of the surface.
 #[derive(Clone, Debug, Default)]
@@ -60,6 +61,8 @@ pub struct Document {
     pub source: Source,
     /// What it is called.
     pub name: String,
+    /// By what its file is known; a sample is known by its name.
+    pub digest: Option<Digest>,
     /// What was found and mended when it was opened.
     pub import: ImportReport,
     /// All of it.
@@ -106,10 +109,11 @@ pub struct Revision {
 impl Document {
     /// A surface that was just opened.
     pub fn new(source: Source, opened: Opened) -> Self {
-        let Opened { id, name, report, mesh } = opened;
+        let Opened { id, name, digest, report, mesh } = opened;
         Self {
             source,
             name,
+            digest,
             import: report,
             opened: mesh,
             pieces: Pieces::default(),

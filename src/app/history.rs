@@ -1,8 +1,10 @@
 //! Undo and redo.
 
+use serde::{Deserialize, Serialize};
+
 /// Values in the order in which they were left, and a way back and forth. A drag is one step: values are recorded
 /// when the hand comes off.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct History<T> {
     undo: Vec<T>,
     redo: Vec<T>,
@@ -57,6 +59,23 @@ impl<T: Clone + PartialEq> History<T> {
         let after = self.redo.pop()?;
         self.undo.push(std::mem::replace(&mut self.present, after));
         Some(&self.present)
+    }
+
+    /// The value that stands.
+    pub fn present(&self) -> &T {
+        &self.present
+    }
+
+    /// Every value, in no order.
+    pub fn all(&self) -> impl Iterator<Item = &T> {
+        self.undo.iter().chain(&self.redo).chain([&self.present])
+    }
+
+    /// The same with no more than the last `steps` of each way.
+    #[must_use]
+    pub fn recent(&self, steps: usize) -> Self {
+        let last = |of: &[T]| of[of.len().saturating_sub(steps)..].to_vec();
+        Self { undo: last(&self.undo), redo: last(&self.redo), present: self.present.clone() }
     }
 
     /// Whether there is a step to undo.

@@ -8,6 +8,8 @@ use super::action::{Action, of_trial};
 use super::keys::{self, Keys};
 use super::paint_guard::PaintGuard;
 use super::platform::{Platform, PlatformEvent};
+use super::recovery::Recovery;
+use super::sharing::{self, Sharing};
 use super::sheets::{self, Sheet};
 use super::state::{Effect, State};
 use super::trial::{self, Trial, TrialView};
@@ -16,7 +18,6 @@ use super::views::{NO_MEMORY, Spot, Views};
 use super::{bar, compare, panel, theme, verdict};
 use crate::haptics::safety::Halt;
 use crate::haptics::service::DeviceCommand;
-use crate::phantom::Sample;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::render::{Camera, DeviceHealth, Fault};
 
@@ -38,6 +39,8 @@ pub struct LumenApp {
     trial: Trial,
     trial_view: TrialView,
     vessels: Vessels,
+    recovery: Recovery,
+    sharing: Sharing,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
     /// Whether a field was typed into at the end of the frame before.
@@ -47,14 +50,14 @@ pub struct LumenApp {
 }
 
 impl LumenApp {
-    /// The app, with a sample open.
+    /// The app, with what was open before, or a sample.
     pub fn new(
         ctx: &egui::Context,
         render_state: Option<&egui_wgpu::RenderState>,
         mut platform: Box<dyn Platform>,
     ) -> Self {
         let mut state = State::default();
-        state.open_sample(Sample::Aorta, platform.link());
+        let recovery = Recovery::begin(&mut state, &mut *platform);
         let mut app = Self {
             ctx: ctx.clone(),
             health: DeviceHealth::default(),
@@ -64,6 +67,8 @@ impl LumenApp {
             trial: Trial::new(),
             trial_view: TrialView::new(None),
             vessels: Vessels::default(),
+            recovery,
+            sharing: Sharing::default(),
             platform,
             sheet: None,
             was_typing: false,
@@ -164,7 +169,20 @@ impl LumenApp {
                 PlatformEvent::Chosen { name, bytes } if is_log(&name) => {
                     self.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
                 }
-                PlatformEvent::Chosen { name, bytes } => self.state.open_file(name, bytes, self.platform.link()),
+                PlatformEvent::Chosen { name, bytes } if sharing::is_settings(&name) => {
+                    Sharing::take_file(&name, &bytes, &mut self.state, self.platform.link());
+                }
+                PlatformEvent::Chosen { name, bytes } => {
+                    self.recovery.before_file(&name, &mut self.state);
+                    self.sharing.before_file(&mut self.state);
+                    self.state.open_file(name, bytes, self.platform.link());
+                }
+                PlatformEvent::Linked { fragment } => {
+                    self.sharing.follow(&fragment, &mut self.state, self.platform.link());
+                }
+                PlatformEvent::Restored(file) => {
+                    self.recovery.restored(file, &mut self.state, self.platform.link());
+                }
                 PlatformEvent::Saved { message } => self.state.tell(&message),
                 PlatformEvent::Failed { message } => self.state.warn(&message),
             }
@@ -173,6 +191,8 @@ impl LumenApp {
             match self.state.receive(event) {
                 Some(Effect::Opened) => {
                     self.look_next = true;
+                    self.recovery.opened(&mut self.state, &mut *self.platform);
+                    self.sharing.opened(&mut self.state);
                     self.vessels.selected = None;
                     self.trial.leave_surface(self.platform.trial());
                 }
@@ -197,6 +217,7 @@ impl LumenApp {
     /// Sends on what was done and heard.
     fn follow(&mut self, ctx: &egui::Context) {
         self.state.follow(keys::moves_control(ctx), self.platform.link());
+        self.recovery.follow(&self.state, &self.views.camera, &mut *self.platform, ctx);
         let State { document, settings, .. } = &self.state;
         let has_level = self.state.has_level();
         self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
@@ -298,6 +319,8 @@ impl LumenApp {
             }
             Action::Trial(action) => self.act_on_trial(action, ctx),
             Action::Vessels(action) => self.act_on_vessels(action, ctx),
+            Action::Share(action) => Sharing::act(action, state, &mut *self.platform, ctx),
+            Action::Recovery(action) => self.recovery.act(action, state, &mut *self.platform),
             Action::Theme => {
                 let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
                 ctx.set_theme(other);
@@ -356,8 +379,10 @@ impl LumenApp {
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 6));
         let mut asked = Vec::new();
         let in_trial = self.trial.is_open();
+        let (keeps_surface, has_links) = (self.recovery.keeps(&mut *self.platform), self.platform.address().is_some());
         Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
-            let shown = bar::Shown { in_trial, is_narrow, are_vessels_open: self.shows_vessels() };
+            let are_vessels_open = self.shows_vessels();
+            let shown = bar::Shown { in_trial, is_narrow, are_vessels_open, keeps_surface, has_links };
             bar::top(ui, &self.state, &self.views, shown, &mut asked);
         });
         Panel::bottom("status").frame(bar).exact_size(40.0).show(ui, |ui| {
@@ -435,6 +460,7 @@ impl LumenApp {
                 let document = document.as_ref();
                 if std::mem::take(&mut self.look_next) {
                     self.views.look_first(document, keep);
+                    self.recovery.look(&mut self.views.camera);
                 }
                 if !comparison.is_open() {
                     self.compare.let_go();

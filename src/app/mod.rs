@@ -6,6 +6,7 @@
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
 //! - `panel`, `numbers`, `bar`, `sheets`, `keys`: the controls; `row`, `control`, `response`, `icon` what they are made of,
 //!   `assist` what assistive tools are told of them, `theme` the look.
+//! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - [`trial`]: the guidewire trial.
 //! - [`vessels`]: what became of the calibre of each vessel.
@@ -28,10 +29,12 @@ mod overlay;
 mod paint_guard;
 mod panel;
 mod platform;
+mod recovery;
 mod response;
 mod reveal;
 mod row;
 mod scene;
+mod sharing;
 mod sheets;
 mod state;
 mod theme;
@@ -44,7 +47,7 @@ mod window_texture;
 pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
-pub use self::platform::{Devices, Gamepad, Listing, Offer, Platform, PlatformEvent, Waker};
+pub use self::platform::{Devices, Gamepad, Listing, Offer, Platform, PlatformEvent, Store, Waker};
 pub use self::reveal::Reveal;
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State};

@@ -36,6 +36,16 @@ pub trait Platform {
         None
     }
 
+    /// What outlives the app; `None` where nothing does.
+    fn store(&mut self) -> Option<&mut dyn Store> {
+        None
+    }
+
+    /// The address that a link begins with; `None` where there is no page.
+    fn address(&self) -> Option<String> {
+        None
+    }
+
     /// The app goes on in another window: whatever has news wakes this one from now on.
     fn enter(&mut self, ctx: &egui::Context);
 
@@ -85,6 +95,27 @@ pub trait Devices {
 
     /// How the one that is served is; `None` where there is none.
     fn status(&self) -> Option<DeviceStatus>;
+}
+
+/// What outlives the app, on this device alone. Where the system keeps nothing, the next start begins anew.
+pub trait Store {
+    /// The text that was kept.
+    fn text(&self) -> Option<String>;
+
+    /// Keeps a text in place of the one before.
+    fn set_text(&mut self, text: &str);
+
+    /// Keeps a surface in place of the one before. A failure is told as an event.
+    fn keep_surface(&mut self, name: &str, bytes: &[u8]);
+
+    /// Asks for the surface that is kept: [`PlatformEvent::Restored`] has it.
+    fn restore_surface(&mut self);
+
+    /// Forgets the surface that is kept.
+    fn forget_surface(&mut self);
+
+    /// Forgets everything.
+    fn forget(&mut self);
 }
 
 /// A file for the user.
@@ -140,6 +171,13 @@ pub enum PlatformEvent {
         /// Its bytes.
         bytes: Vec<u8>,
     },
+    /// A link was followed.
+    Linked {
+        /// What stands behind `#` in it.
+        fragment: String,
+    },
+    /// The surface that was kept: its name and its bytes, or nothing.
+    Restored(Option<(String, Vec<u8>)>),
     /// A file was saved, or two.
     Saved {
         /// One sentence: under which name, and where.

@@ -1,15 +1,19 @@
 //! The subcommands: the same engine without a window.
 //!
 //! Results go to standard output, progress and warnings to standard error. The exit status is 0 when it is done, 1
-//! when it failed, 2 when the command line makes no sense.
+//! when it failed, 2 when the command line makes no sense, 130 when Ctrl-C has ended it.
 
+mod batch;
 mod branches;
 mod centreline;
 #[cfg(feature = "gui")]
 mod figures;
 mod inspect;
+mod interrupt;
+mod manual;
 mod optimise;
 mod phantom;
+mod settings;
 mod sheet;
 mod source;
 mod tables;
@@ -52,6 +56,9 @@ pub enum Command {
     Figures(figures::Figures),
     /// Say what is in a surface file
     Inspect(inspect::Inspect),
+    /// Write the manual's pages and the completions for shells, for those who make packages
+    #[command(hide = true)]
+    Manual(manual::Manual),
     /// Keep the largest piece, smooth it, reduce it, and write the result
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
@@ -70,6 +77,7 @@ impl Command {
             #[cfg(feature = "gui")]
             Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),
+            Self::Manual(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
             Self::Tables(command) => command.run(),
@@ -79,7 +87,7 @@ impl Command {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
                 eprintln!("lumen: {error:#}");
-                ExitCode::FAILURE
+                if error.is::<interrupt::Interrupted>() { ExitCode::from(interrupt::STATUS) } else { ExitCode::FAILURE }
             }
         }
     }

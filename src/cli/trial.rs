@@ -6,7 +6,8 @@ use std::sync::Arc;
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 
-use super::optimise::{advance, percent, same_file};
+use super::optimise::{advance, same_file};
+use super::settings::percent;
 use super::{misuse, row, source, write_whole};
 use crate::io::Unit;
 use crate::mesh::TriMesh;

@@ -12,14 +12,14 @@ use rfd::FileDialog;
 use crate::app::{Offer, PlatformEvent, Waker};
 use crate::io::Format;
 
-/// What a trial's log ends in.
-const LOG: &str = "csv";
+/// What a trial's log and a file of settings end in.
+const OTHERS: [&str; 2] = ["csv", "json"];
 
 /// Lets the user choose a file and reads it.
 pub(super) fn choose(events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
-        let extensions: Vec<&str> = Format::OPENED.into_iter().chain([LOG]).collect();
-        if let Some(path) = FileDialog::new().add_filter("Surfaces and logs", &extensions).pick_file() {
+        let extensions: Vec<&str> = Format::OPENED.into_iter().chain(OTHERS).collect();
+        if let Some(path) = FileDialog::new().add_filter("Surfaces, logs and settings", &extensions).pick_file() {
             send(&events, &waker, load(&path));
         }
     });

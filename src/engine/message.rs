@@ -14,6 +14,7 @@ use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::pipeline::stage::Stage;
+use crate::sharing::Digest;
 use crate::transfer::{bulk, optional};
 use crate::vessel::CentrelineFormat;
 use crate::vessel::certificate::Certificate;
@@ -92,6 +93,14 @@ pub enum Command {
         /// Its format.
         format: CentrelineFormat,
     },
+    /// Turn the newest level of the surface that is open into a file: for a page whose program has stopped, which has no
+    /// surface to send (`www/boot.js` says this by itself).
+    WriteLevel {
+        /// The name of the file, with extension.
+        name: String,
+        /// Its format.
+        format: Format,
+    },
     /// Turn a surface into a file.
     Write {
         /// The name of the file, with extension.
@@ -133,6 +142,8 @@ pub struct Opened {
     pub id: u64,
     /// The surface's name.
     pub name: String,
+    /// The hash of its file; none of a sample.
+    pub digest: Option<Digest>,
     /// What was found and mended.
     pub report: ImportReport,
     /// All of it.

@@ -23,6 +23,7 @@ use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
+use crate::sharing::Digest;
 use crate::vessel::CentrelineFormat;
 
 /// How long work on older settings may hold up newer ones.
@@ -85,6 +86,7 @@ impl Engine {
             }
             Command::Cancel => self.cancel(),
             Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
+            Command::WriteLevel { name, format } => self.write_level(name, format),
             Command::Write { name, format, mesh } => self.writing.push_back((name, format, mesh)),
         }
     }
@@ -157,6 +159,19 @@ impl Engine {
         });
     }
 
+    fn write_level(&mut self, name: String, format: io::Format) {
+        match self.current.as_ref().and_then(|current| current.pipeline.reduced()) {
+            Some(reduced) => {
+                let mesh = reduced.mesh.clone();
+                self.write(name, format, &mesh);
+            }
+            None => {
+                let message = "there is no result yet".to_owned();
+                self.events.push_back(Event::NotWritten { name, message });
+            }
+        }
+    }
+
     fn write_centrelines(&mut self, name: String, format: CentrelineFormat) {
         let vessels = self.current.as_ref().and_then(|current| current.pipeline.vessels());
         self.events.push_back(match vessels {
@@ -170,6 +185,10 @@ impl Engine {
     fn open(&mut self, id: u64, source: Source, settings: Settings) {
         let start = Instant::now();
         let name = source.name().to_owned();
+        let digest = match &source {
+            Source::File { bytes, .. } => Some(Digest::of(bytes)),
+            Source::Sample { .. } => None,
+        };
         match read(source) {
             Ok(Imported { mesh, report }) => {
                 let mesh = Arc::new(mesh);
@@ -194,7 +213,7 @@ impl Engine {
                     has_new_levels: false,
                 });
                 self.opening.clear();
-                self.events.push_back(Event::Opened(Box::new(Opened { id, name, report, mesh })));
+                self.events.push_back(Event::Opened(Box::new(Opened { id, name, digest, report, mesh })));
             }
             Err(message) => self.events.push_back(Event::OpenFailed { id, name, message }),
         }

@@ -6,6 +6,7 @@ use crate::vessel::certificate::TOLERANCE_PERCENT;
 
 /// Settings of all stages, in the order of the method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Settings {
     /// Which connected pieces go on.
     pub keep: Keep,
@@ -51,6 +52,7 @@ pub enum Keep {
 
 /// Settings of the windowed-sinc filter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Smoothing {
     /// The window that tapers the Chebyshev coefficients.
     pub window: Window,
@@ -214,6 +216,7 @@ impl Method {
 
 /// Settings of the decimation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Decimation {
     /// The method.
     #[serde(default)]

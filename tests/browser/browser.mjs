@@ -51,11 +51,12 @@ export function launch(more = []) {
 
 /**
  * Serves dist/ and opens a page of its own for one test, closed when the test ends. `before(page)` runs before the
- * address is opened; `files` are served in place of those in dist/. The result has the page, the address, and what went wrong so far: errors that were thrown or
- * written to the console, where the browser writes violations of the page's policy too.
+ * address is opened; `files` are served in place of those in dist/, or all of another `folder`. The result has the page,
+ * the server with its address, and what went wrong so far: errors that were thrown or written to the console, where the
+ * browser writes violations of the page's policy too.
  */
-export async function openPage(t, browser, { before, query = "", slow, files, context: options = {} } = {}) {
-  const server = await serve(dist, { slow, files });
+export async function openPage(t, browser, { before, query = "", slow, files, folder = dist, context: options = {} } = {}) {
+  const server = await serve(folder, { slow, files });
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: "reduce", ...options });
   t.after(async () => {
     await context.close();
@@ -67,7 +68,7 @@ export async function openPage(t, browser, { before, query = "", slow, files, co
   page.on("pageerror", (error) => wrong.push(String(error)));
   await before?.(page);
   await page.goto(server.address + query);
-  return { page, address: server.address, wrong };
+  return { page, server, address: server.address, wrong };
 }
 
 /** As `openPage`, and waits until the app draws. */

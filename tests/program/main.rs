@@ -1,5 +1,9 @@
 //! The program from outside: its subcommands and the files that it writes.
 
+mod batch;
 mod cli;
 #[cfg(feature = "gui")]
 mod figures;
+mod privacy;
+mod program;
+mod settings;

@@ -3,7 +3,8 @@
 //! - [`page`]: starts the app and tells the page how it goes; [`graphics`]: WebGPU or WebGL2 on the canvas, started again
 //!   where it is lost.
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
-//! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads.
+//! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads, and [`store`], what
+//!   outlives the page.
 //! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker.
 //! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker; [`link`]: that line as the app's
 //!   line to the engine; [`bytes`]: copies that may fail.
@@ -28,6 +29,8 @@ mod link;
 mod page;
 #[cfg(target_arch = "wasm32")]
 mod platform;
+#[cfg(target_arch = "wasm32")]
+mod store;
 mod twins;
 #[cfg(target_arch = "wasm32")]
 mod worker;

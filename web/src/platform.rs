@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use lumen::app::{Devices as AppDevices, Gamepad, Listing, Offer, Platform, PlatformEvent, Waker};
+use lumen::app::{Devices as AppDevices, Gamepad, Listing, Offer, Platform, PlatformEvent, Store, Waker};
 use lumen::engine::trial::TrialLink;
 use lumen::engine::{Engine, Link, TrialEngine};
 use lumen::haptics::service::{DeviceCommand, DeviceStatus};
@@ -16,9 +16,10 @@ use wasm_bindgen_futures::spawn_local;
 use crate::files;
 use crate::hid::page::Devices;
 use crate::link::WorkerLink;
+use crate::store;
 
-/// What a trial's log ends in.
-const LOG: &str = "csv";
+/// What a trial's log and a file of settings end in.
+const OTHERS: [&str; 2] = ["csv", "json"];
 
 /// The browser as a platform.
 pub(crate) struct Browser {
@@ -37,7 +38,9 @@ impl Browser {
         let devices = Devices::new(waker.clone());
         let link = WorkerLink::new(waker.clone());
         let trial = WorkerLink::idle(waker.clone()).with_devices(devices.clone());
-        Self { link, trial, devices, inbox: Rc::default(), waker }
+        let browser = Self { link, trial, devices, inbox: Rc::default(), waker };
+        hear_links(browser.news());
+        browser
     }
 
     /// Where news is put, from wherever it comes.
@@ -48,6 +51,24 @@ impl Browser {
             waker.wake();
         }
     }
+}
+
+/// Tells of the link that the page was opened by, and of each that is put into its address later.
+fn hear_links(tell: impl Fn(PlatformEvent) + 'static) {
+    let Some(window) = web_sys::window() else { return };
+    let location = window.location();
+    let look = Closure::<dyn Fn()>::new(move || {
+        let fragment = location.hash().unwrap_or_default();
+        if fragment.len() > 1 {
+            tell(PlatformEvent::Linked { fragment });
+        }
+    });
+    let look_now: &js_sys::Function = look.as_ref().unchecked_ref();
+    // Where it cannot be heard, a link is followed at the next start.
+    let _ = look_now.call0(&JsValue::NULL);
+    let _ = window.add_event_listener_with_callback("hashchange", look_now);
+    // It lives as long as the page.
+    look.forget();
 }
 
 /// Draws again when a gamepad is plugged in: until then it is not asked.
@@ -108,10 +129,19 @@ impl Platform for Browser {
         Some(self)
     }
 
+    fn store(&mut self) -> Option<&mut dyn Store> {
+        Some(self)
+    }
+
+    fn address(&self) -> Option<String> {
+        let address = web_sys::window()?.location().href().ok()?;
+        address.split(['?', '#']).next().map(str::to_owned)
+    }
+
     fn choose_file(&mut self, _: &egui::Context) {
         let news = self.news();
         let tell = news.clone();
-        let accept: Vec<String> = Format::OPENED.into_iter().chain([LOG]).map(|end| format!(".{end}")).collect();
+        let accept: Vec<String> = Format::OPENED.into_iter().chain(OTHERS).map(|end| format!(".{end}")).collect();
         if files::open(&accept.join(","), move |file| tell(chosen(file))).is_err() {
             news(PlatformEvent::Failed { message: "The browser opened no file dialog.".to_owned() });
         }
@@ -147,6 +177,33 @@ impl Platform for Browser {
 
     fn poll(&mut self) -> Option<PlatformEvent> {
         self.inbox.borrow_mut().pop_front()
+    }
+}
+
+impl Store for Browser {
+    fn text(&self) -> Option<String> {
+        store::text()
+    }
+
+    fn set_text(&mut self, text: &str) {
+        store::set_text(Some(text));
+    }
+
+    fn keep_surface(&mut self, name: &str, bytes: &[u8]) {
+        store::keep_surface(name, bytes, self.news());
+    }
+
+    fn restore_surface(&mut self) {
+        store::restore_surface(self.news());
+    }
+
+    fn forget_surface(&mut self) {
+        store::forget_surface(self.news());
+    }
+
+    fn forget(&mut self) {
+        store::set_text(None);
+        store::forget_surface(self.news());
     }
 }
 

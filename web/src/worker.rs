@@ -225,6 +225,10 @@ fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
     Reflect::set(&first, &"module".into(), &wasm_bindgen::module())?;
     Reflect::set(&first, &"job".into(), &job.into())?;
     worker.post_message(&first)?;
+    if job == crate::job::PIPELINE {
+        // Where the page's program stops, the page can still ask this one for the result.
+        Reflect::set(&js_sys::global(), &"lumenEngine".into(), &worker)?;
+    }
     inbox.tell_devices(Some(&worker));
     Ok((worker, Listeners { _message: message, _error: error }))
 }

@@ -1,5 +1,5 @@
 //! Developer commands: `cargo xtask serve | build | test | peers | curve | bench-trial | fuzz-trial |
-//! fuzz-surfaces | fuzz-files | read-back | validation | firmware`.
+//! fuzz-surfaces | fuzz-files | read-back | validation | firmware | package`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
@@ -11,6 +11,7 @@ mod document;
 mod estimate;
 mod firmware;
 mod fuzz;
+mod package;
 mod page;
 mod peers;
 mod read_back;
@@ -87,6 +88,8 @@ enum Command {
     ReadBack,
     /// Test the open feeder's firmware and build it for its board where that target is there.
     Firmware,
+    /// Make what is handed to others: a Debian package, an archive of the program, an archive of the browser app.
+    Package(package::Options),
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
     /// Run the wire's analytic benchmarks, draw them and write docs/validation.md.
@@ -105,6 +108,7 @@ fn main() -> ExitCode {
         Command::FuzzFiles { only, minutes } => fuzz::files(&only, minutes),
         Command::ReadBack => read_back::read_back(),
         Command::Firmware => firmware::firmware(),
+        Command::Package(options) => package::package(&options),
         Command::Curve => curve::curve(),
         Command::Validation => validation::validation(),
     };

@@ -1,12 +1,19 @@
-//! What only the finished build knows about the page: the module's size and the build's version.
+//! What only the finished build knows about itself: the module's size, the build's version, and the hash of each file.
 
-use std::hash::{DefaultHasher, Hasher as _};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context as _, Result, ensure};
+use sha2::{Digest as _, Sha256};
+
+use crate::build::files_below;
+
+/// The line of `www/service-worker.js` that the build replaces.
+const BUILD: &str = "const BUILD = { version: \"\", files: {} };";
 
 /// Writes into `dist/index.html` the size of the module, which the loading screen needs for its percentage, and a
 /// version, which keeps a browser from mixing the files of two builds; and sees to it that the page keeps its policy.
+/// Writes into `dist/service-worker.js` the version and all files that the page needs without a network.
 pub(crate) fn stamp(dist: &Path, module: &Path) -> Result<()> {
     let file = dist.join("index.html");
     let page = std::fs::read_to_string(&file).context("dist/index.html cannot be read")?;
@@ -15,16 +22,10 @@ pub(crate) fn stamp(dist: &Path, module: &Path) -> Result<()> {
     let inline = page.split("<script").skip(1).any(|script| !script.split('>').next().unwrap_or("").contains("src="));
     ensure!(!inline, "the page has an inline script, which its Content-Security-Policy forbids");
 
-    let bytes = std::fs::read(module)?;
-    let mut hasher = DefaultHasher::new();
-    hasher.write(&bytes);
-    for name in ["lumen-web.js", "boot.js", "worker.js", "style.css"] {
-        hasher.write(&std::fs::read(dist.join(name)).with_context(|| format!("dist/{name} cannot be read"))?);
-    }
-    let version = format!("{:016x}", hasher.finish());
+    let bytes = std::fs::metadata(module)?.len();
+    let version = sha256(format!("{:?}", hashes(dist)?).as_bytes())[..16].to_owned();
     let facts = format!(
-        "    <meta name=\"lumen-module-bytes\" content=\"{}\">\n    <meta name=\"lumen-version\" content=\"{version}\">\n  </head>",
-        bytes.len()
+        "    <meta name=\"lumen-module-bytes\" content=\"{bytes}\">\n    <meta name=\"lumen-version\" content=\"{version}\">\n  </head>"
     );
     // The links that tell Trunk what to do tell a browser nothing.
     let lines = page.lines().filter(|line| !line.trim().is_empty() && !line.contains("data-trunk"));
@@ -34,5 +35,31 @@ pub(crate) fn stamp(dist: &Path, module: &Path) -> Result<()> {
         .replacen("  </head>", &facts, 1)
         .replace("\"boot.js\"", &format!("\"boot.js?v={version}\""))
         .replace("\"style.css\"", &format!("\"style.css?v={version}\""));
-    std::fs::write(&file, page + "\n").context("dist/index.html cannot be written")
+    std::fs::write(&file, page + "\n").context("dist/index.html cannot be written")?;
+
+    let file = dist.join("service-worker.js");
+    let worker = std::fs::read_to_string(&file).context("dist/service-worker.js cannot be read")?;
+    ensure!(worker.matches(BUILD).count() == 1, "the service worker has no place for the build's files");
+    let mut files = hashes(dist)?;
+    // What installs the page asks for its icons, and the worker itself is the browser's to keep.
+    files.retain(|name, _| name != "service-worker.js" && !name.ends_with(".png"));
+    let build = serde_json::json!({ "version": version, "files": files });
+    std::fs::write(&file, worker.replacen(BUILD, &format!("const BUILD = {build};"), 1))
+        .context("dist/service-worker.js cannot be written")
+}
+
+/// SHA-256 of each file, by its name.
+fn hashes(dist: &Path) -> Result<BTreeMap<String, String>> {
+    files_below(dist)?
+        .into_iter()
+        .map(|path| {
+            let bytes = std::fs::read(&path).with_context(|| format!("{} cannot be read", path.display()))?;
+            let name = path.strip_prefix(dist)?.to_string_lossy().replace('\\', "/");
+            Ok((name, sha256(&bytes)))
+        })
+        .collect()
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

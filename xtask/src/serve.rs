@@ -8,11 +8,7 @@ use anyhow::{Context as _, Result, anyhow};
 use tiny_http::{Header, Method, Request, Response, Server};
 
 use crate::build::gzip;
-
-/// What `www/index.html` says, for the Workers too: they take their policy from their own response.
-const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; \
-                      style-src 'self'; img-src 'self' data: blob:; manifest-src 'self'; base-uri 'none'; \
-                      form-action 'none'; frame-ancestors 'none'";
+use crate::package::HEADERS;
 
 /// Serves `dist` until the program is stopped.
 pub(crate) fn serve(dist: &Path, port: u16, open: bool) -> Result<()> {
@@ -44,15 +40,8 @@ fn answer(request: Request, dist: &Path, compressed: &mut BTreeMap<PathBuf, Vec<
         header.field.equiv("Accept-Encoding")
             && header.value.as_str().split(',').any(|it| it.trim().starts_with("gzip"))
     });
-    let mut headers = vec![
-        ("Content-Type", media_type(&file)),
-        ("Cache-Control", "no-cache"),
-        ("Content-Security-Policy", POLICY),
-        ("Cross-Origin-Opener-Policy", "same-origin"),
-        ("Referrer-Policy", "no-referrer"),
-        ("Vary", "Accept-Encoding"),
-        ("X-Content-Type-Options", "nosniff"),
-    ];
+    let mut headers = vec![("Content-Type", media_type(&file)), ("Vary", "Accept-Encoding")];
+    headers.extend(HEADERS);
     let body = if takes_gzip {
         headers.push(("Content-Encoding", "gzip"));
         match compressed.get(&file) {

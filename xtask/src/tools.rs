@@ -171,6 +171,14 @@ pub(crate) fn vulkan() -> Result<()> {
     apt("A Vulkan driver", "mesa-vulkan-drivers", "install the driver of your graphics card")
 }
 
+/// What makes a root with a Debian of its own.
+pub(crate) fn debootstrap() -> Result<()> {
+    if on_path(&["debootstrap"]).is_some() {
+        return Ok(());
+    }
+    apt("debootstrap", "debootstrap", "make the package without --try")
+}
+
 /// Installs Debian packages where that is allowed, else says in one line what is missing and how to get it.
 fn apt(what: &str, package: &str, instead: &str) -> Result<()> {
     let is_root = output(Command::new("id").arg("-u")).as_deref() == Some("0");

@@ -11,7 +11,7 @@ use std::time::Duration;
 use eframe::App as _;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use lumen::app::{Gamepad, LastingApp, LumenApp, Offer, Platform, PlatformEvent, State};
+use lumen::app::{Gamepad, LastingApp, LumenApp, Offer, Platform, PlatformEvent, State, Store};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
 use lumen::render::Fault;
@@ -49,6 +49,19 @@ pub struct Memory {
     pub likes_motion: bool,
     /// Lets a trial run too, by a clock that goes on by 1/60 s a frame.
     pub trial_runs: bool,
+    /// What outlives the app, where something does.
+    pub kept: Option<Kept>,
+    /// The address that a link begins with, where there is one.
+    pub address: Option<String>,
+}
+
+/// What outlives the app.
+#[derive(Clone, Default)]
+pub struct Kept {
+    /// The text.
+    pub text: Option<String>,
+    /// The surface: its name and its bytes.
+    pub surface: Option<(String, Vec<u8>)>,
 }
 
 /// A platform of plain memory.
@@ -57,6 +70,42 @@ struct MemoryPlatform {
     has_advanced: bool,
     trial: MemoryTrial,
     memory: Rc<RefCell<Memory>>,
+}
+
+impl MemoryPlatform {
+    fn change_kept(&self, change: impl FnOnce(&mut Kept)) {
+        if let Some(kept) = &mut self.memory.borrow_mut().kept {
+            change(kept);
+        }
+    }
+}
+
+impl Store for MemoryPlatform {
+    fn text(&self) -> Option<String> {
+        self.memory.borrow().kept.as_ref()?.text.clone()
+    }
+
+    fn set_text(&mut self, text: &str) {
+        self.change_kept(|kept| kept.text = Some(text.to_owned()));
+    }
+
+    fn keep_surface(&mut self, name: &str, bytes: &[u8]) {
+        self.change_kept(|kept| kept.surface = Some((name.to_owned(), bytes.to_vec())));
+    }
+
+    fn restore_surface(&mut self) {
+        let mut memory = self.memory.borrow_mut();
+        let surface = memory.kept.as_ref().and_then(|kept| kept.surface.clone());
+        memory.events.push_back(PlatformEvent::Restored(surface));
+    }
+
+    fn forget_surface(&mut self) {
+        self.change_kept(|kept| kept.surface = None);
+    }
+
+    fn forget(&mut self) {
+        self.change_kept(|kept| *kept = Kept::default());
+    }
 }
 
 /// The line to a trial that is told what to say, or runs within the test.
@@ -140,6 +189,15 @@ impl Platform for MemoryPlatform {
         !self.memory.borrow().likes_motion
     }
 
+    fn store(&mut self) -> Option<&mut dyn Store> {
+        let has_store = self.memory.borrow().kept.is_some();
+        has_store.then_some(self)
+    }
+
+    fn address(&self) -> Option<String> {
+        self.memory.borrow().address.clone()
+    }
+
     fn enter(&mut self, _: &egui::Context) {
         self.memory.borrow_mut().windows += 1;
     }
@@ -184,17 +242,25 @@ pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) 
 
 /// The same, with so many seconds between two frames.
 pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
-    app_of(platform(), size, step_dt)
+    app_on(platform(), size, step_dt)
 }
 
 /// The same where what moves by itself is welcome.
 pub fn moving_app(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
     memory.borrow_mut().likes_motion = true;
-    app_of((platform, memory), size, step_dt)
+    app_on((platform, memory), size, step_dt)
 }
 
-fn app_of(
+/// The same as a page, which has an address, and of which `kept` outlives it.
+pub fn page(size: [f32; 2], kept: Kept) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    let (platform, memory) = platform();
+    memory.borrow_mut().kept = Some(kept);
+    memory.borrow_mut().address = Some("https://page.test/lumen/".to_owned());
+    app_on((platform, memory), size, 0.25)
+}
+
+fn app_on(
     (platform, memory): (MemoryPlatform, Rc<RefCell<Memory>>),
     size: [f32; 2],
     step_dt: f32,

@@ -4,6 +4,8 @@ mod compare;
 mod controls;
 mod device;
 mod keys;
+mod recovery;
+mod sharing;
 mod trial;
 mod verdict;
 mod vessels;

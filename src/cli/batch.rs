@@ -1,0 +1,275 @@
+//! `lumen optimise` on many files: a surface and a report of each, and a summary of all.
+//!
+//! All names are known, and known to be different, before anything is written. A file that fails is told in the summary
+//! and the others go on. The surfaces are the same bytes however many are worked on at once.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use anyhow::{Context, Result, anyhow, bail};
+use clap::Args;
+use serde::Serialize;
+
+use super::optimise::{Outputs, advance_quietly, milliseconds, warnings};
+use super::settings::Asked;
+use super::{interrupt, misuse, source, write_whole};
+use crate::digits::grouped;
+use crate::io::Format;
+use crate::pipeline::report::{DISCLAIMER, Report};
+use crate::sharing::Digest;
+use crate::vessel::certificate::Verdict;
+
+/// The summary's name.
+const SUMMARY: &str = "summary.csv";
+
+/// Options for many files.
+#[derive(Debug, Args)]
+pub(super) struct BatchOptions {
+    /// The format of the surfaces where OUT is a folder: stl, ply, obj, vtp, vtk or glb [default: stl]
+    #[arg(long, value_name = "NAME", value_parser = format)]
+    pub(super) format: Option<Format>,
+    /// How many surfaces are worked on at once, 1 to 64, where OUT is a folder; each takes its own memory
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
+    jobs: u16,
+}
+
+fn format(name: &str) -> Result<Format, String> {
+    Format::from_extension(name).ok_or_else(|| "it is none of stl, ply, obj, vtp, vtk and glb".to_owned())
+}
+
+/// Whether a name stands for a folder: one is there, or it ends as folders' names do.
+pub(super) fn is_folder(path: &Path) -> bool {
+    path.is_dir() || path.to_string_lossy().ends_with(std::path::is_separator)
+}
+
+/// What is to be done.
+pub(super) struct Batch {
+    items: Vec<Item>,
+    format: Format,
+    jobs: usize,
+    summary: PathBuf,
+}
+
+/// A surface and what becomes of it.
+struct Item {
+    file: String,
+    surface: PathBuf,
+    report: PathBuf,
+}
+
+impl BatchOptions {
+    /// All surfaces in `files`, each with its names in the folder `output`, which is made. Ends the program where two
+    /// would be written to one place.
+    pub(super) fn plan(&self, files: &[String], output: &Path) -> Result<Batch> {
+        if output.exists() && !output.is_dir() {
+            misuse(format!("{} is no folder: several surfaces need one", output.display()));
+        }
+        let format = self.format.unwrap_or(Format::Stl);
+        let mut found = Vec::new();
+        for name in files {
+            if Path::new(name).is_dir() { found.append(&mut surfaces_in(name)?) } else { found.push(name.clone()) }
+        }
+        let items: Vec<Item> = found.into_iter().map(|file| Item::new(file, output, format)).collect();
+        let summary = output.join(SUMMARY);
+        check_names(&items, &summary);
+        std::fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
+        Ok(Batch { items, format, jobs: self.jobs.into(), summary })
+    }
+}
+
+/// The surfaces in a folder, not in those below it, by their extensions and in the order of their names.
+fn surfaces_in(folder: &str) -> Result<Vec<String>> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).with_context(|| format!("cannot read the folder {folder}"))? {
+        let path = entry.with_context(|| format!("cannot read the folder {folder}"))?.path();
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        if path.is_file() && extension.is_some_and(|extension| Format::OPENED.contains(&&*extension)) {
+            found.push(path.to_string_lossy().into_owned());
+        }
+    }
+    if found.is_empty() {
+        bail!("there are no surfaces in {folder}: Lumen opens {}", Format::OPENED.join(", "));
+    }
+    found.sort();
+    Ok(found)
+}
+
+impl Item {
+    fn new(file: String, folder: &Path, format: Format) -> Self {
+        let stem = match file.strip_prefix("sample:") {
+            Some(sample) => format!("sample-{sample}"),
+            None => Path::new(&file).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        };
+        let named = |extension: &str| folder.join(format!("{stem}.{extension}"));
+        Self { surface: named(format.extension()), report: named("json"), file }
+    }
+}
+
+/// Ends the program where an output would overwrite an input or another output.
+fn check_names(items: &[Item], summary: &Path) {
+    let inputs: BTreeSet<PathBuf> = items.iter().filter_map(|item| Path::new(&item.file).canonicalize().ok()).collect();
+    // Some file systems take upper and lower case for the same.
+    let mut taken = BTreeMap::from([(summary.to_string_lossy().to_lowercase(), "the summary")]);
+    for item in items {
+        for output in [&item.surface, &item.report] {
+            let shown = output.display();
+            if output.canonicalize().is_ok_and(|output| inputs.contains(&output)) {
+                misuse(format!("{shown} would be overwritten, and is to be read: choose another folder"));
+            }
+            if let Some(other) = taken.insert(output.to_string_lossy().to_lowercase(), &item.file) {
+                misuse(format!("{other} and {} would both be written to {shown}", item.file));
+            }
+        }
+    }
+}
+
+/// A surface that was made.
+struct Made {
+    digest: Option<Digest>,
+    report: Report,
+    warnings: Vec<String>,
+}
+
+/// What came of an item, and after how many seconds.
+struct Outcome {
+    made: Result<Made>,
+    seconds: f64,
+}
+
+impl Batch {
+    /// Goes through all surfaces and writes the summary.
+    pub(super) fn run(&self, asked: &Asked) -> Result<()> {
+        let next = AtomicUsize::new(0);
+        let count = self.items.len();
+        let work = || {
+            let mut done = Vec::new();
+            while interrupt::check().is_ok() {
+                let i = next.fetch_add(1, Ordering::Relaxed);
+                let Some(item) = self.items.get(i) else { break };
+                let start = Instant::now();
+                let made = catch_unwind(AssertUnwindSafe(|| self.one(item, asked)))
+                    .unwrap_or_else(|_| Err(anyhow!("an error in the program ended the work on it")));
+                let outcome = Outcome { made, seconds: start.elapsed().as_secs_f64() };
+                outcome.tell(item, i + 1, count);
+                done.push((i, outcome));
+            }
+            done
+        };
+        let done: BTreeMap<usize, Outcome> = std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..self.jobs.min(count)).map(|_| scope.spawn(work)).collect();
+            // What panics in a thread is caught there.
+            threads.into_iter().filter_map(|thread| thread.join().ok()).flatten().collect()
+        });
+        self.write_summary(&done)?;
+        interrupt::check()?;
+        let failed = count - done.values().filter(|outcome| outcome.made.is_ok()).count();
+        println!("{:<28}{}", "surfaces", count);
+        println!("{:<28}{failed}", "failed");
+        println!("{:<28}{}", "summary", self.summary.display());
+        println!("{DISCLAIMER}");
+        if failed > 0 {
+            bail!("{failed} of {count} surfaces failed: {} says why", self.summary.display());
+        }
+        Ok(())
+    }
+
+    fn one(&self, item: &Item, asked: &Asked) -> Result<Made> {
+        let start = Instant::now();
+        let (imported, digest) = source::read_quietly(&item.file, asked.shared.unit)?;
+        let read = milliseconds(start.elapsed());
+        let outputs = Outputs {
+            surface: &item.surface,
+            format: self.format,
+            report: Some(&item.report),
+            branches_csv: None,
+            prints_branches: false,
+        };
+        let report = outputs.make(&item.file, imported.mesh, read, asked, advance_quietly)?;
+        let warnings = imported.report.warnings.into_iter().chain(warnings(&report)).collect();
+        Ok(Made { digest, report, warnings })
+    }
+
+    fn write_summary(&self, done: &BTreeMap<usize, Outcome>) -> Result<()> {
+        let mut table = csv::Writer::from_writer(Vec::new());
+        for (i, item) in self.items.iter().enumerate() {
+            table.serialize(Row::new(item, done.get(&i)))?;
+        }
+        write_whole(&self.summary, &table.into_inner().context("the summary cannot be made")?)
+    }
+}
+
+impl Outcome {
+    /// A line on standard error when it is there.
+    fn tell(&self, item: &Item, number: usize, count: usize) {
+        let (file, seconds) = (&item.file, self.seconds);
+        match &self.made {
+            Ok(made) => {
+                let triangles = grouped(made.report.output.triangles);
+                eprintln!("[{number}/{count}] {file}: {triangles} triangles, {seconds:.1} s");
+                for warning in &made.warnings {
+                    eprintln!("lumen: warning: {file}: {warning}");
+                }
+            }
+            Err(error) => eprintln!("[{number}/{count}] {file}: failed: {error:#}"),
+        }
+    }
+}
+
+/// A row of the summary. The names of the columns are public and stay.
+#[derive(Default, Serialize)]
+struct Row<'a> {
+    file: &'a str,
+    /// Of the file's bytes; empty for a sample.
+    sha256: String,
+    /// "ok", "failed" or "not run".
+    status: &'static str,
+    /// Why it failed.
+    error: String,
+    /// Where the surface is.
+    output: String,
+    triangles_in: Option<usize>,
+    triangles_out: Option<usize>,
+    vertices_out: Option<usize>,
+    reduction_percent: Option<f64>,
+    deviation_mean_mm: Option<f64>,
+    deviation_max_mm: Option<f64>,
+    /// Whether the vessels keep their calibre.
+    calibre: Option<Verdict>,
+    self_intersecting_triangles: Option<usize>,
+    output_fingerprint: String,
+    warnings: String,
+    seconds: Option<f64>,
+    disclaimer: &'static str,
+}
+
+impl<'a> Row<'a> {
+    fn new(item: &'a Item, outcome: Option<&Outcome>) -> Self {
+        let row = Self { file: &item.file, status: "not run", disclaimer: DISCLAIMER, ..Self::default() };
+        let Some(outcome) = outcome else { return row };
+        let seconds = Some((outcome.seconds * 1e3).round() / 1e3);
+        let Made { digest, report, warnings } = match &outcome.made {
+            Ok(made) => made,
+            Err(error) => return Self { status: "failed", error: format!("{error:#}"), seconds, ..row },
+        };
+        Self {
+            sha256: digest.map_or(String::new(), |digest| digest.to_string()),
+            status: "ok",
+            output: item.surface.display().to_string(),
+            triangles_in: Some(report.opened.triangles),
+            triangles_out: Some(report.output.triangles),
+            vertices_out: Some(report.output.vertices),
+            reduction_percent: Some(report.reduction_percent),
+            deviation_mean_mm: report.deviation_mm.map(|deviation| deviation.mean),
+            deviation_max_mm: report.deviation_mm.map(|deviation| deviation.max),
+            calibre: report.calibre.as_ref().and_then(|calibre| calibre.verdict),
+            self_intersecting_triangles: report.output_shape.as_ref().map(|shape| shape.self_intersecting_faces),
+            output_fingerprint: report.output_fingerprint.clone(),
+            warnings: warnings.join(" "),
+            seconds,
+            ..row
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! What another person needs to see the same result: the settings, as a file or in a link, and by what a file is known.
+//!
+//! A result is a function of the file and the settings ([`crate::pipeline`]), so that is all that is shared: never the
+//! surface, never its name, and nothing that was read from it but the first digits of its hash.
+
+mod digest;
+mod link;
+mod settings_file;
+
+use serde::{Deserialize, Serialize};
+
+use crate::io::Unit;
+use crate::pipeline::settings::Settings;
+
+pub use digest::{Digest, ShortDigest};
+pub use link::{Link, LinkError, SharedSurface};
+pub use settings_file::{SettingsFileError, read_settings, write_settings};
+
+/// All that a user can set and that changes the result.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SharedSettings {
+    /// The unit of the numbers in the file; `None` where what the format says is taken.
+    pub unit: Option<Unit>,
+    /// The settings of all stages.
+    pub settings: Settings,
+}

@@ -1,0 +1,143 @@
+// Without a network: the page starts and works from what the first visit has left, a new build takes the place of the old
+// one at the next start, and no page ever has files of two.
+
+import assert from "node:assert/strict";
+import { mkdtemp, rename, rm, symlink } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { openFile, settled, shownTriangles } from "./app.mjs";
+import { COARSE, dist, eventually, launch, openApp, started } from "./browser.mjs";
+import { anotherBuild, versionOf } from "./builds.mjs";
+
+let browser, scratch;
+before(async () => {
+  browser = await launch();
+  scratch = await mkdtemp(join(tmpdir(), "lumen-offline-"));
+});
+after(async () => {
+  await browser.close();
+  await rm(scratch, { recursive: true });
+});
+
+/** An octahedron of 30 mm as an OBJ file: eight triangles. */
+const OCTAHEDRON = {
+  name: "octahedron.obj",
+  buffer: Buffer.from(
+    "v 30 0 0\nv -30 0 0\nv 0 30 0\nv 0 -30 0\nv 0 0 30\nv 0 0 -30\n" +
+      "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n",
+  ),
+};
+
+/** Waits until the page's worker has everything that it keeps. */
+const kept = (page) =>
+  page.evaluate(() => navigator.serviceWorker.ready.then(({ active }) => new Promise((done) => {
+    const look = () => (active.state === "activated" ? done() : active.addEventListener("statechange", look, { once: true }));
+    look();
+  })));
+
+/** The version of the build that the page is of, and those of all that it has loaded. */
+async function versions(page) {
+  await started(page);
+  const found = await page.evaluate(() => ({
+    page: document.querySelector('meta[name="lumen-version"]').content,
+    loaded: performance
+      .getEntriesByType("resource")
+      .map(({ name }) => new URL(name).searchParams.get("v"))
+      .filter((version) => version !== null),
+  }));
+  assert(found.loaded.length >= 4, "the test hears what is loaded");
+  assert.deepEqual([...new Set(found.loaded)], [found.page], "one page, one build");
+  return found.page;
+}
+
+/** The text of a file as the page gets it. */
+const text = (page, address) => page.evaluate((address) => fetch(address).then((response) => response.text()), address);
+
+const caches = (page) => page.evaluate(() => globalThis.caches.keys());
+
+/** A folder to serve that can be another one a moment later. */
+async function served(name, folder) {
+  const path = join(scratch, name);
+  const to = async (folder) => {
+    await symlink(folder, `${path}.next`);
+    await rename(`${path}.next`, path);
+  };
+  await to(folder);
+  return { path, to };
+}
+
+test("after the first visit the page starts and opens files with the network cut", async (t) => {
+  const requests = [];
+  const listen = (page) => page.context().on("request", (request) => requests.push(request.url()));
+  const { page, server, address, wrong } = await openApp(t, browser, { context: COARSE, before: listen });
+  await settled(page);
+  await kept(page);
+  assert.equal((await caches(page)).length, 1);
+  await server.close();
+  await assert.rejects(fetch(address), "the server is gone");
+
+  await page.reload();
+  await versions(page);
+  await settled(page);
+  await openFile(page, OCTAHEDRON);
+  await eventually(() => settled(page), (all) => shownTriangles(all) < 8, { what: "the octahedron, reduced" });
+  assert.deepEqual(wrong, []);
+  const elsewhere = requests.filter((url) => !url.startsWith(address) && !url.startsWith("blob:") && !url.startsWith("data:"));
+  assert.deepEqual(elsewhere, [], "no request to another origin");
+});
+
+test("a new build takes the place of the old one at the next start, whole", async (t) => {
+  const [first, second] = [dist, join(scratch, "second")];
+  await anotherBuild(first, second, "second");
+  const folder = await served("new-build", first);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE, folder: folder.path });
+  const before = await versions(page);
+  assert.equal(before, await versionOf(first));
+  await kept(page);
+
+  await folder.to(second);
+  await page.evaluate(() => navigator.serviceWorker.getRegistration().then((registration) => registration.update()));
+  const waits = () => page.evaluate(() => navigator.serviceWorker.getRegistration().then(({ waiting }) => waiting !== null));
+  await eventually(waits, Boolean, { what: "the new build, ready" });
+  assert.equal((await caches(page)).length, 2);
+  // The page that is open goes on with the files of its own build.
+  const style = await text(page, `style.css?v=${before}`);
+  assert(!style.includes("second"));
+
+  await page.reload();
+  const after = await versionOf(second);
+  await eventually(
+    () => page.evaluate(() => document.querySelector('meta[name="lumen-version"]')?.content).catch(() => null),
+    (version) => version === after,
+    { what: "the new build" },
+  );
+  assert.equal(await versions(page), after);
+  assert((await text(page, `style.css?v=${after}`)).includes("second"));
+  await eventually(() => caches(page), (names) => names.length === 1 && names[0].endsWith(after), { what: "the old build, gone" });
+  // A file of another build is none at all.
+  assert.equal(await text(page, `style.css?v=${before}`).catch(() => "refused"), "refused");
+  assert.deepEqual(wrong.filter((line) => !line.includes("ERR_FAILED")), []);
+});
+
+test("a server that has files of two builds leaves the old one standing", async (t) => {
+  const mixed = join(scratch, "mixed");
+  await anotherBuild(dist, mixed, "mixed", { forget: ["style.css"] });
+  const folder = await served("mixed-build", dist);
+  const { page } = await openApp(t, browser, { context: COARSE, folder: folder.path });
+  await kept(page);
+  await folder.to(mixed);
+  const failed = await page.evaluate(async () => {
+    const registration = await navigator.serviceWorker.getRegistration();
+    await registration.update().catch(() => {});
+    const { installing } = registration;
+    if (installing && installing.state !== "redundant") {
+      await new Promise((done) => installing.addEventListener("statechange", () => installing.state === "redundant" && done()));
+    }
+    return registration.waiting === null;
+  });
+  assert(failed, "it is not taken in");
+  await page.reload();
+  assert.equal(await versions(page), await versionOf(dist));
+  assert.equal((await caches(page)).length, 1);
+});

@@ -1,0 +1,142 @@
+//! What comes back after a reload, and what does not without being asked for.
+
+use std::cell::RefCell;
+
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lumen::app::{LumenApp, PlatformEvent};
+use lumen::engine::Source;
+use lumen::io::{Format, write};
+use lumen::phantom::{Sample, generate};
+use lumen::pipeline::settings::{Settings, Target};
+use lumen::sharing::{SharedSettings, write_settings};
+use lumen_ui_tests::{Kept, Memory, page, settle};
+
+const DESKTOP: [f32; 2] = [1280.0, 800.0];
+
+/// A vessel as the bytes of a file.
+pub(crate) fn vessel(triangles: usize) -> Vec<u8> {
+    write(&generate(Sample::Aorta, triangles).unwrap(), None, Format::Stl).unwrap()
+}
+
+fn name(harness: &Harness<'_, LumenApp>) -> String {
+    harness.state().state().document.as_ref().map_or(String::new(), |document| document.name.clone())
+}
+
+pub(crate) fn notice(harness: &Harness<'_, LumenApp>) -> String {
+    harness.state().state().notice.as_ref().map_or(String::new(), |notice| notice.text.clone())
+}
+
+pub(crate) fn choose(harness: &mut Harness<'_, LumenApp>, entry: &str) {
+    harness.get_by_label("Save").click();
+    harness.run_steps(3);
+    harness.get_by_label(entry).click();
+    harness.run_steps(3);
+}
+
+/// The defaults at another rate, as a file of settings.
+pub(crate) fn settings_at(per_mille: u32) -> PlatformEvent {
+    let settings = Settings { target: Target::Reduction(per_mille), ..Settings::default() };
+    let text = write_settings(&SharedSettings { unit: None, settings });
+    PlatformEvent::Chosen { name: "settings.json".to_owned(), bytes: text.into_bytes() }
+}
+
+/// Lets the platform report something, and waits until nothing follows from it any more.
+pub(crate) fn tell(harness: &mut Harness<'_, LumenApp>, memory: &RefCell<Memory>, event: PlatformEvent) {
+    memory.borrow_mut().events.push_back(event);
+    harness.run_steps(2);
+    settle(harness);
+}
+
+fn file(name: &str) -> PlatformEvent {
+    PlatformEvent::Chosen { name: name.to_owned(), bytes: vessel(4000) }
+}
+
+#[test]
+fn settings_steps_and_view_come_back_and_the_file_is_named() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file("left.stl"));
+    tell(&mut harness, &memory, settings_at(500));
+    tell(&mut harness, &memory, settings_at(700));
+    harness.key_press(Key::Num3);
+    // It is written at most once a second, and a step is a quarter of one.
+    harness.run_steps(12);
+    let (settings, camera) = (harness.state().state().settings.clone(), *harness.state().camera());
+    let kept = memory.borrow().kept.clone().unwrap();
+    assert!(kept.surface.is_none(), "no surface without being asked for");
+    assert!(kept.text.as_ref().unwrap().contains("left.stl"));
+
+    let (mut harness, memory) = page(DESKTOP, kept);
+    settle(&mut harness);
+    assert_eq!(harness.state().state().settings, settings);
+    assert_eq!(
+        notice(&harness),
+        "left.stl was open before. Open it again: the settings are as they were, and the view will be."
+    );
+    // A sample stands in for it, which is not taken for what was open.
+    harness.run_steps(12);
+    assert!(memory.borrow().kept.as_ref().unwrap().text.as_ref().unwrap().contains("left.stl"));
+    tell(&mut harness, &memory, file("left.stl"));
+    assert_eq!(name(&harness), "left.stl");
+    assert_eq!(notice(&harness), "left.stl is back, with the settings and the view that it was left with.");
+    let back = harness.state().camera();
+    assert_eq!((back.target, back.rotation, back.distance), (camera.target, camera.rotation, camera.distance));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(harness.state().state().settings.target, Target::Reduction(500), "undo survives");
+}
+
+#[test]
+fn a_surface_is_kept_only_where_that_is_asked_for_and_forgotten_with_all_else() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file("right.stl"));
+    choose(&mut harness, "Keep this surface on this device");
+    harness.run_steps(12);
+    let kept = memory.borrow().kept.clone().unwrap();
+    assert_eq!(
+        kept.surface.as_ref().map(|(name, bytes)| (&**name, bytes.len())),
+        Some(("right.stl", vessel(4000).len()))
+    );
+
+    let (mut harness, memory) = page(DESKTOP, kept);
+    settle(&mut harness);
+    assert!(
+        matches!(&harness.state().state().document.as_ref().unwrap().source, Source::File { name, .. } if name == "right.stl")
+    );
+    assert!(notice(&harness).starts_with("right.stl is back"), "{}", notice(&harness));
+    choose(&mut harness, "Forget what is kept here");
+    harness.run_steps(12);
+    let kept = memory.borrow().kept.clone().unwrap();
+    assert!(kept.text.is_none() && kept.surface.is_none());
+    assert!(notice(&harness).starts_with("Everything that was kept"), "{}", notice(&harness));
+}
+
+#[test]
+fn a_surface_that_ends_the_program_is_not_brought_back_again() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file("bad.stl"));
+    choose(&mut harness, "Keep this surface on this device");
+    harness.run_steps(12);
+    let kept = memory.borrow().kept.clone().unwrap();
+    // The next start comes no farther than this.
+    let (harness, memory) = page(DESKTOP, kept);
+    let kept = memory.borrow().kept.clone().unwrap();
+    drop(harness);
+    let (mut harness, _) = page(DESKTOP, kept);
+    settle(&mut harness);
+    assert_eq!(name(&harness), Sample::Aorta.label());
+    assert!(notice(&harness).starts_with("bad.stl was open before."), "{}", notice(&harness));
+}
+
+#[test]
+fn what_no_version_has_written_is_passed_over() {
+    for text in ["", "{}", "[1]", r#"{"version":9,"surface":null}"#] {
+        let (mut harness, _) = page(DESKTOP, Kept { text: Some(text.to_owned()), surface: None });
+        settle(&mut harness);
+        assert_eq!(name(&harness), Sample::Aorta.label(), "{text}");
+    }
+}

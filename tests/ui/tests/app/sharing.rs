@@ -1,0 +1,81 @@
+//! Settings for others: what a link says to whoever follows it, and the settings file.
+
+use lumen::app::PlatformEvent;
+use lumen::pipeline::settings::{Settings, Target};
+use lumen::sharing::{Digest, Link, SharedSettings, SharedSurface, write_settings};
+use lumen_ui_tests::{Kept, page, settle};
+
+use crate::recovery::{choose, notice, settings_at, tell, vessel};
+
+const DESKTOP: [f32; 2] = [1280.0, 800.0];
+
+fn half() -> Settings {
+    Settings { target: Target::Reduction(500), ..Settings::default() }
+}
+
+fn file(bytes: &[u8]) -> PlatformEvent {
+    PlatformEvent::Chosen { name: "vessel.stl".to_owned(), bytes: bytes.to_vec() }
+}
+
+#[test]
+fn a_link_is_copied_and_says_to_another_whether_it_is_the_same_file() {
+    let (bytes, other) = (vessel(4000), vessel(5000));
+    let digest = Digest::of(&bytes).short();
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file(&bytes));
+    tell(&mut harness, &memory, settings_at(500));
+    choose(&mut harness, "Copy link");
+    assert!(notice(&harness).starts_with("The link was copied."), "{}", notice(&harness));
+
+    let shared = SharedSettings { unit: None, settings: half() };
+    let link = Link { surface: SharedSurface::File(digest), shared };
+    let fragment = format!("#{}", link.fragment());
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    memory.borrow_mut().events.push_back(PlatformEvent::Linked { fragment: fragment.clone() });
+    harness.run_steps(2);
+    settle(&mut harness);
+    assert_eq!(harness.state().state().settings, half());
+    let asks =
+        format!("This link belongs to a file whose SHA-256 begins with {digest}; open it and you will see the same.");
+    assert_eq!(notice(&harness), asks);
+    tell(&mut harness, &memory, file(&other));
+    let (found, shown) = (Digest::of(&other).short(), notice(&harness));
+    assert!(shown.starts_with("This is another file") && shown.contains(&found.to_string()), "{shown}");
+    tell(&mut harness, &memory, file(&bytes));
+    assert_eq!(notice(&harness), "This is what the link belongs to: you see the same.");
+    assert_eq!(harness.state().state().settings, half());
+    // Once more, with the file open.
+    tell(&mut harness, &memory, settings_at(900));
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment });
+    assert_eq!(harness.state().state().settings, half());
+    assert_eq!(notice(&harness), "The settings of the link are in force.");
+}
+
+#[test]
+fn a_broken_link_changes_nothing_and_says_what_is_wrong() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#v=1&file=12".to_owned() });
+    assert_eq!(notice(&harness), "The link cannot be read: \"12\" is no value for \"file\".");
+    assert_eq!(harness.state().state().settings, Settings::default());
+}
+
+#[test]
+fn settings_are_saved_as_a_file_and_opened_as_one() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    choose(&mut harness, "Settings...");
+    let shared = SharedSettings::default();
+    let (name, bytes) = memory.borrow_mut().offered.pop().unwrap();
+    assert!(name.ends_with("-settings.json"), "{name}");
+    assert_eq!(String::from_utf8(bytes).unwrap(), write_settings(&shared));
+
+    let changed = write_settings(&SharedSettings { settings: half(), ..shared });
+    let chosen = |text: &str| PlatformEvent::Chosen { name: "s.JSON".to_owned(), bytes: text.into() };
+    tell(&mut harness, &memory, chosen(&changed));
+    assert_eq!(harness.state().state().settings, half());
+    tell(&mut harness, &memory, chosen("{}"));
+    assert_eq!(notice(&harness), "s.JSON: This is no file of Lumen's settings.");
+    assert_eq!(harness.state().state().settings, half());
+}

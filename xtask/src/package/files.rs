@@ -1,0 +1,62 @@
+//! What is packed: the desktop program with all that a desktop wants beside it, and the browser app with what a host wants.
+
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context as _, Result, ensure};
+
+use super::{Packed, headers, read, read_file};
+use crate::build::{files_below, gzip};
+use crate::step::{run, target};
+
+/// The program's files under the paths that they have below `/usr`, sorted.
+pub(super) fn desktop(program: &Path) -> Result<Vec<Packed>> {
+    let program = program.canonicalize().with_context(|| format!("{} is not there", program.display()))?;
+    let manual = target().join("manual");
+    if manual.exists() {
+        std::fs::remove_dir_all(&manual)?;
+    }
+    run(Command::new(&program).arg("manual").arg(&manual))?;
+    let mut files = vec![
+        Packed { is_program: true, ..Packed::new("bin/lumen", read_file(&program)?) },
+        Packed::new("share/applications/lumen.desktop", read("xtask/packaging/lumen.desktop")?),
+        Packed::new("share/icons/hicolor/scalable/apps/lumen.svg", read("www/icon.svg")?),
+        Packed::new("share/mime/packages/lumen.xml", read("xtask/packaging/lumen-mime.xml")?),
+        Packed::new("share/doc/lumen/copyright", copyright()?),
+        Packed::new("share/bash-completion/completions/lumen", read_file(&manual.join("lumen.bash"))?),
+        Packed::new("share/fish/vendor_completions.d/lumen.fish", read_file(&manual.join("lumen.fish"))?),
+        Packed::new("share/zsh/vendor-completions/_lumen", read_file(&manual.join("_lumen"))?),
+    ];
+    for page in files_below(&manual)? {
+        let name = page.file_name().context("a page has no name")?.to_string_lossy().into_owned();
+        if name.ends_with(".1") {
+            files.push(Packed::new(format!("share/man/man1/{name}.gz"), gzip(&read_file(&page)?)?));
+        }
+    }
+    ensure!(files.iter().any(|file| file.path == "share/man/man1/lumen.1.gz"), "the program wrote no manual");
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(files)
+}
+
+/// Both licences, of which the user chooses one.
+fn copyright() -> Result<Vec<u8>> {
+    Ok([
+        b"Lumen may be used under either of two licences, MIT or Apache-2.0, as its user chooses.\n\n".to_vec(),
+        read("LICENSE-MIT")?,
+        b"\n".to_vec(),
+        read("LICENSE-APACHE")?,
+    ]
+    .concat())
+}
+
+/// The files of `dist` and those that tell a host its headers, sorted.
+pub(super) fn site(dist: &Path) -> Result<Vec<Packed>> {
+    let mut files = headers::files();
+    for path in files_below(dist)? {
+        let name = path.strip_prefix(dist)?.to_string_lossy().replace('\\', "/");
+        files.push(Packed::new(name, read_file(&path)?));
+    }
+    ensure!(files.iter().any(|file| file.path == "index.html"), "{} is no browser app", dist.display());
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(files)
+}

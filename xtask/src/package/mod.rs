@@ -1,0 +1,99 @@
+//! `cargo xtask package`: what is handed to others. A Debian package and an archive of the desktop program, and an archive
+//! of `dist/` with the headers that common hosts of static files are told by.
+//!
+//! The same program and `dist/` give the same bytes: files are sorted, and their times are those of `SOURCE_DATE_EPOCH` or
+//! 1980.
+
+mod archive;
+mod clean_root;
+mod deb;
+mod files;
+mod headers;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result, bail};
+use clap::Args;
+
+use crate::build;
+use crate::step::{cargo, root, run, step, target};
+
+pub(crate) use headers::HEADERS;
+
+/// Lumen's version, which all packages of the workspace have.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Options of `cargo xtask package`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// The desktop program to pack, in place of a release build.
+    #[arg(long)]
+    program: Option<PathBuf>,
+    /// The browser app to pack, in place of a build.
+    #[arg(long)]
+    dist: Option<PathBuf>,
+    /// Install the Debian package in a clean Debian and run it there; as root, with debootstrap.
+    #[arg(long = "try")]
+    tries: bool,
+}
+
+/// A file of a package: its path there, its bytes, and whether it is a program.
+pub(crate) struct Packed {
+    path: String,
+    bytes: Vec<u8>,
+    is_program: bool,
+}
+
+impl Packed {
+    fn new(path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
+        Self { path: path.into(), bytes: bytes.into(), is_program: false }
+    }
+}
+
+/// Makes the packages in `target/package` and says where they are.
+pub(crate) fn package(options: &Options) -> Result<()> {
+    if !cfg!(target_os = "linux") {
+        bail!("packages are made on Linux");
+    }
+    let out = target().join("package");
+    std::fs::create_dir_all(&out).with_context(|| format!("{} cannot be made", out.display()))?;
+    let program = match &options.program {
+        Some(program) => program.clone(),
+        None => step("Compile the desktop program", || {
+            run(cargo().args(["build", "--quiet", "--release", "--package=lumen", "--bin=lumen"]))?;
+            Ok(target().join("release/lumen"))
+        })?,
+    };
+    let dist = options.dist.clone().map_or_else(build::build, Ok)?;
+    let write = |name: &str, bytes: &[u8]| -> Result<PathBuf> {
+        let path = out.join(name);
+        std::fs::write(&path, bytes).with_context(|| format!("{} cannot be written", path.display()))?;
+        eprintln!("    {:>10} {}", bytes.len(), path.display());
+        Ok(path)
+    };
+    let machine = std::env::consts::ARCH;
+    let files = step("Gather the program's files", || files::desktop(&program))?;
+    let deb = step("Make the Debian package", || {
+        write(&format!("lumen_{VERSION}_{}.deb", deb::architecture()?), &deb::deb(&files)?)
+    })?;
+    step("Make the archive of the program", || {
+        let folder = format!("lumen-{VERSION}-linux-{machine}");
+        write(&format!("{folder}.tar.gz"), &archive::tar_gz(&files, &folder)?)
+    })?;
+    step("Make the archive of the browser app", || {
+        write(&format!("lumen-{VERSION}-web.zip"), &archive::zip(&files::site(&dist)?)?)
+    })?;
+    if options.tries {
+        clean_root::try_package(&deb)?;
+    }
+    Ok(())
+}
+
+/// The bytes of a file of the checkout.
+fn read(path: &str) -> Result<Vec<u8>> {
+    read_file(&root().join(path))
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).with_context(|| format!("{} cannot be read", path.display()))
+}
