@@ -33,7 +33,7 @@ struct Inspected {
 impl Inspect {
     /// Reads the file and prints its report.
     pub(super) fn run(&self) -> Result<()> {
-        let Imported { mesh, report } = source::read(&self.file, self.unit)?;
+        let Imported { mesh, report, .. } = source::read(&self.file, self.unit)?;
         let inspected = Inspected { report, shape: shape(&mesh) };
         if self.json {
             println!("{}", serde_json::to_string_pretty(&inspected)?);

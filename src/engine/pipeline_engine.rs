@@ -171,7 +171,7 @@ impl Engine {
         let start = Instant::now();
         let name = source.name().to_owned();
         match read(source) {
-            Ok(Imported { mesh, report }) => {
+            Ok(Imported { mesh, report, .. }) => {
                 let mesh = Arc::new(mesh);
                 let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_safe();
                 if let Err(error) = pipeline.set(settings) {

@@ -29,6 +29,15 @@ impl Axes {
             Self::Unknown => ["X", "Y", "Z"],
         }
     }
+
+    /// What a header or comment says of them, behind what else stands there; nothing where they are not known.
+    pub(super) fn said(self) -> &'static str {
+        match self {
+            Self::Lps => "; SPACE=LPS",
+            Self::Ras => "; SPACE=RAS",
+            Self::Unknown => "",
+        }
+    }
 }
 
 /// Where a header or comments end at the latest.

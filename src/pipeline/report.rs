@@ -12,7 +12,8 @@ use super::run::Pipeline;
 use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
-use crate::mesh::{Measures, TriMesh, components};
+use crate::mesh::arrays::infos;
+use crate::mesh::{ArrayInfo, Measures, TriMesh, components};
 use crate::vessel::certificate::{BranchCalibre, CalibreError, Verdict};
 
 /// What stands in every report.
@@ -130,6 +131,9 @@ pub struct Report {
     pub volume_change_from_smoothed_percent: Option<f64>,
     /// As `area_change_percent`, from the smoothed surface.
     pub area_change_from_smoothed_percent: Option<f64>,
+    /// The arrays of the output; null until they are carried to it.
+    #[serde(default)]
+    pub arrays: Option<Vec<ArrayInfo>>,
     /// Shape of the smoothed surface; null until it is measured.
     pub smoothed_shape: Option<Shape>,
     /// Shape of the output.
@@ -208,6 +212,7 @@ impl Report {
             area_change_percent: from_kept.1,
             volume_change_from_smoothed_percent: from_smoothed.0,
             area_change_from_smoothed_percent: from_smoothed.1,
+            arrays: pipeline.level_arrays().map(|arrays| infos(arrays)),
             smoothed_shape: pipeline.smoothed_measures().map(|found| found.shape.clone()),
             output_shape: pipeline.level_measures().map(|found| found.shape.clone()),
             narrowing: pipeline.level_measures().and_then(|found| found.narrowing),

@@ -10,6 +10,7 @@
 mod array;
 mod encoded;
 mod legacy;
+mod legacy_data;
 mod legacy_text;
 mod surface;
 mod write;

@@ -10,6 +10,7 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
 use super::super::Axes;
+use super::super::columns::Columns;
 use super::super::error::ReadError;
 use super::super::import::RawSurface;
 use super::super::numbers::Scalar;
@@ -18,7 +19,8 @@ use super::super::text;
 use super::array::{Array, Content};
 use super::encoded::{Compressor, Encoded, Encoding};
 use super::no_surface;
-use super::surface::{Cells, Lengths, Shape, Surface, is_whole};
+use super::surface::{Cells, Lengths, Shape, Surface};
+use crate::mesh::arrays::{On, Values};
 
 /// Whether a text begins as VTK's XML files do.
 pub(in crate::io) fn is_xml(text: &[u8]) -> bool {
@@ -31,11 +33,37 @@ pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, Rea
     let file = Structure::parse(bytes)?;
     let mut arrays = Arrays { file: &file, bytes, room: Room::of(bytes.len()).unfolded() };
     let mut surface = Surface::new(file.format, bytes.len(), origin);
+    if file.pieces.iter().flat_map(|piece| &piece.data).any(|&(on, _)| on == On::Triangle) {
+        surface.note_cells();
+    }
+    let mut cells = 0u64;
     for piece in &file.pieces {
-        arrays.add_piece(piece, &mut surface)?;
+        arrays.add_piece(piece, cells, &mut surface)?;
+        cells = cells.saturating_add(piece.cell_count());
     }
     let axes = file.space.as_ref().map_or(Ok(Axes::Unknown), |array| arrays.axes(array))?;
-    surface.finish(file.format, axes)
+    let columns = columns(&mut arrays, bytes.len())?;
+    surface.finish(file.format, axes, columns)
+}
+
+/// The arrays on points and cells, after the surface, so that they take no room from it.
+fn columns(arrays: &mut Arrays, file: usize) -> Result<Columns, ReadError> {
+    let (mut columns, structure) = (Columns::default(), arrays.file);
+    for piece in &structure.pieces {
+        let counts = [piece.counts[0], piece.cell_count()];
+        for (on, array) in &piece.data {
+            Room::of(file).check_parts(structure.format, columns.len())?;
+            let rows = counts[usize::from(*on == On::Triangle)];
+            match arrays.values(array, rows.saturating_mul(array.components)) {
+                // The components are no more than the numbers there are.
+                Ok(values) => columns.add(*on, &array.name, array.components as usize, values),
+                Err(why) => columns.leave_out(&array.name, why),
+            }
+        }
+        let [points, cells] = counts.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+        columns.end_part(points, cells);
+    }
+    Ok(columns)
 }
 
 /// What the structure says.
@@ -58,9 +86,23 @@ struct Piece<'a> {
     points: Option<DataArray<'a>>,
     /// The arrays of its cells, each with its place in [`KINDS`] and in [`PARTS`].
     cells: Vec<(usize, usize, DataArray<'a>)>,
+    /// The arrays on its points and on its cells.
+    data: Vec<(On, DataArray<'a>)>,
 }
 
 impl<'a> Piece<'a> {
+    /// How many cells it has of all kinds.
+    fn cell_count(&self) -> u64 {
+        self.counts[1..].iter().fold(0, |sum, &count| sum.saturating_add(count))
+    }
+
+    /// How many of its cells stand before those of a kind, in the order of VTK's arrays: polygons before strips.
+    fn cells_before(&self, kind: usize) -> u64 {
+        const STRIPS: usize = 3;
+        let before = |other: &usize| (*other < kind && *other != STRIPS) || (kind == STRIPS && *other == STRIPS + 1);
+        (1..self.counts.len()).filter(before).fold(0, |sum, other| sum.saturating_add(self.counts[other]))
+    }
+
     /// An array of a kind of cells.
     fn cells(&self, kind: usize, part: usize) -> Option<&DataArray<'a>> {
         self.cells.iter().find(|array| (array.0, array.1) == (kind, part)).map(|array| &array.2)
@@ -91,7 +133,9 @@ enum Place<'a> {
 
 #[derive(Clone, Debug)]
 struct DataArray<'a> {
+    name: String,
     kind: String,
+    components: u64,
     place: Place<'a>,
 }
 
@@ -100,6 +144,8 @@ struct DataArray<'a> {
 enum Section {
     Elsewhere,
     FieldData,
+    /// Arrays on points or cells.
+    Data(On),
     /// One of [`KINDS`].
     Kind(usize),
 }
@@ -151,6 +197,7 @@ impl<'a> Structure<'a> {
                     room.check_parts(file.format, file.pieces.len())?;
                 }
                 b"DataArray" | b"Array" => {
+                    room.check_parts(file.format, file.pieces.last().map_or(0, |piece| piece.data.len()))?;
                     let inline = if is_open { inline_text(&mut reader, bytes, start)? } else { (&b""[..], 0) };
                     file.add_array(section, &element, inline)?;
                 }
@@ -208,12 +255,14 @@ impl<'a> Structure<'a> {
             Some("binary") => Place::Binary(inline),
             _ => Place::Text(inline, at),
         };
-        let array = DataArray { kind: attribute(element, "type").unwrap_or_default(), place };
+        let components = attribute(element, "NumberOfComponents").and_then(|n| n.parse().ok()).unwrap_or(1);
+        let array = DataArray { name, kind: attribute(element, "type").unwrap_or_default(), components, place };
         match (section, self.pieces.last_mut()) {
-            (Section::FieldData, _) if name == "SPACE" => self.space = Some(array),
+            (Section::FieldData, _) if array.name == "SPACE" => self.space = Some(array),
+            (Section::Data(on), Some(piece)) => piece.data.push((on, array)),
             (Section::Kind(0), Some(piece)) => piece.points = piece.points.take().or(Some(array)),
             (Section::Kind(kind), Some(piece)) => {
-                let part = PARTS.iter().position(|&part| part == name);
+                let part = PARTS.iter().position(|&part| part == array.name);
                 if let Some(part) = part.filter(|&part| piece.cells(kind, part).is_none()) {
                     piece.cells.push((kind, part, array));
                 }
@@ -228,7 +277,8 @@ impl<'a> Structure<'a> {
 fn section_named(name: &[u8]) -> Option<Section> {
     match name {
         b"FieldData" => Some(Section::FieldData),
-        b"PointData" | b"CellData" => Some(Section::Elsewhere),
+        b"PointData" => Some(Section::Data(On::Point)),
+        b"CellData" => Some(Section::Data(On::Triangle)),
         _ => KINDS.iter().position(|(_, element, _)| element.as_bytes() == name).map(Section::Kind),
     }
 }
@@ -278,7 +328,8 @@ struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
-    fn add_piece(&mut self, piece: &Piece<'a>, surface: &mut Surface) -> Result<(), ReadError> {
+    /// Adds the points and cells of a piece, `first` cells of the file standing before them.
+    fn add_piece(&mut self, piece: &Piece<'a>, first: u64, surface: &mut Surface) -> Result<(), ReadError> {
         let [points, kinds @ ..] = piece.counts;
         if let (Some(array), true) = (&piece.points, points > 0) {
             surface.add_points(&self.open(array)?, points)?;
@@ -302,7 +353,8 @@ impl<'a> Arrays<'a> {
             let mut open = |array| if is_surface { self.open_whole(array) } else { none() };
             let (ends, points) = (open(offsets)?, open(connectivity)?);
             let types = types.filter(|_| shape == Shape::Typed).map(open).transpose()?;
-            surface.add_cells(&Cells { shape, count, lengths: Lengths::Ends(ends), points, types })?;
+            let first = first.saturating_add(piece.cells_before(kind + 1));
+            surface.add_cells(&Cells { shape, count, first, lengths: Lengths::Ends(ends), points, types })?;
         }
         Ok(())
     }
@@ -310,7 +362,7 @@ impl<'a> Arrays<'a> {
     /// The numbers of an array, which must be whole ones.
     fn open_whole(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
         let opened = self.open(array)?;
-        if !is_whole(opened.kind) && !matches!(opened.content, Content::Text { .. }) {
+        if !opened.kind.is_whole() && !matches!(opened.content, Content::Text { .. }) {
             return Err(malformed(self.file.format, "its cells are numbered with fractions"));
         }
         Ok(opened)
@@ -342,6 +394,18 @@ impl<'a> Arrays<'a> {
         };
         let content = if encoding.big_endian { Content::Big(bytes) } else { Content::Little(bytes) };
         Ok(Array { kind, content })
+    }
+
+    /// The numbers of an array on points or cells, or why they cannot be had.
+    fn values(&mut self, array: &DataArray<'a>, count: u64) -> Result<Values, &'static str> {
+        if array.kind == "String" {
+            return Err("it holds text");
+        }
+        if scalar(&array.kind).is_none() {
+            return Err("its numbers are of a type that is not read");
+        }
+        let opened = self.open(array).map_err(|_| "its data are damaged, or too many for a file of this size")?;
+        opened.values(count)
     }
 
     /// The axes that a string of the field data names.
