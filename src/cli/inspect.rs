@@ -4,7 +4,7 @@ use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 
-use super::{row, shape_rows, source};
+use super::{array_rows, row, shape_rows, source};
 use crate::io::{ImportReport, Imported, Unit};
 use crate::pipeline::shape::{Shape, shape};
 
@@ -58,6 +58,7 @@ impl Inspect {
             None => row("volume", "none: the surface cannot be oriented"),
         }
         shape_rows(&shape);
+        array_rows(&report.arrays);
         Ok(())
     }
 }

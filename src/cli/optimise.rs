@@ -10,7 +10,9 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{branches, misuse, output_format, row, shape_rows, source, write_whole};
-use crate::io::{self, Unit};
+use crate::io::{self, Output, Unit};
+use crate::mesh::Array;
+use crate::mesh::arrays::{On, Values};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
@@ -77,6 +79,12 @@ pub struct Optimise {
     /// Keep every connected piece, not only the largest
     #[arg(long)]
     keep_all_components: bool,
+    /// Which arrays of the file go out with the surface, where the format has a place for them
+    #[arg(long, value_name = "WHICH", value_enum, default_value_t = WhichArrays::All)]
+    arrays: WhichArrays,
+    /// What Lumen writes at each vertex: its normal, the mean deviation around it from the smoothed surface in mm, or none
+    #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',', default_value = "normals")]
+    with: Vec<With>,
     /// Write all numbers to this file
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
@@ -89,6 +97,21 @@ pub struct Optimise {
     /// The change of calibre that a branch is allowed, in percent, 0 to 100 (2 or 2%)
     #[arg(long, value_name = "PERCENT", value_parser = tolerance, default_value = "2")]
     tolerance: f64,
+}
+
+/// Which arrays of the file are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WhichArrays {
+    All,
+    None,
+}
+
+/// What is written beside the file's own arrays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum With {
+    Normals,
+    Deviation,
+    None,
 }
 
 impl ValueEnum for Window {
@@ -238,6 +261,9 @@ impl Optimise {
         let imported = source::read(&self.file, self.unit)?;
         let read = milliseconds(start.elapsed());
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
+        if self.arrays == WhichArrays::All {
+            pipeline = pipeline.with_arrays(imported.arrays);
+        }
         let wants_safe = self.reduction == Reduction::Safe && self.triangles.is_none() && self.max_deviation.is_none();
         if wants_safe {
             pipeline = pipeline.with_safe();
@@ -260,7 +286,13 @@ impl Optimise {
         }
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         let start = Instant::now();
-        write_whole(&self.output, &io::write(&reduced.mesh, Some(&reduced.normals), format)?)?;
+        let arrays = self.arrays_of(&pipeline);
+        if let Some(sentence) = io::left_out(&arrays, format) {
+            eprintln!("lumen: warning: {sentence}");
+        }
+        let normals = self.with.contains(&With::Normals).then_some(&reduced.normals[..]);
+        let output = Output { normals, arrays: &arrays, ..Output::new(&reduced.mesh) };
+        write_whole(&self.output, &io::write_output(&output, format)?)?;
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
         report.stages_ms.write = milliseconds(start.elapsed());
@@ -273,6 +305,17 @@ impl Optimise {
         }
         println!("{DISCLAIMER}");
         Ok(())
+    }
+
+    /// What is written beside the surface.
+    fn arrays_of(&self, pipeline: &Pipeline) -> Vec<Array> {
+        let mut arrays = pipeline.level_arrays().map_or_else(Vec::new, |arrays| arrays.to_vec());
+        if let (true, Some(found)) = (self.with.contains(&With::Deviation), pipeline.deviations())
+            && let Some(comparison) = &found.from_smoothed
+        {
+            arrays.push(Array::new("deviation_mm", On::Point, 1, Values::from_floats(&comparison.map)));
+        }
+        arrays
     }
 
     fn print(&self, report: &Report) {

@@ -171,9 +171,9 @@ impl Engine {
         let start = Instant::now();
         let name = source.name().to_owned();
         match read(source) {
-            Ok(Imported { mesh, report, .. }) => {
+            Ok(Imported { mesh, arrays, report }) => {
                 let mesh = Arc::new(mesh);
-                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_safe();
+                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_arrays(arrays).with_safe();
                 if let Err(error) = pipeline.set(settings) {
                     self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
                     return;

@@ -122,11 +122,10 @@ mod tests {
         columns.leave_out("names", "it holds text");
         columns.end_part(3, 4);
         let (arrays, sentences) = columns.finish();
-        assert_eq!(arrays.iter().map(|array| (&*array.name, array.on, array.len())).collect::<Vec<_>>(), [(
-            "all",
-            On::Point,
-            5
-        )]);
+        assert_eq!(
+            arrays.iter().map(|array| (&*array.name, array.on, array.len())).collect::<Vec<_>>(),
+            [("all", On::Point, 5)]
+        );
         assert_eq!(
             sentences,
             [

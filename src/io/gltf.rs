@@ -479,14 +479,13 @@ pub(super) fn write(output: &Output) -> Result<Vec<u8>, WriteError> {
     let mut at = vector_bytes;
     let mut views = format!("{{\"buffer\":0,\"byteLength\":{vector_bytes},\"target\":34962}}");
     let index_start = vector_bytes * if normals.is_some() { 2 } else { 1 };
-    let _ = write!(
-        views,
-        ",{{\"buffer\":0,\"byteOffset\":{index_start},\"byteLength\":{index_bytes},\"target\":34963}}"
-    );
+    let _ =
+        write!(views, ",{{\"buffer\":0,\"byteOffset\":{index_start},\"byteLength\":{index_bytes},\"target\":34963}}");
     let mut next = 2;
     if normals.is_some() {
         attributes.push_str(",\"NORMAL\":2");
-        let _ = write!(accessors, ",{{\"bufferView\":2,\"componentType\":5126,\"count\":{vertices},\"type\":\"VEC3\"}}");
+        let _ =
+            write!(accessors, ",{{\"bufferView\":2,\"componentType\":5126,\"count\":{vertices},\"type\":\"VEC3\"}}");
         let _ = write!(views, ",{{\"buffer\":0,\"byteOffset\":{at},\"byteLength\":{vector_bytes},\"target\":34962}}");
         next = 3;
     }

@@ -4,7 +4,6 @@ use super::error::ReadError;
 use super::text::{self, Words};
 pub(super) use crate::mesh::arrays::Scalar;
 
-
 /// The numbers of a body, one after another. `None` is the end of the file, or a [`Numbers::fault`]: these calls
 /// are the inner loop, so they return what fits into registers.
 pub(super) trait Numbers {

@@ -74,7 +74,10 @@ mod tests {
         }
         let said = |arrays: &[Array], format| left_out(arrays, format).unwrap();
         assert_eq!(said(&all, Format::Stl), "STL has no place for arrays: Height, Face, RGB, Stress are left out.");
-        assert_eq!(said(&all[..3], Format::Obj), "OBJ has no place for arrays other than colours: Height, Face are left out.");
+        assert_eq!(
+            said(&all[..3], Format::Obj),
+            "OBJ has no place for arrays other than colours: Height, Face are left out."
+        );
         assert_eq!(said(&all[..3], Format::Glb), "GLB has no place for arrays of triangles: Face is left out.");
         assert_eq!(said(&all, Format::Glb), "GLB has no place for such arrays: Face, Stress are left out.");
     }

@@ -16,8 +16,8 @@ use super::ply_arrays::{Extras, Written};
 use super::polygons::Faces;
 use super::room::Room;
 use super::text::{self, Words};
-use crate::mesh::arrays::On;
 use crate::mesh::Vec3;
+use crate::mesh::arrays::On;
 
 impl Scalar {
     /// The type that a header calls `name`.

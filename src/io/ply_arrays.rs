@@ -29,13 +29,7 @@ impl Extras {
 
     /// What is to be kept of an element of `rows` rows at most, if it is one of vertices or faces; what there is no room
     /// for is noted.
-    pub(super) fn new(
-        properties: &[Property],
-        on: Option<On>,
-        rows: u64,
-        room: Room,
-        columns: &mut Columns,
-    ) -> Self {
+    pub(super) fn new(properties: &[Property], on: Option<On>, rows: u64, room: Room, columns: &mut Columns) -> Self {
         let Some(on) = on.filter(|&on| Self::are_in(properties, on)) else { return Self::default() };
         let mut bytes = 0u64;
         let mut keep = |property: &Property| {

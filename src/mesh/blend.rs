@@ -150,7 +150,10 @@ mod tests {
     fn scalars_take_the_mean_and_labels_the_majority() {
         // Rows 0, 3 and 4 go together, 1 alone, 2 nowhere.
         let blend = Blend::of_groups(2, &[0, 1, 9, 0, 0], |_| 1.0);
-        assert_eq!((blend.len(), blend.sources(0), blend.sources(1)), (2, &[(0, 1.0), (3, 1.0), (4, 1.0)][..], &[(1, 1.0)][..]));
+        assert_eq!(
+            (blend.len(), blend.sources(0), blend.sources(1)),
+            (2, &[(0, 1.0), (3, 1.0), (4, 1.0)][..], &[(1, 1.0)][..])
+        );
         assert_eq!(numbers(&blend.of(&array(Scalar::F32, 1, &[1.0, 7.0, 100.0, 2.0, 6.0]))), [3.0, 7.0]);
         assert_eq!(numbers(&blend.of(&array(Scalar::I32, 1, &[5.0, 7.0, 9.0, 4.0, 4.0]))), [4.0, 7.0]);
         let vectors = array(Scalar::F64, 2, &[0.0, 3.0, 1.0, 2.0, 9.0, 9.0, 3.0, 3.0, 6.0, 0.0]);

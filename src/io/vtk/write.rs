@@ -23,8 +23,7 @@ pub(in crate::io) fn xml(output: &Output) -> Vec<u8> {
     let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
     let mut data = Appended::default();
     let mut array = |kind: &str, name: &str, components: usize, bytes: &[u8]| {
-        let components =
-            if components == 1 { String::new() } else { format!(" NumberOfComponents=\"{components}\"") };
+        let components = if components == 1 { String::new() } else { format!(" NumberOfComponents=\"{components}\"") };
         let offset = data.add(bytes);
         format!("<DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"appended\" offset=\"{offset}\"/>\n")
     };

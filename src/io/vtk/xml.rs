@@ -245,6 +245,7 @@ impl<'a> Structure<'a> {
         (inline, at): (&'a [u8], usize),
     ) -> Result<(), ReadError> {
         let name = attribute(element, "Name").unwrap_or_default();
+        let name = quick_xml::escape::unescape(&name).map_or_else(|_| name.clone(), Cow::into_owned);
         let place = match attribute(element, "format").as_deref() {
             Some("appended") => {
                 let offset = attribute(element, "offset").and_then(|offset| offset.parse().ok());

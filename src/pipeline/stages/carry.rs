@@ -80,8 +80,7 @@ fn kept(store: &mut Store) -> Option<Arc<Vec<Array>>> {
         None => store.arrays.clone(),
         Some(piece) => {
             let of_triangle = &store.connectivity.as_ref()?.labels.of_triangle;
-            let rows: Vec<u32> =
-                (0..of_triangle.len() as u32).filter(|&t| of_triangle[t as usize] == piece).collect();
+            let rows: Vec<u32> = (0..of_triangle.len() as u32).filter(|&t| of_triangle[t as usize] == piece).collect();
             let triangles: Vec<[u32; 3]> = rows.iter().map(|&t| opened.triangles[t as usize]).collect();
             let vertices = used_vertices(opened.positions.len(), &triangles);
             Arc::new(gathered(&store.arrays, &vertices, &rows))
