@@ -41,7 +41,7 @@ fn pipeline(settings: Settings) -> Pipeline {
             Scalar::F32,
             triangles().map(|t| mesh.corners(t).map(field).iter().sum::<f64>() / 3.0),
         ),
-        column("Slab", On::Triangle, Scalar::U8, triangles().map(|t| slab(&mesh, t))),
+        column("Slab", On::Triangle, Scalar::I8, triangles().map(|t| slab(&mesh, t))),
         // One that is too short stays behind.
         column("Short", On::Point, Scalar::F32, [1.0].into_iter()),
     ];
