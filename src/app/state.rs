@@ -234,7 +234,8 @@ impl State {
         self.wake(link);
         self.notice = None;
         self.writing.push(name.clone());
-        link.send(Command::Write { name, format, mesh });
+        let axes = document.import.axes;
+        link.send(Command::Write { name, format, mesh, axes });
     }
 
     /// Asks for the centrelines of the surface that is open as a file.

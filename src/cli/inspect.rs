@@ -42,6 +42,7 @@ impl Inspect {
         let Inspected { report, shape } = inspected;
         let size = report.bounds_mm.size();
         row("format", &report.format);
+        row("axes", report.axes);
         row("triangles", report.triangles);
         row("vertices", report.vertices);
         row("components", report.components);

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{branches, misuse, output_format, row, shape_rows, source, write_whole};
-use crate::io::{self, Output, Unit};
+use crate::io::{self, Axes, Output, Unit};
 use crate::mesh::Array;
 use crate::mesh::arrays::{On, Values};
 use crate::pipeline::deviation::REPORT_SAMPLES;
@@ -85,6 +85,13 @@ pub struct Optimise {
     /// What Lumen writes at each vertex: its normal, the mean deviation around it from the smoothed surface in mm, or none
     #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',', default_value = "normals")]
     with: Vec<With>,
+    /// What the written coordinates grow towards: left, posterior and superior; right, anterior and superior; or what the
+    /// file has
+    #[arg(long, value_name = "AXES", value_enum, default_value_t = WrittenAxes::Keep)]
+    axes: WrittenAxes,
+    /// What the file's coordinates grow towards, where it does not say
+    #[arg(long, value_name = "AXES", value_enum)]
+    axes_in: Option<FileAxes>,
     /// Write all numbers to this file
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
@@ -97,6 +104,30 @@ pub struct Optimise {
     /// The change of calibre that a branch is allowed, in percent, 0 to 100 (2 or 2%)
     #[arg(long, value_name = "PERCENT", value_parser = tolerance, default_value = "2")]
     tolerance: f64,
+}
+
+/// What the coordinates of the output grow towards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WrittenAxes {
+    Lps,
+    Ras,
+    Keep,
+}
+
+/// What those of a file do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FileAxes {
+    Lps,
+    Ras,
+}
+
+impl From<FileAxes> for Axes {
+    fn from(axes: FileAxes) -> Self {
+        match axes {
+            FileAxes::Lps => Self::Lps,
+            FileAxes::Ras => Self::Ras,
+        }
+    }
 }
 
 /// Which arrays of the file are written.
@@ -260,6 +291,7 @@ impl Optimise {
         let start = Instant::now();
         let imported = source::read(&self.file, self.unit)?;
         let read = milliseconds(start.elapsed());
+        let (axes, to) = self.axes(imported.report.axes)?;
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         if self.arrays == WhichArrays::All {
             pipeline = pipeline.with_arrays(imported.arrays);
@@ -286,15 +318,18 @@ impl Optimise {
         }
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         let start = Instant::now();
-        let arrays = self.arrays_of(&pipeline);
+        let mut arrays = self.arrays_of(&pipeline);
         if let Some(sentence) = io::left_out(&arrays, format) {
             eprintln!("lumen: warning: {sentence}");
         }
-        let normals = self.with.contains(&With::Normals).then_some(&reduced.normals[..]);
-        let output = Output { normals, arrays: &arrays, ..Output::new(&reduced.mesh) };
+        let (mut mesh, mut normals) = ((*reduced.mesh).clone(), reduced.normals.clone());
+        axes.turn(to, &mut mesh, &mut normals, &mut arrays)?;
+        let normals = self.with.contains(&With::Normals).then_some(&normals[..]);
+        let output = Output { mesh: &mesh, normals, arrays: &arrays, axes: to };
         write_whole(&self.output, &io::write_output(&output, format)?)?;
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
+        report.axes = to;
         report.stages_ms.write = milliseconds(start.elapsed());
         if let Some(path) = &self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
@@ -305,6 +340,26 @@ impl Optimise {
         }
         println!("{DISCLAIMER}");
         Ok(())
+    }
+
+    /// The axes of the surface, where the file itself has `stated` ones, and those that are written.
+    fn axes(&self, stated: Axes) -> Result<(Axes, Axes)> {
+        let axes = match self.axes_in.map(Axes::from) {
+            Some(said) if stated != Axes::Unknown && stated != said => {
+                bail!("the file itself says that its axes are {stated}: leave out --axes-in")
+            }
+            Some(said) => said,
+            None => stated,
+        };
+        let to = match self.axes {
+            WrittenAxes::Lps => Axes::Lps,
+            WrittenAxes::Ras => Axes::Ras,
+            WrittenAxes::Keep => axes,
+        };
+        if axes == Axes::Unknown && to != axes {
+            bail!("the file does not say which way its axes point: say it with --axes-in lps or --axes-in ras");
+        }
+        Ok((axes, to))
     }
 
     /// What is written beside the surface.

@@ -385,7 +385,7 @@ mod tests {
 
     #[test]
     fn a_soup_becomes_an_oriented_surface_with_its_faults_counted() {
-        let Imported { mesh, report } = import(soup(4.0), Unit::Centimetre, Axes::Unknown).unwrap();
+        let Imported { mesh, report, .. } = import(soup(4.0), Unit::Centimetre, Axes::Unknown).unwrap();
         assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::Y * 40.0, Vec3::X * 40.0, Vec3::Z * 40.0]);
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [2, 1, 3], [0, 3, 1]]);
         assert_eq!((report.triangles, report.degenerate_triangles, report.winding_flips), (5, 1, 3));
@@ -452,7 +452,7 @@ mod tests {
         let [one, other] = [near.unwrap(), near.unwrap().next_up()].map(|x| Vec3::new(x, 0.0, 0.0));
         let positions = vec![one, Vec3::Y, Vec3::Z, other, Vec3::NEG_Y, Vec3::NEG_Z];
         let raw = RawSurface::new("soup", positions, vec![[0, 1, 2], [3, 4, 5]]);
-        let Imported { mesh, report } = import(raw, Unit::Centimetre, Axes::Unknown).unwrap();
+        let Imported { mesh, report, .. } = import(raw, Unit::Centimetre, Axes::Unknown).unwrap();
         assert_eq!((report.vertices, report.components, mesh.positions[0]), (6, 2, mesh.positions[3]));
     }
 

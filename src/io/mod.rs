@@ -40,7 +40,7 @@ mod vtk;
 mod weld;
 mod winding;
 
-pub use axes::Axes;
+pub use axes::{Axes, UnknownAxes};
 pub use error::{ReadError, WriteError};
 pub use format::{Format, Unit, UnknownUnit};
 pub use import::import_mesh;

@@ -175,6 +175,15 @@ impl Values {
         }
     }
 
+    /// What `of` makes of each, by its place and its value, in the same type.
+    #[must_use]
+    pub fn mapped(&self, of: impl Fn(usize, f64) -> f64) -> Self {
+        let mut mapped = Self::new(self.scalar);
+        mapped.reserve(self.len());
+        (0..self.len()).for_each(|i| mapped.push(of(i, self.get(i))));
+        mapped
+    }
+
     /// Adds the number that `word` is; whether it is one.
     pub fn push_word(&mut self, word: &str) -> bool {
         let whole = match self.scalar {

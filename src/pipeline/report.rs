@@ -12,6 +12,7 @@ use super::run::Pipeline;
 use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
+use crate::io::Axes;
 use crate::mesh::arrays::infos;
 use crate::mesh::{ArrayInfo, Measures, TriMesh, components};
 use crate::vessel::certificate::{BranchCalibre, CalibreError, Verdict};
@@ -92,6 +93,9 @@ pub struct Report {
     /// Sixteen hexadecimal digits that differ where outputs do.
     #[serde(default)]
     pub output_fingerprint: String,
+    /// What the output's coordinates grow towards, as far as that is known; set by whoever writes it.
+    #[serde(default)]
+    pub axes: Axes,
     /// The settings that were used.
     pub settings: Settings,
     /// The part of the triangles after connectivity that is gone, in percent.
@@ -192,6 +196,7 @@ impl Report {
             after_connectivity: Counts::of(&kept.mesh),
             output: Counts::of(&reduced.mesh),
             output_fingerprint: format!("{:016x}", reduced.fingerprint),
+            axes: Axes::Unknown,
             settings: pipeline.settings().clone(),
             reduction_percent: reduction_percent(kept.mesh.triangles.len(), reduced.mesh.triangles.len()),
             shortfall: reduced.level.shortfall.as_ref().map(Shortfall::to_string),

@@ -270,6 +270,11 @@ impl Pipeline {
         self.store.now.deviations.as_ref()
     }
 
+    /// Whether the surface has arrays.
+    pub fn has_arrays(&self) -> bool {
+        !self.store.arrays.is_empty()
+    }
+
     /// The arrays of that level, for its vertices and triangles.
     pub fn level_arrays(&self) -> Option<&Arc<Vec<Array>>> {
         self.store.now.arrays.as_ref()

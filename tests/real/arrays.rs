@@ -31,7 +31,7 @@ fn facts() -> Vec<(&'static str, Vec<Fact>)> {
             vec![
                 continuous("Scalars_", Scalar::F32, [0.0, 0.0]),
                 ("GroupIds", On::Point, Kind::Label, Scalar::I32, 1, [0.0, 3.0]),
-                continuous("ClippingArray", Scalar::F64, [-2.745_488_587_559_85e-7, 2174.453_237_134_945_5]),
+                continuous("ClippingArray", Scalar::F64, [-2.745_488_587_559_85e-7, 2_174.453_237_134_945_5]),
             ],
         ),
         ("real/seqseg_shawn_260_aorta.vtp", vec![continuous("Scalars_", Scalar::F32, [1.0, 1.0])]),

@@ -15,6 +15,7 @@ mod legacy_text;
 mod surface;
 mod write;
 mod xml;
+mod xml_arrays;
 
 pub(super) use legacy::{is_legacy, read as read_legacy};
 pub(super) use write::{legacy as write_legacy, xml as write_xml};
