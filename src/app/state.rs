@@ -231,11 +231,12 @@ impl State {
             return;
         };
         let name = format!("{}-{}.{}", document.stem(), mesh.triangles.len(), format.extension());
+        let axes = document.import.axes;
         // An engine that has stopped too often with the surface open can still make a file.
         self.wake(link);
         self.notice = None;
         self.writing.push(name.clone());
-        link.send(Command::Write { name, format, mesh });
+        link.send(Command::Write { name, format, mesh, axes });
     }
 
     /// Asks for the centrelines of the surface that is open as a file.

@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use super::optimise::{Outputs, advance_quietly, milliseconds, warnings};
 use super::settings::Asked;
+use super::written::WrittenOptions;
 use super::{interrupt, misuse, source, write_whole};
 use crate::digits::grouped;
 use crate::io::Format;
@@ -141,7 +142,7 @@ struct Outcome {
 
 impl Batch {
     /// Goes through all surfaces and writes the summary.
-    pub(super) fn run(&self, asked: &Asked) -> Result<()> {
+    pub(super) fn run(&self, asked: &Asked, written: &WrittenOptions) -> Result<()> {
         let next = AtomicUsize::new(0);
         let count = self.items.len();
         let work = || {
@@ -150,7 +151,7 @@ impl Batch {
                 let i = next.fetch_add(1, Ordering::Relaxed);
                 let Some(item) = self.items.get(i) else { break };
                 let start = Instant::now();
-                let made = catch_unwind(AssertUnwindSafe(|| self.one(item, asked)))
+                let made = catch_unwind(AssertUnwindSafe(|| self.one(item, asked, written)))
                     .unwrap_or_else(|_| Err(anyhow!("an error in the program ended the work on it")));
                 let outcome = Outcome { made, seconds: start.elapsed().as_secs_f64() };
                 outcome.tell(item, i + 1, count);
@@ -176,20 +177,22 @@ impl Batch {
         Ok(())
     }
 
-    fn one(&self, item: &Item, asked: &Asked) -> Result<Made> {
+    fn one(&self, item: &Item, asked: &Asked, written: &WrittenOptions) -> Result<Made> {
         let start = Instant::now();
         let (imported, digest) = source::read_quietly(&item.file, asked.shared.unit)?;
         let read = milliseconds(start.elapsed());
         let outputs = Outputs {
             surface: &item.surface,
             format: self.format,
+            written,
             report: Some(&item.report),
             branches_csv: None,
             prints_branches: false,
         };
-        let report = outputs.make(&item.file, imported.mesh, read, asked, advance_quietly)?;
-        let warnings = imported.report.warnings.into_iter().chain(warnings(&report)).collect();
-        Ok(Made { digest, report, warnings })
+        let mut told = imported.report.warnings.clone();
+        let report = outputs.make(&item.file, imported, read, asked, advance_quietly)?;
+        told.extend(warnings(&report));
+        Ok(Made { digest, report, warnings: told })
     }
 
     fn write_summary(&self, done: &BTreeMap<usize, Outcome>) -> Result<()> {

@@ -4,7 +4,7 @@ use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 
-use super::{row, shape_rows, source};
+use super::{array_rows, row, shape_rows, source};
 use crate::io::{ImportReport, Imported, Unit};
 use crate::pipeline::shape::{Shape, shape};
 
@@ -33,7 +33,7 @@ struct Inspected {
 impl Inspect {
     /// Reads the file and prints its report.
     pub(super) fn run(&self) -> Result<()> {
-        let Imported { mesh, report } = source::read(&self.file, self.unit)?;
+        let Imported { mesh, report, .. } = source::read(&self.file, self.unit)?;
         let inspected = Inspected { report, shape: shape(&mesh) };
         if self.json {
             println!("{}", serde_json::to_string_pretty(&inspected)?);
@@ -42,6 +42,7 @@ impl Inspect {
         let Inspected { report, shape } = inspected;
         let size = report.bounds_mm.size();
         row("format", &report.format);
+        row("axes", report.axes);
         row("triangles", report.triangles);
         row("vertices", report.vertices);
         row("components", report.components);
@@ -58,6 +59,7 @@ impl Inspect {
             None => row("volume", "none: the surface cannot be oriented"),
         }
         shape_rows(&shape);
+        array_rows(&report.arrays);
         Ok(())
     }
 }

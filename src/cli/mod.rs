@@ -19,12 +19,15 @@ mod source;
 mod tables;
 mod trial;
 mod trial_tables;
+mod written;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::mesh::ArrayInfo;
+use crate::mesh::arrays::{Kind, On};
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::shape::Shape;
 
@@ -119,7 +122,18 @@ fn write_whole(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
 
 /// A row of a table: what it is, padded, and how much.
 fn row(what: &str, how_much: impl std::fmt::Display) {
-    println!("{what:<28}{how_much}");
+    println!("{what:<27} {how_much}");
+}
+
+/// A row for each array: its name, what it is on, its type, and its range.
+fn array_rows(arrays: &[ArrayInfo]) {
+    for ArrayInfo { name, on, kind, scalar, components, range } in arrays {
+        let on = if *on == On::Point { "point" } else { "triangle" };
+        let kind = if *kind == Kind::Label { ", labels" } else { "" };
+        let range = range.map_or("no finite value".to_owned(), |[least, most]| format!("{least} to {most}"));
+        let (what, scalar) = (format!("array {name}"), scalar.name());
+        row(&what, format!("{on}, {components} x {scalar}{kind}, {range}"));
+    }
 }
 
 /// The rows of a surface's shape.

@@ -11,9 +11,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::batch::BatchOptions;
 use super::settings::{Asked, SettingsOptions};
+use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, misuse, output_format, row, shape_rows, source, write_whole};
-use crate::io::{self, Format};
-use crate::mesh::TriMesh;
+use crate::io::{self, Format, Imported, Output};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
@@ -40,6 +40,8 @@ pub struct Optimise {
     #[arg(long, value_name = "FILE.json")]
     save_settings: Option<PathBuf>,
     #[command(flatten)]
+    written: WrittenOptions,
+    #[command(flatten)]
     batch: BatchOptions,
     /// Write all numbers to this file
     #[arg(long, value_name = "FILE.json")]
@@ -58,6 +60,8 @@ pub(super) struct Outputs<'a> {
     pub(super) surface: &'a Path,
     /// In which format.
     pub(super) format: Format,
+    /// What of it.
+    pub(super) written: &'a WrittenOptions,
     /// Where all numbers go.
     pub(super) report: Option<&'a Path>,
     /// Where the calibre along the branches goes.
@@ -72,13 +76,17 @@ impl Outputs<'_> {
     pub(super) fn make(
         &self,
         name: &str,
-        mesh: TriMesh,
+        imported: Imported,
         read: f64,
         asked: &Asked,
         advance: fn(&mut Pipeline) -> Result<()>,
     ) -> Result<Report> {
         let settings = asked.shared.settings.clone();
-        let mut pipeline = Pipeline::new(Arc::new(mesh), settings).with_samples(REPORT_SAMPLES);
+        let (axes, to) = self.written.axes(imported.report.axes)?;
+        let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
+        if self.written.takes_arrays() {
+            pipeline = pipeline.with_arrays(imported.arrays);
+        }
         if asked.wants_safe {
             pipeline = pipeline.with_safe();
         } else if self.prints_branches || self.report.is_some() || self.branches_csv.is_some() {
@@ -100,9 +108,18 @@ impl Outputs<'_> {
         }
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         let start = Instant::now();
-        write_whole(self.surface, &io::write(&reduced.mesh, Some(&reduced.normals), self.format)?)?;
+        let mut arrays = self.written.arrays(&pipeline);
+        if let Some(sentence) = io::left_out(&arrays, self.format) {
+            eprintln!("lumen: warning: {}: {sentence}", self.surface.display());
+        }
+        let (mut mesh, mut normals) = ((*reduced.mesh).clone(), reduced.normals.clone());
+        axes.turn(to, &mut mesh, &mut normals, &mut arrays)?;
+        let normals = self.written.has_normals().then_some(&normals[..]);
+        let output = Output { mesh: &mesh, normals, arrays: &arrays, axes: to };
+        write_whole(self.surface, &io::write_output(&output, self.format)?)?;
         let mut report = Report::new(name, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
+        report.axes = to;
         report.stages_ms.write = milliseconds(start.elapsed());
         if let Some(path) = self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
@@ -134,11 +151,12 @@ impl Optimise {
         let outputs = Outputs {
             surface: &self.output,
             format,
+            written: &self.written,
             report: self.report.as_deref(),
             branches_csv: self.branches_csv.as_deref(),
             prints_branches: self.branches,
         };
-        let report = outputs.make(file, imported.mesh, read, asked, advance)?;
+        let report = outputs.make(file, imported, read, asked, advance)?;
         if let Some(path) = &self.save_settings {
             let used = SharedSettings { unit: asked.shared.unit, settings: report.settings.clone() };
             write_whole(path, write_settings(&used).as_bytes())?;
@@ -168,7 +186,7 @@ impl Optimise {
             }
             write_whole(path, write_settings(&asked.shared).as_bytes())?;
         }
-        batch.run(asked)
+        batch.run(asked, &self.written)
     }
 
     /// Ends the program where an output would overwrite the input or another output.

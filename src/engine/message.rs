@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::surfaces::{levels, surface};
-use crate::io::{Format, ImportOptions, ImportReport};
+use crate::io::{Axes, Format, ImportOptions, ImportReport};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::connectivity::Component;
@@ -110,6 +110,8 @@ pub enum Command {
         /// The surface.
         #[serde(with = "surface")]
         mesh: TriMesh,
+        /// What its coordinates grow towards.
+        axes: Axes,
     },
 }
 
@@ -321,7 +323,7 @@ mod tests {
         let commands = [
             Command::Open { id: 1, source, settings: settings.clone() },
             Command::Open { id: 2, source: bad, settings: settings.clone() },
-            Command::Write { name: "c.stl".into(), format: Format::Stl, mesh },
+            Command::Write { name: "c.stl".into(), format: Format::Stl, mesh, axes: Axes::Lps },
             Command::WriteCentrelines { name: "c.vtp".into(), format: CentrelineFormat::Vtp },
             Command::Set { generation: 3, settings: settings.clone() },
             Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },

@@ -14,7 +14,7 @@ use super::compare::Comparing;
 use super::machine::{Machine, SLICE};
 use super::message::{Calibre, Command, Event, Opened, Reduced, Source, Work};
 use super::progress::tell_progress;
-use crate::io::{self, Imported};
+use crate::io::{self, Axes, Imported, Output};
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom;
 use crate::pipeline::normals::{Weighting, vertex_normals};
@@ -37,12 +37,21 @@ pub struct Engine {
     current: Option<Current>,
     /// Settings to compare on the surface that is open, or is opened next.
     pub(super) comparing: Option<Comparing>,
-    writing: VecDeque<(String, io::Format, TriMesh)>,
+    writing: VecDeque<Writing>,
     events: VecDeque<Event>,
+}
+
+/// A file to be written.
+struct Writing {
+    name: String,
+    format: io::Format,
+    mesh: TriMesh,
+    axes: Axes,
 }
 
 struct Current {
     name: String,
+    axes: Axes,
     pipeline: Pipeline,
     read_ms: f64,
     /// The number of the settings that are worked on.
@@ -87,7 +96,9 @@ impl Engine {
             Command::Cancel => self.cancel(),
             Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
             Command::WriteLevel { name, format } => self.write_level(name, format),
-            Command::Write { name, format, mesh } => self.writing.push_back((name, format, mesh)),
+            Command::Write { name, format, mesh, axes } => {
+                self.writing.push_back(Writing { name, format, mesh, axes });
+            }
         }
     }
 
@@ -112,8 +123,8 @@ impl Engine {
     /// and end of smoothing and decimation (tens of milliseconds).
     pub fn advance(&mut self, slice: Duration) -> bool {
         let budget = Budget::new(slice);
-        if let Some((name, format, mesh)) = self.writing.pop_front() {
-            self.write(name, format, &mesh);
+        if let Some(writing) = self.writing.pop_front_if(|_| !self.current.as_ref().is_some_and(Current::is_carrying)) {
+            self.write(writing);
         } else if let Some((id, source, settings)) = self.opening.pop() {
             self.open(id, source, settings);
         } else if self.comparing.is_some() && self.current.as_ref().is_some_and(Current::is_in_background) {
@@ -151,19 +162,25 @@ impl Engine {
         self.events.pop_front()
     }
 
-    fn write(&mut self, name: String, format: io::Format, mesh: &TriMesh) {
+    fn write(&mut self, Writing { name, format, mesh, axes }: Writing) {
         let normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
-        self.events.push_back(match io::write(mesh, Some(&normals), format) {
+        let carried = self.current.as_ref().and_then(|current| {
+            let reduced = current.pipeline.reduced().filter(|reduced| *reduced.mesh == mesh);
+            reduced.and(current.pipeline.level_arrays())
+        });
+        let arrays = carried.map_or(&[][..], |arrays| arrays);
+        let output = Output { mesh: &mesh, normals: Some(&normals), arrays, axes };
+        self.events.push_back(match io::write_output(&output, format) {
             Ok(bytes) => Event::Written { name, bytes },
             Err(error) => Event::NotWritten { name, message: error.to_string() },
         });
     }
 
     fn write_level(&mut self, name: String, format: io::Format) {
-        match self.current.as_ref().and_then(|current| current.pipeline.reduced()) {
-            Some(reduced) => {
-                let mesh = reduced.mesh.clone();
-                self.write(name, format, &mesh);
+        match self.current.as_ref().and_then(|current| Some((current.pipeline.reduced()?, current.axes))) {
+            Some((reduced, axes)) => {
+                let mesh = (*reduced.mesh).clone();
+                self.write(Writing { name, format, mesh, axes });
             }
             None => {
                 let message = "there is no result yet".to_owned();
@@ -190,9 +207,9 @@ impl Engine {
             Source::Sample { .. } => None,
         };
         match read(source) {
-            Ok(Imported { mesh, report }) => {
+            Ok(Imported { mesh, arrays, report }) => {
                 let mesh = Arc::new(mesh);
-                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_safe();
+                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_arrays(arrays).with_safe();
                 if let Err(error) = pipeline.set(settings) {
                     self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
                     return;
@@ -203,6 +220,7 @@ impl Engine {
                 let since = Instant::now();
                 self.current = Some(Current {
                     name: name.clone(),
+                    axes: report.axes,
                     pipeline,
                     read_ms,
                     generation: id,
@@ -231,6 +249,12 @@ fn read(source: Source) -> Result<Imported, String> {
 }
 
 impl Current {
+    /// Whether the arrays of the level are still on their way to it: a file of it waits for them.
+    fn is_carrying(&self) -> bool {
+        let is_coming = self.waiting.is_some() || self.pipeline.level_arrays().is_none();
+        self.pipeline.has_arrays() && is_coming && !self.is_stopped
+    }
+
     /// Whether nothing is left but what nobody waits for: the vessels' calibre, and how far is safe.
     fn is_in_background(&self) -> bool {
         self.waiting.is_none() && self.pipeline.next_stage() >= Some(Stage::Vessels)

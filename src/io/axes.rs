@@ -3,9 +3,15 @@
 //! None of the formats has a place for it. 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the header of an STL file, the
 //! comments of PLY and OBJ and the title of a legacy VTK file, and the letters alone into a string `SPACE` of the field
 //! data of VTP (`vtk/xml.rs`); glTF says which way is up (y, which is read as z: `gltf.rs`), but not that a patient stands
-//! upright in it. Everywhere else nothing is known, and nothing is asserted.
+//! upright in it. Everywhere else nothing is known, and nothing is asserted. What is known is written as Slicer writes it
+//! (`vtkMRMLModelStorageNode`): the same words in the same places.
+
+use std::fmt;
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::mesh::{Array, TriMesh, Vec3};
 
 /// What the coordinates grow towards.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,7 +26,55 @@ pub enum Axes {
     Unknown,
 }
 
+/// Axes that are asked for where those of the surface are not known, or the other way round.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("Which way the axes of the surface point is not known, so it cannot be turned from {from} to {to}.")]
+pub struct UnknownAxes {
+    /// Those of the surface.
+    pub from: Axes,
+    /// Those that were asked for.
+    pub to: Axes,
+}
+
+impl fmt::Display for Axes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Lps => "LPS",
+            Self::Ras => "RAS",
+            Self::Unknown => "unknown axes",
+        })
+    }
+}
+
 impl Axes {
+    /// Turns a surface from these axes to `to`: from LPS to RAS, or back, is half a turn about the third axis, which
+    /// leaves the outside out. Normals and vectors turn along: arrays of three components of floats but for colours
+    /// (`RGB`, `COLOR_0`).
+    ///
+    /// # Errors
+    /// When one of the two is not known and they are not the same; nothing is turned then.
+    pub fn turn(
+        self,
+        to: Self,
+        mesh: &mut TriMesh,
+        normals: &mut [Vec3],
+        arrays: &mut [Array],
+    ) -> Result<(), UnknownAxes> {
+        if self == to {
+            return Ok(());
+        }
+        if self == Self::Unknown || to == Self::Unknown {
+            return Err(UnknownAxes { from: self, to });
+        }
+        // Not to minus zero.
+        let turned = |p: Vec3| Vec3::new(0.0 - p.x, 0.0 - p.y, p.z);
+        mesh.positions.iter_mut().chain(normals).for_each(|p| *p = turned(*p));
+        for array in arrays.iter_mut().filter(|array| is_vector(array)) {
+            array.values = array.values.mapped(|i, x| if i % 3 < 2 { 0.0 - x } else { x });
+        }
+        Ok(())
+    }
+
     /// A letter for each axis: the patient's sides (H for the head), or the names of the axes.
     pub fn letters(self) -> [&'static str; 3] {
         match self {
@@ -29,6 +83,21 @@ impl Axes {
             Self::Unknown => ["X", "Y", "Z"],
         }
     }
+
+    /// What a header or comment says of them, behind what else stands there; nothing where they are not known.
+    pub(super) fn said(self) -> &'static str {
+        match self {
+            Self::Lps => "; SPACE=LPS",
+            Self::Ras => "; SPACE=RAS",
+            Self::Unknown => "",
+        }
+    }
+}
+
+/// Whether an array has a direction at each place.
+fn is_vector(array: &Array) -> bool {
+    let is_colour = array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
+    array.components == 3 && !array.values.scalar().is_whole() && !is_colour
 }
 
 /// Where a header or comments end at the latest.
@@ -48,8 +117,49 @@ pub(super) fn stated(bytes: &[u8]) -> Axes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::{Format, ImportOptions, import_mesh, read, write};
+    use crate::io::{Format, ImportOptions, Output, import_mesh, read, write, write_output};
+    use crate::mesh::arrays::{On, Values};
     use crate::mesh::shapes::icosphere;
+
+    #[test]
+    fn a_surface_is_turned_about_the_third_axis_with_its_vectors() {
+        let mut mesh =
+            TriMesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 2.0, 3.0)], triangles: vec![[0, 1, 2]] };
+        let before = mesh.clone();
+        let mut normals = vec![Vec3::X; 3];
+        let array = |name: &str| {
+            Array::new(name, On::Point, 3, Values::from_floats(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]))
+        };
+        let mut arrays = [array("Flow"), array("RGB")];
+        Axes::Lps.turn(Axes::Ras, &mut mesh, &mut normals, &mut arrays).unwrap();
+        assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::NEG_X, Vec3::new(-1.0, -2.0, 3.0)]);
+        assert!(mesh.positions[0].x.is_sign_positive());
+        assert_eq!((mesh.triangles[0], normals[2]), ([0, 1, 2], Vec3::NEG_X));
+        let numbers: Vec<f64> = (0..9).map(|i| arrays[0].values.get(i)).collect();
+        assert_eq!(numbers, [0.0, -1.0, 2.0, -3.0, -4.0, 5.0, -6.0, -7.0, 8.0]);
+        assert_eq!(arrays[1], array("RGB"));
+        let error = Axes::Unknown.turn(Axes::Lps, &mut mesh, &mut normals, &mut arrays).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "Which way the axes of the surface point is not known, so it cannot be turned from unknown axes to LPS."
+        );
+        Axes::Ras.turn(Axes::Lps, &mut mesh, &mut normals, &mut arrays).unwrap();
+        assert_eq!(mesh, before);
+        assert_eq!(Axes::Unknown.turn(Axes::Unknown, &mut mesh, &mut [], &mut []), Ok(()));
+    }
+
+    #[test]
+    fn axes_are_said_where_the_format_has_a_place_and_read_back() {
+        let sphere = icosphere(1, 30.0, Vec3::ZERO);
+        for axes in [Axes::Lps, Axes::Ras, Axes::Unknown] {
+            for format in Format::ALL {
+                let bytes = write_output(&Output { axes, ..Output::new(&sphere) }, format).unwrap();
+                let found = read(&bytes, format.extension(), &ImportOptions::default()).unwrap().report.axes;
+                // glTF has none.
+                assert_eq!(found, if format == Format::Glb { Axes::Unknown } else { axes }, "{format:?}");
+            }
+        }
+    }
 
     #[test]
     fn axes_are_those_that_the_file_states_and_no_others() {

@@ -1,6 +1,7 @@
 //! What can go wrong with a file, each in one sentence that needs no programmer to understand.
 
-use crate::mesh::{TriMesh, Vec3};
+use super::output::Output;
+use crate::mesh::arrays::On;
 use thiserror::Error;
 
 /// Why a file was not opened. Every message is one sentence.
@@ -177,6 +178,16 @@ pub enum WriteError {
         /// Vertices of the mesh.
         vertices: usize,
     },
+    /// An array must have a tuple for each vertex or triangle.
+    #[error("The array \"{name}\" has {tuples} tuples for {rows} vertices or triangles.")]
+    ArrayLength {
+        /// Its name.
+        name: String,
+        /// Tuples that it has.
+        tuples: usize,
+        /// Vertices or triangles of the mesh.
+        rows: usize,
+    },
     /// More than the format's 32-bit counts can hold.
     #[error("The surface is too large for a {format} file: it would take {bytes} bytes.")]
     TooLarge {
@@ -188,7 +199,7 @@ pub enum WriteError {
 }
 
 /// Refuses what no format can hold.
-pub(super) fn check_writable(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result<(), WriteError> {
+pub(super) fn check_writable(&Output { mesh, normals, arrays, .. }: &Output) -> Result<(), WriteError> {
     let vertices = mesh.positions.len();
     if mesh.triangles.is_empty() {
         return Err(WriteError::Empty);
@@ -200,6 +211,12 @@ pub(super) fn check_writable(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result
     }
     if let Some(vertex) = mesh.positions.iter().position(|p| !p.is_finite()) {
         return Err(WriteError::NotFinite { vertex });
+    }
+    for array in arrays {
+        let rows = if array.on == On::Point { vertices } else { mesh.triangles.len() };
+        if array.values.len() != rows * array.components {
+            return Err(WriteError::ArrayLength { name: array.name.clone(), tuples: array.len(), rows });
+        }
     }
     if let Some(normals) = normals {
         if normals.len() != vertices {

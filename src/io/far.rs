@@ -90,7 +90,7 @@ mod tests {
     fn digits_beyond_those_of_f32_are_not_lost_on_the_way_to_the_origin() {
         for offset in [[3e7, -2e6, 5.25], [1e8, 1e8, 1e8], [0.0, 7e5, 0.0]] {
             for (name, bytes, sphere) in texts(offset) {
-                let Imported { mesh, report } = imported(&bytes, name);
+                let Imported { mesh, report, .. } = imported(&bytes, name);
                 assert_eq!(
                     (mesh.positions.len(), mesh.triangles.len()),
                     (sphere.positions.len(), sphere.triangles.len())

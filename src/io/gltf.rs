@@ -11,6 +11,8 @@
 //! and the front towards -y: what is read is turned by a right angle about x, what is written is turned back.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -18,13 +20,17 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Node, Root, deserialize};
 use base64::Engine as _;
 use glam::{DMat3, DMat4, DQuat, DVec3};
+use serde::Deserialize;
 
-use super::Unit;
+use super::columns::Columns;
 use super::error::{ReadError, WriteError};
+use super::gltf_arrays::Attribute;
 use super::import::RawSurface;
+use super::output::Output;
 use super::room::Room;
 use super::text::BASE64;
-use crate::mesh::{TriMesh, Vec3};
+use super::{Format, Unit};
+use crate::mesh::arrays::{On, Scalar, Values};
 
 const FORMAT: &str = "glTF";
 const JSON_CHUNK: u32 = 0x4e4f_534a;
@@ -92,7 +98,9 @@ fn read_scene(
         return Err(ReadError::Unsupported { format: FORMAT, feature: feature.clone() });
     }
     let buffers = Buffers::new(&root, binary)?;
-    let mut collected = Collected { raw: RawSurface::new(label, Vec::new(), Vec::new()), room };
+    let names = Names::of(json);
+    let raw = RawSurface::new(label, Vec::new(), Vec::new());
+    let mut collected = Collected { raw, room, columns: Columns::default(), array_bytes: 0 };
     collected.raw.in_mm = true;
     (collected.raw.has_doubles, collected.raw.origin) = (root.nodes.iter().any(is_moved), origin);
     let to_mm = DMat4::from_translation(-origin) * upright() * DMat4::from_scale(DVec3::splat(unit.to_mm()));
@@ -106,9 +114,9 @@ fn read_scene(
         }
         // A library of meshes that are placed nowhere.
         None => {
-            for mesh in &root.meshes {
-                for primitive in &mesh.primitives {
-                    collected.add(&root, &buffers, primitive, to_mm)?;
+            for (m, mesh) in root.meshes.iter().enumerate() {
+                for (p, primitive) in mesh.primitives.iter().enumerate() {
+                    collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_mm)?;
                 }
             }
         }
@@ -121,14 +129,17 @@ fn read_scene(
         }
         let to_world = parent * transform(node);
         if let Some(mesh) = node.mesh {
-            let mesh = root.get(mesh).ok_or_else(|| malformed(format!("mesh {} is missing", mesh.value())))?;
-            for primitive in &mesh.primitives {
-                collected.add(&root, &buffers, primitive, to_world)?;
+            let m = mesh.value();
+            let mesh = root.get(mesh).ok_or_else(|| malformed(format!("mesh {m} is missing")))?;
+            for (p, primitive) in mesh.primitives.iter().enumerate() {
+                collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_world)?;
             }
         }
         stack.extend(node.children.iter().flatten().rev().map(|&child| (child, to_world)));
     }
-    Ok(collected.raw)
+    let Collected { mut raw, columns, .. } = collected;
+    raw.carry(columns.finish(), room);
+    Ok(raw)
 }
 
 /// From a scene with y up and its front towards z to one with z up and its front towards -y.
@@ -171,11 +182,21 @@ struct Collected {
     raw: RawSurface,
     /// A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
     room: Room,
+    /// The attributes that are arrays, and the bytes that they take.
+    columns: Columns,
+    array_bytes: u64,
 }
 
 impl Collected {
-    /// Adds one primitive, placed by `to_world`.
-    fn add(&mut self, root: &Root, buffers: &Buffers, primitive: &Primitive, to_world: DMat4) -> Result<(), ReadError> {
+    /// Adds one primitive, placed by `to_world`; `names` has its attributes.
+    fn add(
+        &mut self,
+        root: &Root,
+        buffers: &Buffers,
+        primitive: &Primitive,
+        names: Option<&BTreeMap<String, u32>>,
+        to_world: DMat4,
+    ) -> Result<(), ReadError> {
         let Checked::Valid(mode) = primitive.mode else {
             return Err(malformed("a mesh has a drawing mode that does not exist"));
         };
@@ -191,10 +212,57 @@ impl Collected {
             Mode::LineLoop => skipped.lines = skipped.lines.saturating_add(elements),
             Mode::LineStrip => skipped.lines = skipped.lines.saturating_add(elements.saturating_sub(1)),
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
-                return self.add_triangles(root, buffers, primitive, positions, mode, to_world);
+                let vertices = self.raw.positions.len();
+                self.add_triangles(root, buffers, primitive, positions, mode, to_world)?;
+                let count = self.raw.positions.len() - vertices;
+                let arrays = names.into_iter().flatten().filter_map(|(name, &at)| Some((array_name(name)?, at)));
+                for (name, accessor) in arrays {
+                    match self.values(root, buffers, Index::new(accessor), count) {
+                        Ok((components, values)) => self.columns.add(On::Point, name, components, values),
+                        Err(why) => self.columns.leave_out(name, why),
+                    }
+                }
+                self.columns.end_part(count, 0);
             }
         }
         Ok(())
+    }
+
+    /// The numbers of an attribute of `count` vertices and its components, or why they cannot be had.
+    fn values(
+        &mut self,
+        root: &Root,
+        buffers: &Buffers,
+        accessor: Index<Accessor>,
+        count: usize,
+    ) -> Result<(usize, Values), &'static str> {
+        const DAMAGED: &str = "its data are damaged or elsewhere";
+        let Some(Checked::Valid(shape)) = root.get(accessor).map(|accessor| accessor.type_) else {
+            return Err(DAMAGED);
+        };
+        if !matches!(shape, Type::Scalar | Type::Vec2 | Type::Vec3 | Type::Vec4) {
+            return Err("it holds matrices");
+        }
+        let items = buffers.items(root, accessor, shape).map_err(|_| DAMAGED)?;
+        if items.count != count {
+            return Err("it has another length than the surface");
+        }
+        let bytes = self.array_bytes.saturating_add((items.count * items.size) as u64);
+        if !self.room.holds_arrays(self.raw.positions.len(), self.raw.triangles.len(), bytes) {
+            return Err("it would take more memory than a file of this size is given");
+        }
+        self.array_bytes = bytes;
+        let scalar = match items.component {
+            ComponentType::I8 => Scalar::I8,
+            ComponentType::U8 => Scalar::U8,
+            ComponentType::I16 => Scalar::I16,
+            ComponentType::U16 => Scalar::U16,
+            ComponentType::U32 => Scalar::U32,
+            ComponentType::F32 => Scalar::F32,
+        };
+        let mut numbers = Vec::with_capacity(items.count * items.size);
+        items.iter().for_each(|item| numbers.extend_from_slice(item));
+        Ok((shape.multiplicity(), Values::from_bytes(scalar, numbers)))
     }
 
     fn add_triangles(
@@ -250,6 +318,43 @@ impl Collected {
             _ => triangles.extend(order.as_chunks::<3>().0.iter().map(|&t| place(t))),
         }
         Ok(())
+    }
+}
+
+/// What the array of an attribute is called, if that is one to keep: one that an application has named for itself, or a
+/// colour.
+fn array_name(attribute: &str) -> Option<&str> {
+    attribute.strip_prefix('_').or(attribute.starts_with("COLOR_").then_some(attribute))
+}
+
+/// The attributes of each primitive of each mesh by their names, which `gltf::json` keeps only of those that the
+/// specification names.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Names {
+    meshes: Vec<NamedMesh>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct NamedMesh {
+    primitives: Vec<NamedPrimitive>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct NamedPrimitive {
+    attributes: BTreeMap<String, u32>,
+}
+
+impl Names {
+    /// None where the JSON is not as it should be, which is said elsewhere.
+    fn of(json: &[u8]) -> Self {
+        serde_json::from_slice(json).unwrap_or_default()
+    }
+
+    fn of_primitive(&self, mesh: usize, primitive: usize) -> Option<&BTreeMap<String, u32>> {
+        Some(&self.meshes.get(mesh)?.primitives.get(primitive)?.attributes)
     }
 }
 
@@ -360,32 +465,51 @@ impl Items<'_> {
 }
 
 /// A GLB file of one mesh, with y up, in mm under a node scale of 0.001.
-pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result<Vec<u8>, WriteError> {
+pub(super) fn write(output: &Output) -> Result<Vec<u8>, WriteError> {
+    let Output { mesh, normals, .. } = *output;
     let (vertices, corners) = (mesh.positions.len(), 3 * mesh.triangles.len());
     let (vector_bytes, index_bytes) = (12 * vertices as u64, 4 * corners as u64);
-    let index_start = vector_bytes * if normals.is_some() { 2 } else { 1 };
-    let binary_bytes = index_start + index_bytes;
+    let arrays: Vec<Attribute> = output.arrays_in(Format::Glb).filter_map(Attribute::of).collect();
     let bounds = mesh.bounds();
     let (one, other) = (y_up(bounds.min), y_up(bounds.max));
     let corner = |of: fn(f32, f32) -> f32| -> [f32; 3] { std::array::from_fn(|i| of(one[i], other[i])) };
     let list = |[x, y, z]: [f32; 3]| format!("[{x},{y},{z}]");
-    let normal_attribute = if normals.is_some() { ",\"NORMAL\":2" } else { "" };
-    let normal_accessor = normals.map_or(String::new(), |_| {
-        format!(",{{\"bufferView\":2,\"componentType\":5126,\"count\":{vertices},\"type\":\"VEC3\"}}")
-    });
-    let normal_view = normals.map_or(String::new(), |_| {
-        format!(",{{\"buffer\":0,\"byteOffset\":{vector_bytes},\"byteLength\":{vector_bytes},\"target\":34962}}")
-    });
+    // In the order of the data: positions, normals, indices, arrays.
+    let (mut attributes, mut accessors) = ("\"POSITION\":0".to_owned(), String::new());
+    let mut at = vector_bytes;
+    let mut views = format!("{{\"buffer\":0,\"byteLength\":{vector_bytes},\"target\":34962}}");
+    let index_start = vector_bytes * if normals.is_some() { 2 } else { 1 };
+    let _ =
+        write!(views, ",{{\"buffer\":0,\"byteOffset\":{index_start},\"byteLength\":{index_bytes},\"target\":34963}}");
+    let mut next = 2;
+    if normals.is_some() {
+        attributes.push_str(",\"NORMAL\":2");
+        let _ =
+            write!(accessors, ",{{\"bufferView\":2,\"componentType\":5126,\"count\":{vertices},\"type\":\"VEC3\"}}");
+        let _ = write!(views, ",{{\"buffer\":0,\"byteOffset\":{at},\"byteLength\":{vector_bytes},\"target\":34962}}");
+        next = 3;
+    }
+    at = index_start + index_bytes;
+    for array in &arrays {
+        let _ = write!(attributes, ",{}:{next}", array.name());
+        accessors.push_str(&array.accessor(next));
+        let (bytes, stride) = (array.bytes(), array.stride());
+        let _ = write!(
+            views,
+            ",{{\"buffer\":0,\"byteOffset\":{at},\"byteLength\":{bytes},\"byteStride\":{stride},\"target\":34962}}"
+        );
+        at += bytes;
+        next += 1;
+    }
+    let binary_bytes = at;
     let mut json = format!(
         "{{\"asset\":{{\"version\":\"2.0\",\"generator\":\"Lumen\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[0]}}],\
          \"nodes\":[{{\"name\":\"surface\",\"mesh\":0,\"scale\":[0.001,0.001,0.001]}}],\
-         \"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":0{normal_attribute}}},\"indices\":1}}]}}],\
+         \"meshes\":[{{\"primitives\":[{{\"attributes\":{{{attributes}}},\"indices\":1}}]}}],\
          \"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"count\":{vertices},\"type\":\"VEC3\",\
          \"min\":{},\"max\":{}}},\
-         {{\"bufferView\":1,\"componentType\":5125,\"count\":{corners},\"type\":\"SCALAR\"}}{normal_accessor}],\
-         \"bufferViews\":[{{\"buffer\":0,\"byteLength\":{vector_bytes},\"target\":34962}},\
-         {{\"buffer\":0,\"byteOffset\":{index_start},\"byteLength\":{index_bytes},\"target\":34963}}{normal_view}],\
-         \"buffers\":[{{\"byteLength\":{binary_bytes}}}]}}",
+         {{\"bufferView\":1,\"componentType\":5125,\"count\":{corners},\"type\":\"SCALAR\"}}{accessors}],\
+         \"bufferViews\":[{views}],\"buffers\":[{{\"byteLength\":{binary_bytes}}}]}}",
         list(corner(f32::min)),
         list(corner(f32::max)),
     );
@@ -409,12 +533,14 @@ pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Result<Vec<u8>,
     for t in &mesh.triangles {
         out.extend_from_slice(bytemuck::cast_slice(&t.map(u32::to_le_bytes)));
     }
+    arrays.iter().for_each(|array| array.write(&mut out));
     Ok(out)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{TriMesh, Vec3};
 
     /// A glTF text of four vertices of a unit square, drawn by `primitive` under `nodes`.
     fn square(nodes: &str, primitive: &str) -> String {
@@ -528,7 +654,7 @@ mod tests {
         // 100 mm to the front, -y, and 300 mm up: to another program along z, and along y.
         let [front, up] = [Vec3::new(0.0, -100.0, 0.0), Vec3::new(0.0, 0.0, 300.0)];
         let mesh = TriMesh { positions: vec![Vec3::ZERO, front, up], triangles: vec![[0, 1, 2]] };
-        let bytes = write(&mesh, Some(&[Vec3::Z; 3])).unwrap();
+        let bytes = write(&Output { normals: Some(&[Vec3::Z; 3]), ..Output::new(&mesh) }).unwrap();
         let json = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
         let numbers: Vec<f32> =
             bytes[28 + json..][..72].as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
@@ -545,7 +671,8 @@ mod tests {
         let mesh = TriMesh { triangles: vec![[0, 1, 2]], positions };
         let normals = vec![Vec3::Z; mesh.positions.len()];
         for normals in [None, Some(&normals[..])] {
-            let raw = read_binary(&write(&mesh, normals).unwrap(), Unit::Metre, DVec3::ZERO).unwrap();
+            let raw = write(&Output { normals, ..Output::new(&mesh) }).unwrap();
+            let raw = read_binary(&raw, Unit::Metre, DVec3::ZERO).unwrap();
             assert_eq!((&raw.positions, &raw.triangles), (&mesh.positions, &mesh.triangles));
         }
     }

@@ -6,13 +6,16 @@
 
 use glam::DVec3;
 
+use super::columns::left_out;
 use super::error::ReadError;
 use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
+use super::room::Room;
 use super::size::length;
 use super::weld::weld;
 use super::{Axes, Unit, winding};
-use crate::mesh::{Topology, TriMesh, Vec3, compacted, components, measures};
+use crate::mesh::arrays::{On, infos};
+use crate::mesh::{Array, Blend, Topology, TriMesh, Vec3, compacted, components, measures, used_vertices};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 pub(super) const FARTHEST_MM: f64 = 1e9;
@@ -36,6 +39,10 @@ pub(super) struct RawSurface {
     pub(super) polygons: usize,
     pub(super) skipped: Skipped,
     pub(super) warnings: Vec<String>,
+    /// The cell of the file that each triangle is of, where its format has such.
+    pub(super) cells: Vec<u32>,
+    /// A tuple for each position or each triangle.
+    pub(super) arrays: Vec<Array>,
 }
 
 impl RawSurface {
@@ -44,7 +51,21 @@ impl RawSurface {
         let (skipped, warnings) = (Skipped::default(), Vec::new());
         let origin = DVec3::ZERO;
         let (has_doubles, in_mm, axes) = (false, false, Axes::Unknown);
-        Self { label, positions, triangles, has_doubles, origin, axes, in_mm, polygons: 0, skipped, warnings }
+        let (cells, arrays) = (Vec::new(), Vec::new());
+        Self {
+            label,
+            positions,
+            triangles,
+            has_doubles,
+            origin,
+            axes,
+            in_mm,
+            polygons: 0,
+            skipped,
+            warnings,
+            cells,
+            arrays,
+        }
     }
 
     /// A surface of polygons, whose corners must be in range.
@@ -52,6 +73,7 @@ impl RawSurface {
         let cut = faces.triangulate(&positions);
         let mut raw = Self::new(label, positions, cut.triangles);
         raw.polygons = cut.polygons;
+        raw.cells = faces.cells();
         raw.skipped.short_faces = faces.short;
         if cut.fanned > 0 {
             raw.warnings.push(format!(
@@ -60,6 +82,30 @@ impl RawSurface {
             ));
         }
         raw
+    }
+
+    /// Takes arrays along as far as there is room for them, those of the file's cells to the triangles cut from these, and
+    /// says what is left out.
+    pub(super) fn carry(&mut self, (arrays, left_out): (Vec<Array>, Vec<String>), room: Room) {
+        self.warnings.extend(left_out);
+        let mut bytes = 0;
+        for array in arrays {
+            let (rows, fits) = match array.on {
+                On::Point => (self.positions.len(), array.len() == self.positions.len()),
+                On::Triangle => (self.cells.len(), self.cells.iter().all(|&cell| (cell as usize) < array.len())),
+            };
+            let of_row = array.components as u64 * array.values.scalar().size() as u64;
+            let larger = bytes + of_row.saturating_mul(rows.max(array.len()) as u64);
+            if !fits {
+                self.warnings.push(self::left_out(&array.name, "it has another length than the surface"));
+            } else if !room.holds_arrays(self.positions.len(), self.triangles.len(), larger) {
+                let why = "it would take more memory than a file of this size is given";
+                self.warnings.push(self::left_out(&array.name, why));
+            } else {
+                bytes = larger;
+                self.arrays.push(if array.on == On::Point { array } else { array.gathered(&self.cells) });
+            }
+        }
     }
 }
 
@@ -109,7 +155,8 @@ pub fn import_mesh(mesh: TriMesh, format_label: &str) -> Imported {
 fn assemble(raw: RawSurface, unit: Unit, axes: Axes) -> Imported {
     let triangles = raw.triangles.len();
     let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
-    let mut mesh = welded(raw.positions, raw.triangles);
+    let (mut mesh, arrays) = welded(raw.positions, raw.triangles, &raw.arrays);
+    drop(raw.arrays);
     let degenerate_triangles = triangles - mesh.triangles.len();
     if scale != 1.0 {
         for p in &mut mesh.positions {
@@ -158,22 +205,65 @@ fn assemble(raw: RawSurface, unit: Unit, axes: Axes) -> Imported {
         bounds_mm: mesh.bounds(),
         moved_mm: ((DVec3::ZERO - raw.origin) * scale).to_array(),
         skipped: raw.skipped,
+        arrays: infos(&arrays),
         warnings: raw.warnings,
     };
     warn(&mut report);
-    Imported { mesh, report }
+    Imported { mesh, arrays, report }
 }
 
-/// The surface with coincident vertices welded, and without degenerate triangles and unused vertices.
-fn welded(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriMesh {
+/// The surface with coincident vertices welded, and without degenerate triangles and unused vertices; and its arrays.
+fn welded(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, arrays: &[Array]) -> (TriMesh, Vec<Array>) {
     let welded = weld(&positions);
     drop(positions);
     let mut kept = triangles;
+    let mut rows = Rows::of(arrays, welded.index.len(), &kept);
     for t in &mut kept {
         *t = t.map(|v| welded.index[v as usize]);
     }
-    kept.retain(|&[a, b, c]| a != b && b != c && c != a);
-    compacted(&welded.positions, kept)
+    let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+    if let Some(rows) = &mut rows {
+        rows.triangles = (0..kept.len() as u32).filter(|&t| has_area(&kept[t as usize])).collect();
+    }
+    kept.retain(has_area);
+    let arrays = rows.map_or_else(Vec::new, |rows| rows.welded(arrays, &welded.index, &kept));
+    (compacted(&welded.positions, kept), arrays)
+}
+
+/// Which rows of arrays the import keeps.
+struct Rows {
+    /// Whether a triangle uses the vertex: what lies at the same place and is used by none has no say.
+    is_used: Vec<bool>,
+    /// Triangles that stay.
+    triangles: Vec<u32>,
+}
+
+impl Rows {
+    /// `None` where there are no arrays.
+    fn of(arrays: &[Array], vertices: usize, triangles: &[[u32; 3]]) -> Option<Self> {
+        if arrays.is_empty() {
+            return None;
+        }
+        let mut is_used = vec![false; vertices];
+        triangles.as_flattened().iter().for_each(|&v| is_used[v as usize] = true);
+        Some(Self { is_used, triangles: Vec::new() })
+    }
+
+    /// The arrays of the triangles `kept` over vertices welded by `index`. Of vertices that become one, scalars take the
+    /// mean and labels the majority.
+    fn welded(self, arrays: &[Array], index: &[u32], kept: &[[u32; 3]]) -> Vec<Array> {
+        const NONE: u32 = u32::MAX;
+        let used = used_vertices(index.len(), kept);
+        let mut new_of = vec![NONE; index.len()];
+        used.iter().zip(0..).for_each(|(&v, new)| new_of[v as usize] = new);
+        let row = |(&v, &is_used): (&u32, &bool)| if is_used { new_of[v as usize] } else { NONE };
+        let rows: Vec<u32> = index.iter().zip(&self.is_used).map(row).collect();
+        let points = Blend::of_groups(used.len(), &rows, |_| 1.0);
+        arrays
+            .iter()
+            .map(|array| if array.on == On::Point { points.of(array) } else { array.gathered(&self.triangles) })
+            .collect()
+    }
 }
 
 /// Triangles over the same three vertices as an earlier one.
@@ -247,7 +337,7 @@ mod tests {
 
     #[test]
     fn a_soup_becomes_an_oriented_surface_with_its_faults_counted() {
-        let Imported { mesh, report } = import(soup(4.0), Unit::Centimetre, Axes::Unknown).unwrap();
+        let Imported { mesh, report, .. } = import(soup(4.0), Unit::Centimetre, Axes::Unknown).unwrap();
         assert_eq!(mesh.positions, [Vec3::ZERO, Vec3::Y * 40.0, Vec3::X * 40.0, Vec3::Z * 40.0]);
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [2, 1, 3], [0, 3, 1]]);
         assert_eq!((report.triangles, report.degenerate_triangles, report.winding_flips), (5, 1, 3));
@@ -314,7 +404,7 @@ mod tests {
         let [one, other] = [near.unwrap(), near.unwrap().next_up()].map(|x| Vec3::new(x, 0.0, 0.0));
         let positions = vec![one, Vec3::Y, Vec3::Z, other, Vec3::NEG_Y, Vec3::NEG_Z];
         let raw = RawSurface::new("soup", positions, vec![[0, 1, 2], [3, 4, 5]]);
-        let Imported { mesh, report } = import(raw, Unit::Centimetre, Axes::Unknown).unwrap();
+        let Imported { mesh, report, .. } = import(raw, Unit::Centimetre, Axes::Unknown).unwrap();
         assert_eq!((report.vertices, report.components, mesh.positions[0]), (6, 2, mesh.positions[3]));
     }
 

@@ -18,15 +18,19 @@
 //! a few bytes unfold to against the room that a file of their number has (`room`).
 
 mod axes;
+mod columns;
 mod detect;
 mod error;
 mod far;
 mod format;
 mod gltf;
+mod gltf_arrays;
 mod import;
 mod numbers;
 mod obj;
+mod output;
 mod ply;
+mod ply_arrays;
 mod polygons;
 mod report;
 mod room;
@@ -37,10 +41,11 @@ mod vtk;
 mod weld;
 mod winding;
 
-pub use axes::Axes;
+pub use axes::{Axes, UnknownAxes};
 pub use error::{ReadError, WriteError};
 pub use format::{Format, Unit, UnknownUnit};
 pub use import::import_mesh;
+pub use output::{Output, left_out};
 pub use report::{ImportReport, Imported, Skipped};
 pub use size::UnusualSize;
 
@@ -101,13 +106,21 @@ pub fn read(bytes: &[u8], name: &str, options: &ImportOptions) -> Result<Importe
 /// # Errors
 /// [`WriteError`] when the mesh is empty or not well formed, or too large for the format.
 pub fn write(mesh: &TriMesh, normals: Option<&[Vec3]>, format: Format) -> Result<Vec<u8>, WriteError> {
-    error::check_writable(mesh, normals)?;
+    write_output(&Output { normals, ..Output::new(mesh) }, format)
+}
+
+/// As [`write`], with arrays and axes beside. Arrays that the format has no place for are not written ([`left_out`]).
+///
+/// # Errors
+/// [`WriteError`] as there, and when an array has another length than the surface.
+pub fn write_output(output: &Output, format: Format) -> Result<Vec<u8>, WriteError> {
+    error::check_writable(output)?;
     match format {
-        Format::Stl => stl::write(mesh),
-        Format::Ply => Ok(ply::write(mesh, normals)),
-        Format::Obj => Ok(obj::write(mesh, normals)),
-        Format::Vtp => Ok(vtk::write_xml(mesh, normals)),
-        Format::Vtk => vtk::write_legacy(mesh, normals),
-        Format::Glb => gltf::write(mesh, normals),
+        Format::Stl => stl::write(output),
+        Format::Ply => Ok(ply::write(output)),
+        Format::Obj => Ok(obj::write(output)),
+        Format::Vtp => Ok(vtk::write_xml(output)),
+        Format::Vtk => vtk::write_legacy(output),
+        Format::Glb => gltf::write(output),
     }
 }

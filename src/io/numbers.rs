@@ -2,33 +2,7 @@
 
 use super::error::ReadError;
 use super::text::{self, Words};
-
-/// The type of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scalar {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    I64,
-    U64,
-    F32,
-    F64,
-}
-
-impl Scalar {
-    /// Bytes of a number in binary.
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::I64 | Self::U64 | Self::F64 => 8,
-        }
-    }
-}
+pub(super) use crate::mesh::arrays::Scalar;
 
 /// The numbers of a body, one after another. `None` is the end of the file, or a [`Numbers::fault`]: these calls
 /// are the inner loop, so they return what fits into registers.

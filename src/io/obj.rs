@@ -1,19 +1,25 @@
 //! OBJ (Wavefront 1995): lines of text, of which `v` and `f` make the surface.
 //!
-//! Texture coordinates, normals, groups, materials and colours are passed over. The crate `tobj` is not used: it
+//! Three numbers after the coordinates of every vertex are its colour, the array `RGB`, as ZBrush and MeshLab write it.
+//! Where faces stand in several groups (`g`, or `o`), their array `Groups` says in which, by the order in which groups are
+//! first named, from 1; 0 is before any. Texture coordinates, normals and materials are passed over. The crate `tobj` is not used: it
 //! splits the surface by group and material, takes a face of two corners for a line without saying so, and fans
 //! concave faces.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use glam::DVec3;
 
 use super::error::ReadError;
 use super::import::RawSurface;
+use super::output::Output;
 use super::polygons::Faces;
-use super::text;
-use crate::mesh::{TriMesh, Vec3};
+use super::room::Room;
+use super::{Format, text};
+use crate::mesh::arrays::{On, Scalar, Values};
+use crate::mesh::{Array, Vec3};
 
 /// Whether a text without a telling name has vertices as OBJ writes them among its first lines.
 pub(super) fn looks_like(bytes: &[u8]) -> bool {
@@ -33,6 +39,7 @@ pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError>
     }
     let mut positions: Vec<Vec3> = Vec::new();
     let mut faces = Faces::default();
+    let (mut colours, mut groups) = (Values::new(Scalar::F32), Groups::default());
     let (mut lines, mut points, mut faces_read) = (0, 0, 0);
     // The farthest vertex that a face names, and that face.
     let mut farthest = (0, 0);
@@ -46,6 +53,12 @@ pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError>
                     let word = words.next().ok_or_else(|| syntax("a vertex needs three coordinates".to_owned()))?;
                     let broken = || syntax(format!("{} stands where a coordinate should", text::quoted(word)));
                     *coordinate = text::coordinate(word, origin).ok_or_else(broken)?;
+                }
+                let colour: [Option<f32>; 3] = std::array::from_fn(|_| words.next().and_then(text::number));
+                if let ([Some(r), Some(g), Some(b)], None, true) =
+                    (colour, words.next(), colours.len() == 3 * positions.len())
+                {
+                    [r, g, b].iter().for_each(|&part| colours.push(f64::from(part)));
                 }
                 positions.push(Vec3::from(coordinates));
             }
@@ -69,8 +82,10 @@ pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError>
                     farthest = farthest.max((corner, faces_read));
                     faces.push_corner(corner);
                 }
+                faces.of_cell(groups.present);
                 faces.finish_face();
             }
+            Some(b"g" | b"o") => groups.enter(row.get(1..).unwrap_or_default().trim_ascii()),
             Some(b"l") => lines += 1,
             Some(b"p") => points += 1,
             _ => {}
@@ -85,7 +100,38 @@ pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError>
     (raw.has_doubles, raw.origin) = (true, origin);
     raw.skipped.lines = lines;
     raw.skipped.points = points;
+    let mut arrays = Vec::new();
+    if colours.len() == 3 * raw.positions.len() {
+        arrays.push(Array::new("RGB", On::Point, 3, colours));
+    }
+    // The cell of a triangle is its group here.
+    if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
+        let mut numbers = Values::new(Scalar::I32);
+        (0..=groups.numbers.len()).for_each(|group| numbers.push(group as f64));
+        arrays.push(Array::new("Groups", On::Triangle, 1, numbers));
+    }
+    raw.carry((arrays, Vec::new()), Room::of(bytes.len()));
     Ok(raw)
+}
+
+/// The groups that faces are in.
+#[derive(Default)]
+struct Groups {
+    /// From 1, in the order in which they are first named.
+    numbers: BTreeMap<Vec<u8>, u32>,
+    /// That of the next face.
+    present: u32,
+}
+
+impl Groups {
+    /// Faces that follow are in the group `name`.
+    fn enter(&mut self, name: &[u8]) {
+        let next = self.numbers.len() as u32 + 1;
+        self.present = match self.numbers.get(name) {
+            Some(&number) => number,
+            None => *self.numbers.entry(name.to_owned()).or_insert(next),
+        };
+    }
 }
 
 /// The lines of a text with their numbers from 1, those that end in a backslash joined with the next.
@@ -105,13 +151,35 @@ fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
     })
 }
 
+/// Whether an array is a colour that can stand behind the coordinates.
+pub(super) fn is_colour(array: &Array) -> bool {
+    let is_named = array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
+    array.on == On::Point && matches!(array.components, 3 | 4) && is_named
+}
+
+/// The parts of a vertex's colour, from 0 to 1.
+fn colour(array: &Array, vertex: usize) -> [f32; 3] {
+    let most = match array.values.scalar() {
+        Scalar::U8 => 255.0,
+        Scalar::U16 => 65535.0,
+        _ => 1.0,
+    };
+    std::array::from_fn(|part| (array.values.get(vertex * array.components + part) / most) as f32)
+}
+
 /// Text with the shortest numbers that read back to the same bits.
-pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Vec<u8> {
+pub(super) fn write(output: &Output) -> Vec<u8> {
+    let Output { mesh, normals, axes, .. } = *output;
+    let colours = output.arrays_in(Format::Obj).next();
     let mut out = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 24);
-    out.push_str("# Surface written by Lumen; millimetres\n");
     // Writing to a String cannot fail.
-    for p in &mesh.positions {
-        let _ = writeln!(out, "v {} {} {}", p.x, p.y, p.z);
+    let _ = writeln!(out, "# Surface written by Lumen; millimetres{}", axes.said());
+    for (v, p) in mesh.positions.iter().enumerate() {
+        let _ = write!(out, "v {} {} {}", p.x, p.y, p.z);
+        if let Some([r, g, b]) = colours.map(|array| colour(array, v)) {
+            let _ = write!(out, " {r} {g} {b}");
+        }
+        out.push('\n');
     }
     for n in normals.unwrap_or_default() {
         let _ = writeln!(out, "vn {} {} {}", n.x, n.y, n.z);

@@ -1,18 +1,23 @@
 //! PLY, the Stanford polygon file (Turk 1994): text, and binary of either byte order.
 //!
 //! A header describes elements with typed properties; of these the `x y z` of `vertex`, the `vertex_indices` of
-//! `face` and those of `tristrips` are read, and everything else is stepped over. The crate `ply-rs-bw` is not used:
+//! `face` and those of `tristrips` make the surface. Other numbers of `vertex` and `face` are arrays (`ply_arrays.rs`), and
+//! everything else is stepped over. The crate `ply-rs-bw` is not used:
 //! it wants a structure a row filled property by property, names included, which is slow at a million faces.
 
 use glam::DVec3;
 
+use super::columns::Columns;
 use super::error::ReadError;
 use super::import::RawSurface;
 use super::numbers::{BinaryNumbers, Numbers, Scalar, TextNumbers};
+use super::output::Output;
+use super::ply_arrays::{Extras, Written};
 use super::polygons::Faces;
 use super::room::Room;
 use super::text::{self, Words};
-use crate::mesh::{TriMesh, Vec3};
+use crate::mesh::Vec3;
+use crate::mesh::arrays::On;
 
 impl Scalar {
     /// The type that a header calls `name`.
@@ -32,11 +37,11 @@ impl Scalar {
 }
 
 #[derive(Debug, PartialEq)]
-struct Property {
-    name: String,
-    kind: Scalar,
+pub(super) struct Property {
+    pub(super) name: String,
+    pub(super) kind: Scalar,
     /// The type of the length, if this is a list.
-    length: Option<Scalar>,
+    pub(super) length: Option<Scalar>,
 }
 
 #[derive(Debug, PartialEq)]
@@ -227,11 +232,23 @@ fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3, file: u
         header.elements.iter().filter(|e| e.name == "vertex").map(|e| e.count).fold(0, u64::saturating_add);
     let room = Room::of(file);
     let mut row = Row::default();
+    let mut columns = Columns::default();
+    // Faces and strips so far; which of them a triangle is of is noted where it matters.
+    let mut cells = 0u32;
+    let notes_cells = header.elements.iter().any(|e| e.name == "face" && Extras::are_in(&e.properties, On::Triangle));
     for element in &header.elements {
         let meaning = meaning(element)?;
         if element.properties.is_empty() {
             continue;
         }
+        let on = match meaning {
+            Meaning::Vertices(_) => Some(On::Point),
+            Meaning::Faces(_) => Some(On::Triangle),
+            Meaning::Strips(_) | Meaning::Other => None,
+        };
+        // Every number takes a byte at least.
+        let most = (numbers.remaining() / element.properties.len()) as u64;
+        row.extras = Extras::new(&element.properties, on, element.count.min(most), room, &mut columns);
         row.origins = vec![0.0; element.properties.len()];
         if let Meaning::Vertices(places) = meaning {
             places.iter().zip(origin.to_array()).for_each(|(&place, origin)| row.origins[place] = origin);
@@ -266,6 +283,10 @@ fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3, file: u
             };
             // A number makes a triangle at most.
             room.check(header.encoding.label(), positions.len(), faces.triangles() + row.list.len())?;
+            if notes_cells && matches!(meaning, Meaning::Faces(_) | Meaning::Strips(_)) {
+                faces.of_cell(cells);
+                cells = cells.saturating_add(1);
+            }
             match meaning {
                 Meaning::Vertices(places) => positions.push(Vec3::from(places.map(|place| row.scalars[place]))),
                 Meaning::Faces(_) => {
@@ -285,9 +306,19 @@ fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3, file: u
                 Meaning::Other => {}
             }
         }
+        let count = element.count as usize;
+        if let Some(on) = on {
+            std::mem::take(&mut row.extras).add_to(&mut columns, on, &element.properties);
+        }
+        match meaning {
+            Meaning::Vertices(_) => columns.end_part(count, 0),
+            Meaning::Faces(_) | Meaning::Strips(_) => columns.end_part(0, count),
+            Meaning::Other => {}
+        }
     }
     let mut raw = RawSurface::of_faces(header.encoding.label(), positions, &faces);
     (raw.has_doubles, raw.origin) = (has_doubles(header), origin);
+    raw.carry(columns.finish(), room);
     if header.encoding != Encoding::Ascii && numbers.remaining() > 0 {
         raw.warnings.push(format!("{} bytes after the last element left out.", numbers.remaining()));
     }
@@ -312,6 +343,8 @@ struct Row {
     scalars: Vec<f32>,
     /// The values of the one list that is wanted.
     list: Vec<f64>,
+    /// What else is kept, of all rows.
+    extras: Extras,
     /// A length that no list can have, where one stopped the row.
     bad_length: Option<f64>,
 }
@@ -324,6 +357,11 @@ impl Row {
         self.bad_length = None;
         for (place, property) in properties.iter().enumerate() {
             let Some(length) = property.length else {
+                if let Some(values) = self.extras.at(place) {
+                    values.push(numbers.number(property.kind)?);
+                    self.scalars.push(0.0);
+                    continue;
+                }
                 self.scalars.push(numbers.coordinate(property.kind, self.origins[place])?);
                 continue;
             };
@@ -350,14 +388,20 @@ impl Row {
 }
 
 /// The little-endian binary form.
-pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Vec<u8> {
+pub(super) fn write(output: &Output) -> Vec<u8> {
+    let Output { mesh, normals, axes, .. } = *output;
     let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
+    let [on_vertices, on_triangles] = [On::Point, On::Triangle].map(|on| Written::on(on, output.arrays));
     let xyz = |names: [&str; 3]| names.map(|name| format!("property float {name}\n")).concat();
+    let properties = |arrays: &[Written]| arrays.iter().map(Written::header).collect::<String>();
     let header = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment Surface written by Lumen; millimetres\n\
-         element vertex {vertices}\n{}{}element face {triangles}\nproperty list uchar int vertex_indices\nend_header\n",
+        "ply\nformat binary_little_endian 1.0\ncomment Surface written by Lumen; millimetres{}\n\
+         element vertex {vertices}\n{}{}{}element face {triangles}\nproperty list uchar int vertex_indices\n{}end_header\n",
+        axes.said(),
         xyz(["x", "y", "z"]),
         normals.map_or(String::new(), |_| xyz(["nx", "ny", "nz"])),
+        properties(&on_vertices),
+        properties(&on_triangles),
     );
     let mut out = header.into_bytes();
     out.reserve(vertices * if normals.is_some() { 24 } else { 12 } + triangles * 13);
@@ -365,10 +409,12 @@ pub(super) fn write(mesh: &TriMesh, normals: Option<&[Vec3]>) -> Vec<u8> {
         for p in [Some(position), normals.map(|normals| &normals[v])].into_iter().flatten() {
             out.extend_from_slice(bytemuck::cast_slice(&p.to_array().map(f32::to_le_bytes)));
         }
+        on_vertices.iter().for_each(|array| array.push(v, &mut out));
     }
-    for corners in &mesh.triangles {
+    for (t, corners) in mesh.triangles.iter().enumerate() {
         out.push(3);
         out.extend_from_slice(bytemuck::cast_slice(&corners.map(u32::to_le_bytes)));
+        on_triangles.iter().for_each(|array| array.push(t, &mut out));
     }
     out
 }

@@ -20,6 +20,9 @@ pub(super) struct Faces {
     ends: Vec<usize>,
     /// Faces of fewer than three corners, which are not kept.
     pub(super) short: usize,
+    /// The cell of the file that a face is of: the one under way, and that of each face where it is noted.
+    cell: u32,
+    cells: Option<Vec<u32>>,
 }
 
 /// Triangles cut from faces.
@@ -46,7 +49,28 @@ impl Faces {
             self.short += 1;
         } else {
             self.ends.push(self.corners.len());
+            if let Some(cells) = &mut self.cells {
+                cells.push(self.cell);
+            }
         }
+    }
+
+    /// Says which cell of the file the faces that follow are of; to be said before the first.
+    pub(super) fn of_cell(&mut self, cell: u32) {
+        self.cell = cell;
+        self.cells.get_or_insert_default();
+    }
+
+    /// The cell of each triangle that the faces will be cut into; none where it was not said.
+    pub(super) fn cells(&self) -> Vec<u32> {
+        let Some(cells) = &self.cells else { return Vec::new() };
+        let mut of_triangles = Vec::with_capacity(self.triangles());
+        let mut start = 0;
+        for (&end, &cell) in self.ends.iter().zip(cells) {
+            of_triangles.extend(std::iter::repeat_n(cell, end - start - 2));
+            start = end;
+        }
+        of_triangles
     }
 
     /// How many triangles the faces will be cut into.
@@ -229,6 +253,16 @@ mod tests {
         faces.push(&[0, 1]);
         let result = faces.triangulate(&[Vec3::ZERO, Vec3::X, Vec3::X * 2.0, Vec3::X * 3.0]);
         assert_eq!((result.triangles.len(), result.fanned, faces.short), (2, 1, 1));
+    }
+
+    #[test]
+    fn triangles_know_the_cell_that_they_are_cut_from() {
+        let mut faces = Faces::default();
+        for (cell, corners) in [(7, &[0, 1, 2, 3, 4][..]), (3, &[0, 1]), (2, &[0, 2, 3])] {
+            faces.of_cell(cell);
+            faces.push(corners);
+        }
+        assert_eq!((faces.cells(), faces.triangles()), (vec![7, 7, 7, 2], 4));
     }
 
     #[test]

@@ -3,13 +3,16 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Axes, Unit};
-use crate::mesh::{Bounds, TriMesh};
+use crate::mesh::{Array, ArrayInfo, Bounds, TriMesh};
 
 /// A surface as it was read, and what is to be said about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
     /// The surface: welded, oriented, in mm, every vertex in use, no triangle with a repeated vertex.
     pub mesh: TriMesh,
+    /// What the file has for its vertices and triangles, in their order; of vertices that were welded the mean, of labels
+    /// the majority. Values are as they stand in the file: none is turned or scaled with the surface.
+    pub arrays: Vec<Array>,
     /// What was found and mended.
     pub report: ImportReport,
 }
@@ -64,6 +67,9 @@ pub struct ImportReport {
     /// that 32-bit numbers would not hold its detail, and the file has more digits than they do.
     #[serde(default)]
     pub moved_mm: [f64; 3],
+    /// The arrays that came with it.
+    #[serde(default)]
+    pub arrays: Vec<ArrayInfo>,
     /// What the file holds besides the surface.
     pub skipped: Skipped,
     /// Sentences for the user about what looks odd or was mended.

@@ -44,6 +44,13 @@ impl Room {
         64 * MB + 20 * self.file
     }
 
+    /// Whether so many bytes of arrays fit beside a surface. They are there up to three times: as in the file, for its
+    /// triangles, and as they come out of the import stage.
+    pub(super) fn holds_arrays(self, vertices: usize, triangles: usize, bytes: u64) -> bool {
+        let lists = (VERTEX + 16) * vertices as u64 + (TRIANGLE + 8) * triangles as u64;
+        bytes.checked_mul(3).and_then(|bytes| bytes.checked_add(lists)).is_some_and(|needed| needed <= self.bytes())
+    }
+
     /// Refuses a surface that would not fit.
     pub(super) fn check(self, format: &'static str, vertices: usize, triangles: usize) -> Result<(), ReadError> {
         let needed = VERTEX * vertices as u64 + TRIANGLE * triangles as u64;

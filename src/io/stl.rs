@@ -8,9 +8,10 @@ use glam::DVec3;
 
 use super::error::{ReadError, WriteError};
 use super::import::{RawSurface, check_size};
+use super::output::Output;
 use super::polygons::Faces;
 use super::text::{self, Words};
-use crate::mesh::{TriMesh, Vec3};
+use crate::mesh::Vec3;
 
 const HEADER: usize = 80;
 const FACET: usize = 50;
@@ -130,11 +131,11 @@ fn vertex(words: &mut Words, origin: DVec3) -> Result<Vec3, ReadError> {
 }
 
 /// The binary form, with each facet's own normal (zero where it has no area).
-pub(super) fn write(mesh: &TriMesh) -> Result<Vec<u8>, WriteError> {
+pub(super) fn write(&Output { mesh, axes, .. }: &Output) -> Result<Vec<u8>, WriteError> {
     let bytes = (HEADER + 4) as u64 + FACET as u64 * mesh.triangles.len() as u64;
     let facets = u32::try_from(mesh.triangles.len()).map_err(|_| WriteError::TooLarge { format: "STL", bytes })?;
     let mut out = Vec::with_capacity(bytes as usize);
-    out.extend_from_slice(b"Surface written by Lumen; binary STL; millimetres");
+    out.extend_from_slice(format!("Surface written by Lumen; binary STL; millimetres{}", axes.said()).as_bytes());
     out.resize(HEADER, b' ');
     out.extend_from_slice(&facets.to_le_bytes());
     for t in 0..mesh.triangles.len() {
@@ -152,6 +153,7 @@ pub(super) fn write(mesh: &TriMesh) -> Result<Vec<u8>, WriteError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::TriMesh;
 
     fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
         super::read(bytes, DVec3::ZERO)
@@ -183,7 +185,7 @@ mod tests {
     #[test]
     fn a_binary_that_begins_with_solid_trails_or_ends_early_is_told_apart() {
         let mesh = TriMesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]] };
-        let mut bytes = write(&mesh).unwrap();
+        let mut bytes = write(&Output::new(&mesh)).unwrap();
         bytes[..5].copy_from_slice(b"solid");
         assert!(has_binary_length(&bytes));
         assert_eq!(read(&bytes).unwrap().positions, mesh.positions);

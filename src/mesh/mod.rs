@@ -3,6 +3,8 @@
 //! [`TriMesh`] holds data and knows no algorithm; each algorithm is a file beside it.
 
 mod angles;
+pub mod arrays;
+mod blend;
 mod boundary;
 mod bounds;
 mod branches;
@@ -32,6 +34,8 @@ mod topology;
 
 pub(crate) use angles::AngleCounts;
 pub use angles::{Angles, angles};
+pub use arrays::{Array, ArrayInfo};
+pub use blend::{Blend, blended};
 pub use boundary::boundary_loops;
 pub use bounds::Bounds;
 pub use capsule::{PointFoot, SegmentFoot};
@@ -106,4 +110,11 @@ pub fn compacted(positions: &[Vec3], mut triangles: Vec<[u32; 3]>) -> TriMesh {
         *v = index[*v as usize];
     }
     TriMesh { positions: used, triangles }
+}
+
+/// Those of `vertices` vertices that `triangles` use, in their order: what [`compacted`] keeps.
+pub fn used_vertices(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut is_used = vec![false; vertices];
+    triangles.as_flattened().iter().for_each(|&v| is_used[v as usize] = true);
+    (0..vertices as u32).filter(|&v| is_used[v as usize]).collect()
 }

@@ -68,6 +68,17 @@ impl Connectivity {
     /// # Errors
     /// When there is no such component.
     pub fn kept(&self, mesh: &Arc<TriMesh>, keep: Keep) -> Result<Arc<TriMesh>, SettingsError> {
+        Ok(match self.chosen(keep)? {
+            Some(c) => Arc::new(mesh.filtered(|t| self.labels.of_triangle[t] == c)),
+            None => mesh.clone(),
+        })
+    }
+
+    /// The piece that `keep` names; `None` where that is the whole surface.
+    ///
+    /// # Errors
+    /// When there is no such component.
+    pub fn chosen(&self, keep: Keep) -> Result<Option<u32>, SettingsError> {
         let count = self.labels.count();
         let chosen = match keep {
             Keep::All => None,
@@ -75,10 +86,7 @@ impl Connectivity {
             Keep::Component(c) if (c as usize) < count => Some(c),
             Keep::Component(wanted) => return Err(SettingsError::Component { wanted, count }),
         };
-        Ok(match chosen {
-            Some(c) if count > 1 => Arc::new(mesh.filtered(|t| self.labels.of_triangle[t] == c)),
-            _ => mesh.clone(),
-        })
+        Ok(chosen.filter(|_| count > 1))
     }
 }
 

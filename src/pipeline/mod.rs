@@ -5,6 +5,7 @@
 //! that it touches.
 
 pub mod bound;
+pub mod carry;
 pub mod connectivity;
 pub mod decimation;
 pub mod deviation;

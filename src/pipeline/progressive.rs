@@ -18,6 +18,9 @@ use crate::mesh::{TriMesh, compacted};
 /// The step at which a node or triangle ends that is never removed.
 pub const NEVER: u32 = u32::MAX;
 
+/// In place of a vertex, for a node that was none.
+pub const MADE: u32 = u32::MAX;
+
 /// Every level of a surface between the one that entered decimation and the coarsest that was reached.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ProgressiveMesh {
@@ -58,6 +61,19 @@ impl Merge {
     fn heir(&self) -> u32 {
         self.made.unwrap_or(self.kept)
     }
+}
+
+/// The order of `count` nodes: those that never end, then the others by end, the last first.
+fn order(count: usize, merges: &[Merge]) -> Vec<u32> {
+    let ended = || merges.iter().flat_map(|merge| merge.ended().into_iter().flatten());
+    let mut ends = vec![false; count];
+    ended().for_each(|node| ends[node as usize] = true);
+    let mut order: Vec<u32> = Vec::with_capacity(count);
+    order.extend((0..count as u32).filter(|&node| !ends[node as usize]));
+    let survivors = order.len();
+    order.extend(ended());
+    order[survivors..].reverse();
+    order
 }
 
 /// The step that ends a triangle, the first after which two of its corners are one; `ends` has for each node the step
@@ -141,17 +157,13 @@ impl ProgressiveMesh {
         let count = vertices + made.len();
         // For each node the step that ends it, and its parent.
         let mut ends: Vec<(u32, u32)> = vec![(NEVER, 0); count];
-        let mut order = Vec::with_capacity(count);
         for (step, merge) in merges.iter().enumerate() {
             for gone in merge.ended().into_iter().flatten() {
                 debug_assert_eq!(ends[gone as usize].0, NEVER, "a node ends once");
                 ends[gone as usize] = (step as u32, merge.heir());
-                order.push(gone);
             }
         }
-        order.reverse();
-        let survivors: Vec<u32> = (0..count as u32).filter(|&node| ends[node as usize].0 == NEVER).collect();
-        let order: Vec<u32> = survivors.into_iter().chain(order).collect();
+        let order = order(count, merges);
         let mut node_of = vec![0; count];
         order.iter().enumerate().for_each(|(new, &old)| node_of[old as usize] = new as u32);
         let position = |node: u32| match (node as usize).checked_sub(vertices) {
@@ -186,6 +198,14 @@ impl ProgressiveMesh {
             errors,
             limit,
         }
+    }
+
+    /// For each node of what [`Self::from_merges`] makes of `vertices` vertices and `made` new ones, the vertex that it
+    /// is; [`MADE`] where it is a new one.
+    pub fn vertices_of_nodes(vertices: usize, made: usize, merges: &[Merge]) -> Vec<u32> {
+        let mut order = order(vertices + made, merges);
+        order.iter_mut().filter(|node| **node as usize >= vertices).for_each(|node| *node = MADE);
+        order
     }
 
     /// Triangles of the level after `steps` steps.
@@ -293,6 +313,8 @@ mod tests {
         assert_eq!(mesh.triangles_at(2), [[0, 1, 2]]);
         assert_eq!(mesh.errors, [0.5, 0.5]);
         assert_eq!(mesh.extract(&mesh.triangles_at(2)).positions.len(), 3);
+        let merges = [Merge { gone: 1, kept: 4, made: Some(5) }, Merge { gone: 0, kept: 5, made: None }];
+        assert_eq!(ProgressiveMesh::vertices_of_nodes(5, 1, &merges), [2, 3, MADE, 0, 4, 1]);
     }
 
     #[test]

@@ -12,7 +12,9 @@ use super::run::Pipeline;
 use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
-use crate::mesh::{Measures, TriMesh, components};
+use crate::io::Axes;
+use crate::mesh::arrays::infos;
+use crate::mesh::{ArrayInfo, Measures, TriMesh, components};
 use crate::vessel::certificate::{BranchCalibre, CalibreError, Verdict};
 
 /// What stands in every report.
@@ -91,6 +93,9 @@ pub struct Report {
     /// Sixteen hexadecimal digits that differ where outputs do.
     #[serde(default)]
     pub output_fingerprint: String,
+    /// What the output's coordinates grow towards, as far as that is known; set by whoever writes it.
+    #[serde(default)]
+    pub axes: Axes,
     /// The settings that were used.
     pub settings: Settings,
     /// The part of the triangles after connectivity that is gone, in percent.
@@ -130,6 +135,9 @@ pub struct Report {
     pub volume_change_from_smoothed_percent: Option<f64>,
     /// As `area_change_percent`, from the smoothed surface.
     pub area_change_from_smoothed_percent: Option<f64>,
+    /// The arrays of the output; null until they are carried to it.
+    #[serde(default)]
+    pub arrays: Option<Vec<ArrayInfo>>,
     /// Shape of the smoothed surface; null until it is measured.
     pub smoothed_shape: Option<Shape>,
     /// Shape of the output.
@@ -188,6 +196,7 @@ impl Report {
             after_connectivity: Counts::of(&kept.mesh),
             output: Counts::of(&reduced.mesh),
             output_fingerprint: format!("{:016x}", reduced.fingerprint),
+            axes: Axes::Unknown,
             settings: pipeline.settings().clone(),
             reduction_percent: reduction_percent(kept.mesh.triangles.len(), reduced.mesh.triangles.len()),
             shortfall: reduced.level.shortfall.as_ref().map(Shortfall::to_string),
@@ -208,6 +217,7 @@ impl Report {
             area_change_percent: from_kept.1,
             volume_change_from_smoothed_percent: from_smoothed.0,
             area_change_from_smoothed_percent: from_smoothed.1,
+            arrays: pipeline.level_arrays().map(|arrays| infos(arrays)),
             smoothed_shape: pipeline.smoothed_measures().map(|found| found.shape.clone()),
             output_shape: pipeline.level_measures().map(|found| found.shape.clone()),
             narrowing: pipeline.level_measures().and_then(|found| found.narrowing),

@@ -18,7 +18,7 @@ use super::settings::Settings;
 use super::shape::Shape;
 use super::stage::{PerStage, Stage};
 use super::task::milliseconds;
-use crate::mesh::{Measures, SurfaceIndex, Topology, TriMesh};
+use crate::mesh::{Array, Measures, SurfaceIndex, Topology, TriMesh};
 use crate::vessel::certificate::{Basis, CalibreError, Certificate};
 
 /// Milliseconds that each stage took when it last ran.
@@ -47,6 +47,9 @@ pub struct StageTimes {
     pub areas: f64,
     /// Both deviations.
     pub deviation: f64,
+    /// The arrays that came with the file, carried to the level.
+    #[serde(default)]
+    pub arrays: f64,
     /// Shape and lumen of the smoothed surface, if it is new, and of the level.
     pub measures: f64,
     /// The vessels' calibre before and after smoothing, if it is new, and on the level; 0 where that was not asked for.
@@ -111,6 +114,7 @@ impl Times {
             normals: part(Part::Normals),
             areas: part(Part::KeptAreas) + part(Part::SmoothedAreas) + part(Part::LevelAreas),
             deviation: self.stages[Stage::Deviation],
+            arrays: self.stages[Stage::Arrays],
             measures: self.stages[Stage::SmoothedMeasures] + self.stages[Stage::Measures],
             calibre: self.stages[Stage::Vessels] + self.stages[Stage::Certificate],
             safe: self.stages[Stage::Safe],
@@ -135,6 +139,8 @@ pub(super) struct Results {
     pub(super) reduced: Option<Arc<Reduced>>,
     /// Its deviation.
     pub(super) deviations: Option<Arc<Deviations>>,
+    /// The level's arrays.
+    pub(super) arrays: Option<Arc<Vec<Array>>>,
     /// Shape and lumen of the smoothed surface.
     pub(super) smoothed_measures: Option<Arc<SmoothedMeasures>>,
     /// Shape and lumen of the level.
@@ -155,6 +161,8 @@ pub(super) struct Levels {
     pub(super) progressive: Arc<ProgressiveMesh>,
     /// The smoothed surface over the nodes of the progressive mesh.
     pub(super) finest: Arc<TriMesh>,
+    /// For each node the vertex that it was, where there are arrays to carry.
+    pub(super) vertex_of_node: Arc<[u32]>,
 }
 
 /// Indices that one stage built and others use: they go with the surface that they are of.
@@ -176,6 +184,7 @@ impl Results {
             Stage::Bound => self.bound.is_some(),
             Stage::Level => self.reduced.is_some(),
             Stage::Deviation => self.deviations.is_some(),
+            Stage::Arrays => self.arrays.is_some(),
             Stage::SmoothedMeasures => self.smoothed_measures.is_some(),
             Stage::Measures => self.level_measures.is_some(),
             Stage::Vessels => self.vessels.is_some(),
@@ -196,6 +205,7 @@ impl Results {
             }
             Stage::Level => (self.reduced, self.indices.level) = (None, None),
             Stage::Deviation => self.deviations = None,
+            Stage::Arrays => self.arrays = None,
             Stage::SmoothedMeasures => self.smoothed_measures = None,
             Stage::Vessels => {
                 self.vessels = None;

@@ -29,7 +29,8 @@ use super::stage::{PerStage, Stage, Wanted, stale};
 use super::stages::{self, Run};
 use super::store::Store;
 use super::task::{Budget, Progress, milliseconds};
-use crate::mesh::TriMesh;
+use crate::mesh::arrays::On;
+use crate::mesh::{Array, TriMesh};
 use crate::vessel::certificate::{Basis, CalibreError};
 
 /// What [`Pipeline::advance`] did.
@@ -65,6 +66,15 @@ impl Pipeline {
 
     fn over(store: Store, wanted: Wanted) -> Self {
         Self { store, wanted, last: None, running: PerStage::default(), preparation: None }
+    }
+
+    /// Carries these along, which have a tuple for each vertex or triangle of the opened surface; others stay behind.
+    #[must_use]
+    pub fn with_arrays(mut self, mut arrays: Vec<Array>) -> Self {
+        let TriMesh { positions, triangles } = &*self.store.opened;
+        arrays.retain(|array| array.len() == if array.on == On::Point { positions.len() } else { triangles.len() });
+        self.store.arrays = Arc::new(arrays);
+        self
     }
 
     /// Sets the number of samples of each surface that the deviation takes.
@@ -258,6 +268,16 @@ impl Pipeline {
     /// How far that level is from where it came from.
     pub fn deviations(&self) -> Option<&Arc<Deviations>> {
         self.store.now.deviations.as_ref()
+    }
+
+    /// Whether the surface has arrays.
+    pub fn has_arrays(&self) -> bool {
+        !self.store.arrays.is_empty()
+    }
+
+    /// The arrays of that level, for its vertices and triangles.
+    pub fn level_arrays(&self) -> Option<&Arc<Vec<Array>>> {
+        self.store.now.arrays.as_ref()
     }
 
     /// Shape and lumen of the smoothed surface.

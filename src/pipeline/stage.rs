@@ -22,6 +22,8 @@ pub enum Stage {
     Level,
     /// How far it is from the smoothed surface and from the one that was opened.
     Deviation,
+    /// What the file says of its vertices and triangles, for those of the level.
+    Arrays,
     /// Shape and lumen of the smoothed surface, and from which rate on a vessel of it is pinched.
     SmoothedMeasures,
     /// Shape and lumen of the level.
@@ -36,13 +38,14 @@ pub enum Stage {
 
 impl Stage {
     /// All, in their order.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Connectivity,
         Self::Smoothing,
         Self::Decimation,
         Self::Bound,
         Self::Level,
         Self::Deviation,
+        Self::Arrays,
         Self::SmoothedMeasures,
         Self::Measures,
         Self::Vessels,
@@ -59,6 +62,7 @@ impl Stage {
             Self::Bound => "Finding the level",
             Self::Level => "Taking the level",
             Self::Deviation => "Measuring deviation",
+            Self::Arrays => "Carrying the arrays",
             Self::SmoothedMeasures | Self::Measures => "Measuring shape and lumen",
             Self::Vessels => "Finding the vessels",
             Self::Certificate => "Measuring calibre",
@@ -74,7 +78,7 @@ impl Stage {
             Self::Decimation => &[Self::Smoothing],
             Self::Bound | Self::SmoothedMeasures => &[Self::Decimation],
             Self::Level => &[Self::Decimation, Self::Bound],
-            Self::Deviation => &[Self::Level],
+            Self::Deviation | Self::Arrays => &[Self::Level],
             Self::Measures => &[Self::Level, Self::SmoothedMeasures],
             Self::Vessels => &[Self::Smoothing],
             Self::Certificate => &[Self::Level, Self::Vessels],
@@ -90,7 +94,7 @@ impl Stage {
             Self::Decimation => !old.decimation.gives_same(&new.decimation),
             Self::Bound | Self::Level => old.target != new.target,
             Self::Certificate | Self::Safe => old.tolerance_percent != new.tolerance_percent,
-            Self::Deviation | Self::SmoothedMeasures | Self::Measures | Self::Vessels => false,
+            Self::Deviation | Self::Arrays | Self::SmoothedMeasures | Self::Measures | Self::Vessels => false,
         }
     }
 
@@ -98,7 +102,7 @@ impl Stage {
     pub(super) fn is_wanted(self, settings: &Settings, wanted: Wanted) -> bool {
         match self {
             Self::Bound => settings.target.deviation_mm().is_some(),
-            Self::Deviation | Self::SmoothedMeasures | Self::Measures => wanted >= Wanted::Measures,
+            Self::Deviation | Self::Arrays | Self::SmoothedMeasures | Self::Measures => wanted >= Wanted::Measures,
             Self::Vessels | Self::Certificate => wanted >= Wanted::Certificate,
             Self::Safe => wanted >= Wanted::Safe,
             Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,

@@ -6,16 +6,20 @@ use super::connectivity::Connectivity;
 use super::results::{Results, Surface};
 use super::settings::Settings;
 use super::smoothing::KeptTerms;
-use crate::mesh::TriMesh;
+use crate::mesh::{Array, TriMesh};
 
 /// One opened surface and what the stages made of it so far.
 pub(super) struct Store {
     pub(super) opened: Arc<TriMesh>,
+    /// What the file says of its vertices and triangles.
+    pub(super) arrays: Arc<Vec<Array>>,
     /// Of each surface, for the deviation.
     pub(super) samples: usize,
     /// The pieces: the same for all settings.
     pub(super) connectivity: Option<Arc<Connectivity>>,
     pub(super) now: Results,
+    /// The arrays of what connectivity kept, and the surface that they are of.
+    pub(super) kept_arrays: Option<(Arc<Surface>, Arc<Vec<Array>>)>,
     /// How wide the vessel is at each vertex, as a radius in mm, and the surface that this is of.
     pub(super) widths: Option<(Arc<Surface>, Arc<[f32]>)>,
     /// The least pass bands that leave vessels their calibre, and the surface that they are of.
@@ -31,9 +35,11 @@ impl Store {
         let now = Results { settings, ..Results::default() };
         Self {
             opened,
+            arrays: Arc::default(),
             samples,
             connectivity: None,
             now,
+            kept_arrays: None,
             widths: None,
             bands: None,
             terms: None,
@@ -45,9 +51,11 @@ impl Store {
     pub(super) fn fork(&self) -> Self {
         Self {
             opened: self.opened.clone(),
+            arrays: self.arrays.clone(),
             samples: self.samples,
             connectivity: self.connectivity.clone(),
             now: self.now.clone(),
+            kept_arrays: self.kept_arrays.clone(),
             widths: self.widths.clone(),
             bands: self.bands.clone(),
             terms: None,

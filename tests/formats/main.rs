@@ -2,6 +2,7 @@
 //!
 //! Memory is counted by the allocator of this program: what measures it, or takes much of it, runs [`alone`].
 
+mod arrays;
 mod memory;
 mod robustness;
 mod samples;

@@ -1,6 +1,7 @@
 //! No file makes the reader panic, hang or take memory that a header merely claims, and what is written reads back.
 
 use lumen::io::{Format, ImportOptions, Imported, ReadError, import_mesh, read, write};
+use lumen::mesh::arrays::On;
 use lumen::mesh::{TriMesh, Vec3};
 use proptest::prelude::*;
 
@@ -31,10 +32,14 @@ fn read_anything(bytes: &[u8], name: &str) -> Result<(), TestCaseError> {
     let (result, taken) = read_measured(bytes, name);
     prop_assert!(taken <= room(bytes.len()), "{} bytes took {}", bytes.len(), taken);
     match result {
-        Ok(Imported { mesh, report }) => {
+        Ok(Imported { mesh, arrays, report }) => {
             prop_assert!(mesh.triangles.as_flattened().iter().all(|&v| (v as usize) < mesh.positions.len()));
             prop_assert!(mesh.positions.iter().all(|p| p.is_finite()));
             prop_assert!(!mesh.triangles.is_empty() && report.area_mm2.is_finite());
+            for array in &arrays {
+                let rows = if array.on == On::Point { mesh.positions.len() } else { mesh.triangles.len() };
+                prop_assert_eq!(array.values.len(), rows * array.components);
+            }
             // A byte makes a corner at most, a corner a triangle.
             prop_assert!(report.triangles <= bytes.len());
         }

@@ -2,8 +2,9 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use lumen::io::{Format, write};
-use lumen::mesh::{TriMesh, Vec3};
+use lumen::io::{Format, Output, write, write_output};
+use lumen::mesh::arrays::{On, Scalar, Values};
+use lumen::mesh::{Array, TriMesh, Vec3};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
 /// The valid files, each with the name it has.
@@ -11,6 +12,13 @@ pub(crate) fn valid() -> Vec<(&'static str, Vec<u8>)> {
     let mesh = tetrahedra(3);
     let normals = vec![Vec3::Z; mesh.positions.len()];
     let binary = |format| write(&mesh, Some(&normals), format).expect("a valid mesh");
+    let ids = Values::from_bytes(Scalar::U16, (0..24).collect());
+    let flow = Values::from_floats(&[0.5; 36]);
+    let arrays = [Array::new("Id", On::Triangle, 1, ids), Array::new("Flow", On::Point, 3, flow)];
+    let carrying = |format| {
+        let output = Output { arrays: &arrays, ..Output::new(&mesh) };
+        write_output(&output, format).expect("arrays of its length")
+    };
     let ascii_stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 90 0 0\nvertex 0 90 0\nendloop\n\
         endfacet\nendsolid a\n";
     let ascii_ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
@@ -34,6 +42,10 @@ pub(crate) fn valid() -> Vec<(&'static str, Vec<u8>)> {
         ("a.vtp", binary(Format::Vtp)),
         ("a.vtk", binary(Format::Vtk)),
         ("a.glb", binary(Format::Glb)),
+        ("a.ply", carrying(Format::Ply)),
+        ("a.vtp", carrying(Format::Vtp)),
+        ("a.vtk", carrying(Format::Vtk)),
+        ("a.glb", carrying(Format::Glb)),
         ("a.stl", ascii_stl.into()),
         ("a.ply", ascii_ply.into()),
         ("a.ply", big_ply),

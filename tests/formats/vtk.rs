@@ -16,7 +16,7 @@ fn refused(bytes: &[u8]) -> String {
 #[test]
 fn every_encoding_of_vtp_gives_the_same_square() {
     for coding in Coding::ALL {
-        let Imported { mesh, report } = open(&vtp(coding));
+        let Imported { mesh, report, .. } = open(&vtp(coding));
         assert_eq!(
             (report.format.as_str(), report.triangles, report.polygons_triangulated),
             ("VTP", 2, 1),
@@ -28,7 +28,7 @@ fn every_encoding_of_vtp_gives_the_same_square() {
 
 #[test]
 fn pieces_strips_and_what_is_no_surface_are_told_apart() {
-    let Imported { mesh, report } = open(VTP_TEXT.as_bytes());
+    let Imported { mesh, report, .. } = open(VTP_TEXT.as_bytes());
     assert_eq!((report.triangles, report.components, report.axes), (3, 2, Axes::Lps));
     assert_eq!((report.area_mm2, mesh.positions.len()), (8100.0 + 4050.0, 7));
     assert_eq!((report.skipped.lines, report.skipped.points, report.winding_flips), (1, 1, 0));

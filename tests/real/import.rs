@@ -199,7 +199,7 @@ fn a_sentence(text: &str) -> Result<(), Failed> {
 
 /// The promises of an imported surface: windings agree, and it encloses a positive volume where it is closed.
 fn well_formed(imported: &Imported) -> Result<(), Failed> {
-    let Imported { mesh, report } = imported;
+    let Imported { mesh, report, .. } = imported;
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     if report.orientable != (topology.edge_counts().flipped == 0) {
         return Err("orientable and flips disagree".into());

@@ -16,6 +16,7 @@ mod shape;
 #[path = "../common/vessels.rs"]
 mod vessels;
 
+mod arrays;
 mod guarantees;
 mod import;
 mod measures;
@@ -33,6 +34,7 @@ fn main() {
     match data::data() {
         Some(folder) => {
             let parts = [
+                arrays::trials,
                 guarantees::trials,
                 import::trials,
                 measures::trials,

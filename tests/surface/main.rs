@@ -11,6 +11,7 @@ mod shape;
 #[path = "../common/tangles.rs"]
 mod tangles;
 
+mod arrays;
 mod bad_input;
 mod calibre;
 mod decimation;

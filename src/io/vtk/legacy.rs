@@ -1,7 +1,7 @@
 //! Legacy VTK files (.vtk) of polygonal data and unstructured grids, text and binary, versions 1.0 to 5.1.
 //!
 //! Up to version 4.2 each cell stands with its length; from 5.0 on lengths and points are two arrays. Which it is shows at
-//! the first word. What stands after the cells, arrays on points and cells, is not read.
+//! the first word. Then come the arrays on points and cells (`legacy_data.rs`).
 
 use glam::DVec3;
 
@@ -12,9 +12,10 @@ use super::super::numbers::Scalar;
 use super::super::room::Room;
 use super::super::text;
 use super::array::Array;
+use super::legacy_data;
 use super::legacy_text::Cursor;
 use super::no_surface;
-use super::surface::{Cells, Lengths, Shape, Surface, is_whole};
+use super::surface::{Cells, Lengths, Shape, Surface};
 
 const MAGIC: &[u8] = b"# vtk DataFile";
 
@@ -28,6 +29,8 @@ pub(in crate::io) fn is_legacy(text: &[u8]) -> bool {
 struct Parts<'a> {
     points: Option<(Array<'a>, u64)>,
     cells: Vec<Cells<'a>>,
+    /// Whether arrays on points or cells follow.
+    has_data: bool,
 }
 
 /// Reads a file, with positions relative to `origin`.
@@ -42,19 +45,25 @@ pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, Rea
     }
     cursor.rest_of_line();
     let label = cursor.label();
-    let parts = Parts::read(&mut cursor, Room::of(bytes.len()))?;
+    let room = Room::of(bytes.len());
+    let parts = Parts::read(&mut cursor, room)?;
     let mut surface = Surface::new(label, bytes.len(), origin);
     if let Some((points, count)) = &parts.points {
         surface.add_points(points, *count)?;
     }
+    if parts.has_data {
+        surface.note_cells();
+    }
     for cells in &parts.cells {
         surface.add_cells(cells)?;
     }
-    surface.finish(label, axes::stated(title))
+    let counts = [surface.vertices() as u64, parts.cell_count()];
+    let columns = legacy_data::read(&mut cursor, counts, room)?;
+    surface.finish(label, axes::stated(title), columns)
 }
 
 impl<'a> Parts<'a> {
-    /// Finds points and cells. As in VTK itself, what follows the first array on cells or points is not looked at.
+    /// Finds points and cells, up to the first array on either.
     fn read(cursor: &mut Cursor<'a>, room: Room) -> Result<Self, ReadError> {
         let mut parts = Self::default();
         while let Some(word) = cursor.word() {
@@ -84,14 +93,35 @@ impl<'a> Parts<'a> {
                 }
                 b"field" => skip_field(cursor)?,
                 b"metadata" => cursor.skip_metadata(),
-                b"cell_data" | b"point_data" => break,
+                b"cell_data" | b"point_data" => {
+                    cursor.go_back(word);
+                    parts.has_data = true;
+                    break;
+                }
                 _ => return Err(cursor.broken(format!("{} is no part of a surface", text::quoted(word)))),
             }
         }
         if parts.cells.iter().any(|cells| cells.shape == Shape::Typed && cells.types.is_none()) {
             return Err(cursor.broken("its cells have no types"));
         }
+        parts.number_cells();
         Ok(parts)
+    }
+
+    /// Numbers the cells as VTK's arrays have them, whatever the order of the lists in the file.
+    fn number_cells(&mut self) {
+        let mut first = 0u64;
+        for shape in [Shape::Vertices, Shape::Lines, Shape::Polygons, Shape::Strips, Shape::Typed] {
+            for cells in self.cells.iter_mut().filter(|cells| cells.shape == shape) {
+                cells.first = first;
+                first = first.saturating_add(cells.count);
+            }
+        }
+    }
+
+    /// How many cells there are.
+    fn cell_count(&self) -> u64 {
+        self.cells.iter().fold(0, |sum, cells| sum.saturating_add(cells.count))
     }
 
     /// Reads a list of cells.
@@ -103,7 +133,7 @@ impl<'a> Parts<'a> {
             }
             cursor.word();
             let kind = cursor.kind()?;
-            if !is_whole(kind) {
+            if !kind.is_whole() {
                 return Err(cursor.broken("its cells are numbered with fractions"));
             }
             Ok(cursor.numbers(kind, count))
@@ -115,7 +145,7 @@ impl<'a> Parts<'a> {
         } else {
             (count, Lengths::Inline, cursor.numbers(Scalar::I32, size))
         };
-        self.cells.push(Cells { shape, count, lengths, points, types: None });
+        self.cells.push(Cells { shape, count, first: 0, lengths, points, types: None });
         Ok(())
     }
 }

@@ -55,6 +55,11 @@ impl<'a> Cursor<'a> {
         word
     }
 
+    /// Goes back to a word that was the last to be read.
+    pub(super) fn go_back(&mut self, word: &[u8]) {
+        self.at -= word.len();
+    }
+
     /// The next word, without going past it.
     fn peek(&self) -> Option<&'a [u8]> {
         Words::new(&self.bytes[self.at..], self.line).next()
@@ -152,7 +157,7 @@ impl<'a> Cursor<'a> {
 }
 
 /// The type that a file calls `name`; a `long` has 64 bits, as where VTK is mostly used.
-fn scalar(name: &[u8]) -> Option<Scalar> {
+pub(super) fn scalar(name: &[u8]) -> Option<Scalar> {
     Some(match name.to_ascii_lowercase().as_slice() {
         b"char" | b"signed_char" => Scalar::I8,
         b"unsigned_char" | b"bit" => Scalar::U8,

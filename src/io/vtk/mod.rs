@@ -10,10 +10,12 @@
 mod array;
 mod encoded;
 mod legacy;
+mod legacy_data;
 mod legacy_text;
 mod surface;
 mod write;
 mod xml;
+mod xml_arrays;
 
 pub(super) use legacy::{is_legacy, read as read_legacy};
 pub(super) use write::{legacy as write_legacy, xml as write_xml};

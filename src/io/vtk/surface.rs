@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::super::Axes;
+use super::super::columns::Columns;
 use super::super::error::ReadError;
 use super::super::import::{RawSurface, count};
-use super::super::numbers::{Numbers, Scalar};
+use super::super::numbers::Numbers;
 use super::super::polygons::Faces;
 use super::super::report::Skipped;
 use super::super::room::Room;
@@ -38,6 +39,8 @@ pub(super) struct Cells<'a> {
     pub(super) shape: Shape,
     /// As the file claims it.
     pub(super) count: u64,
+    /// The number of the first among all cells of the file, in VTK's order: vertices, lines, polygons, strips.
+    pub(super) first: u64,
     pub(super) lengths: Lengths<'a>,
     /// The points of all cells.
     pub(super) points: Array<'a>,
@@ -57,6 +60,8 @@ pub(super) struct Surface {
     faces: Faces,
     /// Faces read so far, short ones included.
     faces_read: usize,
+    /// Whether it is noted which cell a face is of.
+    notes_cells: bool,
     has_doubles: bool,
     skipped: Skipped,
     /// Cells of a grid that are neither flat nor lines nor points.
@@ -74,10 +79,16 @@ impl Surface {
             base: 0,
             faces: Faces::default(),
             faces_read: 0,
+            notes_cells: false,
             has_doubles: false,
             skipped: Skipped::default(),
             solids: 0,
         }
+    }
+
+    /// Notes which cell each face is of; to be asked for before the first.
+    pub(super) fn note_cells(&mut self) {
+        self.notes_cells = true;
     }
 
     /// Adds the points of the next piece, `count` of them as the file claims.
@@ -135,6 +146,10 @@ impl Surface {
             }
             cell.clear();
             self.faces_read += 1;
+            if self.notes_cells {
+                // Where 32 bits do not hold it, there is no array with so many tuples either.
+                self.faces.of_cell(u32::try_from(cells.first.saturating_add(n)).unwrap_or(u32::MAX));
+            }
             // A number makes a triangle at most.
             let most = usize::try_from(length as u64).unwrap_or(usize::MAX).min(cells.points.most());
             self.room.check(format, self.positions.len(), self.faces.triangles() + most)?;
@@ -203,8 +218,13 @@ impl Surface {
         numbers.fault().unwrap_or(cut_short)
     }
 
-    /// The whole, with what is said about its axes.
-    pub(super) fn finish(self, label: &'static str, axes: Axes) -> Result<RawSurface, ReadError> {
+    /// Vertices so far.
+    pub(super) fn vertices(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// The whole, with what is said about its axes, and with its arrays.
+    pub(super) fn finish(self, label: &'static str, axes: Axes, columns: Columns) -> Result<RawSurface, ReadError> {
         let Skipped { lines, points, .. } = self.skipped;
         if self.faces_read == 0 && (lines > 0 || points > 0) {
             let [lines, points] = [count(lines, "line", "lines"), count(points, "point", "points")];
@@ -219,11 +239,7 @@ impl Surface {
         if self.solids > 0 {
             raw.warnings.push(format!("{} solid or curved cells left out: Lumen shows surfaces.", self.solids));
         }
+        raw.carry(columns.finish(), self.room);
         Ok(raw)
     }
-}
-
-/// Whether numbers of this type can be places in a list.
-pub(super) fn is_whole(kind: Scalar) -> bool {
-    !matches!(kind, Scalar::F32 | Scalar::F64)
 }

@@ -12,13 +12,13 @@ use quick_xml::events::{BytesStart, Event};
 use super::super::Axes;
 use super::super::error::ReadError;
 use super::super::import::RawSurface;
-use super::super::numbers::Scalar;
 use super::super::room::Room;
 use super::super::text;
-use super::array::{Array, Content};
-use super::encoded::{Compressor, Encoded, Encoding};
+use super::encoded::{Compressor, Encoding};
 use super::no_surface;
-use super::surface::{Cells, Lengths, Shape, Surface, is_whole};
+use super::surface::{Shape, Surface};
+use super::xml_arrays::Arrays;
+use crate::mesh::arrays::On;
 
 /// Whether a text begins as VTK's XML files do.
 pub(in crate::io) fn is_xml(text: &[u8]) -> bool {
@@ -29,40 +29,60 @@ pub(in crate::io) fn is_xml(text: &[u8]) -> bool {
 /// Reads a file, with positions relative to `origin`.
 pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     let file = Structure::parse(bytes)?;
-    let mut arrays = Arrays { file: &file, bytes, room: Room::of(bytes.len()).unfolded() };
+    let mut arrays = Arrays::new(&file, bytes);
     let mut surface = Surface::new(file.format, bytes.len(), origin);
+    if file.pieces.iter().flat_map(|piece| &piece.data).any(|&(on, _)| on == On::Triangle) {
+        surface.note_cells();
+    }
+    let mut cells = 0u64;
     for piece in &file.pieces {
-        arrays.add_piece(piece, &mut surface)?;
+        arrays.add_piece(piece, cells, &mut surface)?;
+        cells = cells.saturating_add(piece.cell_count());
     }
     let axes = file.space.as_ref().map_or(Ok(Axes::Unknown), |array| arrays.axes(array))?;
-    surface.finish(file.format, axes)
+    let columns = arrays.columns()?;
+    surface.finish(file.format, axes, columns)
 }
 
 /// What the structure says.
-struct Structure<'a> {
+pub(super) struct Structure<'a> {
     /// "VTP" or "VTU".
-    format: &'static str,
-    encoding: Encoding,
-    pieces: Vec<Piece<'a>>,
+    pub(super) format: &'static str,
+    pub(super) encoding: Encoding,
+    pub(super) pieces: Vec<Piece<'a>>,
     /// Which way the axes point, where the file says so as 3D Slicer does.
     space: Option<DataArray<'a>>,
     /// What is appended, from its first byte on, and whether it is in base64.
-    appended: Option<(&'a [u8], bool)>,
+    pub(super) appended: Option<(&'a [u8], bool)>,
 }
 
 /// A part of the surface, with points of its own.
 #[derive(Default)]
-struct Piece<'a> {
+pub(super) struct Piece<'a> {
     /// Number of points, vertices, lines, strips, polygons and cells of a grid, as the file claims them.
-    counts: [u64; 6],
-    points: Option<DataArray<'a>>,
+    pub(super) counts: [u64; 6],
+    pub(super) points: Option<DataArray<'a>>,
     /// The arrays of its cells, each with its place in [`KINDS`] and in [`PARTS`].
     cells: Vec<(usize, usize, DataArray<'a>)>,
+    /// The arrays on its points and on its cells.
+    pub(super) data: Vec<(On, DataArray<'a>)>,
 }
 
 impl<'a> Piece<'a> {
+    /// How many cells it has of all kinds.
+    pub(super) fn cell_count(&self) -> u64 {
+        self.counts[1..].iter().fold(0, |sum, &count| sum.saturating_add(count))
+    }
+
+    /// How many of its cells stand before those of a kind, in the order of VTK's arrays: polygons before strips.
+    pub(super) fn cells_before(&self, kind: usize) -> u64 {
+        const STRIPS: usize = 3;
+        let before = |other: &usize| (*other < kind && *other != STRIPS) || (kind == STRIPS && *other == STRIPS + 1);
+        (1..self.counts.len()).filter(before).fold(0, |sum, other| sum.saturating_add(self.counts[other]))
+    }
+
     /// An array of a kind of cells.
-    fn cells(&self, kind: usize, part: usize) -> Option<&DataArray<'a>> {
+    pub(super) fn cells(&self, kind: usize, part: usize) -> Option<&DataArray<'a>> {
         self.cells.iter().find(|array| (array.0, array.1) == (kind, part)).map(|array| &array.2)
     }
 }
@@ -71,7 +91,7 @@ impl<'a> Piece<'a> {
 const PARTS: [&str; 3] = ["connectivity", "offsets", "types"];
 
 /// The names of the counts of a piece, and of the elements that hold what is counted.
-const KINDS: [(&str, &str, Shape); 6] = [
+pub(super) const KINDS: [(&str, &str, Shape); 6] = [
     ("NumberOfPoints", "Points", Shape::Vertices),
     ("NumberOfVerts", "Verts", Shape::Vertices),
     ("NumberOfLines", "Lines", Shape::Lines),
@@ -82,7 +102,7 @@ const KINDS: [(&str, &str, Shape); 6] = [
 
 /// Where an array's numbers are.
 #[derive(Clone, Copy, Debug)]
-enum Place<'a> {
+pub(super) enum Place<'a> {
     /// As text, from this byte of the file on.
     Text(&'a [u8], usize),
     Binary(&'a [u8]),
@@ -90,9 +110,11 @@ enum Place<'a> {
 }
 
 #[derive(Clone, Debug)]
-struct DataArray<'a> {
-    kind: String,
-    place: Place<'a>,
+pub(super) struct DataArray<'a> {
+    pub(super) name: String,
+    pub(super) kind: String,
+    pub(super) components: u64,
+    pub(super) place: Place<'a>,
 }
 
 /// Where in the structure an element stands.
@@ -100,11 +122,13 @@ struct DataArray<'a> {
 enum Section {
     Elsewhere,
     FieldData,
+    /// Arrays on points or cells.
+    Data(On),
     /// One of [`KINDS`].
     Kind(usize),
 }
 
-fn malformed(format: &'static str, problem: impl Into<String>) -> ReadError {
+pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> ReadError {
     ReadError::Malformed { format, problem: problem.into() }
 }
 
@@ -151,6 +175,7 @@ impl<'a> Structure<'a> {
                     room.check_parts(file.format, file.pieces.len())?;
                 }
                 b"DataArray" | b"Array" => {
+                    room.check_parts(file.format, file.pieces.last().map_or(0, |piece| piece.data.len()))?;
                     let inline = if is_open { inline_text(&mut reader, bytes, start)? } else { (&b""[..], 0) };
                     file.add_array(section, &element, inline)?;
                 }
@@ -198,6 +223,7 @@ impl<'a> Structure<'a> {
         (inline, at): (&'a [u8], usize),
     ) -> Result<(), ReadError> {
         let name = attribute(element, "Name").unwrap_or_default();
+        let name = quick_xml::escape::unescape(&name).map_or_else(|_| name.clone(), Cow::into_owned);
         let place = match attribute(element, "format").as_deref() {
             Some("appended") => {
                 let offset = attribute(element, "offset").and_then(|offset| offset.parse().ok());
@@ -208,12 +234,14 @@ impl<'a> Structure<'a> {
             Some("binary") => Place::Binary(inline),
             _ => Place::Text(inline, at),
         };
-        let array = DataArray { kind: attribute(element, "type").unwrap_or_default(), place };
+        let components = attribute(element, "NumberOfComponents").and_then(|n| n.parse().ok()).unwrap_or(1);
+        let array = DataArray { name, kind: attribute(element, "type").unwrap_or_default(), components, place };
         match (section, self.pieces.last_mut()) {
-            (Section::FieldData, _) if name == "SPACE" => self.space = Some(array),
+            (Section::FieldData, _) if array.name == "SPACE" => self.space = Some(array),
+            (Section::Data(on), Some(piece)) => piece.data.push((on, array)),
             (Section::Kind(0), Some(piece)) => piece.points = piece.points.take().or(Some(array)),
             (Section::Kind(kind), Some(piece)) => {
-                let part = PARTS.iter().position(|&part| part == name);
+                let part = PARTS.iter().position(|&part| part == array.name);
                 if let Some(part) = part.filter(|&part| piece.cells(kind, part).is_none()) {
                     piece.cells.push((kind, part, array));
                 }
@@ -228,7 +256,8 @@ impl<'a> Structure<'a> {
 fn section_named(name: &[u8]) -> Option<Section> {
     match name {
         b"FieldData" => Some(Section::FieldData),
-        b"PointData" | b"CellData" => Some(Section::Elsewhere),
+        b"PointData" => Some(Section::Data(On::Point)),
+        b"CellData" => Some(Section::Data(On::Triangle)),
         _ => KINDS.iter().position(|(_, element, _)| element.as_bytes() == name).map(Section::Kind),
     }
 }
@@ -265,120 +294,6 @@ fn broken(bytes: &[u8], at: usize) -> ReadError {
 }
 
 /// The line that a byte stands in, from 1.
-fn line_of(bytes: &[u8], at: usize) -> usize {
+pub(super) fn line_of(bytes: &[u8], at: usize) -> usize {
     1 + bytes[..at.min(bytes.len())].iter().filter(|&&byte| byte == b'\n').count()
-}
-
-/// The numbers behind the structure.
-struct Arrays<'a> {
-    file: &'a Structure<'a>,
-    bytes: &'a [u8],
-    /// How many bytes compressed data may still unfold to.
-    room: u64,
-}
-
-impl<'a> Arrays<'a> {
-    fn add_piece(&mut self, piece: &Piece<'a>, surface: &mut Surface) -> Result<(), ReadError> {
-        let [points, kinds @ ..] = piece.counts;
-        if let (Some(array), true) = (&piece.points, points > 0) {
-            surface.add_points(&self.open(array)?, points)?;
-        }
-        for (kind, (&count, &(_, element, shape))) in kinds.iter().zip(&KINDS[1..]).enumerate() {
-            if count == 0 {
-                continue;
-            }
-            let missing = || malformed(self.file.format, format!("\"{element}\" has no arrays"));
-            let [connectivity, offsets, types] = [0, 1, 2].map(|part| piece.cells(kind + 1, part));
-            let (Some(connectivity), Some(offsets)) = (connectivity, offsets) else { return Err(missing()) };
-            if piece.points.is_none() {
-                return Err(malformed(self.file.format, "a piece has no points"));
-            }
-            if shape == Shape::Typed && types.is_none() {
-                return Err(missing());
-            }
-            // Vertices and lines are only counted.
-            let is_surface = !matches!(shape, Shape::Vertices | Shape::Lines);
-            let none = || Ok(Array { kind: Scalar::U8, content: Content::Little(Cow::Borrowed(b"")) });
-            let mut open = |array| if is_surface { self.open_whole(array) } else { none() };
-            let (ends, points) = (open(offsets)?, open(connectivity)?);
-            let types = types.filter(|_| shape == Shape::Typed).map(open).transpose()?;
-            surface.add_cells(&Cells { shape, count, lengths: Lengths::Ends(ends), points, types })?;
-        }
-        Ok(())
-    }
-
-    /// The numbers of an array, which must be whole ones.
-    fn open_whole(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
-        let opened = self.open(array)?;
-        if !is_whole(opened.kind) && !matches!(opened.content, Content::Text { .. }) {
-            return Err(malformed(self.file.format, "its cells are numbered with fractions"));
-        }
-        Ok(opened)
-    }
-
-    /// The numbers of an array.
-    fn open(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
-        let format = self.file.format;
-        let kind = scalar(&array.kind).ok_or_else(|| {
-            malformed(format, format!("{} is no type of number", text::quoted(array.kind.as_bytes())))
-        })?;
-        let encoding = self.file.encoding;
-        let bytes = match array.place {
-            Place::Text(text, at) => {
-                return Ok(Array { kind, content: Content::Text { text, line: line_of(self.bytes, at) } });
-            }
-            Place::Binary(text) => match compact(text) {
-                Cow::Borrowed(text) => encoding.decode(Encoded::Base64(text), &mut self.room)?,
-                Cow::Owned(text) => Cow::Owned(encoding.decode(Encoded::Base64(&text), &mut self.room)?.into_owned()),
-            },
-            Place::Appended(offset) => {
-                let rest = self.file.appended.and_then(|(data, is_base64)| {
-                    let rest = data.get(usize::try_from(offset).ok()?..)?;
-                    Some(if is_base64 { Encoded::Base64(rest) } else { Encoded::Raw(rest) })
-                });
-                let rest = rest.ok_or_else(|| malformed(format, "an array lies beyond the end of the file"))?;
-                encoding.decode(rest, &mut self.room)?
-            }
-        };
-        let content = if encoding.big_endian { Content::Big(bytes) } else { Content::Little(bytes) };
-        Ok(Array { kind, content })
-    }
-
-    /// The axes that a string of the field data names.
-    fn axes(&mut self, array: &DataArray<'a>) -> Result<Axes, ReadError> {
-        let letters = self.open(&DataArray { kind: "UInt8".to_owned(), ..array.clone() })?;
-        let mut numbers = letters.numbers(self.file.format);
-        let word: Vec<u8> = std::iter::from_fn(|| numbers.number(Scalar::U8)).take(4).map(|n| n as u8).collect();
-        Ok(match word.strip_suffix(b"\0").unwrap_or(&word) {
-            b"LPS" => Axes::Lps,
-            b"RAS" => Axes::Ras,
-            _ => Axes::Unknown,
-        })
-    }
-}
-
-/// The type that a file calls `name`.
-fn scalar(name: &str) -> Option<Scalar> {
-    Some(match name {
-        "Int8" => Scalar::I8,
-        "UInt8" => Scalar::U8,
-        "Int16" => Scalar::I16,
-        "UInt16" => Scalar::U16,
-        "Int32" => Scalar::I32,
-        "UInt32" => Scalar::U32,
-        "Int64" => Scalar::I64,
-        "UInt64" => Scalar::U64,
-        "Float32" => Scalar::F32,
-        "Float64" => Scalar::F64,
-        _ => return None,
-    })
-}
-
-/// A text without its white space.
-fn compact(text: &[u8]) -> Cow<'_, [u8]> {
-    if text.iter().any(u8::is_ascii_whitespace) {
-        Cow::Owned(text.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect())
-    } else {
-        Cow::Borrowed(text)
-    }
 }

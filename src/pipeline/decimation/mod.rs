@@ -238,6 +238,12 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
         ProgressiveMesh::from_merges(&self.mesh, &self.merges, &self.surface.rings.made, errors, limit)
     }
 
+    /// For each node of the result the vertex of the surface that entered, or `MADE`.
+    pub fn vertices_of_nodes(&self) -> Vec<u32> {
+        let (vertices, made) = (self.mesh.positions.len(), self.surface.rings.made.len());
+        ProgressiveMesh::vertices_of_nodes(vertices, made, &self.merges)
+    }
+
     /// The next piece of work. Returns false when there is none.
     fn step(&mut self) -> bool {
         let count = self.surface.rings.len() as u32;

@@ -73,7 +73,9 @@ impl Run for Decimating {
                     }
                     Progress::Done(progressive) => {
                         let finest = Arc::new(progressive.finest());
-                        store.now.levels = Some(Levels { progressive: Arc::new(progressive), finest });
+                        let needs_vertices = !store.arrays.is_empty();
+                        let vertex_of_node = if needs_vertices { task.vertices_of_nodes() } else { Vec::new() }.into();
+                        store.now.levels = Some(Levels { progressive: Arc::new(progressive), finest, vertex_of_node });
                         return Ok(Progress::Done(()));
                     }
                 },

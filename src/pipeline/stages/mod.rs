@@ -2,6 +2,7 @@
 
 mod bound;
 mod calibre;
+mod carry;
 mod connectivity;
 mod decimation;
 mod deviation;
@@ -30,6 +31,7 @@ pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {
         Stage::Bound => Box::new(bound::Bounding::start(store)?),
         Stage::Level => Box::new(level::Taking::start(store)?),
         Stage::Deviation => Box::new(deviation::Deviating::start(store)?),
+        Stage::Arrays => Box::new(carry::Carrying::start(store)?),
         Stage::SmoothedMeasures => Box::new(measures::OfSmoothed::start(store)?),
         Stage::Measures => Box::new(measures::OfLevel::start(store)?),
         Stage::Vessels => Box::new(calibre::Finding::start(store)?),
