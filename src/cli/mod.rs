@@ -10,8 +10,15 @@ mod figures;
 mod inspect;
 mod optimise;
 mod phantom;
+#[cfg(feature = "scans")]
+mod scan;
+#[cfg(not(feature = "scans"))]
+#[path = "no_scan.rs"]
+mod scan;
 mod sheet;
 mod source;
+#[cfg(feature = "scans")]
+mod surface;
 mod tables;
 mod trial;
 mod trial_tables;
@@ -56,6 +63,9 @@ pub enum Command {
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
     Phantom(phantom::Phantom),
+    /// Write the surface in a scan or a mask
+    #[cfg(feature = "scans")]
+    Surface(surface::Surface),
     /// Make Tables I and II of the paper for a surface, or III and IV, the paper's numbers beside them
     Tables(tables::Tables),
     /// Steer a guidewire through a surface by autopilot
@@ -72,6 +82,8 @@ impl Command {
             Self::Inspect(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
+            #[cfg(feature = "scans")]
+            Self::Surface(command) => command.run(),
             Self::Tables(command) => command.run(),
             Self::Trial(command) => command.run(),
         };

@@ -9,6 +9,7 @@ use anyhow::{Context, Result, anyhow};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::scan::ScanOptions;
 use super::{branches, misuse, output_format, row, shape_rows, source, write_whole};
 use crate::io::{self, Unit};
 use crate::pipeline::deviation::REPORT_SAMPLES;
@@ -24,8 +25,10 @@ use crate::pipeline::task::Budget;
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
 #[derive(Debug, Args)]
 pub struct Optimise {
-    /// A surface file, or sample:aorta, sample:coronary
+    /// A surface file, or sample:aorta, sample:coronary; a scan or a mask, or a folder of DICOM
     file: String,
+    #[command(flatten)]
+    scan: ScanOptions,
     /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
@@ -235,7 +238,7 @@ impl Optimise {
             );
         }
         let start = Instant::now();
-        let imported = source::read(&self.file, self.unit)?;
+        let imported = source::read_with(&self.file, self.unit, &self.scan)?;
         let read = milliseconds(start.elapsed());
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         let wants_safe = self.reduction == Reduction::Safe && self.triangles.is_none() && self.max_deviation.is_none();

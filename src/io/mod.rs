@@ -32,6 +32,8 @@ mod report;
 mod room;
 mod stl;
 mod text;
+#[cfg(feature = "scans")]
+pub mod volume;
 mod vtk;
 mod weld;
 mod winding;

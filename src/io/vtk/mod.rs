@@ -9,12 +9,16 @@
 
 mod array;
 mod encoded;
+#[cfg(feature = "scans")]
+mod image;
 mod legacy;
 mod legacy_text;
 mod surface;
 mod write;
 mod xml;
 
+#[cfg(feature = "scans")]
+pub(super) use image::{Image, Values, read as read_image};
 pub(super) use legacy::{is_legacy, read as read_legacy};
 pub(super) use write::{legacy as write_legacy, xml as write_xml};
 pub(super) use xml::{is_xml, read as read_xml};

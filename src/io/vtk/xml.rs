@@ -29,7 +29,7 @@ pub(in crate::io) fn is_xml(text: &[u8]) -> bool {
 /// Reads a file, with positions relative to `origin`.
 pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     let file = Structure::parse(bytes)?;
-    let mut arrays = Arrays { file: &file, bytes, room: Room::of(bytes.len()).unfolded() };
+    let mut arrays = Arrays::new(&file, bytes, Room::of(bytes.len()).unfolded());
     let mut surface = Surface::new(file.format, bytes.len(), origin);
     for piece in &file.pieces {
         arrays.add_piece(piece, &mut surface)?;
@@ -39,7 +39,7 @@ pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, Rea
 }
 
 /// What the structure says.
-struct Structure<'a> {
+pub(super) struct Structure<'a> {
     /// "VTP" or "VTU".
     format: &'static str,
     encoding: Encoding,
@@ -47,7 +47,7 @@ struct Structure<'a> {
     /// Which way the axes point, where the file says so as 3D Slicer does.
     space: Option<DataArray<'a>>,
     /// What is appended, from its first byte on, and whether it is in base64.
-    appended: Option<(&'a [u8], bool)>,
+    pub(super) appended: Option<(&'a [u8], bool)>,
 }
 
 /// A part of the surface, with points of its own.
@@ -82,7 +82,7 @@ const KINDS: [(&str, &str, Shape); 6] = [
 
 /// Where an array's numbers are.
 #[derive(Clone, Copy, Debug)]
-enum Place<'a> {
+pub(super) enum Place<'a> {
     /// As text, from this byte of the file on.
     Text(&'a [u8], usize),
     Binary(&'a [u8]),
@@ -90,7 +90,7 @@ enum Place<'a> {
 }
 
 #[derive(Clone, Debug)]
-struct DataArray<'a> {
+pub(super) struct DataArray<'a> {
     kind: String,
     place: Place<'a>,
 }
@@ -104,12 +104,12 @@ enum Section {
     Kind(usize),
 }
 
-fn malformed(format: &'static str, problem: impl Into<String>) -> ReadError {
+pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> ReadError {
     ReadError::Malformed { format, problem: problem.into() }
 }
 
 /// The value of an attribute, if it is there.
-fn attribute(element: &BytesStart, name: &str) -> Option<String> {
+pub(super) fn attribute(element: &BytesStart, name: &str) -> Option<String> {
     // Without a search for duplicates, which takes the square of their number.
     let mut attributes = element.attributes();
     let found = attributes.with_checks(false).flatten().find(|attribute| attribute.key.as_ref() == name.as_bytes())?;
@@ -156,12 +156,7 @@ impl<'a> Structure<'a> {
                 }
                 b"AppendedData" => {
                     let rest = bytes.get(start + reader.buffer_position() as usize..).unwrap_or_default();
-                    let rest = rest.trim_ascii_start();
-                    let rest = rest
-                        .strip_prefix(b"_")
-                        .ok_or_else(|| malformed(file.format, "its appended data do not begin with an underscore"))?;
-                    let is_base64 = attribute(&element, "encoding").is_some_and(|encoding| encoding == "base64");
-                    file.appended = Some((rest, is_base64));
+                    file.append(&element, rest)?;
                     break;
                 }
                 other => section = section_named(other).filter(|_| is_open).unwrap_or(section),
@@ -177,6 +172,11 @@ impl<'a> Structure<'a> {
             Some("UnstructuredGrid") => "VTU",
             other => return Err(no_surface(other.unwrap_or("file of no type"))),
         };
+        Self::of(format, element)
+    }
+
+    /// A file of a format, of which nothing is known but what the outermost element says of its encoding.
+    pub(super) fn of(format: &'static str, element: &BytesStart) -> Result<Self, ReadError> {
         let compressor = match attribute(element, "compressor").as_deref() {
             None | Some("") => None,
             Some(name) => Some(Compressor::named(name).ok_or_else(|| ReadError::Unsupported {
@@ -195,20 +195,10 @@ impl<'a> Structure<'a> {
         &mut self,
         section: Section,
         element: &BytesStart,
-        (inline, at): (&'a [u8], usize),
+        inline: (&'a [u8], usize),
     ) -> Result<(), ReadError> {
         let name = attribute(element, "Name").unwrap_or_default();
-        let place = match attribute(element, "format").as_deref() {
-            Some("appended") => {
-                let offset = attribute(element, "offset").and_then(|offset| offset.parse().ok());
-                Place::Appended(
-                    offset.ok_or_else(|| malformed(self.format, "an array does not say where its data are"))?,
-                )
-            }
-            Some("binary") => Place::Binary(inline),
-            _ => Place::Text(inline, at),
-        };
-        let array = DataArray { kind: attribute(element, "type").unwrap_or_default(), place };
+        let array = DataArray::new(self.format, element, inline)?;
         match (section, self.pieces.last_mut()) {
             (Section::FieldData, _) if name == "SPACE" => self.space = Some(array),
             (Section::Kind(0), Some(piece)) => piece.points = piece.points.take().or(Some(array)),
@@ -221,6 +211,39 @@ impl<'a> Structure<'a> {
             _ => {}
         }
         Ok(())
+    }
+
+    /// What is appended, with the reader behind its element's beginning.
+    pub(super) fn append(
+        &mut self,
+        element: &BytesStart,
+        rest: &'a [u8],
+    ) -> Result<(), ReadError> {
+        let rest = rest.trim_ascii_start().strip_prefix(b"_");
+        let rest =
+            rest.ok_or_else(|| malformed(self.format, "its appended data do not begin with an underscore"))?;
+        let is_base64 = attribute(element, "encoding").is_some_and(|encoding| encoding == "base64");
+        self.appended = Some((rest, is_base64));
+        Ok(())
+    }
+}
+
+impl<'a> DataArray<'a> {
+    /// What an element says, with the text in it and where that begins.
+    pub(super) fn new(
+        format: &'static str,
+        element: &BytesStart,
+        (inline, at): (&'a [u8], usize),
+    ) -> Result<Self, ReadError> {
+        let place = match attribute(element, "format").as_deref() {
+            Some("appended") => {
+                let offset = attribute(element, "offset").and_then(|offset| offset.parse().ok());
+                Place::Appended(offset.ok_or_else(|| malformed(format, "an array does not say where its data are"))?)
+            }
+            Some("binary") => Place::Binary(inline),
+            _ => Place::Text(inline, at),
+        };
+        Ok(Self { kind: attribute(element, "type").unwrap_or_default(), place })
     }
 }
 
@@ -235,7 +258,7 @@ fn section_named(name: &[u8]) -> Option<Section> {
 
 /// The text of the element that has just begun, without that of elements in it, and where it begins; the reader is then
 /// past its end.
-fn inline_text<'a>(
+pub(super) fn inline_text<'a>(
     reader: &mut Reader<&'a [u8]>,
     bytes: &'a [u8],
     start: usize,
@@ -259,7 +282,7 @@ fn inline_text<'a>(
 }
 
 /// That the XML is wrong at a place.
-fn broken(bytes: &[u8], at: usize) -> ReadError {
+pub(super) fn broken(bytes: &[u8], at: usize) -> ReadError {
     let problem = "its XML is wrong or incomplete there".to_owned();
     ReadError::Syntax { format: "VTK", line: line_of(bytes, at), problem }
 }
@@ -270,7 +293,7 @@ fn line_of(bytes: &[u8], at: usize) -> usize {
 }
 
 /// The numbers behind the structure.
-struct Arrays<'a> {
+pub(super) struct Arrays<'a> {
     file: &'a Structure<'a>,
     bytes: &'a [u8],
     /// How many bytes compressed data may still unfold to.
@@ -278,6 +301,11 @@ struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
+    /// Of a file whose compressed data may unfold to so many bytes.
+    pub(super) fn new(file: &'a Structure<'a>, bytes: &'a [u8], room: u64) -> Self {
+        Self { file, bytes, room }
+    }
+
     fn add_piece(&mut self, piece: &Piece<'a>, surface: &mut Surface) -> Result<(), ReadError> {
         let [points, kinds @ ..] = piece.counts;
         if let (Some(array), true) = (&piece.points, points > 0) {
@@ -317,7 +345,7 @@ impl<'a> Arrays<'a> {
     }
 
     /// The numbers of an array.
-    fn open(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
+    pub(super) fn open(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
         let format = self.file.format;
         let kind = scalar(&array.kind).ok_or_else(|| {
             malformed(format, format!("{} is no type of number", text::quoted(array.kind.as_bytes())))
