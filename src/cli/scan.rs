@@ -11,7 +11,10 @@ use super::{misuse, row};
 use crate::io::volume::{self, Part};
 use crate::io::{Imported, import_mesh};
 use crate::task::Task;
-use crate::volume::{Grid, Label, PRESETS, Region, Selection, Survey, Surfacing, Surveying};
+use crate::volume::{Grid, Label, PRESETS, Region, Selection, Surfacing, Survey, Surveying};
+
+/// A volume with values down to this is taken for CT, whose files mostly do not say so: air has -1000 HU.
+const AIR_HU: f64 = -500.0;
 
 /// What of a scan or a mask is the vessel.
 #[derive(Clone, Debug, Default, Args)]
@@ -177,9 +180,9 @@ impl Opened {
         if self.survey.is_mask() {
             let labels = self.survey.labels.iter().map(|label| format!("{} ({} voxels)", label.value, label.points));
             row("labels", labels.collect::<Vec<_>>().join(", "));
-        } else {
+        } else if self.is_ct || low <= AIR_HU {
             for preset in PRESETS {
-                row("threshold, CT", format!("{} HU {}", preset.value, preset.name));
+                row("threshold", format!("{} HU {}", preset.value, preset.name));
             }
         }
     }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 use clap::Args;
 
-use super::scan::{self, ScanOptions};
 use super::optimise::same_file;
+use super::scan::{self, ScanOptions};
 use super::{misuse, output_format, row, write_whole};
 use crate::io::{self, Imported};
 

@@ -3,3 +3,5 @@
 mod cli;
 #[cfg(feature = "gui")]
 mod figures;
+#[cfg(feature = "scans")]
+mod scans;

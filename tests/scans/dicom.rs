@@ -87,7 +87,13 @@ impl File {
     }
 
     pub(crate) fn bytes(&self) -> Vec<u8> {
-        let syntax = element(0x0002, 0x0010, "UI", &text(self.syntax).iter().map(|&b| if b == b' ' { 0 } else { b }).collect::<Vec<u8>>(), EXPLICIT);
+        let syntax = element(
+            0x0002,
+            0x0010,
+            "UI",
+            &text(self.syntax).iter().map(|&b| if b == b' ' { 0 } else { b }).collect::<Vec<u8>>(),
+            EXPLICIT,
+        );
         let mut file = vec![0; 128];
         file.extend(b"DICM");
         file.extend(element(0x0002, 0x0000, "UL", &(syntax.len() as u32).to_le_bytes(), EXPLICIT));
@@ -247,21 +253,27 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
     files.push(("report", File::slice(EXPLICIT, 1).with(0x0028, 0x0004, text("RGB")).bytes()));
     let scan = open(&files).unwrap();
     assert_is_it(&scan, "mixed");
-    assert_eq!(scan.warnings, [
-        "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
-        "1 files hold no slice in shades of grey and are left out.",
-        "1 slices lie at the place of another: of each place the first is taken.",
-    ]);
+    assert_eq!(
+        scan.warnings,
+        [
+            "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
+            "1 files hold no slice in shades of grey and are left out.",
+            "1 slices lie at the place of another: of each place the first is taken.",
+        ]
+    );
 }
 
 #[test]
 fn gaps_are_told() {
     let files: Files = (0..4).map(|k| (NAMES[k], File::slice(EXPLICIT, if k == 3 { 4 } else { k }).bytes())).collect();
     let scan = open(&files).unwrap();
-    assert_eq!(scan.warnings, [
-        "The slices are not evenly apart: mostly 2.000 mm, but 4.000 mm between slices 3 and 4; some may be missing, and \
+    assert_eq!(
+        scan.warnings,
+        [
+            "The slices are not evenly apart: mostly 2.000 mm, but 4.000 mm between slices 3 and 4; some may be missing, and \
          the surface is stretched there.",
-    ]);
+        ]
+    );
 }
 
 #[test]
@@ -270,16 +282,32 @@ fn what_no_volume_can_be_made_of_is_refused() {
         let files: Files = (0..3).map(|k| (NAMES[k], change(File::slice(EXPLICIT, k)).bytes())).collect();
         open(&files).unwrap_err().to_string()
     };
-    assert_eq!(refused(|file| file.with(0x0020, 0x0037, Vec::new())), "The DICOM file is broken: it does not say which way its slices lie.");
-    assert_eq!(refused(|file| file.with(0x0020, 0x0032, Vec::new())), "The DICOM file is broken: it does not say where its slices are.");
-    assert_eq!(refused(|file| file.with(0x7FE0, 0x0010, vec![0; 58])), "The DICOM file is broken: a slice has fewer pixels than rows times columns.");
-    assert_eq!(refused(|file| file.with(0x0028, 0x0100, short(32))), "The DICOM file uses 32 bits a pixel, which Lumen does not read.");
-    assert_eq!(refused(|file| File { syntax: "1.2.840.10008.1.2.4.90", ..file }), "The DICOM file uses JPEG 2000 compression, which Lumen does not read.");
+    assert_eq!(
+        refused(|file| file.with(0x0020, 0x0037, Vec::new())),
+        "The DICOM file is broken: it does not say which way its slices lie."
+    );
+    assert_eq!(
+        refused(|file| file.with(0x0020, 0x0032, Vec::new())),
+        "The DICOM file is broken: it does not say where its slices are."
+    );
+    assert_eq!(
+        refused(|file| file.with(0x7FE0, 0x0010, vec![0; 58])),
+        "The DICOM file is broken: a slice has fewer pixels than rows times columns."
+    );
+    assert_eq!(
+        refused(|file| file.with(0x0028, 0x0100, short(32))),
+        "The DICOM file uses 32 bits a pixel, which Lumen does not read."
+    );
+    assert_eq!(
+        refused(|file| File { syntax: "1.2.840.10008.1.2.4.90", ..file }),
+        "The DICOM file uses JPEG 2000 compression, which Lumen does not read."
+    );
     let one = open(&series(EXPLICIT)[..1]).unwrap_err().to_string();
     assert_eq!(one, "The DICOM file is broken: it holds a single slice, and a surface takes two or more.");
     // Pictures and runs that are smaller than the file says.
     for syntax in [RLE, LOSSLESS] {
-        let files: Files = (0..2).map(|k| (NAMES[k], File::slice(syntax, k).with(0x0028, 0x0010, short(7)).bytes())).collect();
+        let files: Files =
+            (0..2).map(|k| (NAMES[k], File::slice(syntax, k).with(0x0028, 0x0010, short(7)).bytes())).collect();
         assert!(matches!(open(&files), Err(ScanError::File(_))), "{syntax}");
     }
 }

@@ -18,10 +18,8 @@ fn every_way_gives_the_same_volume_in_the_same_place() {
 
 #[test]
 fn headers_name_the_file_of_their_numbers() {
-    let names: Vec<Option<String>> = all()
-        .iter()
-        .map(|(_, files)| files.iter().find_map(|(name, bytes)| data_name(bytes, name)))
-        .collect();
+    let names: Vec<Option<String>> =
+        all().iter().map(|(_, files)| files.iter().find_map(|(name, bytes)| data_name(bytes, name))).collect();
     let named: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
     assert_eq!(named, ["folder/a.raw", "a.txt", "a.raw", "a.img"]);
     let header = metaimage("", "numbers.raw");
@@ -46,19 +44,32 @@ fn what_cannot_be_read_is_refused_in_a_sentence() {
         refused("folder/notes.txt", b"Dear colleague".to_vec()),
         "\"notes.txt\" is not a volume that Lumen knows: it opens NIfTI, NRRD, MetaImage and VTI files and series of DICOM."
     );
-    let mha = |from: &str, to: &str| refused("a.mha", [metaimage("", "LOCAL").replace(from, to).into_bytes(), little()].concat());
+    let mha = |from: &str, to: &str| {
+        refused("a.mha", [metaimage("", "LOCAL").replace(from, to).into_bytes(), little()].concat())
+    };
     assert_eq!(
         mha("DimSize = 6 5 4", "DimSize = 6 5 5"),
         "The MetaImage file is cut short: it announces 300 bytes and holds 240."
     );
-    assert_eq!(mha("NDims = 3", "NDims = 4"), "The MetaImage file uses other than three dimensions, which Lumen does not read.");
-    assert_eq!(mha("MET_SHORT", "MET_WORD"), "The MetaImage file uses numbers of type \"MET_WORD\", which Lumen does not read.");
-    assert_eq!(mha("= 0.6 0.8 0", "= 0 0 0"), "The volume cannot be placed in the patient: a distance of 0 mm between its points is none that a scan has.");
+    assert_eq!(
+        mha("NDims = 3", "NDims = 4"),
+        "The MetaImage file uses other than three dimensions, which Lumen does not read."
+    );
+    assert_eq!(
+        mha("MET_SHORT", "MET_WORD"),
+        "The MetaImage file uses numbers of type \"MET_WORD\", which Lumen does not read."
+    );
+    assert_eq!(
+        mha("= 0.6 0.8 0", "= 0 0 0"),
+        "The volume cannot be placed in the patient: a distance of 0 mm between its points is none that a scan has."
+    );
     assert_eq!(
         mha("0.6 0.8 0 -0.8 0.6 0", "0.6 0.8 0 0.6 0.8 0"),
         "The volume cannot be placed in the patient: the directions of its axes span no space."
     );
-    assert!(mha("6 5 4", "600000 500000 4").starts_with("The volume is too large: its numbers take 2400000000000 bytes"));
+    assert!(
+        mha("6 5 4", "600000 500000 4").starts_with("The volume is too large: its numbers take 2400000000000 bytes")
+    );
     let header = nrrd("gzip", "\n");
     let damaged = refused("a.nrrd", [header.clone().into_bytes(), gzip(&little())[..60].to_vec()].concat());
     assert!(damaged.starts_with("The NRRD file is"), "{damaged}");

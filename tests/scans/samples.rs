@@ -161,9 +161,7 @@ impl Nifti {
 /// From the axes of the volume to RAS, row by row.
 fn matrix() -> [[f64; 4]; 3] {
     let sign = [-1.0, -1.0, 1.0];
-    std::array::from_fn(|row| {
-        [STEPS[0][row], STEPS[1][row], STEPS[2][row], ORIGIN[row]].map(|n| n * sign[row])
-    })
+    std::array::from_fn(|row| [STEPS[0][row], STEPS[1][row], STEPS[2][row], ORIGIN[row]].map(|n| n * sign[row]))
 }
 
 /// A file of VTK's image data; `array` is the attributes of the element of its numbers and what is in it.
@@ -217,9 +215,7 @@ pub(crate) fn all() -> Vec<(&'static str, crate::Files)> {
             vec![("a.nhdr", header.into_bytes()), ("A.RAW", [b"abc".to_vec(), big()].concat())]
         }),
         ("nii", vec![("a.nii", [Nifti::first(false, true, b"n+1\0", 352.0), raw.clone()].concat())]),
-        ("nii, big, by quaternion", {
-            vec![("a.nii", [Nifti::first(true, false, b"n+1\0", 352.0), big()].concat())]
-        }),
+        ("nii, big, by quaternion", { vec![("a.nii", [Nifti::first(true, false, b"n+1\0", 352.0), big()].concat())] }),
         ("nii.gz", vec![("a.nii.gz", gzip(&[Nifti::first(false, true, b"n+1\0", 352.0), raw.clone()].concat()))]),
         ("hdr and img", {
             vec![("a.img", raw.clone()), ("a.hdr", Nifti::first(false, true, b"ni1\0", 0.0)[..348].to_vec())]
@@ -229,16 +225,23 @@ pub(crate) fn all() -> Vec<(&'static str, crate::Files)> {
     ];
     let length = (raw.len() as u64).to_le_bytes();
     let appended = [&length[..], &raw].concat();
-    ways.push(("vti, raw", vec![(
-        "a.vti",
-        vti("header_type=\"UInt64\"", "format=\"appended\" offset=\"0\">", &appended),
-    )]));
+    ways.push((
+        "vti, raw",
+        vec![("a.vti", vti("header_type=\"UInt64\"", "format=\"appended\" offset=\"0\">", &appended))],
+    ));
     let packed = zlib(&raw);
     let header = [1, raw.len(), 0, packed.len()].map(|n| (n as u32).to_le_bytes()).concat();
-    ways.push(("vti, packed", vec![(
-        "a.vti",
-        vti("compressor=\"vtkZLibDataCompressor\"", "format=\"appended\" offset=\"0\">", &[header, packed].concat()),
-    )]));
+    ways.push((
+        "vti, packed",
+        vec![(
+            "a.vti",
+            vti(
+                "compressor=\"vtkZLibDataCompressor\"",
+                "format=\"appended\" offset=\"0\">",
+                &[header, packed].concat(),
+            ),
+        )],
+    ));
     ways.extend(crate::dicom::all());
     ways
 }

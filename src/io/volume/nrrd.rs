@@ -109,7 +109,8 @@ fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Vec<String>)
             (DMat3::from_diagonal(turn) * steps, turn * origin)
         }
         _ => {
-            warnings.push("The NRRD file does not say which way the patient lies: its axes are taken as LPS.".to_owned());
+            warnings
+                .push("The NRRD file does not say which way the patient lies: its axes are taken as LPS.".to_owned());
             (steps, origin)
         }
     };

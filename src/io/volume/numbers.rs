@@ -141,10 +141,18 @@ impl Layout {
             self.make_room(&mut samples, whole)?;
             let words = &block[..whole * size];
             match (self.scalar, self.is_big_endian) {
-                (Scalar::I64, false) => words.as_chunks().0.iter().for_each(|&w| samples.push(i64::from_le_bytes(w) as f64)),
-                (Scalar::I64, true) => words.as_chunks().0.iter().for_each(|&w| samples.push(i64::from_be_bytes(w) as f64)),
-                (Scalar::U64, false) => words.as_chunks().0.iter().for_each(|&w| samples.push(u64::from_le_bytes(w) as f64)),
-                (Scalar::U64, true) => words.as_chunks().0.iter().for_each(|&w| samples.push(u64::from_be_bytes(w) as f64)),
+                (Scalar::I64, false) => {
+                    words.as_chunks().0.iter().for_each(|&w| samples.push(i64::from_le_bytes(w) as f64))
+                }
+                (Scalar::I64, true) => {
+                    words.as_chunks().0.iter().for_each(|&w| samples.push(i64::from_be_bytes(w) as f64))
+                }
+                (Scalar::U64, false) => {
+                    words.as_chunks().0.iter().for_each(|&w| samples.push(u64::from_le_bytes(w) as f64))
+                }
+                (Scalar::U64, true) => {
+                    words.as_chunks().0.iter().for_each(|&w| samples.push(u64::from_be_bytes(w) as f64))
+                }
                 (_, is_big_endian) => samples.extend_from_bytes(words, is_big_endian),
             }
             block.copy_within(whole * size..filled, 0);

@@ -5,9 +5,9 @@
 use glam::{DMat3, DVec3};
 
 use super::super::vtk::{Image, Values, read_image};
+use super::Scan;
 use super::error::ScanError;
 use super::numbers::{LARGEST, Layout, MOST_UNFOLDED, Packing};
-use super::Scan;
 use crate::volume::{Geometry, Grid, VolumeError};
 
 const FORMAT: &str = "VTI";

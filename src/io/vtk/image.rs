@@ -46,11 +46,7 @@ struct Found<'a> {
 }
 
 /// Reads a file, whose compressed data may unfold to `room` bytes.
-pub(in crate::io) fn read<'a, T>(
-    bytes: &'a [u8],
-    room: u64,
-    make: impl FnOnce(Image) -> T,
-) -> Result<T, ReadError> {
+pub(in crate::io) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -> T) -> Result<T, ReadError> {
     let start = bytes.len() - text::without_mark(bytes).trim_ascii_start().len();
     let mut reader = Reader::from_reader(&bytes[start..]);
     let (mut file, mut found, mut in_points) = (None::<Structure<'a>>, Found::default(), false);

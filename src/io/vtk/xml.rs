@@ -214,14 +214,9 @@ impl<'a> Structure<'a> {
     }
 
     /// What is appended, with the reader behind its element's beginning.
-    pub(super) fn append(
-        &mut self,
-        element: &BytesStart,
-        rest: &'a [u8],
-    ) -> Result<(), ReadError> {
+    pub(super) fn append(&mut self, element: &BytesStart, rest: &'a [u8]) -> Result<(), ReadError> {
         let rest = rest.trim_ascii_start().strip_prefix(b"_");
-        let rest =
-            rest.ok_or_else(|| malformed(self.format, "its appended data do not begin with an underscore"))?;
+        let rest = rest.ok_or_else(|| malformed(self.format, "its appended data do not begin with an underscore"))?;
         let is_base64 = attribute(element, "encoding").is_some_and(|encoding| encoding == "base64");
         self.appended = Some((rest, is_base64));
         Ok(())

@@ -175,12 +175,16 @@ fn walk<'a>(
     let mut reader = LazyDataSetReader::new_with_ts(Cursor::new(bytes), encoding).map_err(|_| broken())?;
     // The sequences that are open, and the items in them.
     let mut open: Vec<Option<Tag>> = Vec::new();
-    let mut fragments = 0;
+    // Items of the pixels so far; the first is a table of offsets, often empty.
+    let mut items = 0;
     while let Some(token) = reader.advance() {
         match token.map_err(|_| broken())? {
             LazyDataToken::SequenceStart { tag, .. } => open.push(Some(tag)),
             LazyDataToken::PixelSequenceStart => open.push(Some(PIXELS)),
-            LazyDataToken::ItemStart { .. } => open.push(None),
+            LazyDataToken::ItemStart { .. } => {
+                items += usize::from(open == [Some(PIXELS)]);
+                open.push(None);
+            }
             // The reader panics at what follows an end that nothing began.
             LazyDataToken::SequenceEnd | LazyDataToken::ItemEnd if open.pop().is_none() => return Err(broken()),
             LazyDataToken::LazyValue { header, decoder } => {
@@ -194,8 +198,7 @@ fn walk<'a>(
             LazyDataToken::LazyItemValue { len, decoder } => {
                 let value = value(bytes, decoder.position(), len).ok_or_else(cut_short)?;
                 decoder.skip_bytes(len).map_err(|_| broken())?;
-                fragments += 1;
-                if fragments > 1 {
+                if items > 1 && open.first() == Some(&Some(PIXELS)) {
                     take(None, PIXELS, value);
                 }
             }

@@ -193,7 +193,11 @@ fn trimmed(slice: &Slice) -> Result<Vec<u8>, ScanError> {
     if file.bits_allocated == 16 && (1..16).contains(&unused) {
         for word in pixels.as_chunks_mut::<2>().0 {
             let shifted = u16::from_le_bytes(*word) << unused;
-            *word = if file.is_signed { (shifted as i16 >> unused).to_le_bytes() } else { (shifted >> unused).to_le_bytes() };
+            *word = if file.is_signed {
+                (shifted as i16 >> unused).to_le_bytes()
+            } else {
+                (shifted >> unused).to_le_bytes()
+            };
         }
     }
     Ok(pixels)

@@ -86,7 +86,8 @@ fn run_lengths(packed: &[u8], size: usize, bytes: usize) -> Option<Vec<u8>> {
 
 /// Decodes a JPEG picture of one channel.
 fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
-    let damaged = || ScanError::malformed(FORMAT, "the JPEG picture of a slice is damaged, or of a kind that is not read");
+    let damaged =
+        || ScanError::malformed(FORMAT, "the JPEG picture of a slice is damaged, or of a kind that is not read");
     let mut decoder = Decoder::new(packed);
     decoder.read_info().map_err(|_| damaged())?;
     let info = decoder.info().ok_or_else(damaged)?;
