@@ -47,7 +47,8 @@ impl Reducing {
                             let start = grid.index(point);
                             values[start..start + step.min(nx - i)].iter().copied()
                         });
-                        block.fold(first, |a, b| if grid.is_inverted() == (b < a) || a != a { b } else { a })
+                        let is_larger = |a, b| if grid.is_inverted() { a < b } else { a > b };
+                        block.fold(first, |a, b| if is_larger(b, a) || a.to_f64().is_nan() { b } else { a })
                     };
                     self.samples.push(chosen.to_f64());
                 }

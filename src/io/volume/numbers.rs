@@ -140,25 +140,26 @@ impl Layout {
             let whole = (filled / size).min(self.points - samples.len());
             self.make_room(&mut samples, whole)?;
             let words = &block[..whole * size];
-            match (self.scalar, self.is_big_endian) {
-                (Scalar::I64, false) => {
-                    words.as_chunks().0.iter().for_each(|&w| samples.push(i64::from_le_bytes(w) as f64))
-                }
-                (Scalar::I64, true) => {
-                    words.as_chunks().0.iter().for_each(|&w| samples.push(i64::from_be_bytes(w) as f64))
-                }
-                (Scalar::U64, false) => {
-                    words.as_chunks().0.iter().for_each(|&w| samples.push(u64::from_le_bytes(w) as f64))
-                }
-                (Scalar::U64, true) => {
-                    words.as_chunks().0.iter().for_each(|&w| samples.push(u64::from_be_bytes(w) as f64))
-                }
-                (_, is_big_endian) => samples.extend_from_bytes(words, is_big_endian),
+            match self.scalar {
+                Scalar::I64 => self.push_wide(words, &mut samples, |word| i64::from_le_bytes(word) as f64),
+                Scalar::U64 => self.push_wide(words, &mut samples, |word| u64::from_le_bytes(word) as f64),
+                _ => samples.extend_from_bytes(words, self.is_big_endian),
             }
             block.copy_within(whole * size..filled, 0);
             kept = filled - whole * size;
         }
         Ok(samples)
+    }
+
+    /// Adds whole numbers of 64 bits as floats.
+    fn push_wide(self, words: &[u8], samples: &mut Samples, value: impl Fn([u8; 8]) -> f64) {
+        for &word in words.as_chunks::<8>().0 {
+            let mut word = word;
+            if self.is_big_endian {
+                word.reverse();
+            }
+            samples.push(value(word));
+        }
     }
 
     fn take_text(self, bytes: &[u8]) -> Result<Samples, ScanError> {

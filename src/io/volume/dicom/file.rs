@@ -94,9 +94,8 @@ impl<'a> File<'a> {
         let length = bytes.get(META + 8..META + 12).and_then(|length| length.first_chunk().copied());
         let length = length.map_or(0, u32::from_le_bytes) as usize;
         let start = META + 12 + length;
-        let (meta, rest) = match (bytes.get(META..start), bytes.get(start..)) {
-            (Some(meta), Some(rest)) => (meta, rest),
-            _ => return Err(ScanError::malformed(FORMAT, "a file ends within its header")),
+        let (Some(meta), Some(rest)) = (bytes.get(META..start), bytes.get(start..)) else {
+            return Err(ScanError::malformed(FORMAT, "a file ends within its header"));
         };
         let mut syntax = String::new();
         walk(meta, &entries::EXPLICIT_VR_LITTLE_ENDIAN.erased(), |_, tag, value| {

@@ -69,7 +69,9 @@ fn run_lengths(packed: &[u8], size: usize, bytes: usize) -> Option<Vec<u8>> {
                 count @ 0.. => {
                     for _ in 0..=count {
                         let byte = input.next()?;
-                        output.next().map(|pixel| *pixel = byte);
+                        if let Some(pixel) = output.next() {
+                            *pixel = byte;
+                        }
                     }
                     left = left.saturating_sub(count as usize + 1);
                 }
