@@ -69,8 +69,8 @@ impl ScanEngine {
         Self::default()
     }
 
-    fn refuse(&mut self, number: u64, why: impl ToString) {
-        self.events.push_back(ScanEvent::Refused { number, sentence: why.to_string() });
+    fn refuse(&mut self, number: u64, sentence: impl Into<String>) {
+        self.events.push_back(ScanEvent::Refused { number, sentence: sentence.into() });
     }
 
     fn open(&mut self, id: u64, files: &[NamedFile]) {
@@ -94,7 +94,7 @@ impl ScanEngine {
                 let job = Some(Job::Surveying { task: Surveying::new(Arc::clone(&grid)), opened });
                 self.current = Some(Current { grid, survey: None, reduced: None, job });
             }
-            Err(error) => self.refuse(id, error),
+            Err(error) => self.refuse(id, error.to_string()),
         }
     }
 
@@ -110,7 +110,7 @@ impl ScanEngine {
     fn begin_preview(&mut self, wanted: Wanted, step: Option<usize>) {
         let Some(current) = self.surveyed(wanted.generation) else { return };
         if let Err(error) = current.begin_preview(wanted, step) {
-            self.refuse(wanted.generation, error);
+            self.refuse(wanted.generation, error.to_string());
         }
     }
 
@@ -119,7 +119,7 @@ impl ScanEngine {
         let checked = current.survey.as_ref().map_or(Ok(()), |survey| selection.check(survey));
         match checked.and_then(|()| Surfacing::new(&current.grid, selection, region)) {
             Ok(task) => current.job = Some(Job::Surface { task, generation }),
-            Err(error) => self.refuse(generation, error),
+            Err(error) => self.refuse(generation, error.to_string()),
         }
     }
 
@@ -184,7 +184,7 @@ impl ScanEngine {
                 self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), axes: Axes::Lps });
             }
             (Job::Preview { generation, .. } | Job::Surface { generation, .. }, Made::Surface(Err(error))) => {
-                self.refuse(generation, error);
+                self.refuse(generation, error.to_string());
             }
             _ => unreachable!("a job makes what it is for"),
         }
