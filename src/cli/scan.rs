@@ -1,5 +1,6 @@
 //! Where a subcommand's surface is made of a scan or a mask: a file, a header with its data beside it, a folder of DICOM.
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -13,6 +14,8 @@ use crate::io::{Imported, import_mesh};
 use crate::task::Task;
 use crate::volume::{Grid, Label, PRESETS, Region, Selection, Surfacing, Survey, Surveying};
 
+/// Bytes of a file that say what it is.
+const HEAD: u64 = 4096;
 /// A volume with values down to this is taken for CT, whose files mostly do not say so: air has -1000 HU.
 const AIR_HU: f64 = -500.0;
 
@@ -101,10 +104,10 @@ pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
                 bail!("{name} holds no files");
             }
         } else {
-            let (name, bytes) = file(path)?;
-            if files.is_empty() && !volume::is_volume(&bytes) && names.len() == 1 {
+            if names.len() == 1 && !volume::is_volume(&head(path)?) {
                 return Ok(None);
             }
+            let (name, bytes) = file(path)?;
             if let Some(data) = volume::data_name(&bytes, &name) {
                 // Beside the header, wherever the header says that it was.
                 let data = data.rsplit(['/', '\\']).next().unwrap_or(&data).to_owned();
@@ -186,6 +189,14 @@ impl Opened {
             }
         }
     }
+}
+
+/// The first bytes of a file: as many as say what it is.
+fn head(path: &Path) -> Result<Vec<u8>> {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.with_context(|| format!("cannot read {}", path.display()))?;
+    Ok(head)
 }
 
 fn file(path: &Path) -> Result<(String, Vec<u8>)> {

@@ -18,7 +18,7 @@ fn ball(inside: Option<u8>) -> Vec<u8> {
                 let distance = (x * x + y * y + z * z).sqrt();
                 bytes.push(match inside {
                     Some(label) => label * u8::from(distance < 10.0),
-                    None => (100.0 - 20.0 * (distance - 10.0)) as u8,
+                    None => (100.0 - 20.0 * (distance - 10.0)).round() as u8,
                 });
             }
         }
