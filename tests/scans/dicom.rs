@@ -221,7 +221,7 @@ fn frames_of_one_file_are_slices() {
 fn signed_pixels_of_fewer_bits_are_extended() {
     let slices = (0..2).map(|k| {
         // -5 in twelve bits, with something of another's above them.
-        let pixels = vec![0x7FFBu16; 30].iter().flat_map(|pixel| pixel.to_le_bytes()).collect();
+        let pixels = [0x7FFBu16; 30].iter().flat_map(|pixel| pixel.to_le_bytes()).collect();
         (NAMES[k], File::slice(EXPLICIT, k).with(0x0028, 0x0103, short(1)).with(0x7FE0, 0x0010, pixels).bytes())
     });
     let scan = open(&slices.collect::<Vec<_>>()).unwrap();
