@@ -45,7 +45,7 @@ macro_rules! sample_types {
             }
 
             /// Adds the numbers that `bytes` are, whole ones, in the one byte order or the other.
-            pub(crate) fn extend_from_bytes(&mut self, bytes: &[u8], is_big_endian: bool) {
+            pub fn extend_from_bytes(&mut self, bytes: &[u8], is_big_endian: bool) {
                 match self {
                     $(Self::$variant(values) => {
                         let words = bytes.as_chunks::<{ size_of::<$type>() }>().0.iter();
@@ -59,7 +59,7 @@ macro_rules! sample_types {
             }
 
             /// Adds a number, rounded and clamped to the type.
-            pub(crate) fn push(&mut self, value: f64) {
+            pub fn push(&mut self, value: f64) {
                 match self {
                     $(Self::$variant(values) => values.push(value as $type),)*
                 }
@@ -136,12 +136,12 @@ impl Samples {
     ///
     /// # Errors
     /// When there is no memory for them.
-    pub(crate) fn try_reserve(&mut self, more: usize) -> Result<(), std::collections::TryReserveError> {
+    pub fn try_reserve(&mut self, more: usize) -> Result<(), std::collections::TryReserveError> {
         with_samples!(self, values => values.try_reserve_exact(more))
     }
 
     /// How many there is room for.
-    pub(crate) fn capacity(&self) -> usize {
+    pub fn capacity(&self) -> usize {
         with_samples!(self, values => values.capacity())
     }
 }
