@@ -4,13 +4,14 @@
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! parallel < mesh < io, phantom, vessel < pipeline < sharing, trial < engine < app < desktop, web
+//! parallel < mesh < volume < io, phantom, vessel < pipeline < sharing, trial < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
 //! - [`parallel`]: work on all cores, whatever the number of them with the same result.
 //! - [`haptics`]: HID reports to axes and forces, and back; it knows no transport and no mesh.
-//! - [`io`]: bytes to mesh and back, one file a format, with a report of what was mended.
+//! - [`volume`]: scans and masks: a grid in the patient's coordinates, and the surface at a threshold by marching cubes.
+//! - [`io`]: bytes to mesh or volume and back, one file a format, with a report of what was mended.
 //! - [`phantom`]: vessel trees that Lumen makes itself, cut from a voxel mask by marching cubes.
 //! - [`vessel`]: the tree in a surface: balls, branches, centrelines, calibres.
 //! - [`pipeline`]: connectivity, windowed-sinc smoothing, normals, decimation, the progressive mesh, deviation.
@@ -46,3 +47,4 @@ pub mod task;
 pub mod transfer;
 pub mod trial;
 pub mod vessel;
+pub mod volume;

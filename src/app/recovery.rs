@@ -218,8 +218,8 @@ impl Recovery {
         let Some(store) = platform.store().filter(|_| self.keeps_surface) else { return };
         match state.document.as_ref().map(|document| &document.source) {
             Some(Source::File { name, bytes, .. }) => store.keep_surface(name, bytes),
-            // A sample can be made again.
-            Some(Source::Sample { .. }) | None => store.forget_surface(),
+            // A sample can be made again; of a scan nothing is kept.
+            Some(Source::Sample { .. } | Source::Made { .. }) | None => store.forget_surface(),
         }
     }
 
@@ -266,5 +266,7 @@ fn surface(state: &State) -> Option<Surface> {
     Some(match &state.document.as_ref()?.source {
         Source::Sample { sample, .. } => Surface::Sample(*sample),
         Source::File { name, options, .. } => Surface::File { name: name.clone(), unit: options.unit },
+        // Names of scans are often those of patients.
+        Source::Made { .. } => return None,
     })
 }

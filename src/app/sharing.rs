@@ -137,6 +137,7 @@ fn surface(state: &State) -> Option<SharedSurface> {
     match &document.source {
         Source::Sample { sample, .. } => Some(SharedSurface::Sample(*sample)),
         Source::File { .. } => document.digest.map(|digest| SharedSurface::File(digest.short())),
+        Source::Made { .. } => None,
     }
 }
 
@@ -144,7 +145,7 @@ fn surface(state: &State) -> Option<SharedSurface> {
 fn asked_unit(state: &State) -> Option<Unit> {
     match &state.document.as_ref()?.source {
         Source::File { options, .. } => options.unit,
-        Source::Sample { .. } => None,
+        Source::Sample { .. } | Source::Made { .. } => None,
     }
 }
 

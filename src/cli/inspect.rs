@@ -1,18 +1,21 @@
-//! `lumen inspect`: what is in a surface file.
+//! `lumen inspect`: what is in a surface file, or in a scan.
 
 use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 
+use super::scan::{self, Opened, ScanOptions};
 use super::{array_rows, row, shape_rows, source};
 use crate::io::{ImportReport, Imported, Unit};
 use crate::pipeline::shape::{Shape, shape};
 
-/// Says what is in a surface file.
+/// Says what is in a surface file, or in a scan; with a threshold or a label, in the surface of that.
 #[derive(Debug, Args)]
 pub struct Inspect {
-    /// A surface file, or sample:aorta, sample:coronary
+    /// A surface file, or sample:aorta, sample:coronary; a scan or a mask, or a folder of DICOM
     file: String,
+    #[command(flatten)]
+    scan: ScanOptions,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -33,7 +36,18 @@ struct Inspected {
 impl Inspect {
     /// Reads the file and prints its report.
     pub(super) fn run(&self) -> Result<()> {
-        let Imported { mesh, report, .. } = source::read(&self.file, self.unit)?;
+        if !Opened::is_chosen(&self.scan)
+            && !self.file.starts_with("sample:")
+            && let Some(opened) = scan::open(std::slice::from_ref(&self.file))?
+        {
+            if self.json {
+                println!("{}", opened.json()?);
+            } else {
+                opened.print();
+            }
+            return Ok(());
+        }
+        let Imported { mesh, report, .. } = source::read_with(&self.file, self.unit, &self.scan)?;
         let inspected = Inspected { report, shape: shape(&mesh) };
         if self.json {
             println!("{}", serde_json::to_string_pretty(&inspected)?);

@@ -13,9 +13,16 @@ mod interrupt;
 mod manual;
 mod optimise;
 mod phantom;
+#[cfg(feature = "scans")]
+mod scan;
+#[cfg(not(feature = "scans"))]
+#[path = "no_scan.rs"]
+mod scan;
 mod settings;
 mod sheet;
 mod source;
+#[cfg(feature = "scans")]
+mod surface;
 mod tables;
 mod trial;
 mod trial_tables;
@@ -66,6 +73,9 @@ pub enum Command {
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
     Phantom(phantom::Phantom),
+    /// Write the surface in a scan or a mask
+    #[cfg(feature = "scans")]
+    Surface(surface::Surface),
     /// Make Tables I and II of the paper for a surface, or III and IV, the paper's numbers beside them
     Tables(tables::Tables),
     /// Steer a guidewire through a surface by autopilot
@@ -83,6 +93,8 @@ impl Command {
             Self::Manual(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
+            #[cfg(feature = "scans")]
+            Self::Surface(command) => command.run(),
             Self::Tables(command) => command.run(),
             Self::Trial(command) => command.run(),
         };

@@ -10,6 +10,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::batch::BatchOptions;
+use super::scan::ScanOptions;
 use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, misuse, output_format, row, shape_rows, source, write_whole};
@@ -28,9 +29,12 @@ use crate::sharing::{SharedSettings, write_settings};
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
 #[derive(Debug, Args)]
 pub struct Optimise {
-    /// Surface files, or sample:aorta, sample:coronary; or folders, for all surfaces in them
+    /// Surface files, or sample:aorta, sample:coronary; or folders, for all surfaces in them; a scan or a mask, or with
+    /// --threshold or --label a folder of DICOM
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
+    #[command(flatten)]
+    scan: ScanOptions,
     /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb; a folder where there are more files than one
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
@@ -134,9 +138,14 @@ impl Optimise {
         let asked = self.settings.asked()?;
         interrupt::listen()?;
         match &self.files[..] {
-            [file] if !batch::is_folder(Path::new(file)) && !batch::is_folder(&self.output) => self.one(file, &asked),
+            [file] if self.is_one(file) => self.one(file, &asked),
             files => self.many(files, &asked),
         }
+    }
+
+    /// Whether this is a surface or a scan by itself: a folder is a series of slices where a threshold or label is given.
+    fn is_one(&self, file: &str) -> bool {
+        !batch::is_folder(&self.output) && (self.scan.is_any() || !batch::is_folder(Path::new(file)))
     }
 
     fn one(&self, file: &str, asked: &Asked) -> Result<()> {
@@ -146,7 +155,7 @@ impl Optimise {
         }
         self.check_outputs(file);
         let start = Instant::now();
-        let imported = source::read(file, asked.shared.unit)?;
+        let imported = source::read_with(file, asked.shared.unit, &self.scan)?;
         let read = milliseconds(start.elapsed());
         let outputs = Outputs {
             surface: &self.output,
@@ -174,6 +183,7 @@ impl Optimise {
             ("--report", self.report.is_some()),
             ("--branches", self.branches),
             ("--branches-csv", self.branches_csv.is_some()),
+            ("--threshold, --label or --box", self.scan.is_any()),
         ] {
             if is_given {
                 misuse(format!("{option} is for one file: of several, each gets a report beside its surface"));

@@ -129,6 +129,7 @@ mod tests {
         match event {
             PlatformEvent::Saved { message } | PlatformEvent::Failed { message } => message,
             PlatformEvent::Chosen { name, .. } => name,
+            other => panic!("{other:?}"),
         }
     }
 

@@ -39,6 +39,16 @@ pub enum Source {
         /// Triangles of its largest piece.
         triangles: u32,
     },
+    /// A surface that was made of a scan.
+    Made {
+        /// What it is called.
+        name: String,
+        /// What it was made of: "DICOM".
+        format: String,
+        /// The surface, in LPS mm.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+    },
 }
 
 impl Source {
@@ -50,7 +60,7 @@ impl Source {
     /// What the surface is called.
     pub fn name(&self) -> &str {
         match self {
-            Self::File { name, .. } => name,
+            Self::File { name, .. } | Self::Made { name, .. } => name,
             Self::Sample { sample, .. } => sample.label(),
         }
     }
@@ -318,6 +328,8 @@ mod tests {
         let mesh = TriMesh { positions: vec![glam::Vec3::X; 3], triangles: vec![[0, 1, 2]] };
         let source = Source::File { name: "a.stl".into(), bytes: stl, options: ImportOptions::default() };
         let bad = Source::File { name: "b.stl".into(), bytes: Arc::new(vec![0; 3]), options: ImportOptions::default() };
+        let sphere = crate::mesh::shapes::icosphere(1, 30.0, glam::Vec3::ZERO);
+        let made = Source::Made { name: "d".into(), format: "DICOM".into(), mesh: Arc::new(sphere) };
         let settings = Settings::default();
         let impossible = Settings { keep: Keep::Component(10_000), ..Settings::default() };
         let commands = [
@@ -328,6 +340,7 @@ mod tests {
             Command::Set { generation: 3, settings: settings.clone() },
             Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },
             Command::Cancel,
+            Command::Open { id: 6, source: made, settings: settings.clone() },
             Command::Open { id: 5, source: Source::sample(Sample::Coronary), settings },
         ];
         let mut kinds = std::collections::BTreeSet::new();

@@ -9,13 +9,15 @@
 //! - `pipeline_engine`: what stands in force; `compare`: settings to compare ([`Command::Compare`]), which are worked on while
 //!   nothing else is to be done; `progress`: how far both are.
 //! - [`trial`]: the guidewire trial, an engine of its own on a line of its own. It keeps pace with the clock.
-//! - [`Machine`]: what both are to whoever runs them.
+//! - [`scan`]: scans and masks, an engine of its own as well; the surface that it makes is opened as [`Source::Made`].
+//! - [`Machine`]: what they are to whoever runs them.
 
 mod compare;
 mod machine;
 mod message;
 mod pipeline_engine;
 mod progress;
+pub mod scan;
 mod surfaces;
 pub mod trial;
 

@@ -204,7 +204,7 @@ impl Engine {
         let name = source.name().to_owned();
         let digest = match &source {
             Source::File { bytes, .. } => Some(Digest::of(bytes)),
-            Source::Sample { .. } => None,
+            Source::Sample { .. } | Source::Made { .. } => None,
         };
         match read(source) {
             Ok(Imported { mesh, arrays, report }) => {
@@ -241,6 +241,7 @@ impl Engine {
 fn read(source: Source) -> Result<Imported, String> {
     match source {
         Source::File { name, bytes, options } => io::read(&bytes, &name, &options).map_err(|error| error.to_string()),
+        Source::Made { format, mesh, .. } => Ok(io::import_mesh(Arc::unwrap_or_clone(mesh), &format)),
         Source::Sample { sample, triangles } => {
             let mesh = phantom::generate(sample, triangles as usize).map_err(|error| error.to_string())?;
             Ok(io::import_mesh(mesh, "sample"))

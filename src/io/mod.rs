@@ -37,6 +37,8 @@ mod room;
 mod size;
 mod stl;
 mod text;
+#[cfg(feature = "scans")]
+pub mod volume;
 mod vtk;
 mod weld;
 mod winding;

@@ -16,8 +16,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::marching_cubes::{Grid, Mask};
 use super::vessel::Vessel;
+use crate::volume::{Geometry, Mask};
 
 /// Share of a branch's radius that the fillet at its origin has.
 const FILLET: f64 = 0.45;
@@ -171,17 +171,17 @@ impl Field {
     }
 
     /// The grid that holds the lumen.
-    pub(super) fn grid(&self) -> Grid {
+    pub(super) fn grid(&self) -> Geometry {
         let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for cone in &self.cones {
             min = min.min(cone.min);
             max = max.max(cone.max);
         }
-        Grid::around(min - self.margin, max + self.margin, self.spacing)
+        Geometry::around(min - self.margin, max + self.margin, self.spacing)
     }
 
     /// The lumen as a mask over `grid`.
-    pub(super) fn mask<'a>(&'a self, grid: &'a Grid) -> FieldMask<'a> {
+    pub(super) fn mask<'a>(&'a self, grid: &'a Geometry) -> FieldMask<'a> {
         FieldMask { field: self, grid, k: 0, in_slice: Vec::new(), in_row: Vec::new(), spans: Vec::new() }
     }
 }
@@ -195,7 +195,7 @@ fn smooth_min(a: f64, b: f64, k: f64) -> f64 {
 /// [`Field`] sampled on a grid.
 pub(super) struct FieldMask<'a> {
     field: &'a Field,
-    grid: &'a Grid,
+    grid: &'a Geometry,
     k: usize,
     in_slice: Vec<&'a Cone>,
     in_row: Vec<&'a Cone>,
@@ -203,6 +203,8 @@ pub(super) struct FieldMask<'a> {
 }
 
 impl Mask for FieldMask<'_> {
+    const CLOSED: bool = true;
+
     fn begin_slice(&mut self, k: usize) {
         self.k = k;
         let (z, margin) = (self.grid.at(0.0, 0.0, k as f64).z, self.field.margin);

@@ -9,10 +9,8 @@
 
 mod aorta;
 mod coronary;
-mod cube_cases;
 mod field;
 mod islands;
-mod marching_cubes;
 mod vessel;
 
 use std::fmt;
@@ -24,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::mesh::{TriMesh, components};
+use crate::volume::MarchingCubes;
 use field::Field;
 pub use vessel::{Station, Vessel};
 
@@ -221,7 +220,14 @@ fn sampled(
     let field = sample.field(DVec3::new(spacing, spacing, spacing * SLICE_RATIO));
     let mut grid = field.grid();
     grid.origin -= grid.spacing * DVec3::from(shift);
-    marching_cubes::marching_cubes(&grid, &mut field.mask(&grid), progress).ok_or(PhantomError::Cancelled)
+    let mut surface = MarchingCubes::new(&grid, field.mask(&grid));
+    while !surface.is_done() {
+        surface.advance_layer();
+        if progress(surface.fraction()).is_break() {
+            return Err(PhantomError::Cancelled);
+        }
+    }
+    Ok(surface.into_mesh())
 }
 
 /// Triangles of the largest component.

@@ -1,8 +1,8 @@
 //! Facts about whole samples: what the anatomy says must be found in the mesh.
 
-use super::marching_cubes::tests::vertices_are_manifold;
 use super::*;
 use crate::mesh::{Topology, boundary_loops, triangle_area, volume};
+use crate::volume::tests::vertices_are_manifold;
 
 fn default_mesh(sample: Sample) -> TriMesh {
     generate(sample, sample.default_triangles()).expect("the default is in range")

@@ -6,4 +6,6 @@ mod cli;
 mod figures;
 mod privacy;
 mod program;
+#[cfg(feature = "scans")]
+mod scans;
 mod settings;

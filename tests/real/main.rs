@@ -22,6 +22,8 @@ mod import;
 mod measures;
 mod pipeline;
 mod route;
+#[cfg(feature = "scans")]
+mod scans;
 mod smoothing;
 mod smoothing_oracle;
 mod spare_thin;
@@ -46,6 +48,8 @@ fn main() {
                 trial::trials,
             ];
             trials.extend(parts.into_iter().flat_map(|part| part(&folder)));
+            #[cfg(feature = "scans")]
+            trials.extend(scans::trials(&folder));
         }
         None => {
             eprintln!("no test meshes: set LUMEN_DATA to their folder");

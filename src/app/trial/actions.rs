@@ -298,6 +298,6 @@ impl Trial {
 fn sample_of(document: &Document) -> Option<Sample> {
     match document.source {
         Source::Sample { sample, .. } => Some(sample),
-        Source::File { .. } => None,
+        Source::File { .. } | Source::Made { .. } => None,
     }
 }

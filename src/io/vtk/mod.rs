@@ -9,6 +9,8 @@
 
 mod array;
 mod encoded;
+#[cfg(feature = "scans")]
+mod image;
 mod legacy;
 mod legacy_data;
 mod legacy_text;
@@ -17,6 +19,8 @@ mod write;
 mod xml;
 mod xml_arrays;
 
+#[cfg(feature = "scans")]
+pub(super) use image::{Image, Values, read as read_image};
 pub(super) use legacy::{is_legacy, read as read_legacy};
 pub(super) use write::{legacy as write_legacy, xml as write_xml};
 pub(super) use xml::{is_xml, read as read_xml};

@@ -29,7 +29,7 @@ pub(in crate::io) fn is_xml(text: &[u8]) -> bool {
 /// Reads a file, with positions relative to `origin`.
 pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
     let file = Structure::parse(bytes)?;
-    let mut arrays = Arrays::new(&file, bytes);
+    let mut arrays = Arrays::new(&file, bytes, Room::of(bytes.len()).unfolded());
     let mut surface = Surface::new(file.format, bytes.len(), origin);
     if file.pieces.iter().flat_map(|piece| &piece.data).any(|&(on, _)| on == On::Triangle) {
         surface.note_cells();
@@ -133,7 +133,7 @@ pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> Rea
 }
 
 /// The value of an attribute, if it is there.
-fn attribute(element: &BytesStart, name: &str) -> Option<String> {
+pub(super) fn attribute(element: &BytesStart, name: &str) -> Option<String> {
     // Without a search for duplicates, which takes the square of their number.
     let mut attributes = element.attributes();
     let found = attributes.with_checks(false).flatten().find(|attribute| attribute.key.as_ref() == name.as_bytes())?;
@@ -181,12 +181,7 @@ impl<'a> Structure<'a> {
                 }
                 b"AppendedData" => {
                     let rest = bytes.get(start + reader.buffer_position() as usize..).unwrap_or_default();
-                    let rest = rest.trim_ascii_start();
-                    let rest = rest
-                        .strip_prefix(b"_")
-                        .ok_or_else(|| malformed(file.format, "its appended data do not begin with an underscore"))?;
-                    let is_base64 = attribute(&element, "encoding").is_some_and(|encoding| encoding == "base64");
-                    file.appended = Some((rest, is_base64));
+                    file.append(&element, rest)?;
                     break;
                 }
                 other => section = section_named(other).filter(|_| is_open).unwrap_or(section),
@@ -202,6 +197,11 @@ impl<'a> Structure<'a> {
             Some("UnstructuredGrid") => "VTU",
             other => return Err(no_surface(other.unwrap_or("file of no type"))),
         };
+        Self::of(format, element)
+    }
+
+    /// A file of a format, of which nothing is known but what the outermost element says of its encoding.
+    pub(super) fn of(format: &'static str, element: &BytesStart) -> Result<Self, ReadError> {
         let compressor = match attribute(element, "compressor").as_deref() {
             None | Some("") => None,
             Some(name) => Some(Compressor::named(name).ok_or_else(|| ReadError::Unsupported {
@@ -220,22 +220,9 @@ impl<'a> Structure<'a> {
         &mut self,
         section: Section,
         element: &BytesStart,
-        (inline, at): (&'a [u8], usize),
+        inline: (&'a [u8], usize),
     ) -> Result<(), ReadError> {
-        let name = attribute(element, "Name").unwrap_or_default();
-        let name = quick_xml::escape::unescape(&name).map_or_else(|_| name.clone(), Cow::into_owned);
-        let place = match attribute(element, "format").as_deref() {
-            Some("appended") => {
-                let offset = attribute(element, "offset").and_then(|offset| offset.parse().ok());
-                Place::Appended(
-                    offset.ok_or_else(|| malformed(self.format, "an array does not say where its data are"))?,
-                )
-            }
-            Some("binary") => Place::Binary(inline),
-            _ => Place::Text(inline, at),
-        };
-        let components = attribute(element, "NumberOfComponents").and_then(|n| n.parse().ok()).unwrap_or(1);
-        let array = DataArray { name, kind: attribute(element, "type").unwrap_or_default(), components, place };
+        let array = DataArray::new(self.format, element, inline)?;
         match (section, self.pieces.last_mut()) {
             (Section::FieldData, _) if array.name == "SPACE" => self.space = Some(array),
             (Section::Data(on), Some(piece)) => piece.data.push((on, array)),
@@ -249,6 +236,37 @@ impl<'a> Structure<'a> {
             _ => {}
         }
         Ok(())
+    }
+
+    /// What is appended, with the reader behind its element's beginning.
+    pub(super) fn append(&mut self, element: &BytesStart, rest: &'a [u8]) -> Result<(), ReadError> {
+        let rest = rest.trim_ascii_start().strip_prefix(b"_");
+        let rest = rest.ok_or_else(|| malformed(self.format, "its appended data do not begin with an underscore"))?;
+        let is_base64 = attribute(element, "encoding").is_some_and(|encoding| encoding == "base64");
+        self.appended = Some((rest, is_base64));
+        Ok(())
+    }
+}
+
+impl<'a> DataArray<'a> {
+    /// What an element says, with the text in it and where that begins.
+    pub(super) fn new(
+        format: &'static str,
+        element: &BytesStart,
+        (inline, at): (&'a [u8], usize),
+    ) -> Result<Self, ReadError> {
+        let place = match attribute(element, "format").as_deref() {
+            Some("appended") => {
+                let offset = attribute(element, "offset").and_then(|offset| offset.parse().ok());
+                Place::Appended(offset.ok_or_else(|| malformed(format, "an array does not say where its data are"))?)
+            }
+            Some("binary") => Place::Binary(inline),
+            _ => Place::Text(inline, at),
+        };
+        let name = attribute(element, "Name").unwrap_or_default();
+        let name = quick_xml::escape::unescape(&name).map_or_else(|_| name.clone(), Cow::into_owned);
+        let components = attribute(element, "NumberOfComponents").and_then(|n| n.parse().ok()).unwrap_or(1);
+        Ok(Self { name, kind: attribute(element, "type").unwrap_or_default(), components, place })
     }
 }
 
@@ -264,7 +282,7 @@ fn section_named(name: &[u8]) -> Option<Section> {
 
 /// The text of the element that has just begun, without that of elements in it, and where it begins; the reader is then
 /// past its end.
-fn inline_text<'a>(
+pub(super) fn inline_text<'a>(
     reader: &mut Reader<&'a [u8]>,
     bytes: &'a [u8],
     start: usize,
@@ -288,7 +306,7 @@ fn inline_text<'a>(
 }
 
 /// That the XML is wrong at a place.
-fn broken(bytes: &[u8], at: usize) -> ReadError {
+pub(super) fn broken(bytes: &[u8], at: usize) -> ReadError {
     let problem = "its XML is wrong or incomplete there".to_owned();
     ReadError::Syntax { format: "VTK", line: line_of(bytes, at), problem }
 }

@@ -23,9 +23,9 @@ pub(super) struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
-    /// Those of a file of these bytes.
-    pub(super) fn new(file: &'a Structure<'a>, bytes: &'a [u8]) -> Self {
-        Self { file, bytes, room: Room::of(bytes.len()).unfolded() }
+    /// Those of a file of these bytes, whose compressed data may unfold to `room` bytes.
+    pub(super) fn new(file: &'a Structure<'a>, bytes: &'a [u8], room: u64) -> Self {
+        Self { file, bytes, room }
     }
 
     /// Adds the points and cells of a piece, `first` cells of the file standing before them.
@@ -69,7 +69,7 @@ impl<'a> Arrays<'a> {
     }
 
     /// The numbers of an array.
-    fn open(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
+    pub(super) fn open(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
         let format = self.file.format;
         let kind = scalar(&array.kind).ok_or_else(|| {
             malformed(format, format!("{} is no type of number", text::quoted(array.kind.as_bytes())))

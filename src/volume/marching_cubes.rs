@@ -1,54 +1,41 @@
-//! Marching cubes on a binary mask, slice by slice (Lorensen and Cline 1987).
+//! Marching cubes, slice by slice (Lorensen and Cline 1987).
 //!
-//! The mask is cut at one half, so every vertex is the midpoint of a grid edge between a point inside and a point
-//! outside: the stair-steps of a binary segmentation are kept as they are. Two slices of the mask are in memory at a
-//! time. Vertices are shared by construction: the first cube in scan order that has a grid edge makes its vertex and
+//! What is cut is a [`Mask`]: points that lie inside, and where on a grid edge between a point inside and a point outside
+//! the surface runs. Of a binary mask that is the middle, so that the stair-steps of a segmentation are kept as they are;
+//! of a scan it is where the samples, interpolated linearly, reach the threshold. Two slices of the mask are in memory at
+//! a time. Vertices are shared by construction: the first cube in scan order that has a grid edge makes its vertex and
 //! notes its index in the slice's edge map, where the other three cubes find it. Cases: [`super::cube_cases`].
+//!
+//! Triangles are wound counter-clockwise seen from outside in the coordinates of the patient, also where the grid's own
+//! axes are those of a left hand.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::cube_cases::{CubeCases, EDGES};
-use crate::mesh::{TriMesh, Vec3, compacted};
+use super::geometry::Geometry;
+use crate::mesh::{TriMesh, compacted};
+use crate::task::{Budget, Progress, Task};
 
-/// A regular grid of sample points. The points on its six faces count as outside whatever the mask says, so leave
-/// one point of padding around what is to be seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Grid {
-    /// Position of the first point in mm.
-    pub(super) origin: DVec3,
-    /// Distance between points along x, y, z in mm.
-    pub(super) spacing: DVec3,
-    /// Points along x, y, z.
-    pub(super) size: [usize; 3],
-}
+/// What lies inside on a grid, asked for slice by slice in ascending order.
+pub(crate) trait Mask {
+    /// Whether the points on the grid's six faces count as outside whatever the mask says, so that the surface is closed.
+    /// Otherwise it is open where it meets them.
+    const CLOSED: bool;
 
-impl Grid {
-    /// The grid of the given spacing that holds the box from `min` to `max` with two points of padding.
-    pub(super) fn around(min: DVec3, max: DVec3, spacing: DVec3) -> Self {
-        let extent = (max - min) / spacing;
-        Self {
-            origin: min - spacing * 2.0,
-            spacing,
-            size: extent.to_array().map(|points| libm::ceil(points.max(0.0)) as usize + 5),
-        }
-    }
-
-    /// The place of a point given in grid units, in mm.
-    pub(super) fn at(&self, i: f64, j: f64, k: f64) -> DVec3 {
-        self.origin + self.spacing * DVec3::new(i, j, k)
-    }
-}
-
-/// A binary mask over a grid, asked for slice by slice in ascending order.
-pub(super) trait Mask {
     /// Readies slice `k` for [`Self::row`].
     fn begin_slice(&mut self, k: usize);
 
     /// Appends the runs of inside points of row `j` of the slice: ascending, disjoint, within `0..size[0]`. What
     /// `runs` holds already belongs to other rows.
     fn row(&mut self, j: usize, runs: &mut Vec<Range<usize>>);
+
+    /// Where the surface crosses the edge from `point` to the next point along `axis`, one of which is inside: 0 at
+    /// `point`, 1 at the next.
+    fn crossing(&self, _point: [usize; 3], _axis: usize) -> f64 {
+        0.5
+    }
 
     /// Whether cubes between slice `k` and the next can be left out by [`Self::is_cut`].
     fn has_cuts(&mut self, _k: usize) -> bool {
@@ -75,7 +62,7 @@ impl Slice {
     }
 
     /// Takes slice `k` from the mask.
-    fn fill(&mut self, mask: &mut impl Mask, k: usize, [nx, ny, nz]: [usize; 3]) {
+    fn fill<M: Mask>(&mut self, mask: &mut M, k: usize, [nx, ny, nz]: [usize; 3]) {
         for j in 0..ny {
             for run in &self.runs[self.row_starts[j]..self.row_starts[j + 1]] {
                 self.points[j * nx + run.start..j * nx + run.end].fill(0);
@@ -83,16 +70,17 @@ impl Slice {
         }
         self.runs.clear();
         self.row_starts.fill(0);
-        if k == 0 || k + 1 == nz {
+        let rim = usize::from(M::CLOSED);
+        if k < rim || k + rim >= nz {
             return;
         }
         mask.begin_slice(k);
         for j in 0..ny {
-            if j > 0 && j + 1 < ny {
+            if j >= rim && j + rim < ny {
                 let first = self.runs.len();
                 mask.row(j, &mut self.runs);
                 for run in &mut self.runs[first..] {
-                    *run = run.start.max(1)..run.end.min(nx - 1).max(run.start.max(1));
+                    *run = run.start.max(rim)..run.end.min(nx - rim).max(run.start.max(rim));
                     self.points[j * nx + run.start..j * nx + run.end].fill(1);
                 }
             }
@@ -116,29 +104,96 @@ struct EdgeMaps {
     along_z: Vec<u32>,
 }
 
-/// The surface of `mask`: triangles counter-clockwise seen from outside, every vertex used, no edge with more than
-/// two triangles. `progress` hears the fraction done after each slice; `None` when it breaks off.
-pub(super) fn marching_cubes(
-    grid: &Grid,
-    mask: &mut impl Mask,
-    progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
-) -> Option<TriMesh> {
-    let [nx, ny, nz] = grid.size;
-    let cases = CubeCases::new();
-    let mut mesh = TriMesh::default();
-    let (mut lower, mut upper) = (Slice::new(grid.size), Slice::new(grid.size));
-    let map = || vec![0u32; nx * ny];
-    let mut maps = EdgeMaps { along_x: [map(), map()], along_y: [map(), map()], along_z: map() };
-    let mut spans = Vec::new();
-    let mut any_cut = false;
-    lower.fill(mask, 0, grid.size);
-    for k in 0..nz.saturating_sub(1) {
-        upper.fill(mask, k + 1, grid.size);
-        let has_cuts = mask.has_cuts(k);
+/// Makes the surface of a mask: triangles counter-clockwise seen from outside, every vertex used, no edge with more than
+/// two triangles. A slice of work is at least a layer of cubes.
+pub(crate) struct MarchingCubes<M> {
+    mask: M,
+    size: [usize; 3],
+    origin: DVec3,
+    /// The steps along i, j, k in mm.
+    steps: DMat3,
+    is_left_handed: bool,
+    cases: CubeCases,
+    maps: EdgeMaps,
+    lower: Slice,
+    upper: Slice,
+    /// Layers of cubes that are done.
+    layer: usize,
+    any_cut: bool,
+    spans: Vec<Range<usize>>,
+    mesh: TriMesh,
+}
+
+impl<M: Mask> MarchingCubes<M> {
+    /// Before the first layer. The mask must have the size of the grid.
+    pub(crate) fn new(grid: &Geometry, mut mask: M) -> Self {
+        // Between fewer than two points there is no cube.
+        let size = if grid.size.iter().all(|&along| along > 1) { grid.size } else { [0; 3] };
+        let map = || vec![0u32; size[0] * size[1]];
+        let maps = EdgeMaps { along_x: [map(), map()], along_y: [map(), map()], along_z: map() };
+        let mut lower = Slice::new(size);
+        lower.fill(&mut mask, 0, size);
+        Self {
+            mask,
+            size,
+            origin: grid.origin,
+            steps: grid.steps(),
+            is_left_handed: grid.is_left_handed(),
+            cases: CubeCases::new(),
+            maps,
+            lower,
+            upper: Slice::new(size),
+            layer: 0,
+            any_cut: false,
+            spans: Vec::new(),
+            mesh: TriMesh::default(),
+        }
+    }
+
+    /// Whether all layers are done.
+    pub(crate) fn is_done(&self) -> bool {
+        self.layer + 1 >= self.size[2]
+    }
+
+    /// The part that is done, 0 to 1.
+    pub(crate) fn fraction(&self) -> f32 {
+        if self.is_done() { 1.0 } else { self.layer as f32 / (self.size[2] - 1) as f32 }
+    }
+
+    /// Triangles so far.
+    pub(crate) fn triangles(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    /// The surface of the layers that are done.
+    pub(crate) fn into_mesh(mut self) -> TriMesh {
+        self.take()
+    }
+
+    fn take(&mut self) -> TriMesh {
+        let mut mesh = std::mem::take(&mut self.mesh);
+        if self.is_left_handed {
+            for triangle in &mut mesh.triangles {
+                triangle.swap(1, 2);
+            }
+        }
+        // Cubes that were left out made vertices that nobody uses.
+        if self.any_cut { compacted(&mesh.positions, mesh.triangles) } else { mesh }
+    }
+
+    /// Does the next layer of cubes.
+    pub(crate) fn advance_layer(&mut self) {
+        if self.is_done() {
+            return;
+        }
+        let ([nx, ny, _], k) = (self.size, self.layer);
+        self.upper.fill(&mut self.mask, k + 1, self.size);
+        let has_cuts = self.mask.has_cuts(k);
+        let (lower, upper) = (&self.lower, &self.upper);
         for j in 0..ny - 1 {
             let rows = [lower.row_runs(j), lower.row_runs(j + 1), upper.row_runs(j), upper.row_runs(j + 1)];
-            cube_spans(rows, &mut spans);
-            for span in &spans {
+            cube_spans(rows, nx, &mut self.spans);
+            for span in &self.spans {
                 let column = |i: usize| {
                     let at = j * nx + i;
                     lower.points[at] | lower.points[at + nx] << 2 | upper.points[at] << 4 | upper.points[at + nx] << 6
@@ -151,53 +206,97 @@ pub(super) fn marching_cubes(
                     if case == 0 || case == 255 {
                         continue;
                     }
-                    let corners = maps.cube([i, j, k], nx, case, grid, &mut mesh.positions);
-                    if has_cuts && mask.is_cut(grid.at(i as f64 + 0.5, j as f64 + 0.5, k as f64 + 0.5)) {
-                        any_cut = true;
+                    let at = |x, y, z| self.origin + self.steps * DVec3::new(x, y, z);
+                    let positions = &mut self.mesh.positions;
+                    let mask = &self.mask;
+                    let corners = self.maps.cube([i, j, k], nx, case, |point, axis| {
+                        let mut place = point.map(|index| index as f64);
+                        place[axis] += mask.crossing(point, axis);
+                        let [x, y, z] = place;
+                        positions.push(at(x, y, z).as_vec3());
+                        (positions.len() - 1) as u32
+                    });
+                    if has_cuts && mask.is_cut(at(i as f64 + 0.5, j as f64 + 0.5, k as f64 + 0.5)) {
+                        self.any_cut = true;
                         continue;
                     }
-                    let triangles = cases.triangles(case);
-                    mesh.triangles.extend(triangles.iter().map(|t| t.map(|edge| corners[usize::from(edge)])));
+                    let triangles = self.cases.triangles(case);
+                    self.mesh.triangles.extend(triangles.iter().map(|t| t.map(|edge| corners[usize::from(edge)])));
                 }
             }
         }
-        std::mem::swap(&mut lower, &mut upper);
-        maps.along_x.swap(0, 1);
-        maps.along_y.swap(0, 1);
-        if progress((k + 1) as f32 / (nz - 1) as f32).is_break() {
-            return None;
+        std::mem::swap(&mut self.lower, &mut self.upper);
+        self.maps.along_x.swap(0, 1);
+        self.maps.along_y.swap(0, 1);
+        self.layer += 1;
+    }
+}
+
+impl<M: Mask> Task for MarchingCubes<M> {
+    type Output = TriMesh;
+
+    fn advance(&mut self, budget: Budget) -> Progress<TriMesh> {
+        loop {
+            self.advance_layer();
+            if self.is_done() {
+                return Progress::Done(self.take());
+            }
+            if budget.is_spent() {
+                return Progress::Working(self.fraction());
+            }
         }
     }
-    // Cubes that were left out made vertices that nobody uses.
-    Some(if any_cut { compacted(&mesh.positions, mesh.triangles) } else { mesh })
 }
 
 impl EdgeMaps {
-    /// The vertices of the crossed edges of a cube; those that no earlier cube has are made. What is returned for
-    /// an edge that is not crossed means nothing.
+    /// The vertices of the crossed edges of a cube; those that no earlier cube has are made, each from the lower point of
+    /// its edge and the edge's axis. What is returned for an edge that is not crossed means nothing.
     fn cube(
         &mut self,
         [i, j, k]: [usize; 3],
         nx: usize,
         case: u8,
-        grid: &Grid,
-        positions: &mut Vec<Vec3>,
+        mut make: impl FnMut([usize; 3], usize) -> u32,
     ) -> [u32; EDGES] {
         let at = j * nx + i;
         let crossed = |a: u8, b: u8| (case >> a ^ case >> b) & 1 == 1;
-        let (x, y, z) = (i as f64, j as f64, k as f64);
-        let mut make = |x, y, z| {
-            positions.push(grid.at(x, y, z).as_vec3());
-            (positions.len() - 1) as u32
-        };
         if crossed(6, 7) {
-            self.along_x[1][at + nx] = make(x + 0.5, y + 1.0, z + 1.0);
+            self.along_x[1][at + nx] = make([i, j + 1, k + 1], 0);
         }
         if crossed(5, 7) {
-            self.along_y[1][at + 1] = make(x + 1.0, y + 0.5, z + 1.0);
+            self.along_y[1][at + 1] = make([i + 1, j, k + 1], 1);
         }
         if crossed(3, 7) {
-            self.along_z[at + nx + 1] = make(x + 1.0, y + 1.0, z + 0.5);
+            self.along_z[at + nx + 1] = make([i + 1, j + 1, k], 2);
+        }
+        // On the lower faces of the grid there is no earlier cube.
+        let [first_i, first_j, first_k] = [i == 0, j == 0, k == 0];
+        if first_j && crossed(4, 5) {
+            self.along_x[1][at] = make([i, j, k + 1], 0);
+        }
+        if first_k && crossed(2, 3) {
+            self.along_x[0][at + nx] = make([i, j + 1, k], 0);
+        }
+        if first_j && first_k && crossed(0, 1) {
+            self.along_x[0][at] = make([i, j, k], 0);
+        }
+        if first_i && crossed(4, 6) {
+            self.along_y[1][at] = make([i, j, k + 1], 1);
+        }
+        if first_k && crossed(1, 3) {
+            self.along_y[0][at + 1] = make([i + 1, j, k], 1);
+        }
+        if first_i && first_k && crossed(0, 2) {
+            self.along_y[0][at] = make([i, j, k], 1);
+        }
+        if first_i && crossed(2, 6) {
+            self.along_z[at + nx] = make([i, j + 1, k], 2);
+        }
+        if first_j && crossed(1, 5) {
+            self.along_z[at + 1] = make([i + 1, j, k], 2);
+        }
+        if first_i && first_j && crossed(0, 4) {
+            self.along_z[at] = make([i, j, k], 2);
         }
         let ([x0, x1], [y0, y1], z0) = (&self.along_x, &self.along_y, &self.along_z);
         [
@@ -218,10 +317,11 @@ impl EdgeMaps {
 }
 
 /// The cubes of a row that touch one of four rows of points: ascending, disjoint.
-fn cube_spans(rows: [&[Range<usize>]; 4], spans: &mut Vec<Range<usize>>) {
+fn cube_spans(rows: [&[Range<usize>]; 4], nx: usize, spans: &mut Vec<Range<usize>>) {
     spans.clear();
-    // A point at 1..nx - 1 belongs to the cubes on both its sides.
-    spans.extend(rows.into_iter().flatten().filter(|run| !run.is_empty()).map(|run| run.start - 1..run.end));
+    // A point belongs to the cubes on both its sides.
+    let cubes = |run: &Range<usize>| run.start.saturating_sub(1)..run.end.min(nx - 1);
+    spans.extend(rows.into_iter().flatten().filter(|run| !run.is_empty()).map(cubes));
     spans.sort_unstable_by_key(|span| (span.start, span.end));
     let mut kept = 0;
     for s in 1..spans.len() {
@@ -236,7 +336,7 @@ fn cube_spans(rows: [&[Range<usize>]; 4], spans: &mut Vec<Range<usize>>) {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use std::f64::consts::PI;
 
     use proptest::prelude::*;
@@ -246,12 +346,14 @@ pub(super) mod tests {
 
     /// A mask from a function of the point in mm.
     struct Of<F> {
-        grid: Grid,
+        grid: Geometry,
         k: usize,
         inside: F,
     }
 
     impl<F: Fn(DVec3) -> bool> Mask for Of<F> {
+        const CLOSED: bool = true;
+
         fn begin_slice(&mut self, k: usize) {
             self.k = k;
         }
@@ -269,9 +371,8 @@ pub(super) mod tests {
         }
     }
 
-    fn surface_of(grid: Grid, inside: impl Fn(DVec3) -> bool) -> TriMesh {
-        let mut mask = Of { grid, k: 0, inside };
-        marching_cubes(&grid, &mut mask, &mut |_| ControlFlow::Continue(())).expect("not cancelled")
+    fn surface_of(grid: Geometry, inside: impl Fn(DVec3) -> bool) -> TriMesh {
+        MarchingCubes::new(&grid, Of { grid, k: 0, inside }).finish()
     }
 
     fn euler(mesh: &TriMesh, topology: &Topology) -> i64 {
@@ -279,7 +380,7 @@ pub(super) mod tests {
     }
 
     /// Whether the triangles around every vertex form one fan.
-    pub(in crate::phantom) fn vertices_are_manifold(mesh: &TriMesh, topology: &Topology) -> bool {
+    pub(crate) fn vertices_are_manifold(mesh: &TriMesh, topology: &Topology) -> bool {
         (0..mesh.positions.len() as u32).all(|v| {
             let around = topology.triangles(v);
             let links = around.iter().map(|&t| {
@@ -314,7 +415,7 @@ pub(super) mod tests {
             let reach = DVec3::splat(radius);
             let spacing = DVec3::new(step, step, 1.25 * step);
             // Off-centre, so that no symmetry flatters the result.
-            let grid = Grid::around(-reach - 0.37 * step, reach, spacing);
+            let grid = Geometry::around(-reach - 0.37 * step, reach, spacing);
             let mesh = surface_of(grid, |p| p.length_squared() < radius * radius);
             let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
             assert_eq!(euler(&mesh, &topology), 2);
@@ -336,7 +437,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_torus_has_a_hole() {
-        let grid = Grid::around(DVec3::new(-8.11, -8.17, -3.13), DVec3::new(8.0, 8.0, 3.0), DVec3::splat(0.5));
+        let grid = Geometry::around(DVec3::new(-8.11, -8.17, -3.13), DVec3::new(8.0, 8.0, 3.0), DVec3::splat(0.5));
         let mesh = surface_of(grid, |p| {
             let ring = p.truncate().length() - 6.0;
             ring * ring + p.z * p.z < 4.0
@@ -354,6 +455,8 @@ pub(super) mod tests {
             of: Of<fn(DVec3) -> bool>,
         }
         impl Mask for Tube {
+            const CLOSED: bool = true;
+
             fn begin_slice(&mut self, k: usize) {
                 self.of.begin_slice(k);
             }
@@ -368,10 +471,9 @@ pub(super) mod tests {
                 centre.z + 0.5 * centre.x > 10.0 || centre.z < -10.0
             }
         }
-        let grid = Grid::around(DVec3::new(-5.11, -5.17, -18.0), DVec3::new(5.0, 5.0, 18.0), DVec3::splat(0.5));
+        let grid = Geometry::around(DVec3::new(-5.11, -5.17, -18.0), DVec3::new(5.0, 5.0, 18.0), DVec3::splat(0.5));
         let inside: fn(DVec3) -> bool = |p| p.truncate().length_squared() < 25.0 && p.z.abs() < 17.0;
-        let mut tube = Tube { of: Of { grid, k: 0, inside } };
-        let mesh = marching_cubes(&grid, &mut tube, &mut |_| ControlFlow::Continue(())).expect("not cancelled");
+        let mesh = MarchingCubes::new(&grid, Tube { of: Of { grid, k: 0, inside } }).finish();
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         assert_eq!(boundary_loops(&topology).len(), 2);
         assert_eq!(euler(&mesh, &topology), 0);
@@ -382,21 +484,26 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn progress_can_break_off() {
-        let grid = Grid::around(DVec3::splat(-2.0), DVec3::splat(2.0), DVec3::ONE);
-        let mut mask = Of { grid, k: 0, inside: |p: DVec3| p.length() < 2.0 };
-        let mut heard = 0;
-        let mesh = marching_cubes(&grid, &mut mask, &mut |_| {
-            heard += 1;
-            if heard == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        assert_eq!((mesh, heard), (None, 2));
+    fn a_slice_of_work_is_a_layer_and_the_surface_the_same() {
+        let grid = Geometry::around(DVec3::splat(-2.0), DVec3::splat(2.0), DVec3::ONE);
+        let inside = |p: DVec3| p.length() < 2.0;
+        let mut work = MarchingCubes::new(&grid, Of { grid, k: 0, inside });
+        let mut fractions = Vec::new();
+        let mesh = loop {
+            match work.advance(Budget::new(std::time::Duration::ZERO)) {
+                Progress::Working(fraction) => fractions.push(fraction),
+                Progress::Done(mesh) => break mesh,
+            }
+        };
+        assert_eq!(fractions.len(), grid.size[2] - 2);
+        assert!(fractions.is_sorted() && fractions.iter().all(|fraction| (0.0..1.0).contains(fraction)));
+        assert_eq!(mesh, surface_of(grid, inside));
     }
 
     proptest! {
         #[test]
         fn any_mask_gives_a_closed_manifold_consistently_wound(bits in proptest::collection::vec(any::<bool>(), 216)) {
-            let grid = Grid { origin: DVec3::ZERO, spacing: DVec3::ONE, size: [8; 3] };
+            let grid = Geometry::upright([8; 3], DVec3::ONE, DVec3::ZERO);
             let inside = |p: DVec3| {
                 let [i, j, k] = p.to_array().map(|c| c as usize);
                 (1..7).contains(&i) && (1..7).contains(&j) && (1..7).contains(&k)

@@ -18,20 +18,20 @@
 //! vertices too.
 
 /// The edges of a cube in which a surface can have a vertex.
-pub(super) const EDGES: usize = 12;
+pub(crate) const EDGES: usize = 12;
 
 /// The triangles of every case: corners inside -> edges of the cube.
 ///
 /// Corner `x + 2 y + 4 z` lies at (x, y, z) of the unit cube and is bit `1 << corner` of a case. Edge `4 a + b` runs
 /// along axis `a` (0 = x, 1 = y, 2 = z); `b` is its place on the other two axes, the lower axis in the lower bit.
-pub(super) struct CubeCases {
+pub(crate) struct CubeCases {
     starts: [u16; 257],
     triangles: Vec<[u8; 3]>,
 }
 
 impl CubeCases {
     /// Traces all cases.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let mut starts = [0; 257];
         let mut triangles = Vec::with_capacity(900);
         for case in 0..256 {
@@ -44,7 +44,7 @@ impl CubeCases {
     }
 
     /// The triangles of a case, each as three edges of the cube, counter-clockwise seen from outside the object.
-    pub(super) fn triangles(&self, case: u8) -> &[[u8; 3]] {
+    pub(crate) fn triangles(&self, case: u8) -> &[[u8; 3]] {
         let case = usize::from(case);
         &self.triangles[usize::from(self.starts[case])..usize::from(self.starts[case + 1])]
     }

@@ -1,0 +1,50 @@
+//! Scans and masks in a build without their readers: there are no options for them, and no file is one.
+
+use anyhow::Result;
+use clap::Args;
+
+use crate::io::Imported;
+
+/// None.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct ScanOptions {}
+
+impl ScanOptions {
+    /// Nothing is asked for.
+    pub(super) fn is_any(&self) -> bool {
+        false
+    }
+
+    /// There is nothing to refuse.
+    pub(super) fn refuse(&self, _: &str) {}
+}
+
+/// There is no volume to open.
+pub(super) enum Opened {}
+
+/// No file is a volume.
+pub(super) fn open(_: &[String]) -> Result<Option<Opened>> {
+    Ok(None)
+}
+
+impl Opened {
+    /// There is none.
+    pub(super) fn surface(self, _: &ScanOptions) -> Result<Imported> {
+        match self {}
+    }
+
+    /// Nothing can be.
+    pub(super) fn is_chosen(_: &ScanOptions) -> bool {
+        false
+    }
+
+    /// There is none.
+    pub(super) fn json(&self) -> Result<String> {
+        match *self {}
+    }
+
+    /// There is none.
+    pub(super) fn print(&self) {
+        match *self {}
+    }
+}

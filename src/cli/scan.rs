@@ -1,0 +1,205 @@
+//! Where a subcommand's surface is made of a scan or a mask: a file, a header with its data beside it, a folder of DICOM.
+
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use serde::Serialize;
+
+use super::{misuse, row};
+use crate::io::volume::{self, Part};
+use crate::io::{Imported, import_mesh};
+use crate::task::Task;
+use crate::volume::{Grid, Label, PRESETS, Region, Selection, Surfacing, Survey, Surveying};
+
+/// Bytes of a file that say what it is.
+const HEAD: u64 = 4096;
+/// A volume with values down to this is taken for CT, whose files mostly do not say so: air has -1000 HU.
+const AIR_HU: f64 = -500.0;
+
+/// What of a scan or a mask is the vessel.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct ScanOptions {
+    /// Of a scan: make the surface where values reach this, in its own unit (Hounsfield units for CT)
+    #[arg(long, value_name = "HU", allow_negative_numbers = true, conflicts_with = "label")]
+    threshold: Option<f64>,
+    /// Of a mask: make the surface of this label; without it, of all that is not 0
+    #[arg(long, value_name = "N")]
+    label: Option<i64>,
+    /// Look only at these voxels: first and last column, row and slice, from 0
+    #[arg(long = "box", value_name = "I0,I1,J0,J1,K0,K1", value_parser = region)]
+    region: Option<Region>,
+}
+
+fn region(text: &str) -> Result<Region, String> {
+    let ends: Result<Vec<usize>, _> = text.split(',').map(|end| end.trim().parse::<usize>()).collect();
+    match ends.as_deref() {
+        Ok(&[i0, i1, j0, j1, k0, k1]) if i0 < i1 && j0 < j1 && k0 < k1 => {
+            Ok(Region { first: [i0, j0, k0], last: [i1, j1, k1] })
+        }
+        _ => Err(format!("{text} is not six voxel numbers, the first of each axis below the last")),
+    }
+}
+
+impl ScanOptions {
+    /// Whether anything is asked for that only a volume has.
+    pub(super) fn is_any(&self) -> bool {
+        self.threshold.is_some() || self.label.is_some() || self.region.is_some()
+    }
+
+    /// Ends the program where these options are given for what is no volume.
+    pub(super) fn refuse(&self, name: &str) {
+        if self.is_any() {
+            misuse(format!("{name} is a surface: --threshold, --label and --box are for scans and masks"));
+        }
+    }
+}
+
+/// A volume that was opened.
+pub(super) struct Opened {
+    grid: Arc<Grid>,
+    survey: Survey,
+    format: &'static str,
+    is_ct: bool,
+    warnings: Vec<String>,
+}
+
+/// What is in a volume. The field names are the keys of the JSON that `lumen inspect` prints.
+#[derive(Serialize)]
+struct Report<'a> {
+    format: &'a str,
+    /// Voxels along the axes.
+    dimensions: [usize; 3],
+    spacing_mm: [f64; 3],
+    /// LPS.
+    origin_mm: [f64; 3],
+    /// The directions of the three axes in LPS, each a unit vector.
+    directions: [[f64; 3]; 3],
+    sample_type: &'a str,
+    /// The smallest and the largest value.
+    range: [f64; 2],
+    is_ct: bool,
+    /// Of a mask, the labels but 0.
+    labels: &'a [Label],
+    warnings: &'a [String],
+}
+
+/// Opens the volume in the files or the folder of those names; `None` where the first is a file that is none.
+pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
+    let mut files = Vec::new();
+    for name in names {
+        let path = Path::new(name);
+        if path.is_dir() {
+            let listed = std::fs::read_dir(path).with_context(|| format!("cannot read {name}"))?;
+            let paths: Result<Vec<PathBuf>, _> = listed.map(|entry| entry.map(|entry| entry.path())).collect();
+            let mut paths = paths.with_context(|| format!("cannot read {name}"))?;
+            paths.retain(|path| path.is_file());
+            paths.sort();
+            for path in paths {
+                files.push(file(&path)?);
+            }
+            if files.is_empty() {
+                bail!("{name} holds no files");
+            }
+        } else {
+            if names.len() == 1 && !volume::is_volume(&head(path)?) {
+                return Ok(None);
+            }
+            let (name, bytes) = file(path)?;
+            if let Some(data) = volume::data_name(&bytes, &name) {
+                // Beside the header, wherever the header says that it was.
+                let data = data.rsplit(['/', '\\']).next().unwrap_or(&data).to_owned();
+                let beside = path.with_file_name(data);
+                if beside.is_file() {
+                    files.push(file(&beside)?);
+                }
+            }
+            files.push((name, bytes));
+        }
+    }
+    let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
+    let scan = volume::read(&parts).with_context(|| names[0].clone())?;
+    drop(files);
+    for warning in &scan.warnings {
+        eprintln!("lumen: warning: {warning}");
+    }
+    let volume::Scan { grid, format, is_ct, warnings } = scan;
+    let grid = Arc::new(grid);
+    let survey = Surveying::new(Arc::clone(&grid)).finish();
+    Ok(Some(Opened { grid, survey, format, is_ct, warnings }))
+}
+
+impl Opened {
+    /// The surface that the options ask for, in LPS.
+    pub(super) fn surface(self, options: &ScanOptions) -> Result<Imported> {
+        let selection = Selection::choose(&self.survey, options.threshold, options.label)?;
+        let mesh = Surfacing::new(&self.grid, selection, options.region)?.finish()?;
+        let mut imported = import_mesh(mesh, self.format);
+        imported.report.warnings.splice(..0, self.warnings);
+        Ok(imported)
+    }
+
+    /// Whether the options say what the surface is of.
+    pub(super) fn is_chosen(options: &ScanOptions) -> bool {
+        options.threshold.is_some() || options.label.is_some()
+    }
+
+    /// What is in it, as JSON.
+    pub(super) fn json(&self) -> Result<String> {
+        let geometry = self.grid.geometry();
+        Ok(serde_json::to_string_pretty(&Report {
+            format: self.format,
+            dimensions: geometry.size,
+            spacing_mm: geometry.spacing.to_array(),
+            origin_mm: geometry.origin.to_array(),
+            directions: geometry.direction.to_cols_array_2d(),
+            sample_type: self.grid.samples().sample_type().name(),
+            range: self.survey.range,
+            is_ct: self.is_ct,
+            labels: &self.survey.labels,
+            warnings: &self.warnings,
+        })?)
+    }
+
+    /// Prints what is in it.
+    pub(super) fn print(&self) {
+        let geometry = self.grid.geometry();
+        let list = |values: [f64; 3]| values.map(|value| format!("{value:.4}")).join(", ");
+        let [i, j, k] = geometry.size;
+        row("format", self.format);
+        row("dimensions", format!("{i} x {j} x {k} voxels"));
+        row("spacing", format!("{} mm", geometry.spacing.to_array().map(|mm| format!("{mm:.4}")).join(" x ")));
+        row("origin", format!("({}) mm, LPS", list(geometry.origin.to_array())));
+        let columns = geometry.direction.to_cols_array_2d();
+        row("directions", columns.map(|column| format!("({})", list(column))).join(" "));
+        if geometry.is_left_handed() {
+            row("", "of a left hand");
+        }
+        let [low, high] = self.survey.range;
+        row("type", self.grid.samples().sample_type().name());
+        row("range", format!("{low} to {high}{}", if self.is_ct { " HU" } else { "" }));
+        if self.survey.is_mask() {
+            let labels = self.survey.labels.iter().map(|label| format!("{} ({} voxels)", label.value, label.points));
+            row("labels", labels.collect::<Vec<_>>().join(", "));
+        } else if self.is_ct || low <= AIR_HU {
+            for preset in PRESETS {
+                row("threshold", format!("{} HU {}", preset.value, preset.name));
+            }
+        }
+    }
+}
+
+/// The first bytes of a file: as many as say what it is.
+fn head(path: &Path) -> Result<Vec<u8>> {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.with_context(|| format!("cannot read {}", path.display()))?;
+    Ok(head)
+}
+
+fn file(path: &Path) -> Result<(String, Vec<u8>)> {
+    let bytes = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    Ok((path.to_string_lossy().into_owned(), bytes))
+}

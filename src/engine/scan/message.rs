@@ -1,0 +1,157 @@
+//! What passes between the app and the scan's engine. Large arrays cross as buffers ([`transfer`](crate::transfer)).
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::super::surfaces::surface;
+use crate::io::Axes;
+use crate::mesh::TriMesh;
+use crate::transfer::bulk;
+use crate::volume::{Axis, Region, Selection, Survey};
+
+/// A file by its name: a scan, a header, its data, a slice.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NamedFile {
+    /// Its name, with extension.
+    pub name: String,
+    /// Its bytes.
+    #[serde(with = "bulk")]
+    pub bytes: Arc<Vec<u8>>,
+}
+
+/// What the engine is asked to do. A surface or a preview takes the place of the one that is being made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ScanCommand {
+    /// Read a volume, in place of what was open: one file, a header with its data, or the slices of a series.
+    Open {
+        /// Comes back with the answer.
+        id: u64,
+        /// The files, in any order.
+        files: Vec<NamedFile>,
+    },
+    /// Make a surface at reduced resolution.
+    Preview {
+        /// Comes back with the answer; each command's is larger than the one before.
+        generation: u64,
+        /// What lies inside.
+        selection: Selection,
+        /// Only here, in voxels of the volume as it was opened.
+        region: Option<Region>,
+        /// Every how many voxels one is looked at; `None` for as few as a preview can take.
+        step: Option<usize>,
+    },
+    /// Make the surface.
+    Surface {
+        /// Comes back with the answer.
+        generation: u64,
+        /// What lies inside.
+        selection: Selection,
+        /// Only here.
+        region: Option<Region>,
+    },
+    /// Make a picture of a slice.
+    Slice {
+        /// Across which axis.
+        axis: Axis,
+        /// Which, from 0.
+        index: usize,
+        /// The values that are black and white.
+        window: [f64; 2],
+    },
+    /// Stop what is being made; the volume stays open.
+    Cancel,
+}
+
+/// What the engine is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ScanWork {
+    /// Counting the values of a volume.
+    Surveying,
+    /// Making a surface at reduced resolution.
+    Preview,
+    /// Making the surface.
+    Surface,
+}
+
+/// A volume that was opened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OpenedScan {
+    /// That of the command.
+    pub id: u64,
+    /// "NIfTI", "NRRD", "MetaImage", "VTI", "DICOM".
+    pub format: String,
+    /// Voxels along the axes.
+    pub dimensions: [usize; 3],
+    /// Distance between them in mm.
+    pub spacing_mm: [f64; 3],
+    /// Place of the first in LPS mm.
+    pub origin_mm: [f64; 3],
+    /// The directions of the three axes in LPS, each of unit length.
+    pub directions: [[f64; 3]; 3],
+    /// Whether the file says that values are Hounsfield units.
+    pub is_ct: bool,
+    /// Range, histogram and labels.
+    pub survey: Survey,
+    /// What to begin with: all of a mask; of a scan nothing is proposed.
+    pub proposed: Option<Selection>,
+    /// Sentences for the user about what looks odd.
+    pub warnings: Vec<String>,
+}
+
+/// What the engine has to say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ScanEvent {
+    /// A volume is open.
+    Opened(Box<OpenedScan>),
+    /// How far the work is.
+    Progress {
+        /// What is being done.
+        work: ScanWork,
+        /// The part of it that is done, 0 to 1.
+        fraction: f32,
+    },
+    /// A surface at reduced resolution.
+    Preview {
+        /// That of the command.
+        generation: u64,
+        /// Every how many voxels one was looked at.
+        step: usize,
+        /// The surface in LPS mm, not welded.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+    },
+    /// The surface, to be opened like any other.
+    Surface {
+        /// That of the command.
+        generation: u64,
+        /// In mm, counter-clockwise seen from outside, not welded.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+        /// What its coordinates grow towards: LPS.
+        axes: Axes,
+    },
+    /// A picture of a slice.
+    Slice {
+        /// Across which axis.
+        axis: Axis,
+        /// Which, from 0.
+        index: usize,
+        /// Pixels along the two axes that lie in it.
+        size: [usize; 2],
+        /// A shade of grey for each.
+        #[serde(with = "bulk")]
+        pixels: Vec<u8>,
+        /// Where its corners lie in LPS mm, around it from the first pixel on.
+        corners: [[f64; 3]; 4],
+    },
+    /// Something cannot be done; what was open still is.
+    Refused {
+        /// The `id` or the `generation` of the command; 0 for a slice.
+        number: u64,
+        /// One plain sentence.
+        sentence: String,
+    },
+    /// What was being made was stopped.
+    Cancelled,
+}

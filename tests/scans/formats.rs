@@ -1,0 +1,110 @@
+//! Every way to write a volume is read as the same volume, and what cannot be read is refused in a sentence.
+
+use lumen::io::volume::{Part, data_name, is_volume, read};
+use lumen::task::Task;
+use lumen::volume::{Label, Selection, Surveying, VolumeError};
+
+use crate::open;
+use crate::samples::{all, assert_is_it, gzip, little, metaimage, nrrd, vti};
+
+#[test]
+fn every_way_gives_the_same_volume_in_the_same_place() {
+    for (what, files) in all() {
+        let scan = open(&files).unwrap_or_else(|error| panic!("{what}: {error}"));
+        assert_is_it(&scan, what);
+        assert!(files.iter().any(|(_, bytes)| is_volume(bytes)), "{what}");
+    }
+}
+
+#[test]
+fn headers_name_the_file_of_their_numbers() {
+    let names: Vec<Option<String>> =
+        all().iter().map(|(_, files)| files.iter().find_map(|(name, bytes)| data_name(bytes, name))).collect();
+    let named: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+    assert_eq!(named, ["folder/a.raw", "a.txt", "a.raw", "a.img"]);
+    let header = metaimage("", "numbers.raw");
+    let error = open(&[("a.mhd", header.into_bytes())]).unwrap_err().to_string();
+    assert_eq!(error, "The MetaImage header keeps its numbers in the file \"numbers.raw\": open both together.");
+}
+
+#[test]
+fn an_unknown_space_is_told() {
+    let header = nrrd("raw", "\n").replace("space: left-posterior-superior\n", "");
+    let scan = open(&[("a.nrrd", [header.into_bytes(), little()].concat())]).unwrap();
+    assert_eq!(scan.warnings.len(), 1);
+    let scan = open(&[("a.vti", vti("", &format!("format=\"ascii\">{}", crate::samples::ascii()), b""))]).unwrap();
+    assert_eq!(scan.warnings, ["VTI does not say which way the patient lies: its axes are taken as LPS."]);
+}
+
+#[test]
+fn what_cannot_be_read_is_refused_in_a_sentence() {
+    let refused = |name: &str, bytes: Vec<u8>| open(&[(name, bytes)]).unwrap_err().to_string();
+    assert_eq!(refused("a.nii", Vec::new()), "The file is empty.");
+    assert_eq!(
+        refused("folder/notes.txt", b"Dear colleague".to_vec()),
+        "\"notes.txt\" is not a volume that Lumen knows: it opens NIfTI, NRRD, MetaImage and VTI files and series of DICOM."
+    );
+    let mha = |from: &str, to: &str| {
+        refused("a.mha", [metaimage("", "LOCAL").replace(from, to).into_bytes(), little()].concat())
+    };
+    assert_eq!(
+        mha("DimSize = 6 5 4", "DimSize = 6 5 5"),
+        "The MetaImage file is cut short: it announces 300 bytes and holds 240."
+    );
+    assert_eq!(
+        mha("NDims = 3", "NDims = 4"),
+        "The MetaImage file uses other than three dimensions, which Lumen does not read."
+    );
+    assert_eq!(
+        mha("MET_SHORT", "MET_WORD"),
+        "The MetaImage file uses numbers of type \"MET_WORD\", which Lumen does not read."
+    );
+    assert_eq!(
+        mha("= 0.6 0.8 0", "= 0 0 0"),
+        "The volume cannot be placed in the patient: a distance of 0 mm between its points is none that a scan has."
+    );
+    assert_eq!(
+        mha("0.6 0.8 0 -0.8 0.6 0", "0.6 0.8 0 0.6 0.8 0"),
+        "The volume cannot be placed in the patient: the directions of its axes span no space."
+    );
+    assert!(
+        mha("6 5 4", "600000 500000 4").starts_with("The volume is too large: its numbers take 2400000000000 bytes")
+    );
+    let header = nrrd("gzip", "\n");
+    let damaged = refused("a.nrrd", [header.clone().into_bytes(), gzip(&little())[..60].to_vec()].concat());
+    assert!(damaged.starts_with("The NRRD file is"), "{damaged}");
+    assert_eq!(
+        refused("a.nrrd", header.replace("gzip", "bzip2").into_bytes()),
+        "The NRRD file uses the encoding \"bzip2\", which Lumen does not read."
+    );
+    let packed = nrrd("gzip", "\n").replace("6 5 4", "6000 500 40").into_bytes();
+    let claimed = refused("a.nrrd", [packed, gzip(&little())].concat());
+    assert!(claimed.contains("would unfold to 240000000 bytes"), "{claimed}");
+    assert!(read(&[] as &[Part]).is_err());
+}
+
+#[test]
+fn a_mask_is_told_from_a_scan_and_its_labels_are_counted() {
+    let survey = |text: &str, size: &str| {
+        let header = metaimage("", "LOCAL").replace("BinaryData = True", "BinaryData = False").replace("6 5 4", size);
+        let scan = open(&[("a.mha", [header.as_bytes(), text.as_bytes()].concat())]).unwrap();
+        Surveying::new(scan.grid.into()).finish()
+    };
+    let mask = survey("0 0 3 3 0 1 0 3", "2 2 2");
+    assert_eq!(mask.labels, [Label { value: 1, points: 1 }, Label { value: 3, points: 3 }]);
+    assert_eq!((mask.range, mask.histogram[0], mask.histogram[255]), ([0.0, 3.0], 4, 3));
+    assert_eq!(Selection::choose(&mask, None, None), Ok(Selection::AnyLabel));
+    let absent = Selection::choose(&mask, None, Some(2)).unwrap_err();
+    assert_eq!(absent.to_string(), "There is no label 2 in the volume; it has 1, 3.");
+    let scan = survey("-1000 40 300 0 60 0 0 200", "2 2 2");
+    assert!(!scan.is_mask());
+    assert_eq!(
+        Selection::choose(&scan, None, None).unwrap_err().to_string(),
+        "This is a scan with values from -1000 to 300: say at which threshold its surface is to be made (contrast-filled \
+         vessels in CT: 130 for vessels with little contrast, 180 for arteries, 250 for the aorta and the coronary arteries)."
+    );
+    let above = Selection::choose(&scan, Some(301.0), None);
+    assert_eq!(above, Err(VolumeError::OutsideRange { threshold: 301.0, low: -1000.0, high: 300.0 }));
+    assert!(Selection::choose(&scan, Some(f64::NAN), None).is_err());
+    assert_eq!(Selection::choose(&scan, Some(180.0), None), Ok(Selection::Threshold(180.0)));
+}
