@@ -1,6 +1,7 @@
 //! Settings for others: as a file and in a link. A link says which file it is for; whoever opens it is told whether what is
 //! open is that file.
 
+use super::document::Document;
 use super::platform::Platform;
 use super::state::State;
 use crate::engine::{Link as EngineLink, Source};
@@ -35,7 +36,7 @@ impl Sharing {
     pub(super) fn act(action: Action, state: &mut State, platform: &mut dyn Platform, ctx: &egui::Context) {
         match action {
             Action::SaveSettings => {
-                let stem = state.document.as_ref().map_or("lumen".to_owned(), |document| document.stem());
+                let stem = state.document.as_ref().map_or("lumen".to_owned(), Document::stem);
                 let name = format!("{stem}-settings{ENDING}");
                 platform.offer_file(&name, write_settings(&shared(state)).into_bytes(), ctx);
             }

@@ -17,7 +17,8 @@ const COMMANDS: [(&str, &str); 6] = [
     ("Ask for the version", "lumen --version"),
     (
         "Look for its manual, icon and desktop entry",
-        "test -s /usr/share/man/man1/lumen-optimise.1.gz -o -e /usr/share/doc/lumen && grep -q 'Exec=lumen %f' /usr/share/applications/lumen.desktop && test -s /usr/share/icons/hicolor/scalable/apps/lumen.svg",
+        "gzip -t /usr/share/man/man1/lumen-optimise.1.gz && test -s /usr/share/icons/hicolor/scalable/apps/lumen.svg \
+         && grep -q 'Exec=lumen %f' /usr/share/applications/lumen.desktop",
     ),
     ("Make a phantom", "lumen phantom aorta --triangles 8000 -o /tmp/vessel.stl"),
     ("Reduce it", "lumen optimise /tmp/vessel.stl -o /tmp/reduced.vtp --reduction 90 && test -s /tmp/reduced.vtp"),
@@ -63,6 +64,5 @@ pub(super) fn try_package(deb: &Path) -> Result<()> {
 /// The mirror of Debian's main archive that this machine's apt reads.
 fn mirror() -> Option<String> {
     let sites = output(Command::new("apt-get").args(["indextargets", "--format", "$(RELEASE) $(SITE)"]))?;
-    let site = sites.lines().find_map(|line| line.strip_prefix(RELEASE)?.strip_prefix(' ').map(str::to_owned));
-    site
+    sites.lines().find_map(|line| line.strip_prefix(RELEASE)?.strip_prefix(' ').map(str::to_owned))
 }

@@ -60,3 +60,32 @@ pub(super) fn site(dist: &Path) -> Result<Vec<Packed>> {
     files.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(files)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(path: &str) -> String {
+        String::from_utf8(read(path).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn every_type_of_the_desktop_entry_is_declared_and_stands_for_a_file_that_is_opened() {
+        let (entry, types) = (text("xtask/packaging/lumen.desktop"), text("xtask/packaging/lumen-mime.xml"));
+        let named = entry.lines().find_map(|line| line.strip_prefix("MimeType=")).unwrap();
+        let mut endings = Vec::new();
+        for name in named.split_terminator(';') {
+            let (_, declared) = types.split_once(&format!("<mime-type type=\"{name}\">")).unwrap();
+            let (declared, _) = declared.split_once("</mime-type>").unwrap();
+            let (_, glob) = declared.split_once("<glob pattern=\"*.").unwrap();
+            endings.push(glob.split('"').next().unwrap().to_owned());
+        }
+        // As `lumen --help` and the window's dialog have them (`Format::OPENED`).
+        let formats = text("src/io/format.rs");
+        let (_, opened) = formats.split_once("pub const OPENED:").unwrap();
+        let (_, opened) = opened.split_once("= [").unwrap();
+        let (opened, _) = opened.split_once(']').unwrap();
+        assert!(endings.iter().all(|ending| opened.contains(&format!("\"{ending}\""))), "{endings:?} of {opened}");
+        assert_eq!(entry.lines().filter(|line| *line == "Exec=lumen %f").count(), 1);
+    }
+}
