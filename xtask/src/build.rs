@@ -101,7 +101,7 @@ fn optimise(npm: &Path, module: &Path) -> Result<()> {
     let before = std::fs::metadata(module)?.len();
     let script = npm.join("node_modules/binaryen/bin/wasm-opt");
     let mut node = Command::new("node");
-    run(node.arg(script).arg("-O3").args(WASM_FEATURES).arg(module).arg("-o").arg(&optimised))?;
+    run(node.arg(script).arg("-O1").args(WASM_FEATURES).arg(module).arg("-o").arg(&optimised))?;
     std::fs::rename(&optimised, module)?;
     let after = std::fs::metadata(module)?.len();
     eprintln!("    {:.2} MB before, {:.2} MB after", before as f64 / 1e6, after as f64 / 1e6);
