@@ -13,6 +13,7 @@
 //!   `overlay` what is written over them.
 
 mod action;
+mod arrays;
 mod assist;
 mod bar;
 pub mod compare;

@@ -4,6 +4,7 @@
 use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
 
 use super::action::Action;
+use super::arrays;
 use super::assist::name;
 use super::control::Setting;
 use super::document::Document;
@@ -73,6 +74,7 @@ fn surface(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
             asked.push(Action::Show(ViewOptions { left_out, ..views.options }));
         }
     }
+    arrays::list(ui, document, views, asked);
 }
 
 /// The unit of the file's numbers.

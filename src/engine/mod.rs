@@ -11,6 +11,7 @@
 //! - [`trial`]: the guidewire trial, an engine of its own on a line of its own. It keeps pace with the clock.
 //! - [`Machine`]: what both are to whoever runs them.
 
+mod arrays;
 mod compare;
 mod machine;
 mod message;
@@ -20,6 +21,6 @@ mod surfaces;
 pub mod trial;
 
 pub use self::machine::{Machine, SLICE};
-pub use self::message::{Calibre, Command, Compared, Event, Link, Opened, Reduced, Source, Work};
+pub use self::message::{Calibre, Carried, Command, Compared, Event, Link, Opened, Reduced, Source, Work};
 pub use self::pipeline_engine::{Engine, PATIENCE};
 pub use self::trial::TrialEngine;
