@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::engine::{Calibre, Carried, Opened, Reduced, Source};
-use crate::io::{Format, ImportReport};
+use crate::io::{Axes, Format, ImportReport};
 use crate::mesh::{Bounds, TriMesh};
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
@@ -62,6 +62,8 @@ pub struct Document {
     pub name: String,
     /// What was found and mended when it was opened.
     pub import: ImportReport,
+    /// Whether the file itself says which way its axes point.
+    pub states_axes: bool,
     /// All of it.
     pub opened: Arc<TriMesh>,
     /// Its pieces.
@@ -112,6 +114,7 @@ impl Document {
         Self {
             source,
             name,
+            states_axes: report.axes != Axes::Unknown,
             import: report,
             opened: mesh,
             pieces: Pieces::default(),

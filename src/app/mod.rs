@@ -15,6 +15,7 @@
 mod action;
 mod arrays;
 mod assist;
+mod axes;
 mod bar;
 pub mod compare;
 mod control;

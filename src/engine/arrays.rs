@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn vertices_have_magnitudes_and_what_the_triangles_around_have() {
         let mesh: TriMesh = icosphere(3, 40.0, Vec3::ZERO);
-        let vectors: Vec<f32> = mesh.positions.iter().flat_map(|p| p.to_array()).collect();
+        let vectors: Vec<f32> = mesh.positions.iter().flat_map(Vec3::to_array).collect();
         let north: Vec<f32> =
             (0..mesh.triangles.len()).map(|t| f32::from(u8::from(mesh.corners(t)[0].z > 0.0))).collect();
         let arrays = vec![
