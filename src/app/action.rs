@@ -3,7 +3,7 @@
 
 use super::views::ViewOptions;
 use super::{compare, recovery, sharing, trial, vessels};
-use crate::io::{Format, Unit};
+use crate::io::{Axes, Format, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
 use crate::render::StandardView;
@@ -21,6 +21,8 @@ pub enum Action {
     Sample(Sample),
     /// Save the shown level.
     Save(Format),
+    /// Take the axes of the surface, whose file does not state them, to be these.
+    Axes(Axes),
     /// Go over to these settings.
     Set(Box<Settings>),
     /// One step back.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::engine::{Calibre, Opened, Reduced, Source};
-use crate::io::{Format, ImportReport};
+use crate::engine::{Calibre, Carried, Opened, Reduced, Source};
+use crate::io::{Axes, Format, ImportReport};
 use crate::mesh::{Bounds, TriMesh};
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
@@ -65,6 +65,8 @@ pub struct Document {
     pub digest: Option<Digest>,
     /// What was found and mended when it was opened.
     pub import: ImportReport,
+    /// Whether the file itself says which way its axes point.
+    pub states_axes: bool,
     /// All of it.
     pub opened: Arc<TriMesh>,
     /// Its pieces.
@@ -79,6 +81,8 @@ pub struct Document {
     pub measured: Option<Measured>,
     /// What the level of the newest settings of which that is known makes of the vessels.
     pub calibre: Option<Arc<Calibre>>,
+    /// What the file says of the level of the newest settings of which that is known.
+    carried: Option<Box<Carried>>,
     /// How often a level was looked up.
     #[cfg(test)]
     pub lookups: u32,
@@ -114,6 +118,7 @@ impl Document {
             source,
             name,
             digest,
+            states_axes: report.axes != Axes::Unknown,
             import: report,
             opened: mesh,
             pieces: Pieces::default(),
@@ -122,6 +127,7 @@ impl Document {
             shown: None,
             measured: None,
             calibre: None,
+            carried: None,
             #[cfg(test)]
             lookups: 0,
             found: None,
@@ -209,6 +215,18 @@ impl Document {
     pub fn set_calibre(&mut self, calibre: Calibre) {
         self.calibre = Some(Arc::new(calibre));
         self.revision.measured += 1;
+    }
+
+    /// Takes what the file says of a level.
+    pub fn set_carried(&mut self, carried: Box<Carried>) {
+        self.carried = Some(carried);
+        self.revision.measured += 1;
+    }
+
+    /// For each array a number for each vertex of the level that is shown, if they are known.
+    pub(super) fn carried_shown(&self) -> Option<&[f32]> {
+        let (carried, measured) = (self.carried.as_ref()?, self.measured.as_ref()?);
+        (carried.generation == measured.generation && self.measures_shown()).then_some(&carried.values)
     }
 
     /// For each node of the level that is shown, the change of calibre in percent, if it is known.

@@ -296,6 +296,11 @@ impl LumenApp {
             Action::ReadIn(unit) => state.set_unit(unit, self.platform.link()),
             Action::Sample(sample) => state.open_sample(sample, self.platform.link()),
             Action::Save(format) => state.save(format, self.platform.link()),
+            Action::Axes(axes) => {
+                if let Some(document) = &mut state.document {
+                    document.import.axes = axes;
+                }
+            }
             Action::Set(settings) => state.settings = *settings,
             Action::Undo => state.undo(),
             Action::Redo => state.redo(),

@@ -14,7 +14,9 @@
 //!   `overlay` what is written over them.
 
 mod action;
+mod arrays;
 mod assist;
+mod axes;
 mod bar;
 pub mod compare;
 mod control;

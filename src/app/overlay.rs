@@ -3,8 +3,9 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
+use super::arrays;
 use crate::io::Axes;
-use crate::mesh::Vec3;
+use crate::mesh::{ArrayInfo, Vec3};
 use crate::render::{Camera, ColourMap, viridis};
 
 /// What to write.
@@ -19,6 +20,8 @@ pub(super) struct Writing<'a> {
     pub axes: Axes,
     /// The colours in use.
     pub legend: Option<Legend>,
+    /// The array that has the colours.
+    pub array: Option<&'a ArrayInfo>,
 }
 
 /// What colours mean.
@@ -61,6 +64,14 @@ pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, small, weak);
     if let Some(colours) = &writing.legend {
         legend(&painter, inner, colours, text);
+    }
+    match writing.array {
+        Some(array) if array.labels.is_empty() => {
+            let bar = colour_bar(&painter, inner);
+            ends(&painter, bar, arrays::ends(array), &array.name, text);
+        }
+        Some(array) => arrays::label_legend(&painter, inner, array, text),
+        None => {}
     }
 }
 
@@ -132,6 +143,7 @@ fn round_length(mm: f32) -> f32 {
 fn orientation(painter: &Painter, inner: Rect, camera: &Camera, axes: Axes, colour: Color32) {
     const SIZE: f32 = 24.0;
     let middle = pos2(inner.right() - SIZE - 8.0, inner.top() + SIZE + 8.0);
+    let is_unknown = axes == Axes::Unknown;
     let mut axes: Vec<_> = camera.axes().into_iter().zip(axes.letters()).collect();
     axes.sort_by(|(a, _), (b, _)| a.z.total_cmp(&b.z));
     for (axis, letter) in axes {
@@ -145,9 +157,14 @@ fn orientation(painter: &Painter, inner: Rect, camera: &Camera, axes: Axes, colo
         let at: Pos2 = middle + vec2(axis.x, -axis.y) * (SIZE + 8.0);
         painter.text(at, Align2::CENTER_CENTER, letter, FontId::proportional(11.0), colour);
     }
+    if is_unknown {
+        let below = middle + vec2(SIZE + 8.0, SIZE + 20.0);
+        painter.text(below, Align2::RIGHT_CENTER, "Axes unknown", FontId::proportional(11.0), colour);
+    }
 }
 
-fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
+/// Draws the map's colours, the first below.
+fn colour_bar(painter: &Painter, inner: Rect) -> Rect {
     const STEPS: usize = 64;
     let bar = Rect::from_min_size(pos2(inner.right() - 12.0, inner.center().y - 80.0), vec2(12.0, 160.0));
     for i in 0..STEPS {
@@ -157,21 +174,26 @@ fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
         let piece = Rect::from_min_size(pos2(bar.left(), top), vec2(bar.width(), bar.height() / STEPS as f32 + 0.5));
         painter.rect_filled(piece, 0.0, Color32::from_rgb(r, g, b));
     }
-    let (low, high) = legend.map.range;
+    bar
+}
+
+/// Writes beside a bar what its first and its last colour mean, and its title above.
+fn ends(painter: &Painter, bar: Rect, [low, high]: [String; 2], title: &str, colour: Color32) {
     let font = FontId::proportional(12.0);
+    for (y, text) in [(bar.bottom(), low), (bar.top(), high)] {
+        painter.text(pos2(bar.left() - 6.0, y), Align2::RIGHT_CENTER, text, font.clone(), colour);
+    }
+    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, title, font, colour);
+}
+
+fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
+    let bar = colour_bar(painter, inner);
+    let (low, high) = legend.map.range;
     let more = if legend.is_open { " and more" } else { "" };
     let less = if legend.is_open_below { " and less" } else { "" };
-    for (y, value, more) in [(bar.bottom(), low, less), (bar.top(), high, more)] {
-        let at = pos2(bar.left() - 6.0, y);
-        painter.text(
-            at,
-            Align2::RIGHT_CENTER,
-            format!("{value:.*} {}{more}", legend.decimals, legend.unit),
-            font.clone(),
-            colour,
-        );
-    }
-    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, legend.title, font.clone(), colour);
+    let number = |value: f32, more: &str| format!("{value:.*} {}{more}", legend.decimals, legend.unit);
+    ends(painter, bar, [number(low, less), number(high, more)], legend.title, colour);
+    let font = FontId::proportional(12.0);
     painter.text(bar.right_bottom() + vec2(0.0, 14.0), Align2::RIGHT_TOP, legend.note, font, colour);
 }
 

@@ -4,7 +4,9 @@
 use egui::{ComboBox, RichText, Role, ScrollArea, Ui};
 
 use super::action::Action;
+use super::arrays;
 use super::assist::name;
+use super::axes;
 use super::control::Setting;
 use super::document::Document;
 use super::response;
@@ -48,6 +50,7 @@ fn surface(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
     };
     let pieces = &document.pieces;
     unit_list(ui, document, asked);
+    axes::list(ui, document, asked);
     number(ui, "Triangles in file", &grouped(document.import.triangles), "As the file holds them, polygons split");
     let Some(kept) = pieces.kept(state.settings.keep).or(pieces.by_size.first().copied()) else {
         return;
@@ -73,6 +76,7 @@ fn surface(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
             asked.push(Action::Show(ViewOptions { left_out, ..views.options }));
         }
     }
+    arrays::list(ui, document, views, asked);
 }
 
 /// The unit of the file's numbers.

@@ -1,8 +1,11 @@
 //! What is in GPU memory, kept in step with the document: the level, the surface as it was opened, the pieces that
 //! are left out, and the two views' targets.
 
+use std::borrow::Cow;
+
 use egui::TextureId;
 
+use super::arrays;
 use super::document::{Document, Revision};
 use super::views::Colours;
 use super::window_texture::WindowTarget;
@@ -108,12 +111,13 @@ impl Scene {
         let is_other_map = self.scalars_of != colours || old.measured != new.measured;
         if colours != Colours::None && (!self.has_scalars || is_other_map) {
             let scalars = match colours {
-                Colours::Calibre => document.change_by_node(),
-                Colours::None | Colours::Deviation => document.deviation_by_node(),
+                Colours::Calibre => document.change_by_node().map(Cow::Borrowed),
+                Colours::None | Colours::Deviation => document.deviation_by_node().map(Cow::Borrowed),
+                Colours::Array(index) => document.array_by_node(index).map(Cow::Owned),
             };
             self.scalars_of = colours;
             self.has_scalars = scalars.is_some();
-            self.level.set_scalars(&self.device, &self.queue, scalars)?;
+            self.level.set_scalars(&self.device, &self.queue, scalars.as_deref())?;
         }
         self.revision = new;
         Ok(())
@@ -189,6 +193,7 @@ impl Scene {
 pub(super) fn colour_map(document: &Document, colours: Colours) -> Option<ColourMap> {
     let range = match colours {
         Colours::None => return None,
+        Colours::Array(_) => return arrays::chosen(document, colours).map(|_| arrays::colour_map()),
         Colours::Deviation => {
             let deviation = document.measured.as_ref()?.report.deviation_mm?;
             (0.0, (deviation.p95 as f32).max(1e-6))

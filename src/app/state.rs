@@ -406,6 +406,11 @@ impl State {
                     }
                 }
             }
+            Event::Carried(carried) => {
+                if let Some(document) = self.document.as_mut().filter(|_| self.engine == Engine::Loaded) {
+                    document.set_carried(carried);
+                }
+            }
             Event::Certified(calibre) => {
                 if let Some(document) = self.document.as_mut().filter(|_| self.engine == Engine::Loaded) {
                     document.set_calibre(*calibre);

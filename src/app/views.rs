@@ -3,6 +3,7 @@
 use egui::{Color32, PointerButton, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
 use glam::{Vec2, Vec3};
 
+use super::arrays;
 use super::assist::name;
 use super::document::{Document, Revision};
 use super::overlay;
@@ -45,6 +46,8 @@ pub enum Colours {
     Deviation,
     /// The change of calibre of the vessel beside each vertex from the opened surface, in percent.
     Calibre,
+    /// What the file says of its vertices or triangles: the array of this number.
+    Array(u16),
 }
 
 impl Colours {
@@ -252,6 +255,8 @@ impl Views {
         let mut style = theme::style(ui.visuals());
         let colours = if index == 0 && !self.show_before { self.options.colours } else { Colours::None };
         style.map = document.and_then(|document| colour_map(document, colours));
+        let array = document.and_then(|document| arrays::chosen(document, colours));
+        style.labels = array.is_some_and(|info| !info.labels.is_empty());
         let picture = Picture {
             camera: self.camera,
             size: [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32],
@@ -289,7 +294,7 @@ impl Views {
             );
         }
         let has_scalars = self.scene.as_ref().is_some_and(Scene::has_scalars);
-        let legend = style.map.filter(|_| has_scalars).map(|map| legend(map, colours));
+        let legend = style.map.filter(|_| has_scalars && array.is_none()).map(|map| legend(map, colours));
         overlay::show(
             ui,
             rect,
@@ -299,6 +304,7 @@ impl Views {
                 camera: &self.camera,
                 axes: document.map(|document| document.import.axes).unwrap_or_default(),
                 legend,
+                array: array.filter(|_| has_scalars),
             },
         );
         if let Some(pinch) = document.and_then(Document::pinch).filter(|_| !self.show_before) {
@@ -390,7 +396,7 @@ impl Views {
 fn legend(map: ColourMap, colours: Colours) -> overlay::Legend {
     let (title, unit, decimals, note) = match colours {
         Colours::Calibre => ("Change of calibre", "%", 1, "No colour: not measured"),
-        Colours::None | Colours::Deviation => ("Deviation, mean around", "mm", 3, ""),
+        Colours::None | Colours::Deviation | Colours::Array(_) => ("Deviation, mean around", "mm", 3, ""),
     };
     overlay::Legend { map, title, unit, decimals, is_open: true, is_open_below: colours == Colours::Calibre, note }
 }

@@ -139,7 +139,7 @@ fn row(what: &str, how_much: impl std::fmt::Display) {
 
 /// A row for each array: its name, what it is on, its type, and its range.
 fn array_rows(arrays: &[ArrayInfo]) {
-    for ArrayInfo { name, on, kind, scalar, components, range } in arrays {
+    for ArrayInfo { name, on, kind, scalar, components, range, .. } in arrays {
         let on = if *on == On::Point { "point" } else { "triangle" };
         let kind = if *kind == Kind::Label { ", labels" } else { "" };
         let range = range.map_or("no finite value".to_owned(), |[least, most]| format!("{least} to {most}"));

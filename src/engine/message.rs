@@ -188,6 +188,17 @@ pub struct Calibre {
     pub change_by_node: Vec<f32>,
 }
 
+/// What the file says of the vertices and triangles of a level, as it is shown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Carried {
+    /// That of the settings.
+    pub generation: u64,
+    /// For each array of the import report a number for each vertex of the level, one array after the other: its value,
+    /// or its magnitude.
+    #[serde(with = "bulk")]
+    pub values: Vec<f32>,
+}
+
 /// What the pipeline made at one of the settings to compare.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
@@ -246,6 +257,8 @@ pub enum Event {
         #[serde(with = "optional")]
         deviation: Option<Vec<f32>>,
     },
+    /// What the file says of the level that the settings ask for; only where it says something.
+    Carried(Box<Carried>),
     /// What the level that the settings ask for makes of the vessels; it is measured in the background.
     Certified(Box<Calibre>),
     /// The work was stopped; these settings, and their results, are in force.

@@ -12,6 +12,7 @@
 //! - [`scan`]: scans and masks, an engine of its own as well; the surface that it makes is opened as [`Source::Made`].
 //! - [`Machine`]: what they are to whoever runs them.
 
+mod arrays;
 mod compare;
 mod machine;
 mod message;
@@ -22,6 +23,6 @@ mod surfaces;
 pub mod trial;
 
 pub use self::machine::{Machine, SLICE};
-pub use self::message::{Calibre, Command, Compared, Event, Link, Opened, Reduced, Source, Work};
+pub use self::message::{Calibre, Carried, Command, Compared, Event, Link, Opened, Reduced, Source, Work};
 pub use self::pipeline_engine::{Engine, PATIENCE};
 pub use self::trial::TrialEngine;

@@ -10,9 +10,10 @@ use std::time::Duration;
 
 use web_time::Instant;
 
+use super::arrays;
 use super::compare::Comparing;
 use super::machine::{Machine, SLICE};
-use super::message::{Calibre, Command, Event, Opened, Reduced, Source, Work};
+use super::message::{Calibre, Carried, Command, Event, Opened, Reduced, Source, Work};
 use super::progress::tell_progress;
 use crate::io::{self, Axes, Imported, Output};
 use crate::mesh::{TriMesh, Vec3};
@@ -288,6 +289,7 @@ impl Current {
                 let has_new_map = !matches!(stage, Stage::Measures | Stage::Safe);
                 self.tell_numbers(stage != Stage::Level, has_new_map, events);
             }
+            Advance::Finished(Stage::Arrays) => self.tell_arrays(events),
             Advance::Finished(Stage::Certificate) => self.tell_calibre(events),
             Advance::Finished(Stage::Connectivity) => {
                 let pieces = self.pipeline.connectivity();
@@ -319,6 +321,7 @@ impl Current {
             if self.pipeline.reduced().is_some() {
                 self.reached = generation;
                 self.tell_numbers(self.pipeline.deviations().is_some(), true, events);
+                self.tell_arrays(events);
                 self.tell_calibre(events);
             }
         }
@@ -336,6 +339,15 @@ impl Current {
         let deviation = with_deviation.then(by_node);
         let generation = self.generation;
         events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
+    }
+
+    /// What the file says of the level, if it says something and that is carried to it.
+    fn tell_arrays(&self, events: &mut VecDeque<Event>) {
+        let carried = self.pipeline.level_arrays().zip(self.pipeline.reduced());
+        if let Some((arrays, reduced)) = carried.filter(|(arrays, _)| !arrays.is_empty()) {
+            let (generation, values) = (self.generation, arrays::by_vertex(arrays, reduced));
+            events.push_back(Event::Carried(Box::new(Carried { generation, values })));
+        }
     }
 
     /// What the level makes of the vessels, if that is known.

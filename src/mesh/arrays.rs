@@ -303,7 +303,18 @@ impl Array {
             scalar: self.values.scalar,
             components: self.components,
             range: self.range(),
+            labels: if self.kind == Kind::Label { self.labels() } else { Vec::new() },
         }
+    }
+
+    /// The different values of labels, ascending; none where there are more than [`LABELS`].
+    fn labels(&self) -> Vec<f64> {
+        let words = few_words(&self.values).unwrap_or_default();
+        let bytes = words.iter().flat_map(|word| word.to_le_bytes()[..self.values.scalar.size()].to_vec()).collect();
+        let values = Values::from_bytes(self.values.scalar, bytes);
+        let mut labels: Vec<f64> = (0..values.len()).map(|i| values.get(i)).collect();
+        labels.sort_unstable_by(f64::total_cmp);
+        labels
     }
 }
 
@@ -323,6 +334,9 @@ pub struct ArrayInfo {
     pub components: usize,
     /// The least and the largest value, of several components the magnitude; null where none is a finite number.
     pub range: Option<[f64; 2]>,
+    /// The different values of labels, ascending; none where there are more than [`LABELS`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub labels: Vec<f64>,
 }
 
 /// What is to be said about each array.
@@ -348,11 +362,11 @@ fn is_label(name: &str, values: &Values) -> bool {
         return false;
     }
     let name = name.to_ascii_lowercase();
-    name.ends_with("id") || name.ends_with("ids") || has_few_values(values)
+    name.ends_with("id") || name.ends_with("ids") || few_words(values).is_some()
 }
 
-/// Whether there are at most [`LABELS`] different values.
-fn has_few_values(values: &Values) -> bool {
+/// The bits of all different values, where these are at most [`LABELS`].
+fn few_words(values: &Values) -> Option<Vec<u64>> {
     let mut found: Vec<u64> = Vec::with_capacity(LABELS);
     let mut last = None;
     for i in 0..values.len() {
@@ -363,12 +377,12 @@ fn has_few_values(values: &Values) -> bool {
         }
         if let Err(place) = found.binary_search(&word) {
             if found.len() == LABELS {
-                return false;
+                return None;
             }
             found.insert(place, word);
         }
     }
-    true
+    Some(found)
 }
 
 #[cfg(test)]
@@ -431,6 +445,8 @@ mod tests {
         assert_eq!(kind("Intensity", 1, many()), Kind::Continuous);
         assert_eq!(kind("GlobalNodeID", 1, many()), Kind::Label);
         assert_eq!(kind("Part", 1, values(Scalar::F32, [1.0, 2.0])), Kind::Continuous);
+        let signs = Array::new("Side", On::Point, 1, values(Scalar::I16, [2.0, -1.0, 2.0, 0.0]));
+        assert_eq!((signs.info().labels, signs.info().range), (vec![-1.0, 0.0, 2.0], Some([-1.0, 2.0])));
         assert_eq!(kind("RGB", 3, values(Scalar::U8, [1.0, 2.0, 3.0])), Kind::Continuous);
     }
 

@@ -41,6 +41,23 @@ pub fn viridis(t: f32) -> Colour {
     }))
 }
 
+/// Colours that stay apart to every kind of colour vision (Okabe and Ito 2008), without black, and grey: those of labels.
+pub const LABELS: [Colour; 8] = [
+    Colour::hex(0x00_72_B2),
+    Colour::hex(0xE6_9F_00),
+    Colour::hex(0x00_9E_73),
+    Colour::hex(0xCC_79_A7),
+    Colour::hex(0x56_B4_E9),
+    Colour::hex(0xD5_5E_00),
+    Colour::hex(0xF0_E4_42),
+    Colour::hex(0x99_99_99),
+];
+
+/// The colour of label number `n`: after eight they begin again.
+pub fn label_colour(n: usize) -> Colour {
+    LABELS[n % LABELS.len()]
+}
+
 const HEX: [u32; 256] = [
     0x440154, 0x440256, 0x450457, 0x450559, 0x46075A, 0x46085C, 0x460A5D, 0x460B5E, 0x470D60, 0x470E61, 0x471063,
     0x471164, 0x471365, 0x481467, 0x481668, 0x481769, 0x48186A, 0x481A6C, 0x481B6D, 0x481C6E, 0x481D6F, 0x481F70,
@@ -80,6 +97,14 @@ mod tests {
         assert_eq!(viridis(-3.0), viridis(0.0));
         assert_eq!(viridis(f32::INFINITY), viridis(1.0));
         assert_eq!(viridis(f32::NAN), viridis(0.0));
+    }
+
+    #[test]
+    fn labels_next_to_each_other_stay_apart() {
+        for n in 0..16 {
+            assert_ne!(label_colour(n), label_colour(n + 1));
+        }
+        assert_eq!(label_colour(8), LABELS[0]);
     }
 
     #[test]

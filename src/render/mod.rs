@@ -55,7 +55,7 @@ mod wireframe;
 
 pub use camera::Camera;
 pub use colour::{Colour, contrast};
-pub use colour_map::{ColourMap, VIRIDIS, viridis};
+pub use colour_map::{ColourMap, LABELS, VIRIDIS, label_colour, viridis};
 pub use edges::unique_edges;
 pub use error::SurfaceError;
 pub use fault::{DeviceHealth, Fault};

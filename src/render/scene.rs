@@ -7,7 +7,7 @@ use wgpu::util::DeviceExt;
 
 use super::buffer::uniforms;
 use super::paint::{Paint, PaintUniforms, encoded};
-use super::{Camera, Colour, Style, VIRIDIS};
+use super::{Camera, Colour, Style, VIRIDIS, label_colour};
 
 /// Distance of two sets of uniforms in a buffer: the largest alignment that any device asks for.
 const STRIDE: u64 = 256;
@@ -24,7 +24,7 @@ struct SceneUniforms {
     background_top: [f32; 4],
     /// Gamma-encoded.
     background_bottom: [f32; 4],
-    /// The scalar of the map's first colour, one over the width of its range.
+    /// The scalar of the map's first colour, one over the width of its range; that is negative for labels.
     map: [f32; 2],
     /// Height of a pixel at distance 1.
     pixel: f32,
@@ -142,6 +142,9 @@ impl SceneBindings {
 fn scene_uniforms([width, height]: [u32; 2], camera: &Camera, style: &Style) -> SceneUniforms {
     let (width, height) = (width as f32, height as f32);
     let map = style.map.map_or([0.0, 0.0], |map| {
+        if style.labels {
+            return [0.0, -1.0];
+        }
         let (low, high) = map.range;
         // Without a width, a step as steep as a number can be.
         [low, 1.0 / (high - low).max(f32::MIN_POSITIVE)]
@@ -157,14 +160,15 @@ fn scene_uniforms([width, height]: [u32; 2], camera: &Camera, style: &Style) -> 
     }
 }
 
-/// The colour map's table as a texture of one row.
+/// The colour map's table as a texture, and below it a row of the labels' palette over and over.
 fn map_texture(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
-    let texels: Vec<u8> = VIRIDIS.iter().flat_map(|&Colour([r, g, b])| [r, g, b, 255]).collect();
+    let rows = VIRIDIS.into_iter().chain((0..VIRIDIS.len()).map(label_colour));
+    let texels: Vec<u8> = rows.flat_map(|Colour([r, g, b])| [r, g, b, 255]).collect();
     let texture = device.create_texture_with_data(
         queue,
         &wgpu::TextureDescriptor {
             label: Some("viridis"),
-            size: wgpu::Extent3d { width: VIRIDIS.len() as u32, height: 1, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d { width: VIRIDIS.len() as u32, height: 2, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,

@@ -8,7 +8,7 @@ struct Scene {
     // Gamma-encoded.
     background_top: vec4<f32>,
     background_bottom: vec4<f32>,
-    // The scalar of the colour map's first colour, one over the width of its range.
+    // The scalar of the colour map's first colour, one over the width of its range; that is negative for labels.
     map: vec2<f32>,
     // Height of a pixel at distance 1.
     pixel: f32,
@@ -59,4 +59,9 @@ fn map_colour(t: f32) -> vec3<f32> {
     let low = textureLoad(viridis, vec2(i, 0), 0).rgb;
     let high = textureLoad(viridis, vec2(i + 1, 0), 0).rgb;
     return mix(low, high, at - f32(i));
+}
+
+// The colour of a label by its number: as `label_colour` in `colour_map.rs`.
+fn label_colour(number: f32) -> vec3<f32> {
+    return textureLoad(viridis, vec2(i32(round(number)) & 255, 1), 0).rgb;
 }

@@ -13,11 +13,13 @@ struct Fragment {
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) scalar: f32,
+    // The scalar of one of the triangle's corners: between two labels there is none.
+    @location(3) @interpolate(flat, either) label: f32,
 }
 
 fn project(position: vec3<f32>, normal: vec3<f32>, scalar: f32) -> Fragment {
     let seen = scene.view * vec4(position, 1.0);
-    return Fragment(scene.projection * seen, seen.xyz, (scene.view * vec4(normal, 0.0)).xyz, scalar);
+    return Fragment(scene.projection * seen, seen.xyz, (scene.view * vec4(normal, 0.0)).xyz, scalar, scalar);
 }
 
 @vertex
@@ -72,7 +74,8 @@ const UNKNOWN: f32 = 1e6;
 fn fragment_mapped(in: Fragment, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
     let towards_eye = normalize(-in.position);
     let normal = facing_normal(in, towards_eye, front);
-    let mapped = decode(map_colour((in.scalar - scene.map.x) * scene.map.y));
+    let even = map_colour((in.scalar - scene.map.x) * scene.map.y);
+    let mapped = decode(select(even, label_colour(in.label), scene.map.y < 0.0));
     let colour = select(mapped, paint.surface.rgb, in.scalar > UNKNOWN);
     let facing = clamp(dot(normal, towards_eye), 0.0, 1.0);
     let shade = mix(0.55, 1.0, facing) * select(0.6, 1.0, front);

@@ -21,6 +21,8 @@ pub struct Style {
     pub line_facing: Colour,
     /// Shows scalars as colours, on the surfaces that have them.
     pub map: Option<ColourMap>,
+    /// Whether these scalars are numbers of labels, from 0: each triangle has one of the palette's colours.
+    pub labels: bool,
 }
 
 impl Style {
@@ -34,6 +36,7 @@ impl Style {
         line: Colour::hex(0x16_1D_24),
         line_facing: Colour::hex(0x56_61_6C),
         map: None,
+        labels: false,
     };
 
     /// Light on dark.
@@ -46,6 +49,7 @@ impl Style {
         line: Colour::hex(0xF4_F6_F8),
         line_facing: Colour::hex(0x93_9D_A8),
         map: None,
+        labels: false,
     };
 }
 

@@ -444,3 +444,43 @@ fn the_trial_s_tables_have_the_papers_rates_each_of_its_sample() {
     assert_eq!(of("IV", "success"), fourth.map(|(rate, paper)| row(rate, paper, "sample:coronary")));
     assert!(rows.iter().filter(|row| row[2] == "success").all(|row| row[5] == "1"), "{csv}");
 }
+
+#[test]
+fn arrays_and_axes_go_from_file_to_file() {
+    let folder = Folder::new("arrays");
+    let [ras, lps, glb, out] = ["ras.vtp", "lps.stl", "unknown.glb", "out.ply"].map(|name| folder.file(name));
+    let optimise = |from: &str, to: &str, options: &[&str]| {
+        let output = lumen(&[&["optimise", from, "-o", to, "--iterations", "0"][..], options].concat());
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let inspect = |file: &str| -> Value { serde_json::from_str(&succeed(&["inspect", file, "--json"])).unwrap() };
+    let (code, _) = optimise("sample:aorta", &ras, &["--with", "normals,deviation", "--axes", "ras"]);
+    assert_eq!(code, Some(0));
+    let first = inspect(&ras);
+    assert_eq!((&first["axes"], &first["arrays"][0]["name"]), (&Value::from("ras"), &Value::from("deviation_mm")));
+    assert_eq!(
+        (&first["arrays"][0]["on"], &first["arrays"][0]["type"]),
+        (&Value::from("point"), &Value::from("float32"))
+    );
+    assert!(succeed(&["inspect", &ras]).contains("array deviation_mm          point, 1 x float32, "));
+
+    let whole = ["--reduction", "0", "--axes", "lps"];
+    let (code, said) = optimise(&ras, &lps, &whole);
+    assert_eq!(code, Some(0));
+    assert!(said.contains("STL has no place for arrays: deviation_mm is left out."), "{said}");
+    assert!(!optimise(&ras, &lps, &[&whole[..], &["--arrays", "none"]].concat()).1.contains("no place"));
+    let second = inspect(&lps);
+    let side = |report: &Value, end: &str, axis: usize| report["bounds_mm"][end][axis].as_f64().unwrap();
+    for axis in [0, 1] {
+        assert_eq!(side(&first, "min", axis), -side(&second, "max", axis));
+    }
+    assert_eq!((side(&first, "min", 2), &second["axes"]), (side(&second, "min", 2), &Value::from("lps")));
+
+    // glTF does not say which way a patient lies.
+    assert_eq!(optimise(&lps, &glb, &[]).0, Some(0));
+    let (code, said) = optimise(&glb, &out, &["--axes", "ras"]);
+    assert!(code == Some(1) && said.contains("say it with --axes-in"), "{said}");
+    assert_eq!(optimise(&glb, &out, &["--axes", "ras", "--axes-in", "lps"]).0, Some(0));
+    assert_eq!(inspect(&out)["axes"], "ras");
+    assert_eq!(optimise(&lps, &out, &["--axes-in", "ras"]).0, Some(1));
+}

@@ -92,7 +92,15 @@ fn check(path: &Path, facts: &[Fact]) -> Result<(), Failed> {
     }
     for (info, &(name, on, kind, scalar, components, range)) in report.arrays.iter().zip(facts) {
         let near = |[a, b]: [f64; 2]| (a - range[0]).abs() < 1e-12 && (b - range[1]).abs() < 1e-12;
-        let fact = ArrayInfo { name: name.to_owned(), on, kind, scalar, components, range: info.range };
+        let fact = ArrayInfo {
+            name: name.to_owned(),
+            on,
+            kind,
+            scalar,
+            components,
+            range: info.range,
+            labels: info.labels.clone(),
+        };
         // Of vertices that were welded the mean is kept: ranges may shrink there.
         let is_welded = path.to_string_lossy().contains("branch-split");
         if *info != fact || !(is_welded || info.range.is_some_and(near)) {

@@ -226,7 +226,7 @@ impl TrialView {
         let legend = (is_on && rect.height() > 300.0).then(|| peak_legend(end));
         let title = if is_on { "Wire in the vessel" } else { "Trial" };
         let axes = document.map(|document| document.import.axes).unwrap_or_default();
-        let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, axes, legend };
+        let writing = overlay::Writing { title, name: Some(&trial.name), camera: &camera, axes, legend, array: None };
         overlay::show(ui, rect, &writing);
         self.say(ui, rect, trial);
         let picks = trial.pick.is_some() && response.clicked();
