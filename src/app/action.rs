@@ -2,7 +2,7 @@
 //! place.
 
 use super::views::ViewOptions;
-use super::{compare, trial, vessels};
+use super::{compare, scan, trial, vessels};
 use crate::io::{Format, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
@@ -56,6 +56,8 @@ pub enum Action {
     Trial(trial::Action),
     /// Something of the vessels and their calibre.
     Vessels(vessels::Action),
+    /// Something of a scan.
+    Scan(scan::Action),
     /// The other theme.
     Theme,
     /// Show or hide the keys.

@@ -8,6 +8,7 @@
 //!   `assist` what assistive tools are told of them, `theme` the look.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - [`trial`]: the guidewire trial.
+//! - [`scan`]: a scan or a mask, before there is a surface.
 //! - [`vessels`]: what became of the calibre of each vessel.
 //! - `views`: the two 3-D views; `scene` what stands in GPU memory, `window_texture` what of it the window shows,
 //!   `overlay` what is written over them.
@@ -30,6 +31,7 @@ mod panel;
 mod platform;
 mod response;
 mod row;
+pub mod scan;
 mod scene;
 mod sheets;
 mod state;
