@@ -2,7 +2,7 @@
 //! place.
 
 use super::views::ViewOptions;
-use super::{compare, recovery, sharing, trial, vessels};
+use super::{compare, recovery, scan, sharing, trial, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
@@ -64,6 +64,8 @@ pub enum Action {
     Share(sharing::Action),
     /// Something of what is kept on this device.
     Recovery(recovery::Action),
+    /// Something of a scan.
+    Scan(scan::Action),
     /// The other theme.
     Theme,
     /// Show or hide the keys.

@@ -9,6 +9,7 @@ use super::keys::{self, Keys};
 use super::paint_guard::PaintGuard;
 use super::platform::{Platform, PlatformEvent};
 use super::recovery::Recovery;
+use super::scan::{self, ScanView, Scans, Told};
 use super::sharing::{self, Sharing};
 use super::sheets::{self, Sheet};
 use super::state::{Effect, State};
@@ -41,6 +42,8 @@ pub struct LumenApp {
     vessels: Vessels,
     recovery: Recovery,
     sharing: Sharing,
+    scans: Scans,
+    scan_view: ScanView,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
     /// Whether a field was typed into at the end of the frame before.
@@ -69,6 +72,8 @@ impl LumenApp {
             vessels: Vessels::default(),
             recovery,
             sharing: Sharing::default(),
+            scans: Scans::default(),
+            scan_view: ScanView::default(),
             platform,
             sheet: None,
             was_typing: false,
@@ -103,6 +108,7 @@ impl LumenApp {
         self.views.set_device(render_state);
         self.compare = compare::CompareView::new(render_state);
         self.trial_view.set_device(render_state);
+        self.scan_view.set_device(render_state);
     }
 
     /// Lets go of the device and of all that stands on it, before it is replaced.
@@ -110,6 +116,7 @@ impl LumenApp {
         self.views.set_device(None);
         self.compare = compare::CompareView::new(None);
         self.trial_view.set_device(None);
+        self.scan_view.set_device(None);
     }
 
     /// Why the device has to be replaced, if it has to be.
@@ -128,6 +135,7 @@ impl LumenApp {
             self.views.refuse(self.state.document.as_ref().map(|document| document.revision));
             self.compare.refuse();
             self.trial_view.refuse();
+            self.scan_view.refuse();
             self.state.warn(NO_MEMORY);
         }
     }
@@ -183,6 +191,11 @@ impl LumenApp {
                 PlatformEvent::Restored(file) => {
                     self.recovery.restored(file, &mut self.state, self.platform.link());
                 }
+                PlatformEvent::Scan { files } => {
+                    if let Some(link) = self.platform.scans() {
+                        self.scans.read(files, link);
+                    }
+                }
                 PlatformEvent::Saved { message } => self.state.tell(&message),
                 PlatformEvent::Failed { message } => self.state.warn(&message),
             }
@@ -212,6 +225,27 @@ impl LumenApp {
             let sentence = self.trial.engine_failed(&reason, self.platform.trial());
             self.state.warn(&sentence);
         }
+        self.listen_to_scans();
+    }
+
+    /// Hears what the engine of scans has to say.
+    fn listen_to_scans(&mut self) {
+        while let Some(link) = self.platform.scans()
+            && let Some(event) = link.poll()
+        {
+            match self.scans.receive(event, link) {
+                Some(Told::Made(source)) => self.state.open(source, self.platform.link()),
+                Some(Told::Refused(sentence)) => self.state.warn(&sentence),
+                None => {}
+            }
+        }
+        if let Some(link) = self.platform.scans()
+            && let Some(reason) = link.failure()
+        {
+            link.restart();
+            let sentence = self.scans.engine_failed(&reason);
+            self.state.warn(&sentence);
+        }
     }
 
     /// Sends on what was done and heard.
@@ -222,6 +256,9 @@ impl LumenApp {
         let has_level = self.state.has_level();
         self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
         self.trial.next_row(self.platform.trial());
+        if let Some(link) = self.platform.scans() {
+            self.scans.follow(link);
+        }
         // A gamepad tells nothing by itself.
         let has_gamepad = self.trial.is_in_hand() && self.platform.gamepad().is_some();
         if has_gamepad
@@ -230,6 +267,8 @@ impl LumenApp {
             || self.trial.has_device().0
             || self.state.is_busy()
             || self.trial.is_busy()
+            || self.scans.opening().is_some()
+            || self.scans.is_open()
         {
             ctx.request_repaint_after(LISTEN);
         }
@@ -268,6 +307,9 @@ impl LumenApp {
             Some(Action::Cancel)
         } else if self.trial.is_comparing() {
             Some(Action::Trial(trial::Action::CancelComparison))
+        } else if let Some(scan) = self.scans.shown() {
+            let cancel = if scan.is_making() { scan::Action::Cancel } else { scan::Action::Close };
+            Some(Action::Scan(cancel))
         } else if self.trial.is_open() {
             Some(Action::Trial(trial::Action::Close))
         } else if self.state.comparison.is_open() {
@@ -326,6 +368,11 @@ impl LumenApp {
             Action::Vessels(action) => self.act_on_vessels(action, ctx),
             Action::Share(action) => Sharing::act(action, state, &mut *self.platform, ctx),
             Action::Recovery(action) => self.recovery.act(action, state, &mut *self.platform),
+            Action::Scan(action) => {
+                if let Some(link) = self.platform.scans() {
+                    self.scans.act(action, link);
+                }
+            }
             Action::Theme => {
                 let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
                 ctx.set_theme(other);
@@ -406,13 +453,19 @@ impl LumenApp {
                 vessels::show(ui, &self.vessels, &self.state, &self.views, true, &mut asked);
                 return;
             }
-            if in_trial {
+            if in_trial && !self.scans.is_open() {
                 self.trial.pads(ui);
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Room for the scroll bar beside what stands at the right.
                 ui.set_max_width(ui.available_width() - 8.0);
                 ui.spacing_mut().item_spacing.y = 3.0;
+                if let Some(scan) = self.scans.shown() {
+                    let mut of_scan = Vec::new();
+                    scan::panel(ui, scan, &mut of_scan);
+                    asked.extend(of_scan.into_iter().map(Action::Scan));
+                    return;
+                }
                 let of_trial = if in_trial { self.trial_panel(ui) } else { self.method_panel(ui) };
                 asked.extend(of_trial);
             });
@@ -473,6 +526,11 @@ impl LumenApp {
                 if !(self.trial.is_open() || self.trial.tables.needs_views()) {
                     self.trial_view.let_go();
                 }
+                if let Some(scan) = self.scans.shown() {
+                    self.scan_view.show(ui, scan, &mut self.views, is_narrow);
+                    return Vec::new();
+                }
+                self.scan_view.let_go();
                 if self.trial.is_open() {
                     let trial = &mut self.trial;
                     let asked = self.trial_view.show(ui, trial, &mut self.views, document, keep, is_narrow);

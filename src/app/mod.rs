@@ -9,6 +9,7 @@
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - [`trial`]: the guidewire trial.
+//! - [`scan`]: a scan or a mask, before there is a surface.
 //! - [`vessels`]: what became of the calibre of each vessel.
 //! - `views`: the two 3-D views; `scene` what stands in GPU memory, `window_texture` what of it the window shows,
 //!   `overlay` what is written over them.
@@ -35,6 +36,7 @@ mod recovery;
 mod response;
 mod reveal;
 mod row;
+pub mod scan;
 mod scene;
 mod sharing;
 mod sheets;

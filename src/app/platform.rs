@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::engine::Link;
+use crate::engine::scan::{NamedFile, ScanLink};
 use crate::engine::trial::TrialLink;
 use crate::haptics::service::{DeviceCommand, DeviceStatus};
 
@@ -13,6 +14,11 @@ pub trait Platform {
 
     /// The line to the trial, which has a machine of its own so that neither stalls the other.
     fn trial(&mut self) -> &mut TrialLink;
+
+    /// The line to the engine of scans; `None` where the platform has none.
+    fn scans(&mut self) -> Option<&mut ScanLink> {
+        None
+    }
 
     /// What the first gamepad that is plugged in does; `None` without one. The desktop has none: what reads them there
     /// needs a C library (libudev), and keys and pads on the screen do the same.
@@ -178,6 +184,11 @@ pub enum PlatformEvent {
     },
     /// The surface that was kept: its name and its bytes, or nothing.
     Restored(Option<(String, Vec<u8>)>),
+    /// A scan was chosen or dropped.
+    Scan {
+        /// Its files.
+        files: Vec<NamedFile>,
+    },
     /// A file was saved, or two.
     Saved {
         /// One sentence: under which name, and where.

@@ -1,7 +1,6 @@
 //! Where a subcommand's surface is made of a scan or a mask: a file, a header with its data beside it, a folder of DICOM.
 
-use std::io::Read as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
@@ -14,8 +13,6 @@ use crate::io::{Imported, import_mesh};
 use crate::task::Task;
 use crate::volume::{Grid, Label, PRESETS, Region, Selection, Surfacing, Survey, Surveying};
 
-/// Bytes of a file that say what it is.
-const HEAD: u64 = 4096;
 /// A volume with values down to this is taken for CT, whose files mostly do not say so: air has -1000 HU.
 const AIR_HU: f64 = -500.0;
 
@@ -86,38 +83,12 @@ struct Report<'a> {
     warnings: &'a [String],
 }
 
-/// Opens the volume in the files or the folder of those names; `None` where the first is a file that is none.
+/// Opens the volume in the files or the folder of those names; `None` where the only one is a file that is none.
 pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
-    let mut files = Vec::new();
-    for name in names {
-        let path = Path::new(name);
-        if path.is_dir() {
-            let listed = std::fs::read_dir(path).with_context(|| format!("cannot read {name}"))?;
-            let paths: Result<Vec<PathBuf>, _> = listed.map(|entry| entry.map(|entry| entry.path())).collect();
-            let mut paths = paths.with_context(|| format!("cannot read {name}"))?;
-            paths.retain(|path| path.is_file());
-            paths.sort();
-            for path in paths {
-                files.push(file(&path)?);
-            }
-            if files.is_empty() {
-                bail!("{name} holds no files");
-            }
-        } else {
-            if names.len() == 1 && !volume::is_volume(&head(path)?) {
-                return Ok(None);
-            }
-            let (name, bytes) = file(path)?;
-            if let Some(data) = volume::data_name(&bytes, &name) {
-                // Beside the header, wherever the header says that it was.
-                let data = data.rsplit(['/', '\\']).next().unwrap_or(&data).to_owned();
-                let beside = path.with_file_name(data);
-                if beside.is_file() {
-                    files.push(file(&beside)?);
-                }
-            }
-            files.push((name, bytes));
-        }
+    let paths: Vec<PathBuf> = names.iter().map(PathBuf::from).collect();
+    let Some(files) = volume::gather(&paths)? else { return Ok(None) };
+    if files.is_empty() {
+        bail!("{} holds no files", names.join(", "));
     }
     let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
     let scan = volume::read(&parts).with_context(|| names[0].clone())?;
@@ -189,17 +160,4 @@ impl Opened {
             }
         }
     }
-}
-
-/// The first bytes of a file: as many as say what it is.
-fn head(path: &Path) -> Result<Vec<u8>> {
-    let mut head = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    read.with_context(|| format!("cannot read {}", path.display()))?;
-    Ok(head)
-}
-
-fn file(path: &Path) -> Result<(String, Vec<u8>)> {
-    let bytes = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    Ok((path.to_string_lossy().into_owned(), bytes))
 }

@@ -9,6 +9,7 @@ use std::thread;
 
 use rfd::FileDialog;
 
+use super::scans;
 use crate::app::{Offer, PlatformEvent, Waker};
 use crate::io::Format;
 
@@ -18,19 +19,31 @@ const OTHERS: [&str; 2] = ["csv", "json"];
 /// Lets the user choose a file and reads it.
 pub(super) fn choose(events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
-        let extensions: Vec<&str> = Format::OPENED.into_iter().chain(OTHERS).collect();
-        if let Some(path) = FileDialog::new().add_filter("Surfaces, logs and settings", &extensions).pick_file() {
-            send(&events, &waker, load(&path));
+        let extensions: Vec<&str> = Format::OPENED.into_iter().chain(scans::ENDINGS).chain(OTHERS).collect();
+        let dialog = FileDialog::new()
+            .add_filter("Surfaces, scans, logs and settings", &extensions)
+            .add_filter("All files", &["*"]);
+        if let Some(paths) = dialog.pick_files() {
+            send(&events, &waker, load(&paths));
         }
     });
 }
 
-/// Reads a file.
+/// Reads a file, or the scan in a folder.
 pub(super) fn read(path: PathBuf, events: Sender<PlatformEvent>, waker: Waker) {
-    thread::spawn(move || send(&events, &waker, load(&path)));
+    thread::spawn(move || send(&events, &waker, load(&[path])));
 }
 
-fn load(path: &Path) -> PlatformEvent {
+/// Reads the scan in some files, or the first of them.
+fn load(paths: &[PathBuf]) -> PlatformEvent {
+    match scans::files(paths) {
+        Ok(Some(files)) => return PlatformEvent::Scan { files },
+        Ok(None) => {}
+        Err(message) => return PlatformEvent::Failed { message },
+    }
+    let Some(path) = paths.first() else {
+        return PlatformEvent::Failed { message: "No file was chosen.".to_owned() };
+    };
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     match fs::read(path) {
         Ok(bytes) => PlatformEvent::Chosen { name, bytes },
@@ -129,6 +142,7 @@ mod tests {
         match event {
             PlatformEvent::Saved { message } | PlatformEvent::Failed { message } => message,
             PlatformEvent::Chosen { name, .. } => name,
+            PlatformEvent::Scan { .. } => "a scan".to_owned(),
             other => panic!("{other:?}"),
         }
     }

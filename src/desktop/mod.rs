@@ -3,6 +3,11 @@
 mod files;
 mod haptics;
 mod hid;
+#[cfg(not(feature = "scans"))]
+#[path = "no_scans.rs"]
+mod scans;
+#[cfg(feature = "scans")]
+mod scans;
 mod thread;
 mod window;
 
@@ -11,6 +16,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use self::thread::ThreadLink;
 pub use self::window::run;
 use crate::app::{Devices, Offer, Platform, PlatformEvent, Waker};
+use crate::engine::scan::ScanLink;
 use crate::engine::trial::{Exchange, TrialLink};
 use crate::engine::{Engine, Link, TrialEngine};
 
@@ -18,6 +24,7 @@ use crate::engine::{Engine, Link, TrialEngine};
 pub struct Desktop {
     link: ThreadLink<Engine>,
     trial: ThreadLink<TrialEngine>,
+    scans: scans::Line,
     devices: haptics::HapticDevices,
     sender: Sender<PlatformEvent>,
     events: Receiver<PlatformEvent>,
@@ -33,7 +40,8 @@ impl Desktop {
         let exchange = Exchange::default();
         let hand = exchange.clone();
         let trial = ThreadLink::new(waker.clone(), move || TrialEngine::with_hand(hand.clone()));
-        Self { link, trial, devices: haptics::HapticDevices::new(exchange), sender, events, waker }
+        let scans = scans::Line::new(waker.clone());
+        Self { link, trial, scans, devices: haptics::HapticDevices::new(exchange), sender, events, waker }
     }
 }
 
@@ -44,6 +52,10 @@ impl Platform for Desktop {
 
     fn trial(&mut self) -> &mut TrialLink {
         &mut self.trial
+    }
+
+    fn scans(&mut self) -> Option<&mut ScanLink> {
+        self.scans.link()
     }
 
     fn devices(&mut self) -> Option<&mut dyn Devices> {

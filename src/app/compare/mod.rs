@@ -18,4 +18,5 @@ mod words;
 pub use self::action::Action;
 pub use self::arrangement::Arrangement;
 pub use self::comparison::{Cell, Comparison, MOST, Made, Outcome};
+pub(super) use self::scene::{CompareScene, Shot};
 pub(super) use self::view::CompareView;

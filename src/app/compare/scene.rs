@@ -11,7 +11,7 @@ use crate::render::{Camera, Drawable, GpuSurface, Look, Renderer, Style, Surface
 
 /// How a picture is taken.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Shot {
+pub(in crate::app) struct Shot {
     /// From where.
     pub camera: Camera,
     /// Width and height in pixels.
@@ -23,7 +23,7 @@ pub(super) struct Shot {
 }
 
 /// GPU memory and what stands in it.
-pub(super) struct CompareScene {
+pub(in crate::app) struct CompareScene {
     device: wgpu::Device,
     queue: wgpu::Queue,
     window: WindowRenderer,
@@ -46,14 +46,14 @@ impl PartialEq for Drawn {
 
 impl CompareScene {
     /// An empty scene on the device of a window, or of none.
-    pub(super) fn new(state: &egui_wgpu::RenderState) -> Self {
+    pub(in crate::app) fn new(state: &egui_wgpu::RenderState) -> Self {
         let (device, queue) = (state.device.clone(), state.queue.clone());
         let renderer = Renderer::new(&device, &queue);
         Self { device, queue, window: state.renderer.clone(), renderer, surfaces: Vec::new(), pictures: Vec::new() }
     }
 
     /// Forgets all surfaces but these.
-    pub(super) fn keep_only<'a>(&mut self, meshes: &(impl Iterator<Item = &'a Arc<TriMesh>> + Clone)) {
+    pub(in crate::app) fn keep_only<'a>(&mut self, meshes: &(impl Iterator<Item = &'a Arc<TriMesh>> + Clone)) {
         let is_kept = |mesh: &Arc<TriMesh>| meshes.clone().any(|kept| Arc::ptr_eq(kept, mesh));
         self.surfaces.retain(|(mesh, _)| is_kept(mesh));
         for picture in &mut self.pictures {
@@ -65,7 +65,12 @@ impl CompareScene {
     ///
     /// # Errors
     /// When the surface does not fit into the memory that the device allows.
-    pub(super) fn draw(&mut self, index: usize, mesh: &Arc<TriMesh>, shot: &Shot) -> Result<TextureId, SurfaceError> {
+    pub(in crate::app) fn draw(
+        &mut self,
+        index: usize,
+        mesh: &Arc<TriMesh>,
+        shot: &Shot,
+    ) -> Result<TextureId, SurfaceError> {
         while self.pictures.len() <= index {
             self.pictures.push(WindowTarget::new(&self.device, &self.window));
         }

@@ -270,6 +270,7 @@ impl Machine for ScanEngine {
             }
             ScanCommand::Surface { generation, selection, region } => self.begin_surface(generation, selection, region),
             ScanCommand::Slice { axis, index, window } => self.picture(axis, index, window),
+            ScanCommand::Close => (self.opening, self.current) = (None, None),
             ScanCommand::Cancel => {
                 self.opening = None;
                 // A volume that is not surveyed yet is given up with what is being made of it.

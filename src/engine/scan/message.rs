@@ -4,14 +4,18 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::super::message::Link;
 use super::super::surfaces::surface;
 use crate::io::Axes;
 use crate::mesh::TriMesh;
 use crate::transfer::bulk;
 use crate::volume::{Axis, Region, Selection, Survey};
 
+/// The app's end of the line to the engine.
+pub type ScanLink = dyn Link<ScanCommand, ScanEvent>;
+
 /// A file by its name: a scan, a header, its data, a slice.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NamedFile {
     /// Its name, with extension.
     pub name: String,
@@ -61,6 +65,8 @@ pub enum ScanCommand {
     },
     /// Stop what is being made; the volume stays open.
     Cancel,
+    /// Leave the volume, and its memory to others.
+    Close,
 }
 
 /// What the engine is doing.

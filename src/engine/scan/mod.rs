@@ -12,4 +12,4 @@ mod tests;
 
 #[cfg(feature = "scans")]
 pub use engine::ScanEngine;
-pub use message::{NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanWork};
+pub use message::{NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanLink, ScanWork};

@@ -119,6 +119,12 @@ fn the_newest_command_wins_and_a_cancel_stops() {
     assert!(matches!(events[..], [ScanEvent::Preview { generation: 3, step: 2, .. }]), "the surface was given up");
     engine.handle(surface(Selection::Threshold(100.0)));
     assert_eq!(run(&mut engine, ScanCommand::Cancel), [ScanEvent::Cancelled]);
+    assert_eq!(run(&mut engine, ScanCommand::Close), []);
+    assert!(matches!(
+        run(&mut engine, surface(Selection::Threshold(100.0)))[..],
+        [ScanEvent::Refused { number: 2, .. }]
+    ));
+    run(&mut engine, ball(false));
     // Before it is surveyed, there is nothing to go back to.
     engine.handle(ball(false));
     assert_eq!(run(&mut engine, ScanCommand::Cancel), [ScanEvent::Cancelled]);

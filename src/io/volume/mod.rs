@@ -13,6 +13,8 @@
 mod axes;
 mod dicom;
 mod error;
+#[cfg(not(target_arch = "wasm32"))]
+mod files;
 mod metaimage;
 mod nifti;
 mod nrrd;
@@ -20,6 +22,8 @@ mod numbers;
 mod vti;
 
 pub use error::ScanError;
+#[cfg(not(target_arch = "wasm32"))]
+pub use files::{Files, Unreadable, gather};
 
 use super::error::ReadError;
 use super::{text, vtk};

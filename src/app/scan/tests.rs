@@ -1,0 +1,137 @@
+//! What is asked of the engine, and what becomes of its answers, without an engine.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::*;
+use crate::engine::scan::{NamedFile, OpenedScan, ScanCommand, ScanEvent};
+use crate::engine::{Link, Source};
+use crate::mesh::TriMesh;
+use crate::mesh::shapes::icosphere;
+use crate::volume::{Axis, Label, Region, Selection, Survey};
+
+/// A line whose other end is the test.
+#[derive(Default)]
+struct Line {
+    sent: VecDeque<ScanCommand>,
+}
+
+impl Link<ScanCommand, ScanEvent> for Line {
+    fn send(&mut self, command: ScanCommand) {
+        self.sent.push_back(command);
+    }
+
+    fn poll(&mut self) -> Option<ScanEvent> {
+        None
+    }
+
+    fn restart(&mut self) {}
+
+    fn failure(&mut self) -> Option<String> {
+        None
+    }
+}
+
+fn opened(id: u64, range: [f64; 2], labels: Vec<Label>) -> ScanEvent {
+    let proposed = (!labels.is_empty()).then_some(Selection::AnyLabel);
+    ScanEvent::Opened(Box::new(OpenedScan {
+        id,
+        format: "NIfTI".to_owned(),
+        dimensions: [10, 20, 30],
+        spacing_mm: [1.0; 3],
+        origin_mm: [0.0; 3],
+        directions: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        is_ct: false,
+        survey: Survey { range, histogram: vec![1; 256], labels },
+        proposed,
+        warnings: Vec::new(),
+    }))
+}
+
+/// A scan of CT that is open, and its line, after what it asked for first.
+fn scan() -> (Scans, Line) {
+    let (mut scans, mut line) = (Scans::default(), Line::default());
+    scans.read(vec![NamedFile { name: "head.nii.gz".into(), bytes: Arc::default() }], &mut line);
+    assert!(matches!(line.sent.pop_front(), Some(ScanCommand::Open { id: 1, .. })));
+    assert_eq!((scans.opening(), scans.is_open()), (Some("head"), false));
+    assert_eq!(scans.receive(opened(1, [-1024.0, 3071.0], Vec::new()), &mut line), None);
+    (scans, line)
+}
+
+fn mesh() -> Arc<TriMesh> {
+    Arc::new(icosphere(1, 10.0, glam::Vec3::ZERO))
+}
+
+#[test]
+fn a_scan_begins_with_arteries_and_asks_for_a_preview_at_a_time() {
+    let (mut scans, mut line) = scan();
+    assert_eq!(scans.shown().unwrap().selection, Selection::Threshold(180.0));
+    scans.follow(&mut line);
+    scans.follow(&mut line);
+    let Some(ScanCommand::Preview { generation, selection: Selection::Threshold(180.0), .. }) = line.sent.pop_front()
+    else {
+        panic!("a preview is asked for")
+    };
+    assert!(matches!(
+        line.sent.pop_front(),
+        Some(ScanCommand::Slice { axis: Axis::K, index: 14, window: [-150.0, 550.0] })
+    ));
+    // A slider that is dragged on: the next preview waits for the first.
+    scans.act(Action::Select(Selection::Threshold(200.0)), &mut line);
+    scans.act(Action::Select(Selection::Threshold(220.0)), &mut line);
+    scans.follow(&mut line);
+    assert!(line.sent.is_empty());
+    scans.receive(ScanEvent::Preview { generation, step: 2, mesh: mesh() }, &mut line);
+    scans.follow(&mut line);
+    let next = line.sent.pop_front();
+    assert!(matches!(next, Some(ScanCommand::Preview { selection: Selection::Threshold(220.0), .. })), "{next:?}");
+    assert_eq!(scans.shown().unwrap().preview.as_ref().unwrap().1, 2);
+}
+
+#[test]
+fn a_mask_begins_with_all_of_it_and_other_scans_half_way() {
+    let (mut scans, mut line) = (Scans::default(), Line::default());
+    for (range, labels, expected) in [
+        ([0.0, 4.0], vec![Label { value: 4, points: 9 }], Selection::AnyLabel),
+        ([0.0, 2000.0], Vec::new(), Selection::Threshold(1000.0)),
+    ] {
+        scans.read(vec![NamedFile { name: "a".into(), bytes: Arc::default() }], &mut line);
+        let Some(ScanCommand::Open { id, .. }) = line.sent.pop_back() else { panic!("it is read") };
+        scans.receive(opened(id, range, labels), &mut line);
+        assert_eq!(scans.shown().unwrap().selection, expected);
+    }
+}
+
+#[test]
+fn the_surface_is_opened_and_the_scan_left() {
+    let (mut scans, mut line) = scan();
+    let region = Region { first: [1, 2, 3], last: [8, 9, 9] };
+    scans.act(Action::Bound(region), &mut line);
+    scans.act(Action::Make, &mut line);
+    let Some(ScanCommand::Surface { generation, region: Some(asked), .. }) = line.sent.pop_front() else {
+        panic!("a surface is asked for")
+    };
+    assert_eq!(asked, region);
+    // While it is made no preview takes its place.
+    scans.follow(&mut line);
+    assert!(line.sent.iter().all(|command| matches!(command, ScanCommand::Slice { .. })));
+    let told = scans.receive(ScanEvent::Surface { generation, mesh: mesh(), axes: crate::io::Axes::Lps }, &mut line);
+    let expected = Source::Made { name: "head".to_owned(), format: "NIfTI".to_owned(), mesh: mesh() };
+    assert_eq!((told, scans.is_open()), (Some(Told::Made(expected)), false));
+}
+
+#[test]
+fn what_is_refused_is_said_and_what_is_open_stays() {
+    let (mut scans, mut line) = scan();
+    scans.follow(&mut line);
+    let Some(ScanCommand::Preview { generation, .. }) = line.sent.pop_front() else { panic!("a preview is asked for") };
+    let sentence = "There is no surface within the box: all of it lies on one side.".to_owned();
+    assert_eq!(scans.receive(ScanEvent::Refused { number: generation, sentence: sentence.clone() }, &mut line), None);
+    assert_eq!(scans.shown().unwrap().problem.as_ref(), Some(&sentence));
+    scans.read(vec![NamedFile { name: "letter".into(), bytes: Arc::default() }], &mut line);
+    let Some(ScanCommand::Open { id, .. }) = line.sent.pop_back() else { panic!("it is read") };
+    let told = scans.receive(ScanEvent::Refused { number: id, sentence: "It is none.".to_owned() }, &mut line);
+    assert_eq!((told, scans.is_open()), (Some(Told::Refused("It is none.".to_owned())), true));
+    scans.act(Action::Close, &mut line);
+    assert!(!scans.is_open() && line.sent.pop_back() == Some(ScanCommand::Close));
+}

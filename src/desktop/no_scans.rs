@@ -1,0 +1,29 @@
+//! Scans in a build without their readers: there is no engine, and no file is one.
+
+use std::path::PathBuf;
+
+use crate::app::Waker;
+use crate::engine::scan::{NamedFile, ScanLink};
+
+/// None.
+pub(super) const ENDINGS: [&str; 0] = [];
+
+/// No line.
+pub(super) struct Line;
+
+impl Line {
+    /// Starts nothing.
+    pub(super) fn new(_: Waker) -> Self {
+        Self
+    }
+
+    /// There is none.
+    pub(super) fn link(&mut self) -> Option<&mut ScanLink> {
+        None
+    }
+}
+
+/// No file is a scan.
+pub(super) fn files(_: &[PathBuf]) -> Result<Option<Vec<NamedFile>>, String> {
+    Ok(None)
+}
