@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::io::Unit;
 use crate::pipeline::settings::Settings;
 
-pub use digest::{Digest, ShortDigest};
+pub use digest::{Digest, NoDigest, ShortDigest};
 pub use link::{Link, LinkError, SharedSurface};
 pub use settings_file::{SettingsFileError, read_settings, write_settings};
 

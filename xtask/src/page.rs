@@ -63,3 +63,45 @@ fn hashes(dist: &Path) -> Result<BTreeMap<String, String>> {
 fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::step::root;
+
+    #[test]
+    fn page_and_service_worker_bear_one_version_and_the_hashes_of_what_is_there() {
+        let dist = std::env::temp_dir().join(format!("lumen-page-{}", std::process::id()));
+        std::fs::create_dir_all(&dist).unwrap();
+        for file in files_below(&root().join("www")).unwrap() {
+            std::fs::copy(&file, dist.join(file.file_name().unwrap())).unwrap();
+        }
+        let module = dist.join("lumen-web_bg.wasm");
+        std::fs::write(&module, "12345").unwrap();
+        std::fs::write(dist.join("lumen-web.js"), "glue").unwrap();
+        stamp(&dist, &module).unwrap();
+
+        let text = |name: &str| std::fs::read_to_string(dist.join(name)).unwrap();
+        let (page, worker) = (text("index.html"), text("service-worker.js"));
+        assert!(page.contains("<meta name=\"lumen-module-bytes\" content=\"5\">"));
+        let (_, version) = page.split_once("name=\"lumen-version\" content=\"").unwrap();
+        let version = &version[..16];
+        assert!(
+            page.contains(&format!("\"boot.js?v={version}\"")) && page.contains(&format!("\"style.css?v={version}\""))
+        );
+        assert!(!page.contains("data-trunk"));
+        let line = worker.lines().find_map(|line| line.strip_prefix("const BUILD = ")).unwrap();
+        let build: serde_json::Value = serde_json::from_str(line.strip_suffix(';').unwrap()).unwrap();
+        assert_eq!(build["version"], version);
+        let files = build["files"].as_object().unwrap();
+        for (name, hash) in files {
+            assert_eq!(*hash, sha256(&std::fs::read(dist.join(name)).unwrap()), "{name}");
+        }
+        for name in ["index.html", "boot.js", "store.js", "worker.js", "style.css", "lumen-web.js", "lumen-web_bg.wasm"]
+        {
+            assert!(files.contains_key(name), "{name}");
+        }
+        assert!(!files.contains_key("service-worker.js"));
+        std::fs::remove_dir_all(&dist).unwrap();
+    }
+}
