@@ -194,6 +194,7 @@ impl LumenApp {
                 PlatformEvent::Scan { files } => {
                     if let Some(link) = self.platform.scans() {
                         self.scans.read(files, link);
+                        self.state.tell("The scan is being read.");
                     }
                 }
                 PlatformEvent::Saved { message } => self.state.tell(&message),

@@ -5,6 +5,8 @@
 //! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
 //! the content first and by the extension only where the content does not say (`detect`).
 //!
+//! Scans and masks are read by `volume` (feature `scans`), which knows nothing of the rest but its texts and errors.
+//!
 //! glTF has y upwards by its specification and Lumen z: it is turned on the way in and back on the way out. Which way a
 //! patient lies is known only where a file says so (`axes`).
 //!
