@@ -142,10 +142,16 @@ fn array_rows(arrays: &[ArrayInfo]) {
     for ArrayInfo { name, on, kind, scalar, components, range, .. } in arrays {
         let on = if *on == On::Point { "point" } else { "triangle" };
         let kind = if *kind == Kind::Label { ", labels" } else { "" };
-        let range = range.map_or("no finite value".to_owned(), |[least, most]| format!("{least} to {most}"));
+        let range =
+            range.map_or("no finite value".to_owned(), |[least, most]| format!("{} to {}", plain(least), plain(most)));
         let (what, scalar) = (format!("array {name}"), scalar.name());
         row(&what, format!("{on}, {components} x {scalar}{kind}, {range}"));
     }
+}
+
+/// A number without a row of zeros.
+fn plain(x: f64) -> String {
+    if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { format!("{x}") }
 }
 
 /// The rows of a surface's shape.

@@ -75,7 +75,8 @@ impl Comparing {
         let Some((_, settings)) = self.waiting.front() else { return Ok(Advance::Idle) };
         if self.running.is_none() {
             let last = self.last.take().filter(|last| shared(last, settings) > shared(main, settings));
-            let mut pipeline = last.unwrap_or_else(|| main.fork());
+            // What is compared is the surface: its arrays stay behind.
+            let mut pipeline = last.unwrap_or_else(|| main.fork().with_arrays(Vec::new()));
             pipeline.set(settings.clone())?;
             self.running = Some(pipeline);
         }

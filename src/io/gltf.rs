@@ -20,11 +20,10 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Node, Root, deserialize};
 use base64::Engine as _;
 use glam::{DMat3, DMat4, DQuat, DVec3};
-use serde::Deserialize;
 
 use super::columns::Columns;
 use super::error::{ReadError, WriteError};
-use super::gltf_arrays::Attribute;
+use super::gltf_arrays::{Attribute, Names, array_name};
 use super::import::RawSurface;
 use super::output::Output;
 use super::room::Room;
@@ -318,43 +317,6 @@ impl Collected {
             _ => triangles.extend(order.as_chunks::<3>().0.iter().map(|&t| place(t))),
         }
         Ok(())
-    }
-}
-
-/// What the array of an attribute is called, if that is one to keep: one that an application has named for itself, or a
-/// colour.
-fn array_name(attribute: &str) -> Option<&str> {
-    attribute.strip_prefix('_').or(attribute.starts_with("COLOR_").then_some(attribute))
-}
-
-/// The attributes of each primitive of each mesh by their names, which `gltf::json` keeps only of those that the
-/// specification names.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct Names {
-    meshes: Vec<NamedMesh>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct NamedMesh {
-    primitives: Vec<NamedPrimitive>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct NamedPrimitive {
-    attributes: BTreeMap<String, u32>,
-}
-
-impl Names {
-    /// None where the JSON is not as it should be, which is said elsewhere.
-    fn of(json: &[u8]) -> Self {
-        serde_json::from_slice(json).unwrap_or_default()
-    }
-
-    fn of_primitive(&self, mesh: usize, primitive: usize) -> Option<&BTreeMap<String, u32>> {
-        Some(&self.meshes.get(mesh)?.primitives.get(primitive)?.attributes)
     }
 }
 

@@ -5,7 +5,10 @@
 //! bytes. So whole numbers of more bits are written in 16 where all of them fit, else as floats where these hold them
 //! exactly; doubles as floats. What fits in neither way, and arrays of triangles, have no place in glTF.
 
+use std::collections::BTreeMap;
+
 use ::gltf::json::accessor::ComponentType;
+use serde::Deserialize;
 
 use crate::mesh::Array;
 use crate::mesh::arrays::{Kind, On, Scalar, Values};
@@ -94,4 +97,41 @@ fn written_as(array: &Array) -> Option<Scalar> {
         _ if array.kind == Kind::Continuous || fit(-EXACT, EXACT) => Scalar::F32,
         _ => return None,
     })
+}
+
+/// What the array of an attribute is called, if that is one to keep: one that an application has named for itself, or a
+/// colour.
+pub(super) fn array_name(attribute: &str) -> Option<&str> {
+    attribute.strip_prefix('_').or(attribute.starts_with("COLOR_").then_some(attribute))
+}
+
+/// The attributes of each primitive of each mesh by their names, which `gltf::json` keeps only of those that the
+/// specification names.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Names {
+    meshes: Vec<NamedMesh>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct NamedMesh {
+    primitives: Vec<NamedPrimitive>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct NamedPrimitive {
+    attributes: BTreeMap<String, u32>,
+}
+
+impl Names {
+    /// None where the JSON is not as it should be, which is said elsewhere.
+    pub(super) fn of(json: &[u8]) -> Self {
+        serde_json::from_slice(json).unwrap_or_default()
+    }
+
+    pub(super) fn of_primitive(&self, mesh: usize, primitive: usize) -> Option<&BTreeMap<String, u32>> {
+        Some(&self.meshes.get(mesh)?.primitives.get(primitive)?.attributes)
+    }
 }

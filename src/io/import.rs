@@ -12,10 +12,10 @@ use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
 use super::room::Room;
 use super::size::length;
-use super::weld::weld;
+use super::weld::welded;
 use super::{Axes, Unit, winding};
 use crate::mesh::arrays::{On, infos};
-use crate::mesh::{Array, Blend, Topology, TriMesh, Vec3, compacted, components, measures, used_vertices};
+use crate::mesh::{Array, Topology, TriMesh, Vec3, components, measures};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 pub(super) const FARTHEST_MM: f64 = 1e9;
@@ -210,60 +210,6 @@ fn assemble(raw: RawSurface, unit: Unit, axes: Axes) -> Imported {
     };
     warn(&mut report);
     Imported { mesh, arrays, report }
-}
-
-/// The surface with coincident vertices welded, and without degenerate triangles and unused vertices; and its arrays.
-fn welded(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, arrays: &[Array]) -> (TriMesh, Vec<Array>) {
-    let welded = weld(&positions);
-    drop(positions);
-    let mut kept = triangles;
-    let mut rows = Rows::of(arrays, welded.index.len(), &kept);
-    for t in &mut kept {
-        *t = t.map(|v| welded.index[v as usize]);
-    }
-    let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
-    if let Some(rows) = &mut rows {
-        rows.triangles = (0..kept.len() as u32).filter(|&t| has_area(&kept[t as usize])).collect();
-    }
-    kept.retain(has_area);
-    let arrays = rows.map_or_else(Vec::new, |rows| rows.welded(arrays, &welded.index, &kept));
-    (compacted(&welded.positions, kept), arrays)
-}
-
-/// Which rows of arrays the import keeps.
-struct Rows {
-    /// Whether a triangle uses the vertex: what lies at the same place and is used by none has no say.
-    is_used: Vec<bool>,
-    /// Triangles that stay.
-    triangles: Vec<u32>,
-}
-
-impl Rows {
-    /// `None` where there are no arrays.
-    fn of(arrays: &[Array], vertices: usize, triangles: &[[u32; 3]]) -> Option<Self> {
-        if arrays.is_empty() {
-            return None;
-        }
-        let mut is_used = vec![false; vertices];
-        triangles.as_flattened().iter().for_each(|&v| is_used[v as usize] = true);
-        Some(Self { is_used, triangles: Vec::new() })
-    }
-
-    /// The arrays of the triangles `kept` over vertices welded by `index`. Of vertices that become one, scalars take the
-    /// mean and labels the majority.
-    fn welded(self, arrays: &[Array], index: &[u32], kept: &[[u32; 3]]) -> Vec<Array> {
-        const NONE: u32 = u32::MAX;
-        let used = used_vertices(index.len(), kept);
-        let mut new_of = vec![NONE; index.len()];
-        used.iter().zip(0..).for_each(|(&v, new)| new_of[v as usize] = new);
-        let row = |(&v, &is_used): (&u32, &bool)| if is_used { new_of[v as usize] } else { NONE };
-        let rows: Vec<u32> = index.iter().zip(&self.is_used).map(row).collect();
-        let points = Blend::of_groups(used.len(), &rows, |_| 1.0);
-        arrays
-            .iter()
-            .map(|array| if array.on == On::Point { points.of(array) } else { array.gathered(&self.triangles) })
-            .collect()
-    }
 }
 
 /// Triangles over the same three vertices as an earlier one.

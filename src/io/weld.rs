@@ -2,22 +2,24 @@
 //!
 //! Exact bits, no tolerance: a tolerance would have to be guessed, and could close a thin gap between two vessels.
 //! Minus zero is zero. New vertices are numbered in the order of their first occurrence, so the result does not
-//! depend on how the table hashes.
+//! depend on how the table hashes. Arrays go along: of vertices that become one, scalars take the mean and labels the
+//! majority.
 
 use hashbrown::hash_table::{Entry, HashTable};
 
-use crate::mesh::Vec3;
+use crate::mesh::arrays::On;
+use crate::mesh::{Array, Blend, TriMesh, Vec3, compacted, used_vertices};
 
 /// The distinct positions of a list, and which of them each entry became.
-pub(super) struct Welded {
+struct Welded {
     /// Each position once, in the order of first occurrence.
-    pub(super) positions: Vec<Vec3>,
+    positions: Vec<Vec3>,
     /// For each entry of the list, its place in `positions`.
-    pub(super) index: Vec<u32>,
+    index: Vec<u32>,
 }
 
 /// Welds `positions`; minus zeros become zeros. There may be at most `u32::MAX` of them.
-pub(super) fn weld(positions: &[Vec3]) -> Welded {
+fn weld(positions: &[Vec3]) -> Welded {
     // A closed surface written triangle by triangle has six entries a vertex, an indexed one has one.
     let mut table: HashTable<u32> = HashTable::with_capacity(positions.len() / 4);
     let mut distinct: Vec<Vec3> = Vec::with_capacity(positions.len() / 4);
@@ -52,6 +54,60 @@ fn hash([x, y, z]: [u32; 3]) -> u64 {
     h = (h ^ u64::from(z)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
     h ^= h >> 29;
     h.wrapping_mul(0xff51_afd7_ed55_8ccd)
+}
+
+/// The surface with coincident vertices welded, and without degenerate triangles and unused vertices; and its arrays.
+pub(super) fn welded(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, arrays: &[Array]) -> (TriMesh, Vec<Array>) {
+    let welded = weld(&positions);
+    drop(positions);
+    let mut kept = triangles;
+    let mut rows = Rows::of(arrays, welded.index.len(), &kept);
+    for t in &mut kept {
+        *t = t.map(|v| welded.index[v as usize]);
+    }
+    let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+    if let Some(rows) = &mut rows {
+        rows.triangles = (0..kept.len() as u32).filter(|&t| has_area(&kept[t as usize])).collect();
+    }
+    kept.retain(has_area);
+    let arrays = rows.map_or_else(Vec::new, |rows| rows.welded(arrays, &welded.index, &kept));
+    (compacted(&welded.positions, kept), arrays)
+}
+
+/// Which rows of arrays the import keeps.
+struct Rows {
+    /// Whether a triangle uses the vertex: what lies at the same place and is used by none has no say.
+    is_used: Vec<bool>,
+    /// Triangles that stay.
+    triangles: Vec<u32>,
+}
+
+impl Rows {
+    /// `None` where there are no arrays.
+    fn of(arrays: &[Array], vertices: usize, triangles: &[[u32; 3]]) -> Option<Self> {
+        if arrays.is_empty() {
+            return None;
+        }
+        let mut is_used = vec![false; vertices];
+        triangles.as_flattened().iter().for_each(|&v| is_used[v as usize] = true);
+        Some(Self { is_used, triangles: Vec::new() })
+    }
+
+    /// The arrays of the triangles `kept` over vertices welded by `index`. Of vertices that become one, scalars take the
+    /// mean and labels the majority.
+    fn welded(self, arrays: &[Array], index: &[u32], kept: &[[u32; 3]]) -> Vec<Array> {
+        const NONE: u32 = u32::MAX;
+        let used = used_vertices(index.len(), kept);
+        let mut new_of = vec![NONE; index.len()];
+        used.iter().zip(0..).for_each(|(&v, new)| new_of[v as usize] = new);
+        let row = |(&v, &is_used): (&u32, &bool)| if is_used { new_of[v as usize] } else { NONE };
+        let rows: Vec<u32> = index.iter().zip(&self.is_used).map(row).collect();
+        let points = Blend::of_groups(used.len(), &rows, |_| 1.0);
+        arrays
+            .iter()
+            .map(|array| if array.on == On::Point { points.of(array) } else { array.gathered(&self.triangles) })
+            .collect()
+    }
 }
 
 #[cfg(test)]

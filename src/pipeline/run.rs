@@ -68,7 +68,8 @@ impl Pipeline {
         Self { store, wanted, last: None, running: PerStage::default(), preparation: None }
     }
 
-    /// Carries these along, which have a tuple for each vertex or triangle of the opened surface; others stay behind.
+    /// Carries these along, which have a tuple for each vertex or triangle of the opened surface; others stay behind. To be
+    /// said before there are levels.
     #[must_use]
     pub fn with_arrays(mut self, mut arrays: Vec<Array>) -> Self {
         let TriMesh { positions, triangles } = &*self.store.opened;
