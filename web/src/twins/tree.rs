@@ -310,7 +310,7 @@ mod tests {
     fn a_sheet_is_called_as_it_begins_and_a_closed_list_says_so() {
         let twins = twins_of(1.0, |ui| {
             egui::ComboBox::from_id_salt("window").selected_text("Hamming").show_ui(ui, |_| {});
-            egui::Modal::new(egui::Id::new("help")).show(ui.ctx(), |ui| {
+            egui::Modal::new(egui::Id::unique("help")).show(ui.ctx(), |ui| {
                 ui.vertical(|ui| ui.label("Keys and gestures"));
                 ui.label("Drag");
             });
