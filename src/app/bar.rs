@@ -19,6 +19,8 @@ use crate::render::StandardView;
 pub(super) struct Shown {
     /// A trial.
     pub(super) in_trial: bool,
+    /// A scan, before there is a surface of it.
+    pub(super) in_scan: bool,
     /// The window is that of a phone, where only what is needed most has a button of its own.
     pub(super) is_narrow: bool,
     /// The vessels' calibre.
@@ -34,7 +36,7 @@ pub(super) fn top(
     ui: &mut Ui,
     state: &State,
     views: &Views,
-    Shown { in_trial, is_narrow, are_vessels_open, keeps_surface, has_links }: Shown,
+    Shown { in_trial, in_scan, is_narrow, are_vessels_open, keeps_surface, has_links }: Shown,
     asked: &mut Vec<Action>,
 ) {
     let mut ask = |wanted: bool, what: Action| {
@@ -48,7 +50,7 @@ pub(super) fn top(
             ui.add_space(8.0);
         }
         ask(
-            ui.button("Open...").on_hover_text("STL, PLY, OBJ, VTP, VTK, GLB, glTF (Ctrl+O); or drop a file").clicked(),
+            ui.button("Open...").on_hover_text("A surface or settings (Ctrl+O); or drop a file").clicked(),
             Action::Open,
         );
         let open_in = ui.menu_button("Open in", |ui| {
@@ -103,7 +105,7 @@ pub(super) fn top(
             let can_redo = state.history.can_redo();
             ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
-            let in_views = !(in_trial || state.comparison.is_open());
+            let in_views = !(in_trial || in_scan || state.comparison.is_open());
             ui.add_enabled_ui(in_views, |ui| {
                 let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
                 let split = ui.add(Button::new("Split").selected(is_split));

@@ -435,7 +435,8 @@ impl LumenApp {
         let (keeps_surface, has_links) = (self.recovery.keeps(&mut *self.platform), self.platform.address().is_some());
         Panel::top("top").frame(bar).exact_size(48.0).show(ui, |ui| {
             let are_vessels_open = self.shows_vessels();
-            let shown = bar::Shown { in_trial, is_narrow, are_vessels_open, keeps_surface, has_links };
+            let in_scan = self.scans.is_open();
+            let shown = bar::Shown { in_trial, in_scan, is_narrow, are_vessels_open, keeps_surface, has_links };
             bar::top(ui, &self.state, &self.views, shown, &mut asked);
         });
         Panel::bottom("status").frame(bar).exact_size(40.0).show(ui, |ui| {
@@ -471,7 +472,7 @@ impl LumenApp {
                 asked.extend(of_trial);
             });
         });
-        if !(in_trial || self.state.comparison.is_open() || takes_panel) {
+        if !(in_trial || self.scans.is_open() || self.state.comparison.is_open() || takes_panel) {
             let strip = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
             Panel::top("verdict").frame(strip).exact_size(verdict::height(is_narrow) + 8.0).show(ui, |ui| {
                 verdict::show(ui, &self.state, is_narrow, &mut asked);

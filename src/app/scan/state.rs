@@ -255,8 +255,9 @@ impl OpenScan {
     }
 }
 
-/// A file's name without the endings that a volume has.
-fn stem(name: &str) -> &str {
+/// A file's name without its folder and the endings that a volume has.
+fn stem(path: &str) -> &str {
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
     let name = name.strip_suffix(".gz").unwrap_or(name);
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
