@@ -74,7 +74,7 @@ test("settings and the name come back after a reload, the surface only where it 
   await openFile(page, vessel);
   await says(page, "vessel.stl is back");
 
-  await choose(page, "checkbox", "Keep this surface on this device");
+  await choose(page, "menuitemcheckbox", "Keep this surface on this device");
   await eventually(() => surfaces(page), (count) => count === 1, { what: "the surface, kept" });
   await eventually(() => kept(page), (text) => text.includes('keeps_surface\\":true'), { what: "that it is kept" });
   await page.reload();

@@ -60,7 +60,7 @@ test("the page says which language it is in and names its controls", async (t) =
   assert.equal(await page.locator("html").getAttribute("lang"), "en");
   await twin(page, "slider", "Reduction").waitFor({ state: "attached" });
   const unnamed = await page.locator("#twins").evaluate((twins) => {
-    const needName = ["button", "checkbox", "combobox", "link", "option", "radio", "slider", "spinbutton", "tab", "textbox"];
+    const needName = ["button", "checkbox", "combobox", "link", "menuitemcheckbox", "option", "radio", "slider", "spinbutton", "tab", "textbox"];
     const roles = [...twins.querySelectorAll("[role]")].filter((twin) => needName.includes(twin.getAttribute("role")));
     return roles.filter((twin) => !twin.getAttribute("aria-label")).map((twin) => twin.outerHTML);
   });

@@ -1,6 +1,6 @@
 //! `cargo xtask build`: the browser app as a folder of static files.
 //!
-//! wasm-bindgen makes the glue between module and page, wasm-opt makes the module smaller and faster, the files of `www`
+//! wasm-bindgen makes the glue between module and page, wasm-opt makes the module smaller, the files of `www`
 //! are put beside them and the page is stamped (`page`). `trunk build` lays out the same folder for those who have Trunk,
 //! less wasm-opt and the stamp; here it would be minutes of compiling for a copy. The build fails if a first visit would
 //! have to download more than 4 MB, gzip-compressed.
@@ -95,7 +95,8 @@ fn replace(made: &Path, dist: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Optimises for speed: the pipeline runs in here.
+/// Makes the module smaller; for speed the compiler has optimised it. A higher level takes three times as long, and made
+/// it 3 % larger once compressed.
 fn optimise(npm: &Path, module: &Path) -> Result<()> {
     let optimised = module.with_extension("opt");
     let before = std::fs::metadata(module)?.len();

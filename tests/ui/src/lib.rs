@@ -254,9 +254,18 @@ pub fn moving_app(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, 
 
 /// The same as a page, which has an address, and of which `kept` outlives it.
 pub fn page(size: [f32; 2], kept: Kept) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    page_with(size, kept, true)
+}
+
+/// The same where the engine comes to nothing, as one that ends the page while it opens what was kept.
+pub fn dying_page(size: [f32; 2], kept: Kept) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    page_with(size, kept, false)
+}
+
+fn page_with(size: [f32; 2], kept: Kept, runs: bool) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
-    memory.borrow_mut().kept = Some(kept);
-    memory.borrow_mut().address = Some("https://page.test/lumen/".to_owned());
+    *memory.borrow_mut() =
+        Memory { kept: Some(kept), address: Some("https://page.test/lumen/".to_owned()), runs, ..memory.take() };
     app_on((platform, memory), size, 0.25)
 }
 

@@ -56,7 +56,11 @@ fn walk(id: NodeId, nodes: &HashMap<NodeId, &Node>, above: &Above, list: &mut Ve
         });
         below.twin = Some(list.len());
         below.role = node.role();
-        list.push(Twin { id, parent: above.twin, place, attributes, text });
+        // What pops up is egui's child of the control that opens it, and nobody's in the page: controls hold no others.
+        let pops_up =
+            matches!(node.role(), Role::Menu | Role::MenuListPopup | Role::ListBox | Role::Dialog | Role::Window);
+        let parent = above.twin.filter(|_| !pops_up);
+        list.push(Twin { id, parent, place, attributes, text });
     }
     for child in node.children() {
         walk(*child, nodes, &below, list);
@@ -114,8 +118,10 @@ fn aria_role(node: &Node, above: &Above, named: bool) -> Option<&'static str> {
         Role::Button | Role::DefaultButton if in_menu && is_choice => "menuitemradio",
         Role::Button | Role::DefaultButton if in_menu => "menuitem",
         Role::Button | Role::DefaultButton | Role::DisclosureTriangle | Role::ColorWell => "button",
+        Role::CheckBox if in_menu => "menuitemcheckbox",
         Role::CheckBox => "checkbox",
         Role::Switch => "switch",
+        Role::RadioButton if in_menu => "menuitemradio",
         Role::RadioButton => "radio",
         Role::RadioGroup => "radiogroup",
         Role::Slider => "slider",
@@ -241,7 +247,7 @@ fn states(node: &Node, role: &str) -> impl Iterator<Item = (&'static str, String
 mod tests {
     use super::*;
 
-    /// One pass of egui over `content`, in a window of 400 x 300 points at `scale` device pixels a point.
+    /// The second pass of egui over `content`, since in the first a sheet only measures itself, in a window of 400 x 300 points at `scale` device pixels a point.
     fn twins_of(scale: f32, mut content: impl FnMut(&mut egui::Ui)) -> Vec<Twin> {
         let ctx = egui::Context::default();
         ctx.enable_accesskit();
@@ -252,6 +258,8 @@ mod tests {
         if let Some(viewport) = input.viewports.get_mut(&egui::ViewportId::ROOT) {
             viewport.native_pixels_per_point = Some(scale);
         }
+        let mut first = ctx.run_ui(input.clone(), |ui| content(ui));
+        first.textures_delta.clear();
         let mut output = ctx.run_ui(input, |ui| content(ui));
         // Nothing is drawn here.
         output.textures_delta.clear();

@@ -11,7 +11,7 @@ use lumen::io::{Format, write};
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Settings, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{Kept, Memory, page, settle};
+use lumen_ui_tests::{Kept, Memory, dying_page, page, settle};
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
@@ -122,8 +122,7 @@ fn a_surface_that_ends_the_program_is_not_brought_back_again() {
     choose(&mut harness, "Keep this surface on this device");
     harness.run_steps(12);
     let kept = memory.borrow().kept.clone().unwrap();
-    // The next start comes no farther than this.
-    let (harness, memory) = page(DESKTOP, kept);
+    let (harness, memory) = dying_page(DESKTOP, kept);
     let kept = memory.borrow().kept.clone().unwrap();
     drop(harness);
     let (mut harness, _) = page(DESKTOP, kept);
