@@ -60,7 +60,9 @@ async function page(request) {
   // One page is the one that is about to be replaced by this.
   if (waiting && (await self.clients.matchAll({ type: "window" })).length < 2) {
     waiting.postMessage("begin");
-    return new Response("", { headers: { Refresh: "0", "Content-Type": "text/html" } });
+    // With an icon of its own, which the browser would ask the server for.
+    const empty = '<!doctype html><link rel="icon" href="data:,">';
+    return new Response(empty, { headers: { Refresh: "0", "Content-Type": "text/html" } });
   }
   return (await caches.match(place("index.html"), { cacheName: CACHE })) ?? fetch(request);
 }
