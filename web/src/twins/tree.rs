@@ -91,6 +91,9 @@ fn describe(node: &Node, nodes: &HashMap<NodeId, &Node>, above: &Above) -> Optio
     if !role.is_empty() {
         set("role", role.to_owned());
     }
+    if is_text && role == "menuitem" {
+        set("aria-disabled", "true".to_owned());
+    }
     if let Some(name) = name.filter(|_| !is_text) {
         set("aria-label", name);
     }
@@ -137,6 +140,8 @@ fn aria_role(node: &Node, above: &Above, named: bool) -> Option<&'static str> {
         Role::ListBox => "listbox",
         Role::ListBoxOption | Role::MenuListOption => "option",
         Role::Link => "link",
+        // A menu holds items alone: a text is one that does nothing.
+        Role::Label if in_menu => "menuitem",
         Role::Label => "",
         Role::Heading => "heading",
         Role::Image | Role::Canvas | Role::Figure | Role::GraphicsDocument => "img",
