@@ -31,21 +31,22 @@ pub(super) struct Shown {
     pub(super) has_links: bool,
 }
 
+impl Shown {
+    /// Whether the two views are shown.
+    fn are_views(&self, state: &State) -> bool {
+        !(self.in_trial || self.in_scan || state.comparison.is_open())
+    }
+}
+
 /// The bar above.
-pub(super) fn top(
-    ui: &mut Ui,
-    state: &State,
-    views: &Views,
-    Shown { in_trial, in_scan, is_narrow, are_vessels_open, keeps_surface, has_links }: Shown,
-    asked: &mut Vec<Action>,
-) {
+pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown, asked: &mut Vec<Action>) {
     let mut ask = |wanted: bool, what: Action| {
         if wanted {
             asked.push(what);
         }
     };
     ui.horizontal_centered(|ui| {
-        if !is_narrow {
+        if !shown.is_narrow {
             ui.label(RichText::new("Lumen").heading().strong());
             ui.add_space(8.0);
         }
@@ -84,20 +85,20 @@ pub(super) fn top(
                 let help = "For whoever has the same file, and for lumen optimise --settings; opened as a surface is";
                 let save = ui.button("Settings...").on_hover_text(help).clicked();
                 ask(save, Action::Share(sharing::Action::SaveSettings));
-                if has_links {
+                if shown.has_links {
                     let help = "The settings and the first digits of the file's hash, and nothing of the surface";
                     let copy = ui.button("Copy link").on_hover_text(help).clicked();
                     ask(copy, Action::Share(sharing::Action::CopyLink));
                 }
-                if let Some(mut keeps) = keeps_surface {
+                if let Some(mut keeps) = shown.keeps_surface {
                     ui.separator();
                     kept_here(ui, &mut keeps, &mut ask);
                 }
             });
         });
-        if is_narrow {
+        if shown.is_narrow {
             let menu = icon::button(ui, Icon::Menu, true, "Menu", "More");
-            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, (in_trial, are_vessels_open), &mut ask));
+            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, shown, &mut ask));
         } else {
             ui.separator();
             let can_undo = state.history.can_undo();
@@ -105,8 +106,7 @@ pub(super) fn top(
             let can_redo = state.history.can_redo();
             ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
             ui.separator();
-            let in_views = !(in_trial || in_scan || state.comparison.is_open());
-            ui.add_enabled_ui(in_views, |ui| {
+            ui.add_enabled_ui(shown.are_views(state), |ui| {
                 let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
                 let split = ui.add(Button::new("Split").selected(is_split));
                 let help = "As opened and as it is now in one picture; drag the line between them (R)";
@@ -114,14 +114,14 @@ pub(super) fn top(
                 before_button(ui, views, &mut ask);
             });
             ask(
-                compare(ui, state, in_trial).on_hover_text("Several settings side by side (C)").clicked(),
+                compare(ui, state, shown).on_hover_text("Several settings side by side (C)").clicked(),
                 Action::Compare,
             );
             let help = "Steer a guidewire through the level that is shown";
-            ask(trial(ui, state, in_trial).on_hover_text(help).clicked(), Action::ToggleTrial);
+            ask(trial(ui, state, shown).on_hover_text(help).clicked(), Action::ToggleTrial);
             let help = "The vessels, and what smoothing and reduction made of the calibre of each (V)";
             ask(
-                vessels_button(ui, state, are_vessels_open, in_views).on_hover_text(help).clicked(),
+                vessels_button(ui, state, shown).on_hover_text(help).clicked(),
                 Action::Vessels(vessels::Action::Toggle),
             );
             ui.menu_button("View", |ui| view_menu(ui, state, views.options, &mut ask));
@@ -145,18 +145,19 @@ fn kept_here(ui: &mut Ui, keeps: &mut bool, ask: &mut impl FnMut(bool, Action)) 
     ask(forget, Action::Recovery(recovery::Action::Forget));
 }
 
-fn compare(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
-    ui.add_enabled(!in_trial, Button::new("Compare").selected(state.comparison.is_open()))
+fn compare(ui: &mut Ui, state: &State, shown: Shown) -> Response {
+    ui.add_enabled(!(shown.in_trial || shown.in_scan), Button::new("Compare").selected(state.comparison.is_open()))
 }
 
-fn trial(ui: &mut Ui, state: &State, in_trial: bool) -> Response {
+fn trial(ui: &mut Ui, state: &State, Shown { in_trial, in_scan, .. }: Shown) -> Response {
     let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
-    ui.add_enabled(has_level || in_trial, Button::new("Trial").selected(in_trial))
+    ui.add_enabled(has_level && !in_scan || in_trial, Button::new("Trial").selected(in_trial))
 }
 
-fn vessels_button(ui: &mut Ui, state: &State, is_open: bool, in_views: bool) -> Response {
+fn vessels_button(ui: &mut Ui, state: &State, shown: Shown) -> Response {
+    let is_open = shown.are_vessels_open;
     let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
-    ui.add_enabled(has_level && in_views || is_open, Button::new("Vessels").selected(is_open))
+    ui.add_enabled(has_level && shown.are_views(state) || is_open, Button::new("Vessels").selected(is_open))
 }
 
 /// Shows the surface as it was opened for as long as it is held.
@@ -200,13 +201,7 @@ fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, ask: &mut impl Fn
     ask(chosen != options, Action::Show(chosen));
 }
 
-fn more(
-    ui: &mut Ui,
-    state: &State,
-    views: &Views,
-    (in_trial, are_vessels_open): (bool, bool),
-    ask: &mut impl FnMut(bool, Action),
-) {
+fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl FnMut(bool, Action)) {
     ask(ui.add_enabled(state.history.can_undo(), Button::new("Undo")).clicked(), Action::Undo);
     ask(ui.add_enabled(state.history.can_redo(), Button::new("Redo")).clicked(), Action::Redo);
     let mut chosen = views.options;
@@ -214,11 +209,10 @@ fn more(
     ask(chosen != views.options, Action::Show(chosen));
     let mut is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
     ask(ui.checkbox(&mut is_split, "Split view").clicked(), Action::Reveal);
-    ask(compare(ui, state, in_trial).clicked(), Action::Compare);
-    ask(trial(ui, state, in_trial).clicked(), Action::ToggleTrial);
-    let in_views = !(in_trial || state.comparison.is_open());
+    ask(compare(ui, state, shown).clicked(), Action::Compare);
+    ask(trial(ui, state, shown).clicked(), Action::ToggleTrial);
     let toggle = Action::Vessels(vessels::Action::Toggle);
-    ask(vessels_button(ui, state, are_vessels_open, in_views).clicked(), toggle);
+    ask(vessels_button(ui, state, shown).clicked(), toggle);
     ui.menu_button("View", |ui| view_menu(ui, state, views.options, ask));
     ask(ui.button("Theme").clicked(), Action::Theme);
     ask(ui.button("Help").clicked(), Action::Help);

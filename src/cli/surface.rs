@@ -8,7 +8,7 @@ use clap::Args;
 use super::optimise::same_file;
 use super::scan::{self, ScanOptions};
 use super::{misuse, output_format, row, write_whole};
-use crate::io::{self, Imported};
+use crate::io::{self, Axes, Imported};
 
 /// Writes the surface of what reaches a threshold in a scan, or of a label of a mask, in LPS mm.
 #[derive(Debug, Args)]
@@ -34,7 +34,8 @@ impl Surface {
             bail!("{} is not a scan or a mask", self.files[0]);
         };
         let Imported { mesh, report, .. } = opened.surface(&self.scan)?;
-        write_whole(&self.output, &io::write(&mesh, None, format)?)?;
+        let output = io::Output { mesh: &mesh, normals: None, arrays: &[], axes: Axes::Lps };
+        write_whole(&self.output, &io::write_output(&output, format)?)?;
         let size = report.bounds_mm.size();
         row("triangles", report.triangles);
         row("components", report.components);

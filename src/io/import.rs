@@ -17,6 +17,9 @@ use super::{Axes, Unit, winding};
 use crate::mesh::arrays::{On, infos};
 use crate::mesh::{Array, Topology, TriMesh, Vec3, components, measures};
 
+/// What is said of a surface whose windings cannot be made to agree.
+pub const NO_INSIDE: &str = "The surface has no inside and outside (its triangles cannot be made to agree).";
+
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 pub(super) const FARTHEST_MM: f64 = 1e9;
 
@@ -257,7 +260,7 @@ fn warn(report: &mut ImportReport) {
     tell(report.components_turned, "piece", "pieces", "found inside out and turned.");
     tell(report.non_manifold_edges, "edge", "edges", "where more than two triangles meet; left as in the file.");
     if !report.orientable {
-        sentences.push("The surface has no inside and outside (its triangles cannot be made to agree).".to_owned());
+        sentences.push(NO_INSIDE.to_owned());
     }
     report.warnings.append(&mut sentences);
 }

@@ -48,7 +48,7 @@ mod winding;
 pub use axes::{Axes, UnknownAxes};
 pub use error::{ReadError, WriteError};
 pub use format::{Format, Unit, UnknownUnit};
-pub use import::import_mesh;
+pub use import::{NO_INSIDE, import_mesh};
 pub use output::{Output, left_out};
 pub use report::{ImportReport, Imported, Skipped};
 pub use size::UnusualSize;

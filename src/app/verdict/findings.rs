@@ -5,6 +5,8 @@ use crate::app::document::Document;
 use crate::app::state::State;
 use crate::app::vessels::{go_to, in_order, sentence};
 use crate::digits::grouped;
+use crate::engine::Source;
+use crate::io::{NO_INSIDE, Unit, UnusualSize};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Preset, Settings, Smoothing, Target};
 use crate::vessel::certificate::Verdict as Calibre;
@@ -62,7 +64,8 @@ impl Verdict {
     /// On what is shown of `document`, the surface of `state`.
     pub(super) fn new(state: &State, document: &Document) -> Self {
         let mut findings = Vec::new();
-        findings.extend(size(document));
+        let unusual = document.import.unusual_size();
+        findings.extend(unusual.as_ref().map(|found| size(document, found)));
         let measured = document.measured.as_ref();
         let is_current = measured.is_some_and(|measured| measured.generation == state.generation());
         // As the reduction moves, a pinch is known in the same frame; the rest follows.
@@ -72,10 +75,9 @@ impl Verdict {
         }
         let found = state.calibre().map(|calibre| &calibre.found);
         findings.extend(calibre(state));
-        findings.extend(document.import.warnings.iter().filter(|text| !is_size(document, text)).map(|text| {
-            let is_grave = !document.import.orientable && text.contains("no inside");
-            Finding { is_grave, ..Finding::note(text.clone()) }
-        }));
+        let of_file = document.import.warnings.iter();
+        let of_file = of_file.filter(|text| unusual.as_ref().is_none_or(|found| found.sentence != **text));
+        findings.extend(of_file.map(|text| Finding { is_grave: text == NO_INSIDE, ..Finding::note(text.clone()) }));
         findings.sort_by_key(|finding| !finding.is_grave);
         let grave = findings.iter().filter(|finding| finding.is_grave).count();
         let is_known = is_current && found.is_some();
@@ -117,15 +119,14 @@ fn less(state: &State, document: &Document) -> Option<(String, Action)> {
     remedy(state, &words, |settings| settings.target = Target::Reduction(per_mille)).filter(|_| is_more)
 }
 
-fn size(document: &Document) -> Option<Finding> {
-    let found = document.import.unusual_size()?;
-    let mut finding = Finding::grave(found.sentence);
-    finding.remedies = found.units.iter().map(|&unit| (format!("Read in {unit}"), Action::ReadIn(unit))).collect();
-    Some(finding)
-}
-
-fn is_size(document: &Document, text: &str) -> bool {
-    document.import.unusual_size().is_some_and(|found| found.sentence == text)
+fn size(document: &Document, found: &UnusualSize) -> Finding {
+    let mut finding = Finding::grave(found.sentence.clone());
+    // Samples and scans are in mm.
+    if matches!(document.source, Source::File { .. }) {
+        let read = |&unit: &Unit| (format!("Read in {unit}"), Action::ReadIn(unit));
+        finding.remedies = found.units.iter().map(read).collect();
+    }
+    finding
 }
 
 fn pinch(state: &State, document: &Document) -> Option<Finding> {
