@@ -4,7 +4,7 @@
 //! A module knows only the modules below it:
 //!
 //! ```text
-//! parallel < mesh < volume < io, phantom, vessel < pipeline < sharing, trial < engine < app < desktop, web
+//! parallel < mesh < volume < io, phantom, vessel < pipeline < sharing < report, trial < engine < app < desktop, web
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
@@ -16,32 +16,37 @@
 //! - [`vessel`]: the tree in a surface: balls, branches, centrelines, calibres.
 //! - [`pipeline`]: connectivity, windowed-sinc smoothing, normals, decimation, the progressive mesh, deviation.
 //! - [`sharing`]: what another person needs to see the same: settings as a file, in a link, and a file's hash.
+//! - [`report`]: a page for the record, as PDF and as a web page; pictures as PNG.
 //! - [`trial`]: the guidewire: rod, contact, route, autopilot, log.
 //! - [`engine`]: the pipeline as work that never blocks a frame: commands in, events out.
 //! - `render`: what wgpu draws (feature `gui`); it knows `mesh` alone.
 //! - `app`: the window's content, the same on the desktop and in the browser (feature `gui`).
 //! - `desktop`: what the desktop gives the app: files and threads (feature `gui`).
+//! - [`language`]: what Lumen says, in English, German and French; everything that speaks to a user knows it.
 //! - [`task`]: long work in slices.
 //! - [`transfer`]: messages between threads that share no memory; it knows nothing of what is in them.
 //! - `digits`: numbers as they are read.
+//! - `chance`: numbers that a seed decides.
 //! - `cli`: the subcommands; the figures among them are `app`'s compare view, drawn off screen.
 
 #[cfg(feature = "gui")]
 pub mod app;
+mod chance;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;
 #[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
 pub mod desktop;
-mod digits;
 pub mod engine;
 pub mod haptics;
 pub mod io;
+pub mod language;
 pub mod mesh;
 pub mod parallel;
 pub mod phantom;
 pub mod pipeline;
 #[cfg(feature = "gui")]
 pub mod render;
+pub mod report;
 pub mod sharing;
 pub mod task;
 pub mod transfer;

@@ -15,14 +15,21 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::ser::Formatter;
 
+use crate::say;
+
 /// A message that cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum TransferError {
     /// The line is not one of ours.
-    #[error("the message is not understood: {0}")]
+    #[error("{}", say!("errors-message", error = .0.to_string()))]
     Line(#[from] serde_json::Error),
     /// A buffer is missing or has no whole number of elements.
-    #[error("buffer {index} of the message has {bytes:?} bytes, not a multiple of {element}")]
+    #[error("{}", say!(
+        "errors-message-buffer",
+        index = .index.to_string(),
+        bytes = format!("{:?}", .bytes),
+        element = .element.to_string()
+    ))]
     Buffer {
         /// Which.
         index: usize,
@@ -32,13 +39,13 @@ pub enum TransferError {
         element: usize,
     },
     /// There is no memory for a buffer.
-    #[error("there is no memory left for its {bytes} bytes")]
+    #[error("{}", say!("errors-message-memory", bytes = .bytes.to_string()))]
     Memory {
         /// Its length.
         bytes: usize,
     },
     /// A buffer that should be text is not UTF-8.
-    #[error("buffer {index} of the message is no text")]
+    #[error("{}", say!("errors-message-text", index = .index.to_string()))]
     Text {
         /// Which.
         index: usize,

@@ -12,6 +12,14 @@ const SIMD_MODULE = new Uint8Array([
 
 /** What the result is saved as when the program has stopped. */
 const RESULT = "lumen-result.stl";
+/** How long the engine may take to answer then. */
+const PATIENCE_MS = 10_000;
+
+/** What browsers ask for by themselves, as soon as the page says where it is and at a moment of their own. */
+const BY_THEMSELVES = [
+  ["icon", "icon.svg"],
+  ["manifest", "manifest.webmanifest"],
+];
 
 /** What the browser lacks, as a sentence, or null. */
 async function missing() {
@@ -34,11 +42,17 @@ function showFailed(details) {
   document.getElementById("failed-details").textContent = `${details}\n\n${navigator.userAgent}`;
   document.getElementById("failed-save").hidden = !globalThis.lumenEngine;
   root.dataset.state = "failed";
-  /** What the engine's Worker, which outlives the page's program, has as the newest level: an STL file, or null. */
+  document.getElementById("failed-reload").focus();
+}
+
+/**
+ * What the engine's Worker, which outlives the page's program, has as the newest level: an STL file, or null; undefined
+ * where it says nothing.
+ */
 function rescued() {
   const engine = globalThis.lumenEngine;
   return new Promise((resolve) => {
-    setTimeout(() => resolve(null), 10_000);
+    setTimeout(resolve, PATIENCE_MS);
     engine.onerror = () => resolve(null);
     engine.onmessage = ({ data }) => {
       const { Written, NotWritten } = JSON.parse(data[0]);
@@ -50,9 +64,13 @@ function rescued() {
 }
 
 async function saveResult() {
-  const bytes = await rescued();
   const said = document.getElementById("failed-copied");
-  if (!bytes) {
+  const bytes = await rescued();
+  if (bytes === undefined) {
+    said.textContent = "The computation is still at work and has not answered: try again in a moment.";
+    return;
+  }
+  if (bytes === null) {
     said.textContent = "There is no result to be had: the computation has ended too, or had none yet.";
     return;
   }
@@ -62,10 +80,6 @@ async function saveResult() {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   said.textContent = `The newest result was saved as ${RESULT}.`;
-}
-
-document.getElementById("failed-save").addEventListener("click", saveResult);
-document.getElementById("failed-reload").focus();
 }
 
 function showProgress(bytes, total) {
@@ -118,7 +132,30 @@ async function checkPixels(canvas) {
   }
 }
 
+/** Lets a newer build begin where one waits and this page is the only one; says whether the page starts again with it. */
+async function givesWay() {
+  // Where the browser keeps nothing, nothing waits.
+  const registration = await navigator.serviceWorker?.getRegistration().catch(() => null);
+  if (!query || !registration?.waiting) return false;
+  // The old worker is given up at once only where nothing more is asked of it.
+  if (document.readyState !== "complete") await new Promise((resolve) => addEventListener("load", resolve, { once: true }));
+  const changed = new Promise((resolve) => {
+    navigator.serviceWorker.addEventListener("controllerchange", () => resolve(true), { once: true });
+  });
+  const { port1, port2 } = new MessageChannel();
+  const answer = new Promise((resolve) => {
+    port1.onmessage = ({ data }) => resolve(data);
+  });
+  registration.waiting.postMessage("begin", [port2]);
+  if (!(await Promise.race([answer, changed]))) return false;
+  await changed;
+  location.reload();
+  return true;
+}
+
 async function start() {
+  if (await givesWay()) return;
+  for (const [what, name] of BY_THEMSELVES) document.querySelector(`link[rel="${what}"]`).href = name;
   const sentence = await missing();
   if (sentence) return showUnsupported(sentence);
 
@@ -129,6 +166,7 @@ async function start() {
       import(at("lumen-web.js")),
       fetchModule(at("lumen-web_bg.wasm"), total),
       import(at("store.js")),
+      import(at("drop.js")),
     ]);
   } catch (error) {
     return showFailed(`The program could not be downloaded: ${error.message}`);
@@ -163,6 +201,7 @@ async function copyDetails() {
 
 document.getElementById("failed-reload").addEventListener("click", () => location.reload());
 document.getElementById("failed-copy").addEventListener("click", copyDetails);
+document.getElementById("failed-save").addEventListener("click", saveResult);
 
 // The program reports a panic as an error of that name, and ends in a trap. Any other exception that has passed through
 // it leaves it standing still: what it had in hand is never put down. Errors beside it do not end it.

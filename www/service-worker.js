@@ -2,7 +2,8 @@
 //
 // The build writes its version and the hash of each file into the next line (xtask/src/page.rs), so that every build has
 // another of these. A browser that finds a new one fills a cache for it beside that of the old build. A page gets all of
-// its files from one build: the old one answers as long as a page of it is open, and the next start is the new one's.
+// its files from one build: the old one answers as long as a page of it is open. A page that starts asks the new one to
+// begin (www/boot.js), before it has loaded anything; it does where there is no other page.
 const BUILD = { version: "", files: {} };
 
 const { scope } = self.registration;
@@ -37,12 +38,14 @@ async function download(name) {
 }
 
 async function fill() {
+  // Then a page may live on it.
+  const wasThere = await caches.has(CACHE);
   const cache = await caches.open(CACHE);
   try {
     const one = async (name) => cache.put(place(name), await download(name));
     await Promise.all(Object.keys(BUILD.files).map(one));
   } catch (error) {
-    await caches.delete(CACHE);
+    if (!wasThere) await caches.delete(CACHE);
     throw error;
   }
 }
@@ -54,17 +57,13 @@ async function forgetOthers() {
   await self.clients.claim();
 }
 
-/** The page: of the build that waits, where this start is the first that can have it. */
-async function page(request) {
-  const { waiting } = self.registration;
-  // One page is the one that is about to be replaced by this.
-  if (waiting && (await self.clients.matchAll({ type: "window" })).length < 2) {
-    waiting.postMessage("begin");
-    // With an icon of its own, which the browser would ask the server for.
-    const empty = '<!doctype html><link rel="icon" href="data:,">';
-    return new Response(empty, { headers: { Refresh: "0", "Content-Type": "text/html" } });
-  }
-  return (await caches.match(place("index.html"), { cacheName: CACHE })) ?? fetch(request);
+/** Begins where the page that asks, which has loaded nothing yet, is the only one; says to it whether it is. */
+async function begin(asking) {
+  // A page that was loaded past every worker would become this one's too.
+  const pages = await self.clients.matchAll({ type: "window", includeUncontrolled: true });
+  const isAlone = pages.filter(({ url }) => url.startsWith(scope)).length === 1;
+  asking?.postMessage(isAlone);
+  if (isAlone) await self.skipWaiting();
 }
 
 async function file(name, version, request) {
@@ -74,13 +73,14 @@ async function file(name, version, request) {
 
 self.addEventListener("install", (event) => event.waitUntil(fill()));
 self.addEventListener("activate", (event) => event.waitUntil(forgetOthers()));
-self.addEventListener("message", ({ data }) => data === "begin" && self.skipWaiting());
+self.addEventListener("message", (event) => event.data === "begin" && event.waitUntil(begin(event.ports[0])));
 self.addEventListener("fetch", (event) => {
   const { request } = event;
   const url = new URL(request.url);
   if (request.method !== "GET" || !url.href.startsWith(scope)) return;
   const name = decodeURIComponent(url.pathname.slice(new URL(scope).pathname.length)) || "index.html";
   if (!Object.hasOwn(BUILD.files, name)) return;
-  const isPage = request.mode === "navigate" && name === "index.html";
-  event.respondWith(isPage ? page(request) : file(name, url.searchParams.get("v"), request));
+  // What stands behind the page's own name is not for this.
+  const version = name === "index.html" ? null : url.searchParams.get("v");
+  event.respondWith(file(name, version, request));
 });

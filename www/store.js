@@ -22,6 +22,8 @@ async function within(mode, work) {
       transaction.oncomplete = resolve;
       transaction.onabort = () => reject(transaction.error);
     });
+    // Where the work itself fails, nobody waits for the rest.
+    whole.catch(() => {});
     const result = await done(work(transaction.objectStore(SURFACE)));
     await whole;
     return result;
@@ -30,11 +32,23 @@ async function within(mode, work) {
   }
 }
 
+const forget = () => within("readwrite", (store) => store.delete(SURFACE));
+
+/** The one before goes first: it must not come back where there is no room for this one. */
+async function keep(name, bytes) {
+  await forget();
+  return within("readwrite", (store) => store.put([name, bytes], SURFACE));
+}
+
+let last = Promise.resolve();
+/** Does one after another, in the order in which they are asked for. */
+const inTurn = (work) => (last = last.then(work, work));
+
 globalThis.lumenStore = {
-  /** Keeps a surface (a name and a Uint8Array) in place of the one before. */
-  keep: (name, bytes) => within("readwrite", (store) => store.put([name, bytes], SURFACE)),
+  /** Keeps a surface (a name and a Uint8Array) in place of the one before; where that fails, none is kept. */
+  keep: (name, bytes) => inTurn(() => keep(name, bytes)),
   /** The name and the bytes of the surface that is kept, or undefined. */
-  restore: () => within("readonly", (store) => store.get(SURFACE)),
+  restore: () => inTurn(() => within("readonly", (store) => store.get(SURFACE))),
   /** Forgets it. */
-  forget: () => within("readwrite", (store) => store.delete(SURFACE)),
+  forget: () => inTurn(forget),
 };

@@ -1,14 +1,32 @@
-// A dedicated Worker with its own instance of the module the page has compiled: no second download, no shared memory.
-// The first message brings the module and the Worker's job; every later one goes to the program (web/src/job.rs).
+// A dedicated Worker. Of the page's own program it gets the compiled module: no second download, no shared memory. Another
+// program it fetches itself. The first message says which, and the Worker's job; every later one goes to the program
+// (web/worker/src/serve.rs).
 
 const waiting = [];
 const hold = (event) => waiting.push(event.data);
 
-async function begin({ data }) {
+// An allocation that fails ends the program in a trap, which says nothing; a panic tells of itself before.
+function sayWhereMemoryEnds(memory) {
+  let has_panicked = false;
+  self.addEventListener("error", (event) => {
+    has_panicked ||= event.error?.name === "Panic";
+    if (has_panicked || !(event.error instanceof WebAssembly.RuntimeError)) return;
+    event.preventDefault();
+    const held = (memory.buffer.byteLength / 1e9).toFixed(1);
+    setTimeout(() => self.reportError(new RangeError(`there is no memory left beyond its ${held} GB`)));
+  });
+}
+
+async function begin({ data: { module, program = "lumen-web", job } }) {
   self.addEventListener("message", hold);
-  const { initSync, worker_main } = await import("./lumen-web.js" + self.location.search);
-  initSync({ module: data.module });
-  worker_main(data.job);
+  // Every file of a build bears its version.
+  const at = (name) => new URL(name + self.location.search, import.meta.url);
+  const glue = await import(at(`${program}.js`));
+  const { memory } = module ? glue.initSync({ module }) : await glue.default({ module_or_path: at(`${program}_bg.wasm`) });
+  sayWhereMemoryEnds(memory);
+  glue.worker_main(job);
+  // Whoever waits for the program, which the page has not fetched, hears that it is there.
+  if (!module) self.postMessage(null);
   self.removeEventListener("message", hold);
   for (const data of waiting.splice(0)) self.dispatchEvent(new MessageEvent("message", { data }));
 }

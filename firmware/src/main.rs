@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `encoders` | a word of samples came | lines to counts |
 //! | [`control`] | every ms | counts to motors and to the next input reports |
-//! | `usb` | the host asks | reports in and out |
+//! | `usb`, `serial` | the host asks | reports in and out |
 //!
 //! All share one executor in thread mode. Samples wait for 0.6 ms; no task works for as long. A panic stops the program, and
 //! 20 ms later the chip starts anew.
@@ -14,6 +14,7 @@
 
 mod encoders;
 mod motors;
+mod serial;
 mod usb;
 
 use core::cell::RefCell;

@@ -1,4 +1,5 @@
-//! The device on the USB: a human interface device with Lumen's descriptor, asked every ms.
+//! The device on the USB: a human interface device with Lumen's descriptor, asked every ms, and beside it a serial port
+//! (`serial`), each a function of its own of one composite device.
 //!
 //! Output reports come through their endpoint or as requests, whichever the host's system likes; features as requests. A
 //! reset, a sleep or a host that is gone lets the motors go.
@@ -13,18 +14,19 @@ use embassy_usb::class::hid::{
 };
 use embassy_usb::control::OutResponse;
 use embassy_usb::{Builder, Config, Handler, UsbDevice};
-use lumen_feeder::device::USB_IDS;
-use lumen_feeder::feeder::DESCRIPTOR;
+use lumen_feeder::feeder::{DESCRIPTOR, USB_IDS};
+use lumen_feeder::turn::Line;
 use static_cell::{ConstStaticCell, StaticCell};
 
-use crate::DEVICE;
+use crate::{DEVICE, serial};
 
 /// The longest report with its id. A host may fill others up to it.
 const LONGEST_OUT: usize = 15;
 /// The longest input report with its id.
 const LONGEST_IN: usize = 6;
 
-type Bus = Driver<'static, USB>;
+/// The board's own.
+pub(crate) type Bus = Driver<'static, USB>;
 
 /// The newest input reports; what the host was too slow for is dropped.
 static REPORTS: Signal<ThreadModeRawMutex, ([u8; 6], [u8; 2])> = Signal::new();
@@ -32,11 +34,12 @@ static REPORTS: Signal<ThreadModeRawMutex, ([u8; 6], [u8; 2])> = Signal::new();
 /// Has the state sent at the host's next question, and what plays if that has changed.
 pub(crate) fn tell(state: [u8; 6], playing: [u8; 2]) {
     REPORTS.signal((state, playing));
+    serial::tell(&state, playing);
 }
 
 /// Appears on the bus.
 pub(crate) fn start(spawner: Spawner, driver: Bus) {
-    static CONFIGURATION: ConstStaticCell<[u8; 64]> = ConstStaticCell::new([0; 64]);
+    static CONFIGURATION: ConstStaticCell<[u8; 160]> = ConstStaticCell::new([0; 160]);
     static OBJECTS: ConstStaticCell<[u8; 32]> = ConstStaticCell::new([0; 32]);
     static CONTROL: ConstStaticCell<[u8; 64]> = ConstStaticCell::new([0; 64]);
     static STATE: StaticCell<State<'static>> = StaticCell::new();
@@ -46,8 +49,6 @@ pub(crate) fn start(spawner: Spawner, driver: Bus) {
     let mut config = Config::new(USB_IDS[0], USB_IDS[1]);
     config.manufacturer = Some("Lumen");
     config.product = Some("Lumen feeder");
-    config.composite_with_iads = false;
-    (config.device_class, config.device_sub_class, config.device_protocol) = (0, 0, 0);
     let mut builder = Builder::new(driver, config, CONFIGURATION.take(), OBJECTS.take(), &mut [], CONTROL.take());
     builder.handler(EVENTS.take());
     let hid = embassy_usb::class::hid::Config {
@@ -60,6 +61,7 @@ pub(crate) fn start(spawner: Spawner, driver: Bus) {
     };
     let hid = HidReaderWriter::<_, LONGEST_OUT, LONGEST_IN>::new(&mut builder, STATE.init(State::new()), hid);
     let (reader, writer) = hid.split();
+    serial::start(spawner, &mut builder);
     spawner.spawn(bus(builder.build()).expect("it is spawned once"));
     spawner.spawn(read(reader).expect("it is spawned once"));
     spawner.spawn(write(writer).expect("it is spawned once"));
@@ -103,13 +105,13 @@ impl RequestHandler for Reports {
             Some(report.len())
         };
         DEVICE.lock(|device| {
-            let device = device.borrow();
+            let mut device = device.borrow_mut();
             let (state, playing) = (device.state(), device.playing());
             match id {
-                ReportId::Feature(id) => answer(&device.feature(id)?),
+                ReportId::Feature(id) if device.hears(Line::Hid) => answer(&device.feature(id)?),
                 ReportId::In(id) if id == state[0] => answer(&state),
                 ReportId::In(id) if id == playing[0] => answer(&playing),
-                ReportId::In(_) | ReportId::Out(_) => None,
+                ReportId::Feature(_) | ReportId::In(_) | ReportId::Out(_) => None,
             }
         })
     }
@@ -117,6 +119,9 @@ impl RequestHandler for Reports {
     fn set_report(&mut self, id: ReportId, report: &[u8]) -> OutResponse {
         let taken = DEVICE.lock(|device| {
             let mut device = device.borrow_mut();
+            if !device.hears(Line::Hid) {
+                return false;
+            }
             match (id, report) {
                 (ReportId::Out(id), [first, data @ ..]) if id == *first => device.take(id, data).is_ok(),
                 (ReportId::Feature(id), [first, data @ ..]) if id == *first => device.take_feature(id, data).is_ok(),

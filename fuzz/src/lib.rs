@@ -1,5 +1,6 @@
 //! What every fuzz target checks.
 
+use lumen::io::volume::{self, Head, Part, Scan, ScanError};
 use lumen::io::{ImportOptions, Imported, read};
 use lumen::mesh::arrays::On;
 
@@ -18,4 +19,53 @@ pub fn survives(bytes: &[u8], name: &str) {
         }
         Err(error) => assert!(error.to_string().ends_with('.')),
     }
+}
+
+/// Bytes of a file that are known before the rest comes in pieces.
+const KNOWN: usize = 1024;
+/// Bytes of such a piece.
+const PIECE: usize = 61;
+
+/// Reads bytes that may be anything as a scan, or as a header with its data: they give a number for each point in a place, or a
+/// sentence, and the same whole and in pieces.
+pub fn survives_as_scan(bytes: &[u8]) {
+    let (first, second) = bytes.split_at(bytes.len() / 2);
+    let alone = [Part { name: "a.hdr", bytes }];
+    let both = [Part { name: "a.raw", bytes: second }, Part { name: "a.hdr", bytes: first }];
+    for parts in [&alone[..], &both] {
+        let whole = volume::read(parts);
+        match &whole {
+            Ok(scan) => {
+                let geometry = scan.grid.geometry();
+                assert!(geometry.check().is_ok() && geometry.points() == scan.grid.samples().len());
+            }
+            Err(error) => assert!(error.to_string().ends_with('.')),
+        }
+        if let Some(scan) = in_pieces(parts) {
+            assert_eq!(scan.is_ok(), whole.is_ok());
+            if let (Ok(scan), Ok(whole)) = (scan, whole) {
+                assert!(
+                    scan.grid.geometry() == whole.grid.geometry()
+                        && scan.grid.samples().len() == whole.grid.samples().len()
+                );
+            }
+        }
+    }
+}
+
+/// The scan in files of which the beginnings are known, its numbers in pieces; `None` where they do not come so.
+fn in_pieces(parts: &[Part]) -> Option<Result<Scan, ScanError>> {
+    let head = |part: &Part<'_>| part.bytes.len().min(KNOWN);
+    let heads: Vec<Head> = parts
+        .iter()
+        .map(|part| Head { name: part.name, bytes: &part.bytes[..head(part)], length: part.bytes.len() as u64 })
+        .collect();
+    let mut stream = volume::begin(&heads).ok()??;
+    let start = usize::try_from(stream.start()).ok()?.min(parts[stream.file()].bytes.len());
+    for piece in parts[stream.file()].bytes[start..].chunks(PIECE) {
+        if let Err(error) = stream.push(piece) {
+            return Some(Err(error));
+        }
+    }
+    Some(stream.finish())
 }

@@ -2,8 +2,9 @@
 //! place.
 
 use super::views::ViewOptions;
-use super::{compare, recovery, scan, sharing, trial, vessels};
+use super::{collapses, compare, lesson, measure, record, recovery, scan, sharing, trial, vessels};
 use crate::io::{Axes, Format, Unit};
+use crate::language::Language;
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
 use crate::render::StandardView;
@@ -23,6 +24,8 @@ pub enum Action {
     Save(Format),
     /// Take the axes of the surface, whose file does not state them, to be these.
     Axes(Axes),
+    /// Save surfaces in these axes; `None` for those that they have.
+    SaveAxes(Option<Axes>),
     /// Go over to these settings.
     Set(Box<Settings>),
     /// One step back.
@@ -44,10 +47,19 @@ pub enum Action {
         /// What there is to say of it.
         label: String,
     },
+    /// Look at a place.
+    LookAt {
+        /// In mm.
+        at_mm: [f32; 3],
+        /// What is to be seen there, in mm.
+        height_mm: f32,
+    },
     /// Show other things in the views.
     Show(ViewOptions),
     /// Show the surface as it was opened beside the level in one picture, or no longer.
     Reveal,
+    /// Show what as many passes of plain Laplacian smoothing make of the surface, in place of it as it was opened, or no longer.
+    Average(bool),
     /// Show the surface as it was opened, for as long as this is so.
     HoldBefore(bool),
     /// Show or leave the compare view.
@@ -60,12 +72,24 @@ pub enum Action {
     Trial(trial::Action),
     /// Something of the vessels and their calibre.
     Vessels(vessels::Action),
+    /// Something of what is measured.
+    Measure(measure::Action),
+    /// Something of the collapses, one by one.
+    Collapses(collapses::Action),
+    /// Something of the lessons.
+    Lesson(lesson::Action),
     /// Something of what is shared.
     Share(sharing::Action),
+    /// Something of reports and pictures.
+    Record(record::Action),
     /// Something of what is kept on this device.
     Recovery(recovery::Action),
     /// Something of a scan.
     Scan(scan::Action),
+    /// Present, or no longer.
+    Present,
+    /// Speak a language; `None` for that of the system.
+    Speak(Option<Language>),
     /// The other theme.
     Theme,
     /// Show or hide the keys.

@@ -5,11 +5,14 @@ use egui::{Align2, Color32, ComboBox, FontId, Painter, Rect, Role, Ui, pos2, vec
 use super::action::Action;
 use super::assist::name;
 use super::document::Document;
+use super::halo;
 use super::row::{remark, row};
 use super::views::{Colours, ViewOptions, Views};
+use crate::language::decimal;
 use crate::mesh::arrays::{Kind, On};
 use crate::mesh::{ArrayInfo, used_vertices};
 use crate::render::{Colour, ColourMap, label_colour};
+use crate::say;
 
 /// Labels that a legend names.
 const NAMED: usize = 12;
@@ -21,16 +24,17 @@ pub(super) fn list(ui: &mut Ui, document: &Document, views: &Views, asked: &mut 
         return;
     }
     let mut colours = views.options.colours;
-    row(ui, "Colour by", "What the file says of its vertices and triangles, in the shaded view", |ui| {
-        let chosen = chosen(document, colours).map_or("Nothing", |info| &info.name);
+    row(ui, &say!("panel-colour"), &say!("panel-colour-help"), |ui| {
+        let nothing = say!("panel-colour-none");
+        let chosen = chosen(document, colours).map_or(&nothing, |info| &info.name);
         let list = ComboBox::from_id_salt("arrays").width(140.0).truncate().selected_text(chosen);
         let response = list.show_ui(ui, |ui| {
-            ui.selectable_value(&mut colours, Colours::None, "Nothing");
+            ui.selectable_value(&mut colours, Colours::None, &nothing);
             for (info, i) in arrays.iter().zip(0..) {
                 ui.selectable_value(&mut colours, Colours::Array(i), &info.name);
             }
         });
-        name(&response.response, Role::ComboBox, "Colour by");
+        name(&response.response, Role::ComboBox, &say!("panel-colour"));
     });
     for info in arrays {
         remark(ui, &described(info));
@@ -43,25 +47,34 @@ pub(super) fn list(ui: &mut Ui, document: &Document, views: &Views, asked: &mut 
 /// What an array is, in a line.
 fn described(info: &ArrayInfo) -> String {
     let on = if info.on == On::Point { "vertices" } else { "triangles" };
-    let kind = match (info.kind, info.components) {
-        (Kind::Label, _) if info.labels.is_empty() => "labels".to_owned(),
-        (Kind::Label, _) => format!("{} labels", info.labels.len()),
-        (Kind::Continuous, 1) => "scalar".to_owned(),
-        (Kind::Continuous, n) => format!("{n} components"),
+    let (name, kind) = (&info.name, info.scalar.name());
+    let text = match (info.kind, info.components) {
+        (Kind::Label, _) if info.labels.is_empty() => {
+            say!("panel-array-identifiers", name = name, on = on, kind = kind)
+        }
+        (Kind::Label, _) => {
+            say!("panel-array-labels", name = name, count = info.labels.len(), on = on, kind = kind)
+        }
+        (Kind::Continuous, 1) => say!("panel-array-scalar", name = name, on = on, kind = kind),
+        (Kind::Continuous, n) => say!("panel-array-components", name = name, count = n, on = on, kind = kind),
     };
-    let range = info.range.map_or(String::new(), |[least, most]| format!(", {} to {}", short(least), short(most)));
-    format!("{}: {kind} on {on}, {}{range}", info.name, info.scalar.name())
+    match info.range {
+        Some([least, most]) => say!("panel-array-range", array = text, least = short(least), most = short(most)),
+        None => text,
+    }
 }
 
 /// A number without a unit, to four digits.
 fn short(x: f64) -> String {
     let size = x.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
-        return format!("{x:.3e}");
+        let text = format!("{x:.3e}");
+        let parts = text.split_once('e').and_then(|(lead, power)| Some((lead.parse::<f64>().ok()?, power)));
+        return parts.map_or_else(|| text.clone(), |(lead, power)| format!("{}e{power}", decimal(lead, 3)));
     }
     let decimals =
         if size >= 1000.0 || x.fract() == 0.0 { 0 } else { (3 - size.max(1.0).log10() as i32).max(0) as usize };
-    format!("{x:.decimals$}")
+    decimal(x, decimals)
 }
 
 /// The array that has the colours, if one has.
@@ -116,18 +129,18 @@ pub(super) fn label_legend(painter: &Painter, inner: Rect, info: &ArrayInfo, col
     let shown = info.labels.len().min(NAMED);
     let font = FontId::proportional(12.0);
     let top = inner.center().y - 0.5 * STEP * shown as f32;
-    painter.text(pos2(inner.right(), top - 6.0), Align2::RIGHT_BOTTOM, &info.name, font.clone(), colour);
+    halo::text(painter, pos2(inner.right(), top - 6.0), Align2::RIGHT_BOTTOM, &info.name, font.clone(), colour);
     for (n, &label) in info.labels.iter().take(shown).enumerate() {
         let corner = pos2(inner.right() - SIDE, top + STEP * n as f32);
         let Colour([r, g, b]) = label_colour(n);
         painter.rect_filled(Rect::from_min_size(corner, vec2(SIDE, SIDE)), 2.0, Color32::from_rgb(r, g, b));
         let at = corner + vec2(-6.0, 0.5 * SIDE);
-        painter.text(at, Align2::RIGHT_CENTER, format!("{label}"), font.clone(), colour);
+        halo::text(painter, at, Align2::RIGHT_CENTER, &label.to_string(), font.clone(), colour);
     }
     let more = info.labels.len() - shown;
     if more > 0 {
         let at = pos2(inner.right(), top + STEP * shown as f32 + 2.0);
-        painter.text(at, Align2::RIGHT_TOP, format!("and {more} more"), font, colour);
+        halo::text(painter, at, Align2::RIGHT_TOP, &say!("panel-labels-more", count = more), font, colour);
     }
 }
 

@@ -1,6 +1,13 @@
 //! What assistive tools are told of a control: what it is, what it is called, where it stands.
 
-use egui::{Response, Role, WidgetInfo};
+use egui::{Response, RichText, Role, Ui, WidgetInfo};
+
+/// Writes a heading, and tells that it is one, of the second level: the first is the page's own. AccessKit counts from 0.
+pub(super) fn heading(ui: &mut Ui, text: &str) {
+    let response = ui.label(RichText::new(text).heading());
+    name(&response, Role::Heading, text);
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_level(1));
+}
 
 /// Tells what a control is called.
 pub(super) fn name(response: &Response, kind: Role, label: &str) {

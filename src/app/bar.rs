@@ -1,18 +1,32 @@
 //! The bars: files and help above, what is going on below.
 
-use egui::{Button, Response, RichText, Role, Ui};
+use egui::{Button, Context, Response, RichText, Role, Ui};
 
 use super::action::Action;
 use super::assist::name;
+use super::axes;
 use super::control::progress;
 use super::icon::{self, Icon};
+use super::menus::{long_menu, menu};
 use super::state::State;
 use super::views::{Colours, ViewOptions, Views};
-use super::{recovery, sharing, vessels};
-use crate::digits::grouped;
+use super::{collapses, deviation, lesson, measure, record, recovery, sharing, spoken, theme, verdict, vessels};
 use crate::io::{Axes, Format, Unit};
+use crate::language::{self, Key, Language};
 use crate::phantom::Sample;
 use crate::render::StandardView;
+use crate::say;
+
+/// The widths in points from which on the bar has room for a button of everything, of what a phone has in its menu, and of
+/// the units: words of other languages are longer, and buttons for a finger wider.
+fn widths(ctx: &Context) -> [f32; 3] {
+    let [all, many, units] = match language::spoken() {
+        Language::English => [1110.0, 0.0, 0.0],
+        Language::German => [1195.0, 730.0, 336.0],
+        Language::French => [1205.0, 710.0, 334.0],
+    };
+    if theme::suits_finger(ctx) { [all + 132.0, many + 96.0, units + 40.0] } else { [all, many, units] }
+}
 
 /// What else is shown.
 #[derive(Clone, Copy)]
@@ -25,10 +39,18 @@ pub(super) struct Shown {
     pub(super) is_narrow: bool,
     /// The vessels' calibre.
     pub(super) are_vessels_open: bool,
+    /// Someone presents.
+    pub(super) is_presenting: bool,
+    /// The measures.
+    pub(super) is_measuring: bool,
     /// Whether surfaces are kept on this device, where they can be.
     pub(super) keeps_surface: Option<bool>,
     /// Links can be made here.
     pub(super) has_links: bool,
+    /// The language that was chosen; `None` for that of the system.
+    pub(super) language: Option<Language>,
+    /// What is chosen for reports and pictures.
+    pub(super) record: record::Chosen,
 }
 
 impl Shown {
@@ -46,204 +68,299 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown, asked
         }
     };
     ui.horizontal_centered(|ui| {
-        if !shown.is_narrow {
+        let width = ui.available_width();
+        let [is_short, is_narrow, is_least] = widths(ui.ctx()).map(|least| width < least);
+        let is_narrow = is_narrow || shown.is_narrow;
+        if !is_short {
             ui.label(RichText::new("Lumen").heading().strong());
             ui.add_space(8.0);
         }
-        ask(
-            ui.button("Open...").on_hover_text("A surface or settings (Ctrl+O); or drop a file").clicked(),
-            Action::Open,
-        );
-        let open_in = ui.menu_button("Open in", |ui| {
-            for unit in Unit::ALL {
-                ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
-            }
-        });
-        open_in.response.on_hover_text("Open a file whose numbers are in another unit than mm (glTF: m)");
-        ui.menu_button("Sample", |ui| {
+        ask(ui.button(say!("app-open")).on_hover_text(say!("app-open-help")).clicked(), Action::Open);
+        if !is_least {
+            open_in(ui, &mut ask);
+        }
+        menu(ui, &say!("app-sample"), &mut |ui| {
             for sample in Sample::ALL {
                 ask(ui.button(sample.label()).clicked(), Action::Sample(sample));
             }
         });
         let has_result = state.document.as_ref().is_some_and(|document| document.shown.is_some());
         ui.add_enabled_ui(has_result, |ui| {
-            ui.menu_button("Save", |ui| {
+            let mut files = |ui: &mut Ui| {
+                if let Some(document) = &state.document {
+                    let verdict = verdict::verdict(state, document);
+                    ui.set_max_width(300.0);
+                    let text = RichText::new(verdict.in_short()).small();
+                    let is_bad = verdict.is_safe == Some(false);
+                    let text = if is_bad { text.color(ui.visuals().error_fg_color) } else { text.weak() };
+                    ui.add(egui::Label::new(text).wrap());
+                    ui.separator();
+                }
                 for format in Format::ALL {
                     let text = format!("{}...", format.label());
-                    let unit = format!("Lengths in {}", format.unit());
+                    let unit = say!("app-save-lengths", unit = format.unit().to_string());
                     ask(ui.button(text).on_hover_text(unit).clicked(), Action::Save(format));
                 }
-                ui.label(RichText::new("Lengths in mm; in m for glTF").small().weak());
+                ui.label(RichText::new(say!("app-save-all-lengths")).small().weak());
+                axes::written(ui, state, &mut ask);
                 ui.separator();
                 let has_vessels = state.calibre().is_some_and(|calibre| calibre.found.is_ok());
                 ui.add_enabled_ui(has_vessels, |ui| {
                     for (text, what, help) in vessels::FILES {
-                        ask(ui.button(text).on_hover_text(help).clicked(), Action::Vessels(what));
+                        ask(ui.button(text.say()).on_hover_text(help.say()).clicked(), Action::Vessels(what));
                     }
                 });
                 ui.separator();
-                let help = "For whoever has the same file, and for lumen optimise --settings; opened as a surface is";
-                let save = ui.button("Settings...").on_hover_text(help).clicked();
+                let asked = record::menu(ui, shown.record, state.calibre().is_some());
+                if let Some(asked) = asked {
+                    ask(true, Action::Record(asked));
+                }
+                ui.separator();
+                let help = say!("app-save-settings-help");
+                let save = ui.button(say!("app-save-settings")).on_hover_text(help).clicked();
                 ask(save, Action::Share(sharing::Action::SaveSettings));
                 if shown.has_links {
-                    let help = "The settings and the first digits of the file's hash, and nothing of the surface";
-                    let copy = ui.button("Copy link").on_hover_text(help).clicked();
+                    let help = say!("app-copy-link-help");
+                    let copy = ui.button(say!("app-copy-link")).on_hover_text(help).clicked();
                     ask(copy, Action::Share(sharing::Action::CopyLink));
                 }
                 if let Some(mut keeps) = shown.keeps_surface {
                     ui.separator();
                     kept_here(ui, &mut keeps, &mut ask);
                 }
-            });
+            };
+            long_menu(ui, &say!("app-save"), &mut files);
         });
-        if shown.is_narrow {
-            let menu = icon::button(ui, Icon::Menu, true, "Menu", "More");
-            egui::Popup::menu(&menu).show(|ui| more(ui, state, views, shown, &mut ask));
-        } else {
+        if !is_narrow {
             ui.separator();
             let can_undo = state.history.can_undo();
-            ask(icon::button(ui, Icon::Undo, can_undo, "Undo", "Undo (Ctrl+Z)").clicked(), Action::Undo);
+            let (undo, help) = (say!("app-undo"), say!("app-undo-help"));
+            ask(icon::button(ui, Icon::Undo, can_undo, &undo, &help).clicked(), Action::Undo);
             let can_redo = state.history.can_redo();
-            ask(icon::button(ui, Icon::Redo, can_redo, "Redo", "Redo (Ctrl+Shift+Z)").clicked(), Action::Redo);
+            let (redo, help) = (say!("app-redo"), say!("app-redo-help"));
+            ask(icon::button(ui, Icon::Redo, can_redo, &redo, &help).clicked(), Action::Redo);
             ui.separator();
             ui.add_enabled_ui(shown.are_views(state), |ui| {
                 let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
-                let split = ui.add(Button::new("Split").selected(is_split));
-                let help = "As opened and as it is now in one picture; drag the line between them (R)";
-                ask(split.on_hover_text(help).clicked(), Action::Reveal);
+                let split = ui.add(Button::new(say!("app-split")).selected(is_split));
+                ask(split.on_hover_text(say!("app-split-help")).clicked(), Action::Reveal);
                 before_button(ui, views, &mut ask);
             });
-            ask(
-                compare(ui, state, shown).on_hover_text("Several settings side by side (C)").clicked(),
-                Action::Compare,
-            );
-            let help = "Steer a guidewire through the level that is shown";
+            ask(compare(ui, state, shown).on_hover_text(say!("app-compare-help")).clicked(), Action::Compare);
+            let help = say!("app-trial-help");
             ask(trial(ui, state, shown).on_hover_text(help).clicked(), Action::ToggleTrial);
-            let help = "The vessels, and what smoothing and reduction made of the calibre of each (V)";
+        }
+        if is_short {
+            let menu = icon::button(ui, Icon::Menu, true, &say!("app-menu"), &say!("app-menu-help"));
+            egui::Popup::menu(&menu).show(|ui| {
+                if is_least {
+                    open_in(ui, &mut ask);
+                }
+                more(ui, state, views, shown, &mut ask);
+            });
+        } else {
+            let help = say!("app-vessels-help");
             ask(
                 vessels_button(ui, state, shown).on_hover_text(help).clicked(),
                 Action::Vessels(vessels::Action::Toggle),
             );
-            ui.menu_button("View", |ui| view_menu(ui, state, views.options, &mut ask));
+            let help = say!("app-measure-help");
+            ask(
+                measure_button(ui, state, shown).on_hover_text(help).clicked(),
+                Action::Measure(measure::Action::Toggle),
+            );
+            menu(ui, &say!("app-view"), &mut |ui| view_menu(ui, state, views.options, shown, &mut ask));
+            menu(ui, &say!("app-learn"), &mut |ui| learn(ui, state, views, shown, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                ask(ui.button("About").clicked(), Action::About);
-                ask(ui.button("Help").on_hover_text("Keys and gestures (F1)").clicked(), Action::Help);
-                ask(icon::button(ui, Icon::Theme, true, "Theme", "Light or dark (T)").clicked(), Action::Theme);
+                ask(ui.button(say!("app-about")).clicked(), Action::About);
+                ask(ui.button(say!("app-help")).on_hover_text(say!("app-help-help")).clicked(), Action::Help);
+                let (other, help) = (say!("app-theme"), say!("app-theme-help"));
+                ask(icon::button(ui, Icon::Theme, true, &other, &help).clicked(), Action::Theme);
             });
         }
     });
 }
 
+/// Files whose numbers are in another unit.
+fn open_in(ui: &mut Ui, ask: &mut impl FnMut(bool, Action)) {
+    let units = menu(ui, &say!("app-open-in"), &mut |ui| {
+        ui.set_min_width(ui.spacing().interact_size.x);
+        for unit in Unit::ALL {
+            ask(ui.button(format!("{unit}...")).clicked(), Action::OpenIn(unit));
+        }
+    });
+    units.on_hover_text(say!("app-open-in-help"));
+}
+
 /// What is kept on this device.
 fn kept_here(ui: &mut Ui, keeps: &mut bool, ask: &mut impl FnMut(bool, Action)) {
-    let help =
-        "The file itself, for the next start, in this browser; otherwise only its name, the settings and the view";
-    let chosen = ui.checkbox(keeps, "Keep this surface on this device").on_hover_text(help).changed();
+    let help = say!("app-keep-surface-help");
+    let chosen = ui.checkbox(keeps, say!("app-keep-surface")).on_hover_text(help).changed();
     ask(chosen, Action::Recovery(recovery::Action::KeepSurface(*keeps)));
-    let help = "Settings, names and surfaces that are kept in this browser";
-    let forget = ui.button("Forget what is kept here").on_hover_text(help).clicked();
+    let forget = ui.button(say!("app-forget")).on_hover_text(say!("app-forget-help")).clicked();
     ask(forget, Action::Recovery(recovery::Action::Forget));
 }
 
 fn compare(ui: &mut Ui, state: &State, shown: Shown) -> Response {
-    ui.add_enabled(!(shown.in_trial || shown.in_scan), Button::new("Compare").selected(state.comparison.is_open()))
+    ui.add_enabled(
+        !(shown.in_trial || shown.in_scan),
+        Button::new(say!("app-compare")).selected(state.comparison.is_open()),
+    )
 }
 
 fn trial(ui: &mut Ui, state: &State, Shown { in_trial, in_scan, .. }: Shown) -> Response {
     let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
-    ui.add_enabled(has_level && !in_scan || in_trial, Button::new("Trial").selected(in_trial))
+    ui.add_enabled(has_level && !in_scan || in_trial, Button::new(say!("app-trial")).selected(in_trial))
 }
 
 fn vessels_button(ui: &mut Ui, state: &State, shown: Shown) -> Response {
     let is_open = shown.are_vessels_open;
     let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
-    ui.add_enabled(has_level && shown.are_views(state) || is_open, Button::new("Vessels").selected(is_open))
+    ui.add_enabled(has_level && shown.are_views(state) || is_open, Button::new(say!("app-vessels")).selected(is_open))
+}
+
+fn measure_button(ui: &mut Ui, state: &State, shown: Shown) -> Response {
+    let is_open = shown.is_measuring;
+    let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
+    ui.add_enabled(has_level && shown.are_views(state) || is_open, Button::new(say!("app-measure")).selected(is_open))
 }
 
 /// Shows the surface as it was opened for as long as it is held.
 fn before_button(ui: &mut Ui, views: &Views, ask: &mut impl FnMut(bool, Action)) {
-    let response = ui.add(Button::new("Before").sense(egui::Sense::click_and_drag()).selected(views.show_before));
-    let response = response.on_hover_text("Hold to see the surface as it was opened (or hold B)");
+    let response =
+        ui.add(Button::new(say!("app-before")).sense(egui::Sense::click_and_drag()).selected(views.show_before));
+    let response = response.on_hover_text(say!("app-before-help"));
     let is_held = response.is_pointer_button_down_on();
     ask(is_held != views.before_is_held, Action::HoldBefore(is_held));
 }
 
-fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, ask: &mut impl FnMut(bool, Action)) {
-    ask(ui.button("Fit").clicked(), Action::Fit);
+fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, shown: Shown, ask: &mut impl FnMut(bool, Action)) {
+    ask(ui.button(say!("app-fit")).clicked(), Action::Fit);
     ui.separator();
-    // The sides are those of LPS: of other axes they are sides of the surface alone.
-    let is_lps = state.document.as_ref().is_some_and(|document| document.import.axes == Axes::Lps);
+    // Where the patient's sides are not known they are sides of the surface alone.
+    let is_known = state.document.as_ref().is_some_and(|document| document.import.axes != Axes::Unknown);
     for view in StandardView::ALL {
-        ask(ui.button(view.label(is_lps)).clicked(), Action::View(view));
+        ask(ui.button(view.label(is_known)).clicked(), Action::View(view));
     }
     ui.separator();
     let mut chosen = options;
-    ui.checkbox(&mut chosen.flat, "Flat triangles").on_hover_text("Each triangle with its own normal");
-    ui.checkbox(&mut chosen.see_through, "See-through wireframe").on_hover_text("Shows hidden lines, faintly");
+    ui.checkbox(&mut chosen.flat, say!("app-flat")).on_hover_text(say!("app-flat-help"));
+    ui.checkbox(&mut chosen.raking, say!("app-raking")).on_hover_text(say!("app-raking-help"));
+    ui.checkbox(&mut chosen.occlusion, say!("app-occlusion")).on_hover_text(say!("app-occlusion-help"));
+    ui.checkbox(&mut chosen.see_through, say!("app-see-through")).on_hover_text(say!("app-see-through-help"));
+    ui.checkbox(&mut chosen.reveal_lines, say!("app-split-lines")).on_hover_text(say!("app-split-lines-help"));
     let maps = [
-        (
-            Colours::Deviation,
-            "Colour by deviation",
-            "Mean distance between this and the smoothed surface around each vertex, both ways, in mm",
-        ),
-        (
-            Colours::Calibre,
-            "Colour by change of calibre",
-            "How much wider or narrower each vessel is than as opened, in percent of its radius",
-        ),
+        (Colours::Deviation(chosen.deviation), Key("app-colour-deviation"), Key("app-colour-deviation-help")),
+        (Colours::Calibre, Key("app-colour-calibre"), Key("app-colour-calibre-help")),
+        (Colours::Classes, Key("app-colour-classes"), Key("app-colour-classes-help")),
     ];
     for (colours, text, help) in maps {
         let mut is_chosen = chosen.colours == colours;
-        if ui.checkbox(&mut is_chosen, text).on_hover_text(help).changed() {
+        if ui.checkbox(&mut is_chosen, text.say()).on_hover_text(help.say()).changed() {
             chosen.colours = chosen.colours.toggled(colours);
         }
+        if let Colours::Deviation(_) = colours
+            && is_chosen
+        {
+            deviation::choices(ui, &mut chosen.deviation);
+            chosen.colours = Colours::Deviation(chosen.deviation);
+        }
     }
+    ui.checkbox(&mut chosen.lines, say!("app-feature-lines")).on_hover_text(say!("app-feature-lines-help"));
     ask(chosen != options, Action::Show(chosen));
+    ui.separator();
+    let mut presents = shown.is_presenting;
+    let present = ui.checkbox(&mut presents, say!("app-present")).on_hover_text(say!("app-present-help"));
+    ask(present.clicked(), Action::Present);
+    ui.separator();
+    menu(ui, &say!("app-language"), &mut |ui| languages(ui, shown.language, ask));
+}
+
+/// The languages, each by its own name.
+fn languages(ui: &mut Ui, chosen: Option<Language>, ask: &mut impl FnMut(bool, Action)) {
+    ask(ui.radio(chosen.is_none(), say!("app-language-system")).clicked(), Action::Speak(None));
+    for language in Language::ALL {
+        ask(ui.radio(chosen == Some(language), language.name()).clicked(), Action::Speak(Some(language)));
+    }
+}
+
+/// Lessons, the steps of decimation, and the words that are used.
+fn learn(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl FnMut(bool, Action)) {
+    for (name, title, _) in lesson::LESSONS {
+        let begin = ui.button(title.say()).on_hover_text(say!("app-lesson-help"));
+        ask(begin.clicked(), Action::Lesson(lesson::Action::Open(name)));
+    }
+    let own = ui.button(say!("app-open-lesson")).on_hover_text(say!("app-open-lesson-help"));
+    ask(own.clicked(), Action::Lesson(lesson::Action::Choose));
+    ui.separator();
+    let mut is_open = views.collapses.is_open();
+    let box_of = egui::Checkbox::new(&mut is_open, say!("app-collapses"));
+    let help = say!("app-collapses-help");
+    let toggled = ui.add_enabled(shown.are_views(state), box_of).on_hover_text(help).changed();
+    ask(toggled, Action::Collapses(collapses::Action::Toggle));
+    let words = ui.button(say!("app-glossary")).on_hover_text(say!("app-glossary-help"));
+    ask(words.clicked(), Action::Lesson(lesson::Action::Glossary));
 }
 
 fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl FnMut(bool, Action)) {
-    ask(ui.add_enabled(state.history.can_undo(), Button::new("Undo")).clicked(), Action::Undo);
-    ask(ui.add_enabled(state.history.can_redo(), Button::new("Redo")).clicked(), Action::Redo);
+    ask(ui.add_enabled(state.history.can_undo(), Button::new(say!("app-undo"))).clicked(), Action::Undo);
+    ask(ui.add_enabled(state.history.can_redo(), Button::new(say!("app-redo"))).clicked(), Action::Redo);
     let mut chosen = views.options;
-    ui.checkbox(&mut chosen.before, "Show before");
+    ui.checkbox(&mut chosen.before, say!("app-show-before"));
     ask(chosen != views.options, Action::Show(chosen));
     let mut is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
-    ask(ui.checkbox(&mut is_split, "Split view").clicked(), Action::Reveal);
+    ask(ui.checkbox(&mut is_split, say!("app-split-view")).clicked(), Action::Reveal);
     ask(compare(ui, state, shown).clicked(), Action::Compare);
     ask(trial(ui, state, shown).clicked(), Action::ToggleTrial);
     let toggle = Action::Vessels(vessels::Action::Toggle);
     ask(vessels_button(ui, state, shown).clicked(), toggle);
-    ui.menu_button("View", |ui| view_menu(ui, state, views.options, ask));
-    ask(ui.button("Theme").clicked(), Action::Theme);
-    ask(ui.button("Help").clicked(), Action::Help);
-    ask(ui.button("About").clicked(), Action::About);
+    ask(measure_button(ui, state, shown).clicked(), Action::Measure(measure::Action::Toggle));
+    long_menu(ui, &say!("app-view"), &mut |ui| view_menu(ui, state, views.options, shown, ask));
+    long_menu(ui, &say!("app-learn"), &mut |ui| learn(ui, state, views, shown, ask));
+    ask(ui.button(say!("app-theme")).clicked(), Action::Theme);
+    ask(ui.button(say!("app-help")).clicked(), Action::Help);
+    ask(ui.button(say!("app-about")).clicked(), Action::About);
 }
 
 /// The bar below.
-pub(super) fn status(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut Vec<Action>) {
+pub(super) fn status(
+    ui: &mut Ui,
+    state: &State,
+    views: &Views,
+    drawing: Option<(String, f32)>,
+    is_narrow: bool,
+    asked: &mut Vec<Action>,
+) {
+    spoken::announce(ui, state);
     ui.horizontal_centered(|ui| {
-        if let Some((work, fraction)) = state.work {
+        if let Some((what, fraction)) = drawing {
+            progress(ui, fraction, if is_narrow { 96.0 } else { 160.0 }, &say!("app-progress"));
+            ui.label(format!("{what} {:.0} %", fraction * 100.0));
+            if ui.button(say!("app-cancel")).on_hover_text(say!("app-cancel-help")).clicked() {
+                asked.push(Action::Record(record::Action::Cancel));
+            }
+        } else if let Some((work, fraction)) = state.told_work() {
             let width = if is_narrow { 96.0 } else { 160.0 };
-            progress(ui, fraction, width, "Progress");
+            progress(ui, fraction, width, &say!("app-progress"));
             ui.label(format!("{} {:.0} %", work.label(), fraction * 100.0));
             if let Some(name) = state.opening().filter(|_| !is_narrow) {
                 ui.add(egui::Label::new(RichText::new(name).weak()).truncate());
             }
-            if ui.button("Cancel").on_hover_text("Esc").clicked() {
+            if ui.button(say!("app-cancel")).on_hover_text(say!("app-cancel-help")).clicked() {
                 asked.push(Action::Cancel);
             }
         } else if let Some(notice) = &state.notice {
             let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
             let text = RichText::new(&notice.text).color(colour);
-            let response = ui.add(egui::Label::new(text).truncate()).on_hover_text(&notice.text);
+            let response = ui.add(egui::Label::new(text).truncate()).on_hover_text(notice.text.clone());
             name(&response, Role::Label, &notice.text);
         } else if let Some(document) = &state.document {
-            ui.label(RichText::new(&document.name).weak());
+            ui.label(RichText::new(document.title()).weak());
         }
-        if !is_narrow || state.work.is_none() && state.notice.is_none() {
+        if !is_narrow || state.told_work().is_none() && state.notice.is_none() {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if !is_narrow {
-                    ui.label(RichText::new("Not for clinical decisions").small().weak());
+                    ui.label(RichText::new(say!("about-not-clinical")).small().weak());
                     ui.separator();
                 }
                 if let Some(shown) = state.document.as_ref().and_then(|document| document.shown.as_ref()) {
@@ -251,7 +368,7 @@ pub(super) fn status(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool,
                         ui.label(RichText::new(views.rate()).weak());
                         ui.separator();
                     }
-                    ui.label(format!("{} triangles", grouped(shown.level.triangles.len())));
+                    ui.label(say!("app-triangles", count = shown.level.triangles.len()));
                 }
             });
         }

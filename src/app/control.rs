@@ -3,12 +3,16 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, ProgressBar, Role, Slider, Ui};
+use egui::{DragValue, Key, Modifiers, ProgressBar, Role, Slider, Ui};
 
 use super::assist::{describe, name};
 use super::icon::{self, Icon};
+use super::swipe::Way;
+use super::theme;
+use crate::language::{inner, parse};
+use crate::say;
 
-/// Height of a row, in points.
+/// Height of a row where a mouse points, in points.
 const ROW: f32 = 20.0;
 
 /// A number that can be set.
@@ -50,25 +54,49 @@ impl Setting<'_> {
     }
 
     fn rows(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) {
-        ui.spacing_mut().interact_size.y = ROW;
+        ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
+        let way = Way::of(ui);
         ui.horizontal(|ui| {
-            ui.label(self.name).on_hover_text(self.help);
+            ui.label(self.name).on_hover_text(self.help.to_owned());
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 self.reset(ui, value);
-                self.typed(ui, value);
+                self.typed(ui, value, way);
             });
         });
         ui.spacing_mut().slider_width = ui.available_width();
         let step = if self.logarithmic { 0.0 } else { libm::pow(10.0, -(self.decimals as f64)) };
-        let slider = Slider::new(value, self.range.clone())
+        let slider = Slider::from_get_set(self.range.clone(), |set| way.take(value, set))
             .show_value(false)
             .logarithmic(self.logarithmic)
             .smart_aim(false)
             .step_by(step);
-        let response = ui.add(slider).on_hover_text(self.help);
+        let response = ui.add(slider).on_hover_text(self.help.to_owned());
+        way.scroll(ui, &response);
+        if response.has_focus() {
+            self.take_keys(ui, value);
+        }
         describe(&response, Role::Slider, self.name, *value);
         if let Some(mark) = mark {
             self.draw_mark(ui, response.rect, mark);
+        }
+    }
+
+    /// Page up and Page down go a tenth of the slider's way, Home and End to its ends.
+    fn take_keys(&self, ui: &Ui, value: &mut f64) {
+        let (low, high) = (*self.range.start(), *self.range.end());
+        let goes = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f64;
+        let tenths = goes(Key::PageUp) - goes(Key::PageDown);
+        if tenths != 0.0 {
+            *value = if self.logarithmic && low > 0.0 {
+                *value * libm::pow(high / low, tenths / 10.0)
+            } else {
+                *value + tenths / 10.0 * (high - low)
+            };
+        }
+        for (key, end) in [(Key::Home, low), (Key::End, high)] {
+            if goes(key) > 0.0 {
+                *value = end;
+            }
         }
     }
 
@@ -86,21 +114,25 @@ impl Setting<'_> {
         ui.painter().add(egui::Shape::convex_polygon(corners, ui.visuals().text_color(), egui::Stroke::NONE));
     }
 
-    fn typed(&self, ui: &mut Ui, value: &mut f64) {
-        let field = DragValue::new(value)
+    fn typed(&self, ui: &mut Ui, value: &mut f64, way: Way) {
+        let before = *value;
+        let field = reads_comma(DragValue::new(value), self.decimals == 0)
             .range(self.range.clone())
             .speed((self.range.end() - self.range.start()) / 1000.0)
             .max_decimals(self.decimals)
             .suffix(self.unit)
             .update_while_editing(false);
-        let response = ui.add(field).on_hover_text("Drag, or click to type");
-        describe(&response, Role::SpinButton, &format!("{} value", self.name), *value);
+        let response = ui.add(field).on_hover_text(say!("panel-type"));
+        if way.scroll(ui, &response) {
+            *value = before;
+        }
+        describe(&response, Role::SpinButton, &say!("panel-value", name = self.name), *value);
     }
 
     fn reset(&self, ui: &mut Ui, value: &mut f64) {
         let is_default = (*value - self.default).abs() < 1e-9;
-        let help = format!("Back to {}{}", self.default, self.unit);
-        let label = format!("Reset {}", self.name.to_lowercase());
+        let help = say!("panel-back-to", value = self.default, unit = self.unit);
+        let label = say!("panel-reset", name = inner(self.name));
         if icon::button(ui, Icon::Reset, !is_default, &label, &help).clicked() {
             *value = self.default;
         }
@@ -110,6 +142,11 @@ impl Setting<'_> {
         let scale = libm::pow(10.0, self.decimals as f64);
         ((value * scale).round() / scale).clamp(*self.range.start(), *self.range.end())
     }
+}
+
+/// Lets a field read what is typed with a decimal comma as with a point; `is_whole` where it holds a whole number.
+pub(super) fn reads_comma(field: DragValue<'_>, is_whole: bool) -> DragValue<'_> {
+    field.custom_parser(move |text| parse(text, is_whole))
 }
 
 /// How far work is: a bar of this width, on a rail that is seen on a panel.

@@ -1,10 +1,11 @@
 //! The surface that is open, as the app sees it: its pieces, its levels, the numbers.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::engine::{Calibre, Carried, Opened, Reduced, Source};
+use crate::engine::{Averaged, Calibre, Carried, Deviated, FaultsFound, Opened, Reduced, Source};
 use crate::io::{Axes, Format, ImportReport};
-use crate::mesh::{Bounds, TriMesh};
+use crate::mesh::{Bounds, TriMesh, compacted};
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
@@ -31,6 +32,11 @@ impl Pieces {
             Keep::Largest => self.by_size.first().copied(),
             Keep::Component(piece) => Some(piece),
         }
+    }
+
+    /// Whether what `keep` names is there.
+    pub fn has(&self, keep: Keep) -> bool {
+        !matches!(keep, Keep::Component(piece) if !self.by_size.contains(&piece))
     }
 }
 
@@ -67,8 +73,10 @@ pub struct Document {
     pub import: ImportReport,
     /// Whether the file itself says which way its axes point.
     pub states_axes: bool,
-    /// All of it.
+    /// All of it, mended where that was asked for.
     pub opened: Arc<TriMesh>,
+    /// What is wrong with it as the file has it, once that is known.
+    pub faults: Option<Box<FaultsFound>>,
     /// Its pieces.
     pub pieces: Pieces,
     /// All levels, once they are there, and the pieces they are made from.
@@ -81,6 +89,8 @@ pub struct Document {
     pub measured: Option<Measured>,
     /// What the level of the newest settings of which that is known makes of the vessels.
     pub calibre: Option<Arc<Calibre>>,
+    /// More of the deviation of the level of the newest settings of which that is known.
+    deviated: Option<Box<Deviated>>,
     /// What the file says of the level of the newest settings of which that is known.
     carried: Option<Box<Carried>>,
     /// How often a level was looked up.
@@ -90,6 +100,8 @@ pub struct Document {
     found: Option<(Target, u32)>,
     /// What the level that is shown was looked up for, as long as looking again would find the same.
     asked: Option<Target>,
+    /// What plain Laplacian smoothing makes of the surface, where that is shown beside the level.
+    averaged: Option<Box<Averaged>>,
     /// Counts up whenever the opened surface, the levels, the shown level and the numbers change: what is drawn
     /// compares them with those it was drawn from.
     pub revision: Revision,
@@ -102,6 +114,8 @@ pub struct Revision {
     pub document: u64,
     /// The opened surface and its pieces.
     pub opened: u64,
+    /// What is shown in its place.
+    pub averaged: u64,
     /// All levels.
     pub levels: u64,
     /// The level that is shown.
@@ -121,19 +135,30 @@ impl Document {
             states_axes: report.axes != Axes::Unknown,
             import: report,
             opened: mesh,
+            faults: None,
             pieces: Pieces::default(),
             levels: None,
             entering_vertices: 0,
             shown: None,
             measured: None,
             calibre: None,
+            deviated: None,
             carried: None,
+            averaged: None,
             #[cfg(test)]
             lookups: 0,
             found: None,
             asked: None,
             revision: Revision { document: id, ..Revision::default() },
         }
+    }
+
+    /// Takes another surface in place of the opened one; its pieces follow.
+    pub fn set_mended(&mut self, mesh: Arc<TriMesh>) {
+        self.opened = mesh;
+        self.set_averaged(None);
+        self.pieces = Pieces::default();
+        self.revision.opened += 1;
     }
 
     /// Takes the pieces.
@@ -217,6 +242,18 @@ impl Document {
         self.revision.measured += 1;
     }
 
+    /// Takes more of the deviation of a level.
+    pub fn set_deviated(&mut self, deviated: Box<Deviated>) {
+        self.deviated = Some(deviated);
+        self.revision.measured += 1;
+    }
+
+    /// More of the deviation of the level that is shown, if it is known.
+    pub(super) fn deviated_shown(&self) -> Option<&Deviated> {
+        let (deviated, measured) = (self.deviated.as_deref()?, self.measured.as_ref()?);
+        (deviated.generation == measured.generation && self.measures_shown()).then_some(deviated)
+    }
+
     /// Takes what the file says of a level.
     pub fn set_carried(&mut self, carried: Box<Carried>) {
         self.carried = Some(carried);
@@ -255,12 +292,41 @@ impl Document {
         (shown.level.triangles.len() <= pinch.triangles).then_some(pinch)
     }
 
+    /// What it is called to a user, in the language that is spoken.
+    pub fn title(&self) -> Cow<'_, str> {
+        self.source.label()
+    }
+
     /// What files that are made of it begin with.
     pub fn stem(&self) -> String {
         match self.name.rsplit_once('.') {
             Some((stem, _)) if Format::from_name(&self.name).is_some() => stem.to_owned(),
             _ => self.name.to_lowercase().replace(' ', "-"),
         }
+    }
+
+    /// Takes what plain Laplacian smoothing makes of the surface, to be shown where it would be as it was opened; `None` to
+    /// show that again.
+    pub fn set_averaged(&mut self, averaged: Option<Box<Averaged>>) {
+        if averaged.is_some() || self.averaged.is_some() {
+            self.revision.averaged += 1;
+        }
+        self.averaged = averaged.filter(|averaged| averaged.positions.len() == self.opened.positions.len());
+    }
+
+    /// What plain Laplacian smoothing makes of those pieces, where that is shown in place of the surface as it was opened.
+    pub fn averaged(&self, keep: Keep) -> Option<&Averaged> {
+        self.averaged.as_deref().filter(|averaged| averaged.keep == keep)
+    }
+
+    /// Those pieces as they are shown beside the level or in its place: as they were opened, or as plain Laplacian smoothing
+    /// leaves them.
+    pub fn before(&self, keep: Keep) -> TriMesh {
+        let positions = self.averaged(keep).map_or(&self.opened.positions, |averaged| &averaged.positions);
+        let piece = self.pieces.kept(keep).filter(|_| !self.pieces.labels.is_empty());
+        let is_kept = |t: &usize| piece.is_none_or(|piece| self.pieces.labels[*t] == piece);
+        let triangles = &self.opened.triangles;
+        compacted(positions, (0..triangles.len()).filter(is_kept).map(|t| triangles[t]).collect())
     }
 
     /// The shown level as a surface of its own.

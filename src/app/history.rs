@@ -61,6 +61,13 @@ impl<T: Clone + PartialEq> History<T> {
         Some(&self.present)
     }
 
+    /// The same of other values, made of these.
+    #[must_use]
+    pub fn map<U>(&self, of: impl Fn(&T) -> U) -> History<U> {
+        let all = |values: &[T]| values.iter().map(&of).collect();
+        History { undo: all(&self.undo), redo: all(&self.redo), present: of(&self.present) }
+    }
+
     /// The value that stands.
     pub fn present(&self) -> &T {
         &self.present

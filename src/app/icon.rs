@@ -5,6 +5,7 @@ use std::f32::consts::{PI, TAU};
 use egui::{Color32, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use super::assist::name;
+use super::theme;
 
 /// An icon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +26,11 @@ pub(super) enum Icon {
 
 /// A button that is an icon. `label` is its name for assistive tools, `help` what it does.
 pub(super) fn button(ui: &mut Ui, icon: Icon, enabled: bool, label: &str, help: &str) -> Response {
-    let size = if matches!(icon, Icon::Reset | Icon::Close) { 20.0 } else { ui.spacing().interact_size.y };
+    let size = if matches!(icon, Icon::Reset | Icon::Close) {
+        theme::row(ui.ctx(), 20.0)
+    } else {
+        ui.spacing().interact_size.y
+    };
     let sense = if enabled { Sense::click() } else { Sense::hover() };
     let (rect, response) = ui.allocate_exact_size(vec2(size, size), sense);
     let visuals = ui.style().interact(&response);
@@ -34,7 +39,7 @@ pub(super) fn button(ui: &mut Ui, icon: Icon, enabled: bool, label: &str, help: 
     }
     let colour = if enabled { visuals.fg_stroke.color } else { ui.visuals().weak_text_color().gamma_multiply(0.5) };
     draw(ui.painter(), rect, icon, colour);
-    let response = response.on_hover_text(help);
+    let response = response.on_hover_text(help.to_owned());
     response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, enabled, label));
     if enabled {
         name(&response, Role::Button, label);

@@ -6,8 +6,8 @@
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
 use super::action::Action;
-use super::vessels;
 use super::views::{Colours, ViewOptions, Views};
+use super::{measure, vessels};
 use crate::io::Format;
 use crate::render::StandardView;
 
@@ -101,7 +101,13 @@ pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
         return Some(Action::Show(ViewOptions { left_out: !options.left_out, ..options }));
     }
     if pressed(Key::D) {
-        return Some(Action::Show(ViewOptions { colours: options.colours.toggled(Colours::Deviation), ..options }));
+        return Some(Action::Show(ViewOptions {
+            colours: options.colours.toggled(Colours::Deviation(options.deviation)),
+            ..options
+        }));
+    }
+    if pressed(Key::K) {
+        return Some(Action::Show(ViewOptions { raking: !options.raking, ..options }));
     }
     if pressed(Key::R) {
         return Some(Action::Reveal);
@@ -109,8 +115,14 @@ pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
     if pressed(Key::V) {
         return Some(Action::Vessels(vessels::Action::Toggle));
     }
+    if pressed(Key::M) {
+        return Some(Action::Measure(measure::Action::Toggle));
+    }
     if pressed(Key::F) {
         return Some(Action::Fit);
+    }
+    if pressed(Key::P) {
+        return Some(Action::Present);
     }
     if pressed(Key::C) {
         return Some(Action::Compare);

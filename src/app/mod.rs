@@ -4,34 +4,59 @@
 //! - [`LumenApp`]: the app, frame by frame; [`Action`]: all that can be asked of it. [`LastingApp`]: it outlives the
 //!   graphics device (`paint_guard`: and paints nothing with one that is gone).
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
-//! - `panel`, `numbers`, `bar`, `sheets`, `keys`: the controls; `row`, `control`, `response`, `icon` what they are made of,
-//!   `assist` what assistive tools are told of them, `theme` the look.
+//! - `panel`, `numbers`, `bar`, `sheets`, `keys`: the controls; `row`, `control`, `swipe`, `response`, `error_plot`, `icon` what they are
+//!   made of, `assist` what assistive tools are told of them, `theme` the look.
+//! - `drawer`: the panel of a phone; `tabs`: one large view there.
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
 //! - [`trial`]: the guidewire trial.
 //! - [`scan`]: a scan or a mask, before there is a surface.
 //! - [`vessels`]: what became of the calibre of each vessel.
+//! - [`record`]: reports, pictures and turntables, drawn by `portrait`.
+//! - [`lesson`]: lessons and the glossary; [`collapses`]: the steps of decimation, one by one.
+//! - [`measure`]: measures on the surface, and the plane that cuts it open.
+//! - [`deviation`]: how far the level is from what it was, in colours.
+//! - `mending`: what is wrong with a file, where, and what is done about it.
+//! - `presenter`: for a projector; `spoken`: for those who do not see the window; `speech`: in which
+//!   language; `lettering`: over pictures for files.
+//! - `classes`: the vertex classes of the level that is shown, as colours and lines.
 //! - `views`: the two 3-D views; `scene` what stands in GPU memory, `window_texture` what of it the window shows,
-//!   `overlay` what is written over them.
+//!   `overlay` what is written over them, `halo` how it is kept legible there, `flight` how their camera goes to a place.
 
 mod action;
 mod arrays;
 mod assist;
 mod axes;
 mod bar;
+mod classes;
+pub mod collapses;
 pub mod compare;
 mod control;
+pub mod deviation;
 pub mod document;
+mod drawer;
+mod error_plot;
+mod flight;
+mod halo;
 pub mod history;
 mod icon;
 mod keys;
+mod large;
 mod lasting;
+pub mod lesson;
+mod lettering;
 mod lumen_app;
+pub mod measure;
+mod mending;
+mod menus;
 mod numbers;
 mod overlay;
 mod paint_guard;
 mod panel;
 mod platform;
+mod portrait;
+mod presenter;
+pub mod record;
 mod recovery;
 mod response;
 mod reveal;
@@ -40,7 +65,12 @@ pub mod scan;
 mod scene;
 mod sharing;
 mod sheets;
+mod speech;
+mod spoken;
 mod state;
+mod still_plot;
+mod swipe;
+mod tabs;
 mod theme;
 pub mod trial;
 mod verdict;
@@ -51,8 +81,13 @@ mod window_texture;
 pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
-pub use self::platform::{Devices, Gamepad, Listing, Offer, Platform, PlatformEvent, Store, Waker};
+pub use self::mending::FaultShown;
+pub use self::platform::{
+    Devices, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, SHAKE_MS, Store, Tone, Waker,
+};
+#[cfg(not(target_arch = "wasm32"))]
+pub use self::portrait::report_pictures;
 pub use self::reveal::Reveal;
 pub use self::sheets::Sheet;
-pub use self::state::{Effect, Notice, State};
+pub use self::state::{Effect, Notice, State, Step};
 pub use self::views::{Colours, ViewOptions, Views};

@@ -1,35 +1,38 @@
 //! The numbers of a shape, each with its unit and what it says.
 
-use egui::{RichText, Ui};
+use egui::{CollapsingHeader, RichText, Ui};
 
 use super::row::number;
+use crate::language::{Key, decimal};
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::Report;
 use crate::pipeline::shape::Shape;
+use crate::say;
 
 /// Shows the shape of the level and, where it is known, that of the smoothed surface; folded up at first.
 pub(super) fn shape(ui: &mut Ui, report: Option<&Report>) {
-    ui.collapsing("Shape", |ui| {
+    CollapsingHeader::new(say!("panel-shape")).id_salt("Shape").show(ui, |ui| {
         let level = report.and_then(|report| report.output_shape.as_ref());
         let smoothed = report.and_then(|report| report.smoothed_shape.as_ref());
         for row in &ROWS {
             let cell = |shape: Option<&Shape>| shape.and_then(row.value);
             let text = match (cell(level), cell(smoothed)) {
-                (Some(now), Some(before)) => format!("{}, was {}", row.text(now), row.text(before)),
+                (Some(now), Some(before)) => say!("panel-shape-was", now = row.text(now), before = row.text(before)),
                 (Some(now), None) => row.text(now),
                 _ => "–".to_owned(),
             };
-            number(ui, row.name, &text, row.help);
+            number(ui, &row.name.say(), &text, &row.help.say());
         }
         if let Some(Narrowest { at_mm: [x, y, z], .. }) = level.and_then(|shape| shape.smallest_lumen) {
-            ui.label(RichText::new(format!("Narrowest at ({x:.1}, {y:.1}, {z:.1}) mm")).small().weak());
+            let [x, y, z] = [x, y, z].map(|x| decimal(x, 1));
+            ui.label(RichText::new(say!("panel-shape-narrowest", x = x, y = y, z = z)).small().weak());
         }
     });
 }
 
 struct Row {
-    name: &'static str,
-    help: &'static str,
+    name: Key,
+    help: Key,
     unit: &'static str,
     decimals: usize,
     value: fn(&Shape) -> Option<f64>,
@@ -37,35 +40,35 @@ struct Row {
 
 impl Row {
     fn text(&self, value: f64) -> String {
-        format!("{value:.*}{}", self.decimals, self.unit)
+        format!("{}{}", decimal(value, self.decimals), self.unit)
     }
 }
 
 const ROWS: [Row; 4] = [
     Row {
-        name: "Roughness",
-        help: "RMS angle between neighbouring triangles; \"was\" is the smoothed surface. Fewer triangles bend more.",
+        name: Key("panel-roughness"),
+        help: Key("panel-roughness-help"),
         unit: "°",
         decimals: 1,
         value: |shape| Some(shape.roughness?.rms_deg),
     },
     Row {
-        name: "Slivers",
-        help: "Triangles with an angle below 10 degrees, as a part of all",
+        name: Key("panel-slivers"),
+        help: Key("panel-slivers-help"),
         unit: " %",
         decimals: 1,
         value: |shape| Some(shape.angles.as_ref()?.below_10_percent),
     },
     Row {
-        name: "Self-intersecting",
-        help: "Triangles that run into others",
+        name: Key("panel-self-intersecting"),
+        help: Key("panel-self-intersecting-help"),
         unit: "",
         decimals: 0,
         value: |shape| Some(shape.self_intersecting_faces as f64),
     },
     Row {
-        name: "Smallest lumen",
-        help: "Diameter of the vessels where they are narrowest: of the largest ball inside that touches the wall",
+        name: Key("panel-smallest-lumen"),
+        help: Key("panel-smallest-lumen-help"),
         unit: " mm",
         decimals: 2,
         value: |shape| Some(shape.smallest_lumen?.diameter_mm),

@@ -3,10 +3,12 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
-use super::arrays;
+use super::{arrays, halo};
 use crate::io::Axes;
+use crate::language::{Key, decimal, grouped};
 use crate::mesh::{ArrayInfo, Vec3};
-use crate::render::{Camera, ColourMap, viridis};
+use crate::render::{Camera, ColourMap, diverging, viridis};
+use crate::say;
 
 /// What to write.
 pub(super) struct Writing<'a> {
@@ -25,12 +27,12 @@ pub(super) struct Writing<'a> {
 }
 
 /// What colours mean.
-#[derive(Clone, Copy)]
+#[derive(Clone, Debug)]
 pub(super) struct Legend {
     /// The colour map; its range is in `unit`.
     pub map: ColourMap,
     /// What has these colours.
-    pub title: &'static str,
+    pub title: String,
     /// The unit.
     pub unit: &'static str,
     /// Digits after the point.
@@ -40,35 +42,39 @@ pub(super) struct Legend {
     /// Whether the first colour is that of smaller values too.
     pub is_open_below: bool,
     /// What is said below the colours.
-    pub note: &'static str,
+    pub note: String,
+    /// Whether they go both ways from white.
+    pub is_diverging: bool,
+    /// Whether a histogram stands where the numbers at the ends do otherwise: they are above and below the colours.
+    pub has_histogram: bool,
 }
 
 const MARGIN: f32 = 12.0;
 
 /// What stands in every picture.
-pub(super) const NOT_CLINICAL: &str = "Not for clinical decisions";
+pub(super) const NOT_CLINICAL: Key = Key("about-not-clinical");
 
 /// Writes over the view in `rect`.
 pub(super) fn show(ui: &Ui, rect: Rect, writing: &Writing<'_>) {
     let painter = ui.painter_at(rect);
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
     let inner = rect.shrink(MARGIN);
-    painter.text(inner.left_top(), Align2::LEFT_TOP, writing.title, FontId::proportional(14.0), text);
+    halo::text(&painter, inner.left_top(), Align2::LEFT_TOP, writing.title, FontId::proportional(14.0), text);
     let small = FontId::proportional(12.0);
     if let Some(name) = writing.name {
         let galley = painter.layout(name.to_owned(), small.clone(), weak, inner.width() * 0.6);
-        painter.galley(inner.left_top() + vec2(0.0, 20.0), galley, weak);
+        halo::galley(&painter, inner.left_top() + vec2(0.0, 20.0), galley, weak);
         scale_bar(&painter, inner, rect.height(), writing.camera, text);
         orientation(&painter, inner, writing.camera, writing.axes, text);
     }
-    painter.text(inner.right_bottom(), Align2::RIGHT_BOTTOM, NOT_CLINICAL, small, weak);
+    halo::text(&painter, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), small, weak);
     if let Some(colours) = &writing.legend {
         legend(&painter, inner, colours, text);
     }
     match writing.array {
         Some(array) if array.labels.is_empty() => {
-            let bar = colour_bar(&painter, inner);
-            ends(&painter, bar, arrays::ends(array), &array.name, text);
+            let bar = colour_bar(&painter, inner, false);
+            ends(&painter, bar, arrays::ends(array), &array.name, text, false);
         }
         Some(array) => arrays::label_legend(&painter, inner, array, text),
         None => {}
@@ -84,9 +90,13 @@ pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera, axes: Axes) {
 
 /// A ring around a place, and what there is to say of it.
 pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str, colour: Color32) {
-    const RADIUS: f32 = 14.0;
     let Some(at) = camera.project(at, rect.width() / rect.height().max(1.0)) else { return };
-    let middle = rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0);
+    ring_at(ui, rect, rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0), label, colour);
+}
+
+/// The same around a point of the window; none where it is not in `rect`.
+pub(super) fn ring_at(ui: &Ui, rect: Rect, middle: Pos2, label: &str, colour: Color32) {
+    const RADIUS: f32 = 14.0;
     if !rect.contains(middle) {
         return;
     }
@@ -101,7 +111,7 @@ pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str, 
     let text = painter.layout_no_wrap(label.to_owned(), FontId::proportional(12.0), colour);
     let place = align.anchor_size(middle + vec2(beside, 0.0), text.size());
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, ui.visuals().window_fill.gamma_multiply(0.9));
-    painter.galley(place.min, text, colour);
+    halo::galley(&painter, place.min, text, colour);
 }
 
 /// A bar of a round number of millimetres, about a fifth of the view long.
@@ -111,15 +121,15 @@ fn scale_bar(painter: &Painter, inner: Rect, height: f32, camera: &Camera, colou
     let length = mm / mm_per_point;
     let (left, y) = (inner.left(), inner.bottom() - 4.0);
     let stroke = Stroke::new(1.5, colour);
-    painter.line_segment([pos2(left, y), pos2(left + length, y)], stroke);
-    for x in [left, left + length] {
-        painter.line_segment([pos2(x, y - 4.0), pos2(x, y + 4.0)], stroke);
-    }
-    let label = if mm >= 1.0 { format!("{mm:.0} mm") } else { format!("{mm} mm") };
+    let ends = [left, left + length];
+    let [first, last] = ends.map(|x| [pos2(x, y - 4.0), pos2(x, y + 4.0)]);
+    halo::lines(painter, &[ends.map(|x| pos2(x, y)), first, last], stroke);
+    let number = if mm >= 1.0 { decimal(mm, 0) } else { grouped(mm) };
+    let label = format!("{number} mm");
     // A label that is longer than its bar begins where the bar does.
     let text = painter.layout_no_wrap(label, FontId::proportional(12.0), colour);
     let at = pos2(left + ((length - text.size().x) / 2.0).max(0.0), y - 6.0 - text.size().y);
-    painter.galley(at, text, colour);
+    halo::galley(painter, at, text, colour);
 }
 
 /// The largest of 1, 2, 5, 10, 20, ... that is not above `mm`.
@@ -149,27 +159,42 @@ fn orientation(painter: &Painter, inner: Rect, camera: &Camera, axes: Axes, colo
     for (axis, letter) in axes {
         let end = middle + vec2(axis.x, -axis.y) * SIZE;
         let strength = 0.55 + 0.45 * (axis.z + 1.0) / 2.0;
-        let colour = colour.gamma_multiply(strength);
-        painter.line_segment([middle, end], Stroke::new(1.5, colour));
+        halo::lines(painter, &[[middle, end]], Stroke::new(1.5, colour.gamma_multiply(strength)));
         if axis.truncate().length() < 0.35 {
             continue;
         }
         let at: Pos2 = middle + vec2(axis.x, -axis.y) * (SIZE + 8.0);
-        painter.text(at, Align2::CENTER_CENTER, letter, FontId::proportional(11.0), colour);
+        halo::text(painter, at, Align2::CENTER_CENTER, letter, FontId::proportional(11.0), colour);
     }
     if is_unknown {
         let below = middle + vec2(SIZE + 8.0, SIZE + 20.0);
-        painter.text(below, Align2::RIGHT_CENTER, "Axes unknown", FontId::proportional(11.0), colour);
+        halo::text(
+            painter,
+            below,
+            Align2::RIGHT_CENTER,
+            &say!("views-axes-unknown"),
+            FontId::proportional(11.0),
+            colour,
+        );
     }
 }
 
+/// Where the colours stand in the view in `rect`.
+pub(super) fn colour_bar_in(rect: Rect) -> Rect {
+    bar_in(rect.shrink(MARGIN))
+}
+
+fn bar_in(inner: Rect) -> Rect {
+    Rect::from_min_size(pos2(inner.right() - 12.0, inner.center().y - 80.0), vec2(12.0, 160.0))
+}
+
 /// Draws the map's colours, the first below.
-fn colour_bar(painter: &Painter, inner: Rect) -> Rect {
+fn colour_bar(painter: &Painter, inner: Rect, is_diverging: bool) -> Rect {
     const STEPS: usize = 64;
-    let bar = Rect::from_min_size(pos2(inner.right() - 12.0, inner.center().y - 80.0), vec2(12.0, 160.0));
+    let bar = bar_in(inner);
     for i in 0..STEPS {
         let t = i as f32 / STEPS as f32;
-        let [r, g, b] = viridis(t).0;
+        let [r, g, b] = if is_diverging { diverging(t) } else { viridis(t) }.0;
         let top = bar.bottom() - bar.height() * (t + 1.0 / STEPS as f32);
         let piece = Rect::from_min_size(pos2(bar.left(), top), vec2(bar.width(), bar.height() / STEPS as f32 + 0.5));
         painter.rect_filled(piece, 0.0, Color32::from_rgb(r, g, b));
@@ -177,24 +202,32 @@ fn colour_bar(painter: &Painter, inner: Rect) -> Rect {
     bar
 }
 
-/// Writes beside a bar what its first and its last colour mean, and its title above.
-fn ends(painter: &Painter, bar: Rect, [low, high]: [String; 2], title: &str, colour: Color32) {
+/// Writes beside a bar, or above and below it, what its first and its last colour mean, and its title above.
+fn ends(painter: &Painter, bar: Rect, [low, high]: [String; 2], title: &str, colour: Color32, are_apart: bool) {
     let font = FontId::proportional(12.0);
-    for (y, text) in [(bar.bottom(), low), (bar.top(), high)] {
-        painter.text(pos2(bar.left() - 6.0, y), Align2::RIGHT_CENTER, text, font.clone(), colour);
+    let (title_at, low_at, high_at) = if are_apart {
+        let (below, above) = (bar.right_bottom() + vec2(0.0, 2.0), bar.right_top() - vec2(0.0, 2.0));
+        (26.0, (below, Align2::RIGHT_TOP), (above, Align2::RIGHT_BOTTOM))
+    } else {
+        let beside = |y: f32| (pos2(bar.left() - 6.0, y), Align2::RIGHT_CENTER);
+        (12.0, beside(bar.bottom()), beside(bar.top()))
+    };
+    for ((at, align), text) in [(low_at, low), (high_at, high)] {
+        halo::text(painter, at, align, &text, font.clone(), colour);
     }
-    painter.text(bar.center_top() - vec2(-6.0, 12.0), Align2::RIGHT_BOTTOM, title, font, colour);
+    halo::text(painter, bar.center_top() - vec2(-6.0, title_at), Align2::RIGHT_BOTTOM, title, font, colour);
 }
 
 fn legend(painter: &Painter, inner: Rect, legend: &Legend, colour: Color32) {
-    let bar = colour_bar(painter, inner);
+    let bar = colour_bar(painter, inner, legend.is_diverging);
     let (low, high) = legend.map.range;
-    let more = if legend.is_open { " and more" } else { "" };
-    let less = if legend.is_open_below { " and less" } else { "" };
-    let number = |value: f32, more: &str| format!("{value:.*} {}{more}", legend.decimals, legend.unit);
-    ends(painter, bar, [number(low, less), number(high, more)], legend.title, colour);
+    let [low, high] = [low, high].map(|value| format!("{} {}", decimal(value, legend.decimals), legend.unit));
+    let low = if legend.is_open_below { say!("views-legend-less", value = low) } else { low };
+    let high = if legend.is_open { say!("views-legend-more", value = high) } else { high };
+    ends(painter, bar, [low, high], &legend.title, colour, legend.has_histogram);
     let font = FontId::proportional(12.0);
-    painter.text(bar.right_bottom() + vec2(0.0, 14.0), Align2::RIGHT_TOP, legend.note, font, colour);
+    let below = if legend.has_histogram { 16.0 } else { 14.0 };
+    halo::text(painter, bar.right_bottom() + vec2(0.0, below), Align2::RIGHT_TOP, &legend.note, font, colour);
 }
 
 #[cfg(test)]

@@ -6,6 +6,10 @@ use crate::engine::Link;
 use crate::engine::scan::{NamedFile, ScanLink};
 use crate::engine::trial::TrialLink;
 use crate::haptics::service::{DeviceCommand, DeviceStatus};
+use crate::language::Language;
+
+/// What files end in that are no surfaces, and are opened like them: a trial's log, settings, a lesson.
+pub const OTHER_ENDINGS: [&str; 3] = ["csv", "json", "lesson"];
 
 /// A platform. Nothing here blocks: what takes time arrives through [`Platform::poll`].
 pub trait Platform {
@@ -26,15 +30,43 @@ pub trait Platform {
         None
     }
 
+    /// Lets that gamepad shake with so much of its strength, 0 to 1, for [`SHAKE_MS`]; 0 ends it at once. Not called where
+    /// none can.
+    fn rumble(&mut self, _strength: f64) {}
+
+    /// Whether it can sound. The desktop cannot: that would take a sound library.
+    fn has_sound(&self) -> bool {
+        false
+    }
+
+    /// Sounds so for [`SHAKE_MS`], in place of what sounded before. Not called where it cannot.
+    fn sound(&mut self, _tone: Tone) {}
+
     /// Whether keys that are let go will be heard of: a page that is seen beside the window in use hears none. The
     /// desktop is told by its window.
     fn has_attention(&self) -> bool {
         true
     }
 
+    /// Whether the window was left, if only for a moment, since this was asked last: what moves by itself ends. Where the
+    /// window's own events tell that, it is never so.
+    fn was_left(&self) -> bool {
+        false
+    }
+
     /// Whether the user asks for less motion on the screen.
     fn prefers_less_motion(&self) -> bool {
         false
+    }
+
+    /// Whether what points is a finger, as on a phone or a tablet.
+    fn has_finger(&self) -> bool {
+        false
+    }
+
+    /// The most memory, in bytes, that an engine can have; `None` where it is the machine's.
+    fn memory_limit(&self) -> Option<u64> {
+        None
     }
 
     /// Haptic devices; `None` where the platform has none.
@@ -52,14 +84,30 @@ pub trait Platform {
         None
     }
 
+    /// The language of the system, as a tag such as `de-AT` or a locale such as `fr_FR.UTF-8`; `None` where it states none.
+    fn locale(&self) -> Option<String> {
+        None
+    }
+
+    /// Fetches the messages of a language that the program has not in it: [`PlatformEvent::Texts`] has them, or
+    /// [`PlatformEvent::Failed`] says why there are none.
+    fn fetch_texts(&mut self, _language: Language) {}
+
+    /// Lets the engines speak a language, those too that are started later: `texts` are its messages, none for English,
+    /// which they have in them.
+    fn speak(&mut self, _language: Language, _texts: &str) {}
+
+    /// Says outside the window which language is spoken in it, by its tag: a page tells those who read it aloud.
+    fn show_language(&mut self, _tag: &'static str) {}
+
     /// The app goes on in another window: whatever has news wakes this one from now on.
     fn enter(&mut self, ctx: &egui::Context);
 
     /// Lets the user choose a file to open. Called while a click or key press is handled, as browsers demand.
     fn choose_file(&mut self, ctx: &egui::Context);
 
-    /// Starts to read a file that was dropped on the window.
-    fn read_dropped(&mut self, file: egui::DroppedFileHandle, ctx: &egui::Context);
+    /// Starts to read the files that were dropped on the window, at least one: a scan may stand in several.
+    fn read_dropped(&mut self, files: Vec<egui::DroppedFileHandle>, ctx: &egui::Context);
 
     /// Gives the user a file: a save dialog or a download.
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, ctx: &egui::Context);
@@ -165,7 +213,21 @@ pub struct Gamepad {
     pub roll: f32,
     /// Whether a shoulder button is held: faster.
     pub fast: bool,
+    /// Whether it has motors that can be told to shake it.
+    pub can_rumble: bool,
 }
+
+/// A tone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tone {
+    /// Its frequency, in Hz; above 0.
+    pub pitch_hz: f64,
+    /// Its amplitude as a part of the most that can be played, 0 (silent) to 1.
+    pub loudness: f64,
+}
+
+/// For how long a gamepad shakes, and a tone sounds, that is not told again, in ms.
+pub const SHAKE_MS: f64 = 100.0;
 
 /// What a platform reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -184,6 +246,13 @@ pub enum PlatformEvent {
     },
     /// The surface that was kept: its name and its bytes, or nothing.
     Restored(Option<(String, Vec<u8>)>),
+    /// The messages of a language that were asked for, or why they are not to be had.
+    Texts {
+        /// The language.
+        language: Language,
+        /// All its messages, one file after another.
+        texts: Result<String, String>,
+    },
     /// A scan was chosen or dropped.
     Scan {
         /// Its files.

@@ -2,6 +2,9 @@
 
 use egui::{Align, Label, Layout, RichText, Ui};
 
+use super::assist::heading;
+use super::theme;
+
 /// The head of a step of the method: its number and name, and what it does.
 pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
     if number > 1 {
@@ -9,7 +12,7 @@ pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
     }
     ui.horizontal(|ui| {
         ui.label(RichText::new(number.to_string()).heading().color(ui.visuals().hyperlink_color));
-        ui.label(RichText::new(title).heading());
+        heading(ui, title);
     });
     ui.add(Label::new(RichText::new(what).small().weak()).wrap());
 }
@@ -17,20 +20,24 @@ pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {
 /// What on the left, the control on the right.
 pub(super) fn row(ui: &mut Ui, what: &str, help: &str, control: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
-        ui.label(what).on_hover_text(help);
+        ui.label(what).on_hover_text(help.to_owned());
         ui.with_layout(Layout::right_to_left(Align::Center), control);
     });
 }
 
 /// A line of the numbers: what it is on the left, how much on the right.
 pub(super) fn number(ui: &mut Ui, what: &str, how_much: &str, help: &str) {
-    ui.spacing_mut().interact_size.y = 18.0;
+    let before = std::mem::replace(&mut ui.spacing_mut().interact_size.y, 18.0);
     let row = ui.horizontal(|ui| {
         ui.label(RichText::new(what).weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(how_much));
     });
+    if theme::suits_finger(ui.ctx()) {
+        // What follows may be for a finger.
+        ui.spacing_mut().interact_size.y = before;
+    }
     if !help.is_empty() {
-        row.response.on_hover_text(help);
+        row.response.on_hover_text(help.to_owned());
     }
 }
 

@@ -1,23 +1,25 @@
 //! What is in GPU memory, kept in step with the document: the level, the surface as it was opened, the pieces that
-//! are left out, and the two views' targets.
+//! are left out, slices of the scan behind them, and the two views' targets.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use egui::TextureId;
 
-use super::arrays;
 use super::document::{Document, Revision};
+use super::scan::SlicePicture;
 use super::views::Colours;
 use super::window_texture::WindowTarget;
+use super::{arrays, classes};
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
 use crate::pipeline::settings::Keep;
 use crate::render::{
-    Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError, unique_edges,
+    Camera, Colour, ColourMap, Drawable, GpuSlice, GpuSurface, Look, Renderer, Style, SurfaceError, unique_edges,
 };
 
-/// The two views, side by side, and what is revealed behind the first.
-pub(super) const VIEWS: usize = 3;
+/// The two views, side by side, and what is revealed behind each.
+pub(super) const VIEWS: usize = 4;
 
 /// What one view shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +36,8 @@ pub(super) struct Picture {
     pub before: bool,
     /// The pieces that are left out as well, faintly.
     pub left_out: bool,
+    /// The numbers of the slices behind it.
+    pub slices: Vec<u64>,
 }
 
 /// GPU memory and what stands in it.
@@ -44,13 +48,14 @@ pub(super) struct Scene {
     level: GpuSurface,
     before: GpuSurface,
     left_out: GpuSurface,
+    slices: Vec<(u64, GpuSlice)>,
     /// What the surfaces were made from.
     revision: Revision,
     /// What the scalars of the level mean, and whether it has any.
     scalars_of: Colours,
     has_scalars: bool,
-    before_of: Option<(u64, Keep)>,
-    left_out_of: Option<(u64, Keep)>,
+    before_of: Option<(u64, u64, u64, Keep)>,
+    left_out_of: Option<(u64, u64, Keep)>,
     normals: Vec<Vec3>,
     views: [WindowTarget<(Picture, Revision, Keep)>; VIEWS],
 }
@@ -69,13 +74,14 @@ impl Scene {
             level: surface()?,
             before: surface()?,
             left_out: surface()?,
+            slices: Vec::new(),
             revision: Revision::default(),
             scalars_of: Colours::None,
             has_scalars: false,
             before_of: None,
             left_out_of: None,
             normals: Vec::new(),
-            views: [view(), view(), view()],
+            views: [view(), view(), view(), view()],
             device,
             queue,
         })
@@ -97,39 +103,55 @@ impl Scene {
         };
         let Some(shown) = &document.shown else { return Ok(()) };
         let levels_changed = is_other || old.levels != new.levels;
-        if levels_changed {
-            self.level.set_positions(&self.device, &self.queue, &levels.positions)?;
-        }
         if levels_changed || old.shown != new.shown {
             let triangles = &shown.level.triangles;
-            vertex_normals_into(&mut self.normals, &levels.positions, triangles, Weighting::Area);
-            let edges = unique_edges(triangles, levels.positions.len());
+            // The nodes of a level come before all others.
+            let used = triangles.as_flattened().iter().max().map_or(0, |&last| last as usize + 1);
+            if levels_changed || used > self.level.node_count() {
+                // With those of finer levels, which follow as the slider moves.
+                let first = (used + used / 2).min(levels.positions.len());
+                self.level.set_positions(&self.device, &self.queue, &levels.positions[..first])?;
+            }
+            let positions = &levels.positions[..self.level.node_count()];
+            vertex_normals_into(&mut self.normals, positions, triangles, Weighting::Area);
+            let edges = unique_edges(triangles, positions.len());
             self.level.set_level(&self.device, &self.queue, triangles, &edges, &self.normals)?;
             self.has_scalars = false;
             self.level.set_scalars(&self.device, &self.queue, None)?;
         }
         let is_other_map = self.scalars_of != colours || old.measured != new.measured;
         if colours != Colours::None && (!self.has_scalars || is_other_map) {
-            let scalars = match colours {
-                Colours::Calibre => document.change_by_node().map(Cow::Borrowed),
-                Colours::None | Colours::Deviation => document.deviation_by_node().map(Cow::Borrowed),
-                Colours::Array(index) => document.array_by_node(index).map(Cow::Owned),
-            };
+            let scalars = scalars(document, colours);
             self.scalars_of = colours;
             self.has_scalars = scalars.is_some();
-            self.level.set_scalars(&self.device, &self.queue, scalars.as_deref())?;
+            let of_nodes = scalars.as_deref().map(|all| all.get(..self.level.node_count()).unwrap_or(all));
+            self.level.set_scalars(&self.device, &self.queue, of_nodes)?;
         }
         self.revision = new;
         Ok(())
     }
 
-    /// Uploads the surface as it was opened: the pieces that are kept.
+    /// Brings the slices in memory up to those that are shown.
+    ///
+    /// # Errors
+    /// When the device does not allow a buffer.
+    pub(super) fn follow_slices(&mut self, shown: &[Arc<SlicePicture>]) -> Result<(), SurfaceError> {
+        self.slices.retain(|(serial, _)| shown.iter().any(|slice| slice.serial == *serial));
+        for slice in shown {
+            if !self.slices.iter().any(|(serial, _)| *serial == slice.serial) {
+                let made = GpuSlice::new(&self.device, &self.queue, slice.size, &slice.pixels, slice.corners)?;
+                self.slices.push((slice.serial, made));
+            }
+        }
+        Ok(())
+    }
+
+    /// Uploads the surface as it was opened, or what is shown in its place: the pieces that are kept.
     fn follow_before(&mut self, document: &Document, keep: Keep) -> Result<(), SurfaceError> {
-        let of = (document.revision.document, keep);
+        let Revision { document: open, opened, averaged, .. } = document.revision;
+        let of = (open, opened, averaged, keep);
         if self.before_of != Some(of) && !document.pieces.labels.is_empty() {
-            let kept = document.pieces.kept(keep);
-            let is_kept = |t: usize| kept.is_none_or(|piece| document.pieces.labels[t] == piece);
-            upload(&self.device, &self.queue, &mut self.before, &document.opened.filtered(is_kept))?;
+            upload(&self.device, &self.queue, &mut self.before, &document.before(keep))?;
             self.before_of = Some(of);
         }
         Ok(())
@@ -137,7 +159,7 @@ impl Scene {
 
     /// Uploads the pieces that are not kept.
     fn follow_left_out(&mut self, document: &Document, keep: Keep) -> Result<(), SurfaceError> {
-        let of = (document.revision.document, keep);
+        let of = (document.revision.document, document.revision.opened, keep);
         if self.left_out_of != Some(of) && !document.pieces.labels.is_empty() {
             let kept = document.pieces.kept(keep);
             let is_out = |t: usize| kept.is_some_and(|piece| document.pieces.labels[t] != piece);
@@ -177,9 +199,16 @@ impl Scene {
         }
         let style = Style { map: picture.style.map.filter(|_| self.has_scalars && !picture.before), ..picture.style };
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("view") });
-        self.renderer.draw(&self.device, &mut encoder, target, &picture.camera, &drawables, &style);
+        let slices: Vec<&GpuSlice> = self.slices.iter().map(|(_, slice)| slice).collect();
+        let what = (&drawables[..], &slices[..]);
+        self.renderer.draw_among(&self.device, &mut encoder, target, &picture.camera, what, &style);
         self.queue.submit([encoder.finish()]);
         Ok(view.id())
+    }
+
+    /// The normals of the level's vertices, by node.
+    pub(super) fn normals(&self) -> &[Vec3] {
+        &self.normals
     }
 
     /// Whether the level has scalars for a colour map.
@@ -188,16 +217,39 @@ impl Scene {
     }
 }
 
-/// The map of these colours: deviations from nothing to the 95th percentile, changes of calibre to twice what is allowed,
+/// A number for each node of the level that is shown, for these colours; `None` until they are known.
+pub(super) fn scalars(document: &Document, colours: Colours) -> Option<Cow<'_, [f32]>> {
+    match colours {
+        Colours::Calibre => document.change_by_node().map(Cow::Borrowed),
+        Colours::None => None,
+        Colours::Deviation(shown) => document.deviation_scalars(shown),
+        Colours::Classes => classes::labels(document).map(Cow::Owned),
+        Colours::Array(index) => document.array_by_node(index).map(Cow::Owned),
+    }
+}
+
+/// The style in which these colours are drawn.
+pub(super) fn coloured(style: Style, document: Option<&Document>, colours: Colours) -> Style {
+    let map = document.and_then(|document| colour_map(document, colours));
+    let array = document.and_then(|document| arrays::chosen(document, colours));
+    let by_vertex = colours == Colours::Classes;
+    Style {
+        map,
+        by_vertex,
+        labels: by_vertex || array.is_some_and(|info| !info.labels.is_empty()),
+        diverging: colours.are_diverging(),
+        ..style
+    }
+}
+
+/// The map of these colours: deviations up to what is chosen, changes of calibre to twice what is allowed,
 /// both ways.
 pub(super) fn colour_map(document: &Document, colours: Colours) -> Option<ColourMap> {
     let range = match colours {
         Colours::None => return None,
+        Colours::Classes => (0.0, 1.0),
         Colours::Array(_) => return arrays::chosen(document, colours).map(|_| arrays::colour_map()),
-        Colours::Deviation => {
-            let deviation = document.measured.as_ref()?.report.deviation_mm?;
-            (0.0, (deviation.p95 as f32).max(1e-6))
-        }
+        Colours::Deviation(shown) => return document.deviation_map(shown),
         Colours::Calibre => {
             let found = document.calibre.as_ref()?.found.as_ref().ok()?;
             let most = (2.0 * found.tolerance_percent as f32).max(0.2);

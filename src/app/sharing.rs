@@ -6,7 +6,11 @@ use super::platform::Platform;
 use super::state::State;
 use crate::engine::{Link as EngineLink, Source};
 use crate::io::Unit;
-use crate::sharing::{Link, SharedSettings, SharedSurface, ShortDigest, read_settings, write_settings};
+use crate::pipeline::settings::Settings;
+use crate::say;
+use crate::sharing::{
+    Link, Measured, SharedSettings, SharedSurface, ShortDigest, read_settings_and, write_settings_and,
+};
 
 /// Something of what is shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,34 +42,42 @@ impl Sharing {
             Action::SaveSettings => {
                 let stem = state.document.as_ref().map_or("lumen".to_owned(), Document::stem);
                 let name = format!("{stem}-settings{ENDING}");
-                platform.offer_file(&name, write_settings(&shared(state)).into_bytes(), ctx);
+                let of = surface(state).filter(|_| !state.measures.is_empty()).map(known_by);
+                if of.is_none() && !state.measures.is_empty() {
+                    state.leave_out(&say!("app-measures-not-saved"));
+                }
+                let measured = of.map(|of| Measured { of, measures: state.measures.to_vec() });
+                platform.offer_file(&name, write_settings_and(&shared(state), measured).into_bytes(), ctx);
             }
             Action::CopyLink => match (platform.address(), surface(state)) {
                 (Some(address), Some(surface)) => {
                     let link = Link { surface, shared: shared(state) };
                     ctx.copy_text(format!("{address}#{}", link.fragment()));
-                    state.tell(
-                        "The link was copied. It has the settings and the first digits of the file's hash, and nothing of \
-                         the surface: whoever opens it needs the same file.",
-                    );
+                    let text = match surface {
+                        SharedSurface::File(_) => say!("app-link-copied-file"),
+                        SharedSurface::Sample(_) => say!("app-link-copied-sample"),
+                    };
+                    state.tell(&text);
                 }
-                _ => state.tell("There is nothing yet that a link could be to."),
+                _ => state.tell(&say!("app-link-nothing")),
             },
         }
     }
 
     /// Takes the settings of a file.
     pub(super) fn take_file(name: &str, bytes: &[u8], state: &mut State, link: &mut dyn EngineLink) {
-        match read_settings(bytes) {
-            Ok(shared) => {
-                let other_unit = shared.unit.filter(|&unit| unit_of(state).is_some_and(|present| present != unit));
+        match read_settings_and(bytes) {
+            Ok((shared, measured)) => {
+                let unit = shared.unit;
                 apply(shared, state);
-                if let Some(unit) = other_unit {
-                    state.set_unit(unit, link);
+                let is_read_again = take_unit(unit, state, link);
+                let mut text = say!("app-settings-taken", name = name);
+                if let Some(measured) = measured {
+                    text = format!("{text} {}", take_measures(measured, is_read_again, state));
                 }
-                state.tell(&format!("The settings of {name} are in force."));
+                state.tell(&text);
             }
-            Err(error) => state.warn(&format!("{name}: {error}")),
+            Err(error) => state.warn(&say!("app-open-failed", name = name, why = error.to_string())),
         }
     }
 
@@ -75,16 +87,20 @@ impl Sharing {
             Ok(followed) => followed,
             Err(error) => return state.warn(&error.to_string()),
         };
-        apply(followed.shared.clone(), state);
         if surface(state) == Some(followed.surface) {
-            state.tell("The settings of the link are in force.");
+            apply(followed.shared.clone(), state);
+            let is_read_again = take_unit(followed.shared.unit, state, link);
+            state.tell(&say!("app-link-taken"));
+            self.followed = is_read_again.then_some(followed);
             return;
         }
-        if let SharedSurface::Sample(sample) = followed.surface {
-            state.open_sample(sample, link);
-        }
-        if let SharedSurface::File(digits) = followed.surface {
-            ask_for(digits, state);
+        // Its piece is one of its own surface.
+        let keep = state.settings.keep;
+        let settings = Settings { keep, ..followed.shared.settings.clone() };
+        apply(SharedSettings { settings, ..followed.shared }, state);
+        match followed.surface {
+            SharedSurface::Sample(sample) => state.open_sample(sample, link),
+            SharedSurface::File(digits) => ask_for(digits, state),
         }
         self.followed = Some(followed);
     }
@@ -96,19 +112,22 @@ impl Sharing {
     }
 
     /// Hears that a surface was opened: is it the link's?
-    pub(super) fn opened(&mut self, state: &mut State) {
+    pub(super) fn opened(&mut self, state: &mut State, link: &mut dyn EngineLink) {
         let (Some(followed), Some(opened)) = (&self.followed, surface(state)) else { return };
         match (opened, followed.surface) {
             (opened, wanted) if opened == wanted => {
                 // Another unit or piece than the link's may have been chosen meanwhile.
                 apply(followed.shared.clone(), state);
-                state.tell("This is what the link belongs to: you see the same.");
-                self.followed = None;
+                // Read in another unit, it is opened once more.
+                if !take_unit(followed.shared.unit, state, link) {
+                    state.tell(&say!("app-link-same"));
+                    self.followed = None;
+                }
             }
-            (SharedSurface::File(opened), SharedSurface::File(wanted)) => state.warn(&format!(
-                "This is another file than the one that the link belongs to: its SHA-256 begins with {opened}, not with \
-                 {wanted}. The settings are those of the link."
-            )),
+            (SharedSurface::File(opened), SharedSurface::File(wanted)) => {
+                let (opened, wanted) = (opened.to_string(), wanted.to_string());
+                state.warn(&say!("app-link-other-file", opened = opened, wanted = wanted));
+            }
             (SharedSurface::Sample(_), SharedSurface::File(wanted)) => ask_for(wanted, state),
             (_, SharedSurface::Sample(_)) => self.followed = None,
         }
@@ -116,9 +135,7 @@ impl Sharing {
 }
 
 fn ask_for(digits: ShortDigest, state: &mut State) {
-    state.tell(&format!(
-        "This link belongs to a file whose SHA-256 begins with {digits}; open it and you will see the same."
-    ));
+    state.tell(&say!("app-link-needs-file", digits = digits.to_string()));
 }
 
 /// The settings in force.
@@ -126,10 +143,47 @@ fn shared(state: &State) -> SharedSettings {
     SharedSettings { unit: asked_unit(state), settings: state.settings.clone() }
 }
 
+/// Brings settings into force; where the piece that they keep is not there, the one that is kept stays.
 fn apply(shared: SharedSettings, state: &mut State) {
     // One step to undo, whatever was changed before it.
-    state.history.record(&state.settings);
-    state.settings = shared.settings;
+    state.record();
+    let settings = shared.settings;
+    let has_piece = state.document.as_ref().is_none_or(|document| document.pieces.has(settings.keep));
+    let keep = if has_piece { settings.keep } else { state.settings.keep };
+    state.settings = Settings { keep, ..settings };
+}
+
+/// Takes the measures of a file in place of those that are shown, if they were made on the surface that is open; says in a
+/// sentence what came of them.
+fn take_measures(measured: Measured, is_read_again: bool, state: &mut State) -> String {
+    if surface(state).map(known_by) != Some(measured.of) {
+        return say!("app-measures-of-other");
+    }
+    if is_read_again {
+        return say!("app-measures-too-early");
+    }
+    state.measures = std::sync::Arc::new(measured.measures);
+    say!("app-measures-shown")
+}
+
+/// By what a settings file knows a surface.
+fn known_by(surface: SharedSurface) -> String {
+    match surface {
+        SharedSurface::File(digits) => digits.to_string(),
+        SharedSurface::Sample(sample) => sample.to_string(),
+    }
+}
+
+/// Reads the file that is open again where its numbers were taken in another unit than this, `None` being that of its
+/// format; says whether it does.
+fn take_unit(unit: Option<Unit>, state: &mut State, link: &mut dyn EngineLink) -> bool {
+    let Some(document) = &state.document else { return false };
+    let Source::File { options, .. } = &document.source else { return false };
+    let is_other = options.unit != unit && unit != Some(document.import.unit);
+    if is_other {
+        state.set_unit(unit, link);
+    }
+    is_other
 }
 
 /// By what the surface that is open is known.
@@ -148,10 +202,4 @@ fn asked_unit(state: &State) -> Option<Unit> {
         Source::File { options, .. } => options.unit,
         Source::Sample { .. } | Source::Made { .. } => None,
     }
-}
-
-/// The unit that the numbers of the file were taken in; none for a sample, which has its own.
-fn unit_of(state: &State) -> Option<Unit> {
-    let document = state.document.as_ref()?;
-    matches!(document.source, Source::File { .. }).then_some(document.import.unit)
 }

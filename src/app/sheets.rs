@@ -1,8 +1,12 @@
 //! The sheets over the window: keys and gestures, and what Lumen is.
 
-use egui::{Grid, Id, Modal, RichText, Ui};
+use egui::{Grid, Id, Label, Modal, RichText, ScrollArea, Ui};
 
-use crate::pipeline::report::DISCLAIMER;
+use super::assist::heading;
+use super::lesson::glossary;
+use super::theme;
+use crate::language::Key;
+use crate::say;
 
 /// A sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,50 +15,57 @@ pub enum Sheet {
     Help,
     /// What Lumen is.
     About,
+    /// The words of the method.
+    Glossary,
 }
 
-const KEYS: [(&str, &str); 20] = [
-    ("Drag", "Turn"),
-    ("Shift or right button + drag, two fingers", "Move"),
-    ("Wheel, pinch", "Zoom towards the pointer"),
-    ("Arrows, + and -", "Turn and zoom"),
-    ("F, double click", "Fit into the view"),
-    ("1 to 6", "Anterior, posterior, left, right, superior, inferior"),
-    ("B, held", "The surface as it was opened"),
-    ("R", "As opened and as it is now in one picture; drag the line between"),
-    ("L", "Show what is left out; click a piece to keep it"),
-    ("D", "Colour by deviation"),
-    ("V", "The vessels and what became of their calibre"),
-    ("C", "Compare several settings; Enter takes the focused one"),
-    ("Ctrl+O", "Open"),
-    ("Ctrl+S", "Save as STL"),
-    ("Ctrl+Z", "Undo"),
-    ("Ctrl+Shift+Z, Ctrl+Y", "Redo"),
-    ("Esc", "Close what is on top, cancel, leave the comparison"),
-    ("T", "Light or dark"),
-    ("Tab", "Next control; arrows move a slider"),
-    ("F1", "This sheet"),
+const KEYS: [(Key, Key); 24] = [
+    (Key("app-key-drag"), Key("app-key-drag-does")),
+    (Key("app-key-move"), Key("app-key-move-does")),
+    (Key("app-key-zoom"), Key("app-key-zoom-does")),
+    (Key("app-key-arrows"), Key("app-key-arrows-does")),
+    (Key("app-key-fit"), Key("app-key-fit-does")),
+    (Key("app-key-sides"), Key("app-key-sides-does")),
+    (Key("app-key-before"), Key("app-key-before-does")),
+    (Key("app-key-split"), Key("app-key-split-does")),
+    (Key("app-key-left-out"), Key("app-key-left-out-does")),
+    (Key("app-key-deviation"), Key("app-key-deviation-does")),
+    (Key("app-key-raking"), Key("app-key-raking-does")),
+    (Key("app-key-vessels"), Key("app-key-vessels-does")),
+    (Key("app-key-measure"), Key("app-key-measure-does")),
+    (Key("app-key-compare"), Key("app-key-compare-does")),
+    (Key("app-key-compare-first"), Key("app-key-compare-first-does")),
+    (Key("app-key-present"), Key("app-key-present-does")),
+    (Key("app-key-open"), Key("app-key-open-does")),
+    (Key("app-key-save"), Key("app-key-save-does")),
+    (Key("app-key-undo"), Key("app-key-undo-does")),
+    (Key("app-key-redo"), Key("app-key-redo-does")),
+    (Key("app-key-escape"), Key("app-key-escape-does")),
+    (Key("app-key-theme"), Key("app-key-theme-does")),
+    (Key("app-key-tab"), Key("app-key-tab-does")),
+    (Key("app-key-sheet"), Key("app-key-sheet-does")),
 ];
 
 /// What the keys do while a trial is shown.
-const TRIAL_KEYS: [(&str, &str); 17] = [
-    ("W and S, up and down", "Feed and withdraw the wire"),
-    ("A and D, left and right", "Roll it left and right"),
-    ("Shift with these", "Faster"),
-    ("Gamepad (in a browser)", "Left stick feeds, right stick rolls"),
-    ("G", "Autopilot"),
-    ("Space", "Fluoroscopy on or off"),
-    ("C", "A puff of contrast"),
-    ("1 to 4", "C-arm: AP, LAO 45, LAT, RAO 30"),
-    ("Drag in the fluoroscopy", "Turn the C-arm"),
-    ("Wheel, pinch there", "Magnify"),
-    ("R", "Restart"),
-    ("P", "Pause"),
-    ("Z", "A second back"),
-    ("M", "Slow motion"),
-    ("Esc", "Close what is on top, at last the trial"),
-    ("Drag, wheel in the vessel's view", "Turn, zoom"),
-    ("F1", "This sheet"),
+const TRIAL_KEYS: [(Key, Key); 18] = [
+    (Key("app-trial-key-feed"), Key("app-trial-key-feed-does")),
+    (Key("app-trial-key-roll"), Key("app-trial-key-roll-does")),
+    (Key("app-trial-key-faster"), Key("app-trial-key-faster-does")),
+    (Key("app-trial-key-gamepad"), Key("app-trial-key-gamepad-does")),
+    (Key("app-trial-key-autopilot"), Key("app-trial-key-autopilot-does")),
+    (Key("app-trial-key-fluoroscopy"), Key("app-trial-key-fluoroscopy-does")),
+    (Key("app-trial-key-enlarge"), Key("app-trial-key-enlarge-does")),
+    (Key("app-trial-key-contrast"), Key("app-trial-key-contrast-does")),
+    (Key("app-trial-key-arm"), Key("app-trial-key-arm-does")),
+    (Key("app-trial-key-turn-arm"), Key("app-trial-key-turn-arm-does")),
+    (Key("app-trial-key-magnify"), Key("app-trial-key-magnify-does")),
+    (Key("app-trial-key-restart"), Key("app-trial-key-restart-does")),
+    (Key("app-trial-key-pause"), Key("app-trial-key-pause-does")),
+    (Key("app-trial-key-back"), Key("app-trial-key-back-does")),
+    (Key("app-trial-key-slow"), Key("app-trial-key-slow-does")),
+    (Key("app-trial-key-escape"), Key("app-trial-key-escape-does")),
+    (Key("app-trial-key-view"), Key("app-trial-key-view-does")),
+    (Key("app-trial-key-sheet"), Key("app-trial-key-sheet-does")),
 ];
 
 /// Shows a sheet; says whether it should be closed. `in_trial`: whether a trial is shown, which has keys of its own.
@@ -66,34 +77,56 @@ pub(super) fn show(ui: &Ui, sheet: Sheet, in_trial: bool) -> bool {
             Sheet::Help if in_trial => help(ui, &TRIAL_KEYS),
             Sheet::Help => help(ui, &KEYS),
             Sheet::About => about(ui),
+            Sheet::Glossary => words(ui),
         }
         ui.add_space(8.0);
-        ui.vertical_centered(|ui| ui.button("Close").clicked()).inner
+        ui.vertical_centered(|ui| ui.button(say!("app-close")).clicked()).inner
     });
     response.inner || response.should_close()
 }
 
-fn help(ui: &mut Ui, keys: &[(&str, &str)]) {
-    ui.heading("Keys and gestures");
+fn help(ui: &mut Ui, keys: &[(Key, Key)]) {
+    heading(ui, &say!("app-keys"));
     ui.add_space(8.0);
-    ui.spacing_mut().interact_size.y = 20.0;
+    let before = std::mem::replace(&mut ui.spacing_mut().interact_size.y, 20.0);
     Grid::new("keys").num_columns(2).spacing([16.0, 6.0]).show(ui, |ui| {
         for &(key, what) in keys {
-            ui.label(RichText::new(key).weak());
-            ui.label(what);
+            ui.label(RichText::new(key.say()).weak());
+            ui.label(what.say());
             ui.end_row();
+        }
+    });
+    if theme::suits_finger(ui.ctx()) {
+        // For the button below.
+        ui.spacing_mut().interact_size.y = before;
+    }
+}
+
+fn words(ui: &mut Ui) {
+    heading(ui, &say!("app-glossary"));
+    ui.add_space(8.0);
+    // Heading, button and margins stay in the window.
+    let height = ui.ctx().content_rect().height() - 260.0;
+    ScrollArea::vertical().max_height(height.max(120.0)).show(ui, |ui| {
+        for (word, meaning) in glossary() {
+            ui.label(RichText::new(word).strong());
+            ui.add(Label::new(meaning).wrap());
+            ui.add_space(6.0);
         }
     });
 }
 
 fn about(ui: &mut Ui) {
-    ui.heading(format!("Lumen {}", env!("CARGO_PKG_VERSION")));
+    heading(ui, concat!("Lumen ", env!("CARGO_PKG_VERSION")));
     ui.add_space(8.0);
-    ui.label("Makes a blood-vessel surface from a CT or MR scan light enough to simulate on: keeps the largest piece, smooths it, reduces it.");
+    ui.label(say!("app-about-purpose"));
     ui.add_space(8.0);
-    ui.label("Everything happens on this machine. No file, and no part of one, is sent anywhere.");
+    ui.label(say!("app-about-privacy"));
     ui.add_space(8.0);
-    ui.label(RichText::new(DISCLAIMER).strong());
+    ui.label(RichText::new(format!("{}.", say!("about-not-clinical"))).strong());
     ui.add_space(8.0);
-    ui.label(RichText::new("Licence: MIT or Apache-2.0, as you choose.").weak());
+    ui.label(say!("app-about-method"));
+    ui.add_space(8.0);
+    ui.label(RichText::new(say!("app-about-licence")).weak());
+    ui.label(RichText::new(say!("app-about-letters")).weak());
 }

@@ -3,7 +3,8 @@
 //! All names are known, and known to be different, before anything is written. A file that fails is told in the summary
 //! and the others go on. The surfaces are the same bytes however many are worked on at once.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
+use std::io::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -13,12 +14,14 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 use serde::Serialize;
 
-use super::optimise::{Outputs, advance_quietly, milliseconds, warnings};
+use super::interrupt::Interrupted;
+use super::optimise::{Outputs, advance_quietly, milliseconds, told_with_remedies};
+use super::scan::FOLDER_HINT;
 use super::settings::Asked;
 use super::written::WrittenOptions;
-use super::{interrupt, misuse, source, write_whole};
-use crate::digits::grouped;
+use super::{interrupt, misuse, places, source, write_whole};
 use crate::io::Format;
+use crate::language::grouped;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::sharing::Digest;
 use crate::vessel::certificate::Verdict;
@@ -32,9 +35,9 @@ pub(super) struct BatchOptions {
     /// The format of the surfaces where OUT is a folder: stl, ply, obj, vtp, vtk or glb [default: stl]
     #[arg(long, value_name = "NAME", value_parser = format)]
     pub(super) format: Option<Format>,
-    /// How many surfaces are worked on at once, 1 to 64, where OUT is a folder; each takes its own memory
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
-    jobs: u16,
+    /// How many surfaces are worked on at once, 1 to 64, where OUT is a folder; each takes its own memory [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
+    pub(super) jobs: Option<u16>,
 }
 
 fn format(name: &str) -> Result<Format, String> {
@@ -63,10 +66,19 @@ struct Item {
 
 impl BatchOptions {
     /// All surfaces in `files`, each with its names in the folder `output`, which is made. Ends the program where two
-    /// would be written to one place.
-    pub(super) fn plan(&self, files: &[String], output: &Path) -> Result<Batch> {
+    /// would be written to one place, the settings that are saved among them, or one over what is to be read.
+    pub(super) fn plan(
+        &self,
+        files: &[String],
+        output: &Path,
+        settings: Option<&Path>,
+        saved_settings: Option<&Path>,
+    ) -> Result<Batch> {
         if output.exists() && !output.is_dir() {
             misuse(format!("{} is no folder: several surfaces need one", output.display()));
+        }
+        if !is_folder(output) && Format::from_name(&output.to_string_lossy()).is_some() {
+            misuse(format!("{0} would be a folder: if it is to be one, say {0}/", output.display()));
         }
         let format = self.format.unwrap_or(Format::Stl);
         let mut found = Vec::new();
@@ -75,9 +87,12 @@ impl BatchOptions {
         }
         let items: Vec<Item> = found.into_iter().map(|file| Item::new(file, output, format)).collect();
         let summary = output.join(SUMMARY);
-        check_names(&items, &summary);
+        let inputs = items.iter().map(|item| Path::new(&item.file)).chain(settings);
+        let beside = [("the summary".to_owned(), &*summary)];
+        let beside = beside.into_iter().chain(saved_settings.map(|path| ("the settings".to_owned(), path)));
+        places::check(inputs, beside.chain(items.iter().flat_map(Item::outputs)));
         std::fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
-        Ok(Batch { items, format, jobs: self.jobs.into(), summary })
+        Ok(Batch { items, format, jobs: self.jobs.unwrap_or(1).into(), summary })
     }
 }
 
@@ -92,7 +107,7 @@ fn surfaces_in(folder: &str) -> Result<Vec<String>> {
         }
     }
     if found.is_empty() {
-        bail!("there are no surfaces in {folder}: Lumen opens {}", Format::OPENED.join(", "));
+        bail!("there are no surfaces in {folder}: Lumen opens {}{FOLDER_HINT}", Format::OPENED.join(", "));
     }
     found.sort();
     Ok(found)
@@ -107,23 +122,11 @@ impl Item {
         let named = |extension: &str| folder.join(format!("{stem}.{extension}"));
         Self { surface: named(format.extension()), report: named("json"), file }
     }
-}
 
-/// Ends the program where an output would overwrite an input or another output.
-fn check_names(items: &[Item], summary: &Path) {
-    let inputs: BTreeSet<PathBuf> = items.iter().filter_map(|item| Path::new(&item.file).canonicalize().ok()).collect();
-    // Some file systems take upper and lower case for the same.
-    let mut taken = BTreeMap::from([(summary.to_string_lossy().to_lowercase(), "the summary")]);
-    for item in items {
-        for output in [&item.surface, &item.report] {
-            let shown = output.display();
-            if output.canonicalize().is_ok_and(|output| inputs.contains(&output)) {
-                misuse(format!("{shown} would be overwritten, and is to be read: choose another folder"));
-            }
-            if let Some(other) = taken.insert(output.to_string_lossy().to_lowercase(), &item.file) {
-                misuse(format!("{other} and {} would both be written to {shown}", item.file));
-            }
-        }
+    /// What is written of it, and where.
+    fn outputs(&self) -> [(String, &Path); 2] {
+        let of = |what: &str| format!("{what} of {}", self.file);
+        [(of("the surface"), &*self.surface), (of("the report"), &*self.report)]
     }
 }
 
@@ -153,9 +156,14 @@ impl Batch {
                 let start = Instant::now();
                 let made = catch_unwind(AssertUnwindSafe(|| self.one(item, asked, written)))
                     .unwrap_or_else(|_| Err(anyhow!("an error in the program ended the work on it")));
+                if made.as_ref().is_err_and(anyhow::Error::is::<Interrupted>) {
+                    break;
+                }
                 let outcome = Outcome { made, seconds: start.elapsed().as_secs_f64() };
-                outcome.tell(item, i + 1, count);
+                let told = outcome.told(item, i + 1, count);
                 done.push((i, outcome));
+                // Whoever listens no longer loses no result by that.
+                let _ = std::io::stderr().write_all(told.as_bytes());
             }
             done
         };
@@ -179,7 +187,7 @@ impl Batch {
 
     fn one(&self, item: &Item, asked: &Asked, written: &WrittenOptions) -> Result<Made> {
         let start = Instant::now();
-        let (imported, digest) = source::read_quietly(&item.file, asked.shared.unit)?;
+        let (imported, digest) = source::read_quietly(&item.file, asked.unit)?;
         let read = milliseconds(start.elapsed());
         let outputs = Outputs {
             surface: &item.surface,
@@ -189,10 +197,10 @@ impl Batch {
             branches_csv: None,
             prints_branches: false,
         };
-        let mut told = imported.report.warnings.clone();
-        let report = outputs.make(&item.file, imported, read, asked, advance_quietly)?;
-        told.extend(warnings(&report));
-        Ok(Made { digest, report, warnings: told })
+        let (report, left_out) = outputs.make(&item.file, imported, read, asked, advance_quietly)?;
+        let findings = report.verdict.iter().flat_map(|verdict| &verdict.findings);
+        let warnings = findings.map(told_with_remedies).chain(left_out).collect();
+        Ok(Made { digest, report, warnings })
     }
 
     fn write_summary(&self, done: &BTreeMap<usize, Outcome>) -> Result<()> {
@@ -205,19 +213,16 @@ impl Batch {
 }
 
 impl Outcome {
-    /// A line on standard error when it is there.
-    fn tell(&self, item: &Item, number: usize, count: usize) {
+    /// What is said of it once it is there: a line, and one for each warning.
+    fn told(&self, item: &Item, number: usize, count: usize) -> String {
         let (file, seconds) = (&item.file, self.seconds);
-        match &self.made {
-            Ok(made) => {
-                let triangles = grouped(made.report.output.triangles);
-                eprintln!("[{number}/{count}] {file}: {triangles} triangles, {seconds:.1} s");
-                for warning in &made.warnings {
-                    eprintln!("lumen: warning: {file}: {warning}");
-                }
-            }
-            Err(error) => eprintln!("[{number}/{count}] {file}: failed: {error:#}"),
-        }
+        let Made { report, warnings, .. } = match &self.made {
+            Ok(made) => made,
+            Err(error) => return format!("[{number}/{count}] {file}: failed: {error:#}\n"),
+        };
+        let triangles = grouped(report.output.triangles);
+        let warnings: String = warnings.iter().map(|warning| format!("lumen: warning: {file}: {warning}\n")).collect();
+        format!("[{number}/{count}] {file}: {triangles} triangles, {seconds:.1} s\n{warnings}")
     }
 }
 

@@ -7,6 +7,7 @@ use tabled::settings::{Alignment, Style};
 use super::row;
 use crate::pipeline::report::Report;
 use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, Verdict, measured_percent};
+use crate::vessel::variation::Variation;
 
 /// Prints the table.
 pub(super) fn print(report: &Report) {
@@ -27,7 +28,7 @@ pub(super) fn print(report: &Report) {
     row("calibre", format!("{verdict}, at a tolerance of {} %, {of}", calibre.tolerance_percent));
 }
 
-const HEADS: [&str; 10] = [
+const HEADS: [&str; 11] = [
     "branch",
     "length mm",
     "tortuosity",
@@ -38,6 +39,7 @@ const HEADS: [&str; 10] = [
     "output %",
     "verdict",
     "largest change at",
+    "uneven",
 ];
 /// The columns before this one are numbers, but for the first.
 const NUMBERS: usize = 8;
@@ -62,6 +64,7 @@ fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
         change(&branch.reduced),
         word(branch.verdict).to_owned(),
         branch.reduced.largest_change.map_or_else(String::new, place),
+        branch.most_uneven().map_or_else(String::new, Variation::text),
     ]
 }
 

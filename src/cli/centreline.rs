@@ -6,8 +6,7 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::Args;
 
-use super::optimise::same_file;
-use super::{misuse, row, source, write_whole};
+use super::{misuse, places, row, source, write_whole};
 use crate::io::Unit;
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::run::Pipeline;
@@ -38,9 +37,7 @@ impl Centreline {
         let format = extension.as_deref().and_then(CentrelineFormat::from_extension);
         let format =
             format.unwrap_or_else(|| misuse(format!("{} does not end in .vtp or .csv", self.output.display())));
-        if same_file(std::path::Path::new(&self.file), &self.output) {
-            misuse(format!("{} would be overwritten: choose another output", self.file));
-        }
+        places::check([self.file.as_ref()], [("the centrelines".to_owned(), &*self.output)]);
         let imported = source::read(&self.file, self.unit)?;
         let keep = if self.keep_all_components { Keep::All } else { Keep::Largest };
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), Settings { keep, ..Settings::default() });

@@ -1,12 +1,15 @@
 //! `lumen inspect`: what is in a surface file, or in a scan.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::Args;
 use serde::Serialize;
 
-use super::scan::{self, Opened, ScanOptions};
-use super::{array_rows, row, shape_rows, source};
-use crate::io::{ImportReport, Imported, Unit};
+use super::mend::fault_rows;
+use super::scan::{self, ScanOptions};
+use super::source::UnitOption;
+use super::{array_rows, misuse, row, shape_rows, source};
+use crate::io::{ImportReport, Imported};
+use crate::mesh::mending::{FaultCounts, Faults};
 use crate::pipeline::shape::{Shape, shape};
 
 /// Says what is in a surface file, or in a scan; with a threshold or a label, in the surface of that.
@@ -19,9 +22,10 @@ pub struct Inspect {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// The unit of the numbers in the file: mm, cm or m
+    /// The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be that of vessels,
+    /// where it is not and only one would do
     #[arg(long, value_name = "UNIT")]
-    unit: Option<Unit>,
+    unit: Option<UnitOption>,
 }
 
 /// What is in a file, and its shape: the fields of both, side by side.
@@ -31,15 +35,25 @@ struct Inspected {
     report: ImportReport,
     #[serde(flatten)]
     shape: Shape,
+    faults: FaultCounts,
 }
 
 impl Inspect {
     /// Reads the file and prints its report.
     pub(super) fn run(&self) -> Result<()> {
-        if !Opened::is_chosen(&self.scan)
+        if !self.scan.is_chosen()
             && !self.file.starts_with("sample:")
             && let Some(opened) = scan::open(std::slice::from_ref(&self.file))?
         {
+            if self.scan.is_any() {
+                misuse("--box says where the surface is looked for: say with --threshold or --label what it is of");
+            }
+            if self.unit.and_then(UnitOption::given).is_some() {
+                bail!("a scan is in millimetres: --unit makes no sense here");
+            }
+            for warning in opened.warnings() {
+                eprintln!("lumen: warning: {warning}");
+            }
             if self.json {
                 println!("{}", opened.json()?);
             } else {
@@ -48,12 +62,12 @@ impl Inspect {
             return Ok(());
         }
         let Imported { mesh, report, .. } = source::read_with(&self.file, self.unit, &self.scan)?;
-        let inspected = Inspected { report, shape: shape(&mesh) };
+        let inspected = Inspected { report, shape: shape(&mesh), faults: Faults::all(&mesh).counts() };
         if self.json {
             println!("{}", serde_json::to_string_pretty(&inspected)?);
             return Ok(());
         }
-        let Inspected { report, shape } = inspected;
+        let Inspected { report, shape, faults } = inspected;
         let size = report.bounds_mm.size();
         row("format", &report.format);
         row("axes", report.axes);
@@ -63,6 +77,7 @@ impl Inspect {
         row("largest component", format!("{} triangles", report.largest_component_triangles));
         row("boundary edges", report.boundary_edges);
         row("non-manifold edges", report.non_manifold_edges);
+        fault_rows(&faults);
         row("degenerate triangles", report.degenerate_triangles);
         row("duplicate triangles", report.duplicate_triangles);
         row("winding mended", format!("{} edges", report.winding_flips));

@@ -1,38 +1,46 @@
-//! Ctrl-C: work ends between two slices, and no file is left half-written.
+//! Ctrl-C, and SIGTERM alike: work ends between two slices, and no file is left half-written.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use anyhow::{Context, Result, bail};
 use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag::{register, register_conditional_shutdown};
+use signal_hook::flag::{register, register_conditional_shutdown, register_usize};
 
-/// The exit status of what Ctrl-C has ended, as shells have it: 128 and the number of the signal.
-pub(super) const STATUS: u8 = 130;
+/// What was heard.
+#[derive(Default)]
+struct Heard {
+    /// Whether anything was.
+    is_asked: Arc<AtomicBool>,
+    /// The exit status of the last, as shells have it: 128 and the number of the signal.
+    status: Arc<AtomicUsize>,
+}
 
-static ASKED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+static HEARD: OnceLock<Heard> = OnceLock::new();
 
-/// The user has asked for an end.
+/// The user, or the system, has asked for an end. It has the exit status.
 #[derive(Debug, thiserror::Error)]
 #[error("interrupted; what was written until then is whole")]
-pub(super) struct Interrupted;
+pub(super) struct Interrupted(pub(super) u8);
 
-/// From now on the first Ctrl-C is heard by [`check`]; the second ends the program at once.
+/// From now on the first signal is heard by [`check`]; the second ends the program at once.
 pub(super) fn listen() -> Result<()> {
-    let asked = ASKED.get_or_init(Arc::default);
+    let Heard { is_asked, status } = HEARD.get_or_init(Heard::default);
     for signal in [SIGINT, SIGTERM] {
-        // In this order: the first signal finds the flag down, and raises it.
-        register_conditional_shutdown(signal, STATUS.into(), Arc::clone(asked))
-            .and_then(|_| register(signal, Arc::clone(asked)))
+        let of_signal = 128 + signal;
+        // In this order: the first signal finds the flag down, and raises it once its status is there.
+        register_conditional_shutdown(signal, of_signal, Arc::clone(is_asked))
+            .and_then(|_| register_usize(signal, Arc::clone(status), of_signal as usize))
+            .and_then(|_| register(signal, Arc::clone(is_asked)))
             .context("Ctrl-C cannot be heard")?;
     }
     Ok(())
 }
 
-/// Fails once the user has asked for an end.
+/// Fails once an end was asked for.
 pub(super) fn check() -> Result<()> {
-    if ASKED.get().is_some_and(|asked| asked.load(Ordering::Relaxed)) {
-        bail!(Interrupted);
+    if let Some(heard) = HEARD.get().filter(|heard| heard.is_asked.load(Ordering::SeqCst)) {
+        bail!(Interrupted(heard.status.load(Ordering::SeqCst) as u8));
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! The subcommands: the same engine without a window.
 //!
 //! Results go to standard output, progress and warnings to standard error. The exit status is 0 when it is done, 1
-//! when it failed, 2 when the command line makes no sense, 130 when Ctrl-C has ended it.
+//! when it failed, 2 when the command line makes no sense, 130 when Ctrl-C has ended it, 143 when SIGTERM has.
 
 mod batch;
 mod branches;
@@ -11,8 +11,16 @@ mod figures;
 mod inspect;
 mod interrupt;
 mod manual;
+mod mend;
 mod optimise;
 mod phantom;
+#[cfg(feature = "gui")]
+mod pictures;
+#[cfg(not(feature = "gui"))]
+#[path = "no_pictures.rs"]
+mod pictures;
+mod places;
+mod report;
 #[cfg(feature = "scans")]
 mod scan;
 #[cfg(not(feature = "scans"))]
@@ -28,6 +36,7 @@ mod trial;
 mod trial_tables;
 mod written;
 
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -69,10 +78,14 @@ pub enum Command {
     /// Write the manual's pages and the completions for shells, for those who make packages
     #[command(hide = true)]
     Manual(manual::Manual),
+    /// Mend what is wrong with a surface, and write it
+    Mend(mend::Mend),
     /// Keep the largest piece, smooth it, reduce it, and write the result
     Optimise(optimise::Optimise),
     /// Write one of the vessel trees that Lumen makes itself
     Phantom(phantom::Phantom),
+    /// Write a page for the record, as PDF or HTML: fingerprint, settings, numbers, verdict, vessels, pictures
+    Report(report::WriteReport),
     /// Write the surface in a scan or a mask
     #[cfg(feature = "scans")]
     Surface(surface::Surface),
@@ -91,8 +104,10 @@ impl Command {
             Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),
             Self::Manual(command) => command.run(),
+            Self::Mend(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
+            Self::Report(command) => command.run(),
             #[cfg(feature = "scans")]
             Self::Surface(command) => command.run(),
             Self::Tables(command) => command.run(),
@@ -101,8 +116,9 @@ impl Command {
         match result {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
-                eprintln!("lumen: {error:#}");
-                if error.is::<interrupt::Interrupted>() { ExitCode::from(interrupt::STATUS) } else { ExitCode::FAILURE }
+                // Where nobody hears it, the status says it.
+                let _ = writeln!(std::io::stderr(), "lumen: {error:#}");
+                error.downcast_ref().map_or(ExitCode::FAILURE, |&interrupt::Interrupted(status)| status.into())
             }
         }
     }

@@ -5,6 +5,9 @@ use clap::Args;
 
 use crate::io::Imported;
 
+/// A folder without surfaces is none of a scan's.
+pub(super) const FOLDER_HINT: &str = "";
+
 /// None.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct ScanOptions {}
@@ -12,6 +15,11 @@ pub(super) struct ScanOptions {}
 impl ScanOptions {
     /// Nothing is asked for.
     pub(super) fn is_any(&self) -> bool {
+        false
+    }
+
+    /// Nothing is.
+    pub(super) fn is_chosen(&self) -> bool {
         false
     }
 
@@ -33,9 +41,9 @@ impl Opened {
         match self {}
     }
 
-    /// Nothing can be.
-    pub(super) fn is_chosen(_: &ScanOptions) -> bool {
-        false
+    /// There is none.
+    pub(super) fn warnings(&self) -> &[String] {
+        match *self {}
     }
 
     /// There is none.

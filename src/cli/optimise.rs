@@ -10,20 +10,22 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::batch::BatchOptions;
+use super::mend::mended_rows;
 use super::scan::ScanOptions;
 use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
-use super::{batch, branches, interrupt, misuse, output_format, row, shape_rows, source, write_whole};
+use super::{batch, branches, interrupt, misuse, output_format, places, row, shape_rows, source, write_whole};
 use crate::io::{self, Format, Imported, Output};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::narrowest::Narrowest;
-use crate::pipeline::report::{DISCLAIMER, Report};
+use crate::pipeline::report::{DISCLAIMER, Report, UnitReport};
 use crate::pipeline::results::Adapted;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Settings, Target};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
+use crate::pipeline::verdict::{Finding, Verdict};
 use crate::sharing::{SharedSettings, write_settings};
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
@@ -76,7 +78,7 @@ pub(super) struct Outputs<'a> {
 
 impl Outputs<'_> {
     /// Runs the pipeline on the surface called `name` and writes what is asked for; `read` is the time in ms that reading
-    /// it took.
+    /// it took. Returns the report, and a sentence on the arrays that the format has no place for.
     pub(super) fn make(
         &self,
         name: &str,
@@ -84,8 +86,10 @@ impl Outputs<'_> {
         read: f64,
         asked: &Asked,
         advance: fn(&mut Pipeline) -> Result<()>,
-    ) -> Result<Report> {
+    ) -> Result<(Report, Option<String>)> {
         let settings = asked.shared.settings.clone();
+        let unit = UnitReport { unit: imported.report.unit, by_size: imported.report.unit_by_size };
+        let import = imported.report.clone();
         let (axes, to) = self.written.axes(imported.report.axes)?;
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         if self.written.takes_arrays() {
@@ -113,9 +117,7 @@ impl Outputs<'_> {
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         let start = Instant::now();
         let mut arrays = self.written.arrays(&pipeline);
-        if let Some(sentence) = io::left_out(&arrays, self.format) {
-            eprintln!("lumen: warning: {}: {sentence}", self.surface.display());
-        }
+        let left_out = io::left_out(&arrays, self.format);
         let (mut mesh, mut normals) = ((*reduced.mesh).clone(), reduced.normals.clone());
         axes.turn(to, &mut mesh, &mut normals, &mut arrays)?;
         let normals = self.written.has_normals().then_some(&normals[..]);
@@ -124,11 +126,13 @@ impl Outputs<'_> {
         let mut report = Report::new(name, &pipeline).context("the pipeline ended without a result")?;
         report.stages_ms.read = read;
         report.axes = to;
+        report.unit = Some(unit);
         report.stages_ms.write = milliseconds(start.elapsed());
+        report.verdict = Some(Box::new(Verdict::of_run(&report, &import, Format::from_name(name).is_some())));
         if let Some(path) = self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
         }
-        Ok(report)
+        Ok((report, left_out))
     }
 }
 
@@ -153,9 +157,12 @@ impl Optimise {
         if self.batch.format.is_some() {
             misuse(format!("--format is for a folder: {} says which format it is", self.output.display()));
         }
+        if self.batch.jobs.is_some() {
+            misuse("--jobs is for many files: one surface is worked on by all cores");
+        }
         self.check_outputs(file);
         let start = Instant::now();
-        let imported = source::read_with(file, asked.shared.unit, &self.scan)?;
+        let imported = source::read_with(file, asked.unit, &self.scan)?;
         let read = milliseconds(start.elapsed());
         let outputs = Outputs {
             surface: &self.output,
@@ -165,12 +172,17 @@ impl Optimise {
             branches_csv: self.branches_csv.as_deref(),
             prints_branches: self.branches,
         };
-        let report = outputs.make(file, imported, read, asked, advance)?;
+        let told = imported.report.warnings.clone();
+        let (report, left_out) = outputs.make(file, imported, read, asked, advance)?;
+        if let Some(sentence) = left_out {
+            eprintln!("lumen: warning: {}: {sentence}", self.output.display());
+        }
         if let Some(path) = &self.save_settings {
-            let used = SharedSettings { unit: asked.shared.unit, settings: report.settings.clone() };
+            let by_size = report.unit.filter(|taken| taken.by_size).map(|taken| taken.unit);
+            let used = SharedSettings { unit: asked.shared.unit.or(by_size), settings: report.settings.clone() };
             write_whole(path, write_settings(&used).as_bytes())?;
         }
-        self.print(&report);
+        self.print(&report, &told);
         if self.branches {
             branches::print(&report);
         }
@@ -183,23 +195,25 @@ impl Optimise {
             ("--report", self.report.is_some()),
             ("--branches", self.branches),
             ("--branches-csv", self.branches_csv.is_some()),
-            ("--threshold, --label or --box", self.scan.is_any()),
         ] {
             if is_given {
                 misuse(format!("{option} is for one file: of several, each gets a report beside its surface"));
             }
         }
-        let batch = self.batch.plan(files, &self.output)?;
+        if self.scan.is_any() {
+            misuse("--threshold, --label and --box are for one scan: say a file for its surface with -o");
+        }
+        if asked.wants_safe && self.save_settings.is_some() {
+            misuse("--save-settings is for one file with --reduction safe: the safe rate is another for each");
+        }
+        let batch = self.batch.plan(files, &self.output, self.settings.file(), self.save_settings.as_deref())?;
         if let Some(path) = &self.save_settings {
-            if asked.wants_safe {
-                misuse("--save-settings is for one file with --reduction safe: the safe rate is another for each");
-            }
             write_whole(path, write_settings(&asked.shared).as_bytes())?;
         }
         batch.run(asked, &self.written)
     }
 
-    /// Ends the program where an output would overwrite the input or another output.
+    /// Ends the program where an output would overwrite an input or another output.
     fn check_outputs(&self, file: &str) {
         let outputs = [
             ("the surface", Some(&self.output)),
@@ -207,20 +221,17 @@ impl Optimise {
             ("the branches", self.branches_csv.as_ref()),
             ("the settings", self.save_settings.as_ref()),
         ];
-        for (i, (what, path)) in outputs.iter().enumerate() {
-            let Some(path) = path else { continue };
-            if same_file(Path::new(file), path) {
-                misuse(format!("{} would be overwritten by {what}: choose another name", path.display()));
-            }
-            if outputs[..i].iter().any(|(_, before)| *before == Some(*path)) {
-                misuse(format!("{} is asked for twice", path.display()));
-            }
-        }
+        let outputs = outputs.into_iter().filter_map(|(what, path)| Some((what.to_owned(), &**path?)));
+        places::check([Path::new(file)].into_iter().chain(self.settings.file()), outputs);
     }
 
-    fn print(&self, report: &Report) {
+    /// Prints the numbers and the verdict, but for what was `told` when the file was read.
+    fn print(&self, report: &Report, told: &[String]) {
         let (kept, output) = (report.after_connectivity, report.output);
         row("triangles in file", report.opened.triangles);
+        if let Some(done) = &report.mending {
+            mended_rows(done);
+        }
         row(
             "kept",
             format!("{} triangles in {} of {} components", kept.triangles, kept.components, report.opened.components),
@@ -278,29 +289,22 @@ impl Optimise {
         row("level and normals", format!("{:.1} ms", ms.level + ms.normals));
         let unit = output_format(&self.output).unit();
         row("written to", format!("{}, in {unit}", self.output.display()));
-        for warning in warnings(report) {
-            eprintln!("lumen: warning: {warning}");
+        let Some(verdict) = &report.verdict else { return };
+        let little = if verdict.calibre.is_some() { "" } else { " (the vessels were not measured: --branches does)" };
+        row("verdict", format!("{}{little}", verdict.head));
+        for finding in verdict.findings.iter().filter(|finding| !told.contains(&finding.text)) {
+            eprintln!("lumen: warning: {}", told_with_remedies(finding));
         }
     }
 }
 
-/// What is to be said about a result beside its numbers.
-pub(super) fn warnings(report: &Report) -> Vec<String> {
-    let few = "too few iterations for this pass band: more are needed to smooth";
-    let sentences = [
-        report.shortfall.clone(),
-        report.volume_warning(),
-        report.volume_held_warning(),
-        report.smoothing_warning(),
-        report.pinch_warning(),
-        report.pass_band_missed.then(|| few.to_owned()),
-    ];
-    sentences.into_iter().flatten().collect()
-}
-
-/// Whether both names are of one file that is there.
-pub(super) fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+/// A finding with its place and what would help, in a line.
+pub(super) fn told_with_remedies(finding: &Finding) -> String {
+    let at = finding.place.as_ref().map(|place| place.at_mm).filter(|_| !finding.text.contains("at ("));
+    let at = at.map_or(String::new(), |[x, y, z]| format!(" At ({x:.1}, {y:.1}, {z:.1})."));
+    let help: Vec<&str> = finding.remedies.iter().map(|remedy| &*remedy.words).collect();
+    let help = if help.is_empty() { String::new() } else { format!(" Would help: {}.", help.join(", ")) };
+    format!("{}{at}{help}", finding.text)
 }
 
 /// Runs all stages and shows how far they are, on standard error.

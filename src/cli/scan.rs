@@ -9,12 +9,12 @@ use serde::Serialize;
 
 use super::{misuse, row};
 use crate::io::volume::{self, Part};
-use crate::io::{Imported, import_mesh};
+use crate::io::{Axes, Imported, import_mesh};
 use crate::task::Task;
 use crate::volume::{Grid, Label, PRESETS, Region, Selection, Surfacing, Survey, Surveying};
 
-/// A volume with values down to this is taken for CT, whose files mostly do not say so: air has -1000 HU.
-const AIR_HU: f64 = -500.0;
+/// What is said of a folder without surfaces: it may be a scan.
+pub(super) const FOLDER_HINT: &str = "; for a folder of DICOM say --threshold or --label, and a file for the surface";
 
 /// What of a scan or a mask is the vessel.
 #[derive(Clone, Debug, Default, Args)]
@@ -46,6 +46,11 @@ impl ScanOptions {
         self.threshold.is_some() || self.label.is_some() || self.region.is_some()
     }
 
+    /// Whether they say what the surface is of.
+    pub(super) fn is_chosen(&self) -> bool {
+        self.threshold.is_some() || self.label.is_some()
+    }
+
     /// Ends the program where these options are given for what is no volume.
     pub(super) fn refuse(&self, name: &str) {
         if self.is_any() {
@@ -59,6 +64,7 @@ pub(super) struct Opened {
     grid: Arc<Grid>,
     survey: Survey,
     format: &'static str,
+    axes: Axes,
     is_ct: bool,
     warnings: Vec<String>,
 }
@@ -70,10 +76,11 @@ struct Report<'a> {
     /// Voxels along the axes.
     dimensions: [usize; 3],
     spacing_mm: [f64; 3],
-    /// LPS.
     origin_mm: [f64; 3],
-    /// The directions of the three axes in LPS, each a unit vector.
+    /// The directions of the three axes, each a unit vector.
     directions: [[f64; 3]; 3],
+    /// What the coordinates grow towards: LPS, or unknown where the file does not say it.
+    axes: Axes,
     sample_type: &'a str,
     /// The smallest and the largest value.
     range: [f64; 2],
@@ -93,28 +100,26 @@ pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
     let parts: Vec<Part> = files.iter().map(|(name, bytes)| Part { name, bytes }).collect();
     let scan = volume::read(&parts).with_context(|| names[0].clone())?;
     drop(files);
-    for warning in &scan.warnings {
-        eprintln!("lumen: warning: {warning}");
-    }
-    let volume::Scan { grid, format, is_ct, warnings } = scan;
+    let volume::Scan { grid, format, axes, is_ct, warnings } = scan;
     let grid = Arc::new(grid);
     let survey = Surveying::new(Arc::clone(&grid)).finish();
-    Ok(Some(Opened { grid, survey, format, is_ct, warnings }))
+    Ok(Some(Opened { grid, survey, format, axes, is_ct, warnings }))
 }
 
 impl Opened {
-    /// The surface that the options ask for, in LPS.
+    /// The surface that the options ask for, in the axes of the scan.
     pub(super) fn surface(self, options: &ScanOptions) -> Result<Imported> {
         let selection = Selection::choose(&self.survey, options.threshold, options.label)?;
         let mesh = Surfacing::new(&self.grid, selection, options.region)?.finish()?;
         let mut imported = import_mesh(mesh, self.format);
+        imported.report.axes = self.axes;
         imported.report.warnings.splice(..0, self.warnings);
         Ok(imported)
     }
 
-    /// Whether the options say what the surface is of.
-    pub(super) fn is_chosen(options: &ScanOptions) -> bool {
-        options.threshold.is_some() || options.label.is_some()
+    /// What is strange about it.
+    pub(super) fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// What is in it, as JSON.
@@ -126,6 +131,7 @@ impl Opened {
             spacing_mm: geometry.spacing.to_array(),
             origin_mm: geometry.origin.to_array(),
             directions: geometry.direction.to_cols_array_2d(),
+            axes: self.axes,
             sample_type: self.grid.samples().sample_type().name(),
             range: self.survey.range,
             is_ct: self.is_ct,
@@ -142,7 +148,7 @@ impl Opened {
         row("format", self.format);
         row("dimensions", format!("{i} x {j} x {k} voxels"));
         row("spacing", format!("{} mm", geometry.spacing.to_array().map(|mm| format!("{mm:.4}")).join(" x ")));
-        row("origin", format!("({}) mm, LPS", list(geometry.origin.to_array())));
+        row("origin", format!("({}) mm, {}", list(geometry.origin.to_array()), self.axes));
         let columns = geometry.direction.to_cols_array_2d();
         row("directions", columns.map(|column| format!("({})", list(column))).join(" "));
         if geometry.is_left_handed() {
@@ -154,9 +160,9 @@ impl Opened {
         if self.survey.is_mask() {
             let labels = self.survey.labels.iter().map(|label| format!("{} ({} voxels)", label.value, label.points));
             row("labels", labels.collect::<Vec<_>>().join(", "));
-        } else if self.is_ct || low <= AIR_HU {
+        } else if self.is_ct || self.survey.has_air() {
             for preset in PRESETS {
-                row("threshold", format!("{} HU {}", preset.value, preset.name));
+                row("threshold", format!("{} HU {}", preset.value, preset.name.say()));
             }
         }
     }

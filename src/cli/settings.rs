@@ -6,8 +6,8 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
 use super::misuse;
-use crate::io::Unit;
-use crate::pipeline::settings::{Decimation, Keep, Method, Preset, Settings, Smoothing, Target, Window};
+use super::source::UnitOption;
+use crate::pipeline::settings::{Decimation, Keep, Mending, Method, Preset, Settings, Smoothing, Target, Window};
 use crate::sharing::{self, SharedSettings};
 
 /// What is made of a surface. An option that is given counts for more than the settings file.
@@ -58,9 +58,15 @@ pub(super) struct SettingsOptions {
     /// Spare thin vessels: an error counts the more, the thinner the vessel is
     #[arg(long)]
     spare_thin: bool,
-    /// The unit of the numbers in the file: mm, cm or m
+    /// Hold the borders between labels of the file's arrays as feature edges
+    #[arg(long)]
+    keep_labels: bool,
+    /// The unit of the numbers in the file: mm, cm or m; auto takes the one in which the size would be that of vessels,
+    /// where it is not and only one would do
     #[arg(long, value_name = "UNIT")]
-    unit: Option<Unit>,
+    unit: Option<UnitOption>,
+    #[command(flatten)]
+    mending: MendingOptions,
     /// Keep every connected piece, not only the largest
     #[arg(long)]
     keep_all_components: bool,
@@ -69,17 +75,53 @@ pub(super) struct SettingsOptions {
     tolerance: Option<f64>,
 }
 
+/// What of a surface is mended before anything else.
+#[derive(Clone, Debug, Args)]
+pub(super) struct MendingOptions {
+    /// Join open edges that are this near, in mm, 0.000001 to 100; nothing collapses
+    #[arg(long, value_name = "MM")]
+    weld: Option<f64>,
+    /// Part the sheets that share an edge or a vertex
+    #[arg(long)]
+    split: bool,
+    /// Fill holes in walls up to this distance across, in mm, 0.001 to 1000; ends of vessels stay open
+    #[arg(long, value_name = "MM")]
+    fill_holes: Option<f64>,
+    /// Take the lumen where the surface is a wall with two sides
+    #[arg(long)]
+    lumen: bool,
+}
+
+impl MendingOptions {
+    /// What is asked for, or else what `begun` has.
+    pub(super) fn asked(&self, begun: Mending) -> Mending {
+        Mending {
+            weld_mm: self.weld.or(begun.weld_mm),
+            split: self.split || begun.split,
+            fill_mm: self.fill_holes.or(begun.fill_mm),
+            lumen: self.lumen || begun.lumen,
+        }
+    }
+}
+
 /// What the options come to.
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
-    /// The settings and the unit.
+    /// The settings and the unit; none where it is to be found by the size.
     pub(super) shared: SharedSettings,
+    /// The unit as it was asked for.
+    pub(super) unit: Option<UnitOption>,
     /// Whether the rate is to be the highest at which every vessel keeps its calibre; the target is the default until it
     /// is known.
     pub(super) wants_safe: bool,
 }
 
 impl SettingsOptions {
+    /// The settings file that is begun with.
+    pub(super) fn file(&self) -> Option<&Path> {
+        self.settings.as_deref()
+    }
+
     /// The settings file, with what else was asked for.
     pub(super) fn asked(&self) -> Result<Asked> {
         let begun = self.settings.as_deref().map(read).transpose()?.unwrap_or_default();
@@ -93,12 +135,14 @@ impl SettingsOptions {
             (None, None, None) => begun.target,
         };
         let settings = Settings {
+            mending: self.mending.asked(begun.mending),
             keep: if self.keep_all_components { Keep::All } else { begun.keep },
             smoothing: self.smoothing(begun.smoothing),
             decimation: Decimation {
                 method: self.method.unwrap_or(begun.decimation.method),
                 feature_angle: self.feature_angle.unwrap_or(begun.decimation.feature_angle),
                 spare_thin: self.spare_thin || begun.decimation.spare_thin,
+                keep_labels: self.keep_labels || begun.decimation.keep_labels,
             },
             target,
             tolerance_percent: self.tolerance.unwrap_or(begun.tolerance_percent),
@@ -112,7 +156,9 @@ impl SettingsOptions {
                 "lumen: warning: --reduction {percent} removes less than one percent; nine tenths are --reduction 90"
             );
         }
-        Ok(Asked { shared: SharedSettings { unit: self.unit.or(unit), settings }, wants_safe })
+        let unit = self.unit.or(unit.map(UnitOption::Given));
+        let shared = SharedSettings { unit: unit.and_then(UnitOption::given), settings };
+        Ok(Asked { shared, unit, wants_safe })
     }
 
     /// The preset, or else `begun`, with what else was asked for.
@@ -182,19 +228,21 @@ fn reduction(text: &str) -> Result<Reduction, String> {
     if text.trim().eq_ignore_ascii_case("safe") { Ok(Reduction::Safe) } else { percent(text).map(Reduction::Percent) }
 }
 
-/// A reduction rate in percent, with or without the sign.
+/// A reduction rate in percent.
 pub(super) fn percent(text: &str) -> Result<f64, String> {
-    let number = text.trim().trim_end_matches('%').trim_end();
-    let value: f64 = number.parse().map_err(|_| format!("{text} is not a percentage"))?;
-    let most = f64::from(Target::MAX_PER_MILLE) / 10.0;
-    if (0.0..=most).contains(&value) { Ok(value) } else { Err(format!("{text} is not between 0 and {most} %")) }
+    percentage(text, f64::from(Target::MAX_PER_MILLE) / 10.0)
 }
 
-/// A tolerance in percent, with or without the sign.
+/// A tolerance in percent.
 fn tolerance(text: &str) -> Result<f64, String> {
+    percentage(text, 100.0)
+}
+
+/// A percentage up to `most`, with or without the sign.
+fn percentage(text: &str, most: f64) -> Result<f64, String> {
     let number = text.trim().trim_end_matches('%').trim_end();
     let value: f64 = number.parse().map_err(|_| format!("{text} is not a percentage"))?;
-    if (0.0..=100.0).contains(&value) { Ok(value) } else { Err(format!("{text} is not between 0 and 100 %")) }
+    if (0.0..=most).contains(&value) { Ok(value) } else { Err(format!("{text} is not between 0 and {most} %")) }
 }
 
 /// A length in mm as thousandths, rounded down: what is within them is within the length.

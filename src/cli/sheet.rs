@@ -6,7 +6,7 @@ use tabled::settings::span::ColumnSpan;
 use tabled::settings::style::HorizontalLine;
 use tabled::settings::{Alignment, Padding, Style};
 
-use crate::digits::grouped;
+use crate::language::grouped;
 use crate::pipeline::report::DISCLAIMER;
 
 /// Tables, with what is said of all of them.

@@ -1,49 +1,112 @@
 //! Where a subcommand's surface comes from: a file, `sample:aorta`, or a scan.
 
+use std::str::FromStr;
+use std::sync::Arc;
+use std::time::Duration;
+
 use anyhow::{Context, Result, bail};
 
+use super::interrupt;
 use super::scan::{self, ScanOptions};
-use crate::io::{self, ImportOptions, Imported, Unit};
+use crate::io::{self, ImportOptions, Imported, Reading, Unit, UnknownUnit};
 use crate::phantom::{self, Sample};
 use crate::sharing::Digest;
+use crate::task::{Budget, Progress, Task as _};
+
+/// The unit of a file's numbers, as it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum UnitOption {
+    Given(Unit),
+    /// By the size of the surface, where that leaves no doubt.
+    Auto,
+}
+
+impl UnitOption {
+    /// The unit, unless it is to be found by the size.
+    pub(super) fn given(self) -> Option<Unit> {
+        match self {
+            Self::Given(unit) => Some(unit),
+            Self::Auto => None,
+        }
+    }
+}
+
+impl FromStr for UnitOption {
+    type Err = UnknownUnit;
+
+    fn from_str(word: &str) -> Result<Self, UnknownUnit> {
+        if word == "auto" { Ok(Self::Auto) } else { word.parse().map(Self::Given) }
+    }
+}
 
 /// Reads the file `name`, or makes the sample that `sample:...` names; of a mask, the surface of all that is not 0. Warnings
 /// go to standard error.
 pub(super) fn read(name: &str, unit: Option<Unit>) -> Result<Imported> {
-    read_with(name, unit, &ScanOptions::default())
+    read_with(name, unit.map(UnitOption::Given), &ScanOptions::default())
 }
 
 /// [`read`], with what of a scan or a mask is the vessel.
-pub(super) fn read_with(name: &str, unit: Option<Unit>, options: &ScanOptions) -> Result<Imported> {
-    let (imported, _) = open(name, unit, options)?;
+pub(super) fn read_with(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<Imported> {
+    Ok(read_known(name, unit, options)?.0)
+}
+
+/// [`read_with`], and the file's hash; a sample and a scan have none.
+pub(super) fn read_known(
+    name: &str,
+    unit: Option<UnitOption>,
+    options: &ScanOptions,
+) -> Result<(Imported, Option<Digest>)> {
+    let (imported, digest) = open(name, unit, options)?;
     for warning in &imported.report.warnings {
         eprintln!("lumen: warning: {warning}");
     }
-    Ok(imported)
+    Ok((imported, digest))
 }
 
 /// As [`read`], with the file's hash in place of the warnings; a sample and a scan have none.
-pub(super) fn read_quietly(name: &str, unit: Option<Unit>) -> Result<(Imported, Option<Digest>)> {
+pub(super) fn read_quietly(name: &str, unit: Option<UnitOption>) -> Result<(Imported, Option<Digest>)> {
     open(name, unit, &ScanOptions::default())
 }
 
-fn open(name: &str, unit: Option<Unit>, options: &ScanOptions) -> Result<(Imported, Option<Digest>)> {
+fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(Imported, Option<Digest>)> {
     if let Some(sample) = name.strip_prefix("sample:") {
         options.refuse(name);
-        if unit.is_some() {
+        if unit.and_then(UnitOption::given).is_some() {
             bail!("a sample is in millimetres: --unit makes no sense here");
         }
         let made: Sample = sample.parse()?;
         return Ok((self::sample(made, made.default_triangles())?, None));
     }
     match scan::open(&[name.to_owned()])? {
-        Some(_) if unit.is_some() => bail!("a scan is in millimetres: --unit makes no sense here"),
+        Some(_) if unit.and_then(UnitOption::given).is_some() => {
+            bail!("a scan is in millimetres: --unit makes no sense here")
+        }
         Some(opened) => Ok((opened.surface(options).with_context(|| name.to_owned())?, None)),
         None => {
             options.refuse(name);
-            let bytes = std::fs::read(name).with_context(|| format!("cannot read {name}"))?;
-            let imported = io::read(&bytes, name, &ImportOptions { unit }).with_context(|| name.to_owned())?;
+            let bytes = Arc::new(std::fs::read(name).with_context(|| format!("cannot read {name}"))?);
+            let read = |unit| surface(Arc::clone(&bytes), name, ImportOptions { unit });
+            let mut imported = read(unit.and_then(UnitOption::given))?;
+            if unit == Some(UnitOption::Auto)
+                && let Some(unit) = imported.report.unit_by_size()
+            {
+                imported = read(Some(unit))?;
+                imported.report.unit_by_size = true;
+                let sentence = format!("The numbers of the file were taken in {unit}, by the size of the surface.");
+                imported.report.warnings.push(sentence);
+            }
             Ok((imported, Some(Digest::of(&bytes))))
+        }
+    }
+}
+
+/// The surface in the bytes of a file; fails between two slices once an end was asked for.
+fn surface(bytes: Arc<Vec<u8>>, name: &str, options: ImportOptions) -> Result<Imported> {
+    let mut reading = Reading::new(bytes, name.to_owned(), options);
+    loop {
+        interrupt::check()?;
+        if let Progress::Done(read) = reading.advance(Budget::new(Duration::from_millis(50))) {
+            return read.with_context(|| name.to_owned());
         }
     }
 }

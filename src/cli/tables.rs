@@ -9,9 +9,9 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
-use super::optimise::{advance, same_file};
+use super::optimise::advance;
 use super::sheet::{Entry, Item, Sheet, Table};
-use super::{misuse, source, write_whole};
+use super::{places, source, write_whole};
 use crate::io::Unit;
 use crate::pipeline::deviation::{Deviation, REPORT_SAMPLES};
 use crate::pipeline::paper;
@@ -65,9 +65,7 @@ impl Form {
 impl Tables {
     /// Runs the pipeline at the paper's settings and writes the tables.
     pub(super) fn run(&self) -> Result<()> {
-        if self.output.as_ref().is_some_and(|output| same_file(Path::new(&self.file), output)) {
-            misuse(format!("{} would be overwritten: choose another output", self.file));
-        }
+        places::check([Path::new(&self.file)], self.output.iter().map(|output| ("the tables".to_owned(), &**output)));
         if self.trial {
             return self.write(&super::trial_tables::sheet(&self.file, self.unit)?);
         }

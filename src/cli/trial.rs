@@ -6,9 +6,9 @@ use std::sync::Arc;
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 
-use super::optimise::{advance, same_file};
+use super::optimise::advance;
 use super::settings::percent;
-use super::{misuse, row, source, write_whole};
+use super::{misuse, places, row, source, write_whole};
 use crate::io::Unit;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
@@ -119,14 +119,9 @@ pub(super) fn settings(smoothing: (f64, u32), target: Target) -> Settings {
 impl Trial {
     /// Runs the trial.
     pub(super) fn run(&self) -> Result<()> {
-        for output in [&self.log, &self.json].into_iter().flatten() {
-            if same_file(Path::new(&self.file), output) {
-                misuse(format!("{} would be overwritten: choose another output", self.file));
-            }
-        }
-        if self.log.is_some() && self.log == self.json {
-            misuse("the log and the summary cannot both go to one file");
-        }
+        let outputs = [("the log", &self.log), ("the summary", &self.json)];
+        let outputs = outputs.into_iter().filter_map(|(what, path)| Some((what.to_owned(), path.as_deref()?)));
+        places::check([Path::new(&self.file)], outputs);
         let setup = self.setup();
         let (opened, sample) = surface(&self.file, self.triangles, self.unit)?;
         let target = match self.triangles {

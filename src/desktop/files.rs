@@ -9,59 +9,69 @@ use std::thread;
 
 use rfd::FileDialog;
 
-use super::scans;
-use crate::app::{Offer, PlatformEvent, Waker};
+use super::scans::{self, Disk};
+use super::speech;
+use crate::app::{OTHER_ENDINGS, Offer, PlatformEvent, Waker};
 use crate::io::Format;
+use crate::say;
 
-/// What a trial's log and a file of settings end in.
-const OTHERS: [&str; 2] = ["csv", "json"];
-
-/// Lets the user choose a file and reads it.
-pub(super) fn choose(events: Sender<PlatformEvent>, waker: Waker) {
+/// Lets the user choose files and reads them.
+pub(super) fn choose(disk: Disk, events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
-        let extensions: Vec<&str> = Format::OPENED.into_iter().chain(scans::ENDINGS).chain(OTHERS).collect();
+        speech::follow();
+        let extensions: Vec<&str> = Format::OPENED.into_iter().chain(scans::ENDINGS).chain(OTHER_ENDINGS).collect();
         let dialog = FileDialog::new()
-            .add_filter("Surfaces, scans, logs and settings", &extensions)
-            .add_filter("All files", &["*"]);
+            .add_filter(say!("app-dialog-opened"), &extensions)
+            .add_filter(say!("app-dialog-all"), &["*"]);
         if let Some(paths) = dialog.pick_files() {
-            send(&events, &waker, load(&paths));
+            send(&events, &waker, load(&paths, &disk));
         }
     });
 }
 
-/// Reads a file, or the scan in a folder.
-pub(super) fn read(path: PathBuf, events: Sender<PlatformEvent>, waker: Waker) {
-    thread::spawn(move || send(&events, &waker, load(&[path])));
+/// Reads a file, or the scan in several or in a folder.
+pub(super) fn read(paths: Vec<PathBuf>, disk: Disk, events: Sender<PlatformEvent>, waker: Waker) {
+    thread::spawn(move || {
+        speech::follow();
+        send(&events, &waker, load(&paths, &disk));
+    });
 }
 
-/// Reads the scan in some files, or the first of them.
-fn load(paths: &[PathBuf]) -> PlatformEvent {
-    match scans::files(paths) {
+/// Finds the scan in some files, or reads the first of them.
+fn load(paths: &[PathBuf], disk: &Disk) -> PlatformEvent {
+    // The files of a series often have no ending at all.
+    let is_surface = |path: &PathBuf| Format::from_name(&path.to_string_lossy()).is_some();
+    if paths.len() > 1 && paths.iter().any(is_surface) {
+        return PlatformEvent::Failed { message: say!("app-one-at-a-time") };
+    }
+    match disk.files(paths) {
         Ok(Some(files)) => return PlatformEvent::Scan { files },
         Ok(None) => {}
         Err(message) => return PlatformEvent::Failed { message },
     }
     let Some(path) = paths.first() else {
-        return PlatformEvent::Failed { message: "No file was chosen.".to_owned() };
+        return PlatformEvent::Failed { message: say!("app-no-file") };
     };
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     match fs::read(path) {
         Ok(bytes) => PlatformEvent::Chosen { name, bytes },
-        Err(error) => PlatformEvent::Failed { message: format!("{name} could not be read: {error}.") },
+        Err(error) => PlatformEvent::Failed { message: say!("app-not-read", name = name, error = error.to_string()) },
     }
 }
 
 /// Lets the user choose where to and writes a file there.
 pub(super) fn save(name: String, bytes: Vec<u8>, events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
+        speech::follow();
         let Some(path) = FileDialog::new().set_file_name(&name).save_file() else { return };
         send(
             &events,
             &waker,
             match fs::write(&path, bytes) {
-                Ok(()) => PlatformEvent::Saved { message: format!("{} was saved.", path.display()) },
+                Ok(()) => PlatformEvent::Saved { message: say!("app-saved", name = path.display().to_string()) },
                 Err(error) => {
-                    PlatformEvent::Failed { message: format!("{} could not be written: {error}.", path.display()) }
+                    let (name, error) = (path.display().to_string(), error.to_string());
+                    PlatformEvent::Failed { message: say!("app-not-written", name = name, error = error) }
                 }
             },
         );
@@ -71,6 +81,7 @@ pub(super) fn save(name: String, bytes: Vec<u8>, events: Sender<PlatformEvent>, 
 /// Lets the user choose where the first file goes, and writes both there.
 pub(super) fn save_pair(pair: [Offer; 2], events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
+        speech::follow();
         if let Some(path) = FileDialog::new().set_file_name(&pair[0].name).save_file() {
             send(&events, &waker, write_pair(path, &pair));
         }
@@ -85,10 +96,11 @@ fn write_pair(path: PathBuf, [first, second]: &[Offer; 2]) -> PlatformEvent {
     let chosen = if is_named { path } else { PathBuf::from(joined(path.as_os_str(), &ending(first))) };
     let beside = chosen.with_extension(ending(second));
     let failed = |path: &Path, error: &io::Error| {
+        let name = path.display().to_string();
         let message = if error.kind() == io::ErrorKind::AlreadyExists {
-            format!("Nothing was saved: {} is there already. Choose another name.", path.display())
+            say!("app-pair-there-already", name = name)
         } else {
-            format!("Nothing was saved: {} could not be written: {error}.", path.display())
+            say!("app-pair-not-written", name = name, error = error.to_string())
         };
         PlatformEvent::Failed { message }
     };
@@ -102,8 +114,9 @@ fn write_pair(path: PathBuf, [first, second]: &[Offer; 2]) -> PlatformEvent {
         return failed(&chosen, &error);
     }
     let name = |path: &Path| path.file_name().unwrap_or_default().display().to_string();
-    let folder = chosen.parent().unwrap_or(Path::new("")).display();
-    PlatformEvent::Saved { message: format!("{} and {} were saved in {folder}.", name(&chosen), name(&beside)) }
+    let folder = chosen.parent().unwrap_or(Path::new("")).display().to_string();
+    let message = say!("app-pair-saved", first = name(&chosen), second = name(&beside), folder = folder);
+    PlatformEvent::Saved { message }
 }
 
 fn joined(name: &OsStr, ending: &OsStr) -> OsString {
@@ -145,6 +158,12 @@ mod tests {
             PlatformEvent::Scan { .. } => "a scan".to_owned(),
             other => panic!("{other:?}"),
         }
+    }
+
+    #[test]
+    fn several_surfaces_are_not_taken_for_a_scan() {
+        let paths = ["a.stl", "b.VTP"].map(PathBuf::from);
+        assert_eq!(message(load(&paths, &Disk::default())), "Open one surface at a time.");
     }
 
     #[test]

@@ -3,30 +3,60 @@
 
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use super::hid::{Found, HidPort, find};
-use crate::app::Devices;
+use super::haply::HaplyPort;
+use super::hid::{Found, HidPort, OpenError, find};
+use super::speech;
+use crate::app::{Devices, Listing};
 use crate::engine::trial::Exchange;
 use crate::haptics::descriptor::ModelError;
 use crate::haptics::device::{HapticDevice, Identity};
 use crate::haptics::port::{Port, PortError, carry_out};
 use crate::haptics::service::{DeviceCommand, DeviceStatus, Service};
 use crate::haptics::virtual_feeder::VirtualFeeder;
+use crate::say;
 
 /// Between two looks at the device: reports come at 1 kHz at most.
 const LOOK: Duration = Duration::from_micros(500);
+/// Between two looks for a device that was pulled out.
+const AGAIN: Duration = Duration::from_millis(250);
 /// Requests that are carried out in a look at most, so that input is never far behind.
 const REQUESTS: usize = 4;
+/// Reports that are taken in a look at most: what comes without end is not to keep what is asked waiting.
+const REPORTS: usize = 64;
+/// How long a device may take to be let go when the program ends.
+const FAREWELL: Duration = Duration::from_millis(300);
 
 /// A device that can be chosen.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Choice {
-    /// What it is called.
-    name: String,
-    /// The system's, or none for the virtual one.
-    found: Option<Found>,
+enum Choice {
+    /// The one that is made here.
+    Virtual,
+    /// The arm behind Haply's service. Whether that is there is seen once it is chosen: no line is opened before.
+    Haply,
+    /// One of the system's.
+    Found(Found),
+}
+
+impl Choice {
+    /// What it is called in a list, in the language that is spoken.
+    fn label(&self) -> String {
+        match self {
+            Self::Virtual => say!("app-virtual-device"),
+            Self::Haply | Self::Found(_) => self.name(),
+        }
+    }
+
+    /// What it is called in tables, which are the same in every language.
+    fn name(&self) -> String {
+        match self {
+            Self::Virtual => "Virtual device".to_owned(),
+            Self::Haply => "Haply Inverse3".to_owned(),
+            Self::Found(found) => found.identity.name.clone(),
+        }
+    }
 }
 
 /// Why a device is no longer served.
@@ -44,44 +74,37 @@ enum ServeError {
 struct Served {
     commands: Sender<DeviceCommand>,
     status: Arc<Mutex<DeviceStatus>>,
-}
-
-/// What can be chosen: the virtual device, then all that the system has. The second is why the system lists none, if so.
-fn choices() -> (Vec<Choice>, Option<String>) {
-    let mut choices = vec![Choice { name: "Virtual device".to_owned(), found: None }];
-    match find() {
-        Ok(found) => {
-            choices.extend(
-                found.into_iter().map(|found| Choice { name: found.identity.name.clone(), found: Some(found) }),
-            );
-            (choices, None)
-        }
-        Err(error) => (choices, Some(error.to_string())),
-    }
+    thread: JoinHandle<()>,
 }
 
 impl Served {
     /// Serves a device until this is dropped: its hand is the one of `exchange`.
     fn new(choice: Choice, exchange: Exchange) -> Self {
         let (commands, inbox) = channel();
-        let status = Arc::new(Mutex::new(DeviceStatus { name: choice.name.clone(), ..DeviceStatus::default() }));
+        let name = choice.name();
+        let status = Arc::new(Mutex::new(DeviceStatus { name: name.clone(), ..DeviceStatus::default() }));
         let told = Arc::clone(&status);
-        let named = Identity { name: choice.name, ..Identity::default() };
-        thread::spawn(move || {
-            let ended = match choice.found {
-                None => Server::new(VirtualFeeder::default(), named, exchange).map(|server| {
+        let named = Identity { name, ..Identity::default() };
+        let thread = thread::spawn(move || {
+            speech::follow();
+            let ended = match choice {
+                Choice::Virtual => Server::new(VirtualFeeder::default(), named, exchange).map(|server| {
                     let service = server.service.with_virtual_hand();
                     Server { service, ..server }.serve(&inbox, &told, VirtualFeeder::keep_pace)
                 }),
-                Some(found) => HidPort::open(&found).map_err(ServeError::from).and_then(|port| {
-                    Server::new(port, found.identity, exchange).map(|server| server.serve(&inbox, &told, |_, _, _| {}))
+                Choice::Haply => HaplyPort::open()
+                    .map_err(ServeError::from)
+                    .map(|port| keep_serving(port, &named, &exchange, &inbox, &told, |_| HaplyPort::open().ok())),
+                Choice::Found(found) => HidPort::open(&found).map_err(ServeError::from).map(|port| {
+                    let again = |descriptor: &[u8]| find_again(&found.identity, descriptor);
+                    keep_serving(port, &found.identity, &exchange, &inbox, &told, again)
                 }),
             };
             if let Ok(Err(error)) | Err(error) = ended {
-                told.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(error.to_string());
+                end(&told, &error);
             }
         });
-        Self { commands, status }
+        Self { commands, status, thread }
     }
 
     /// Asks for something; a device that is no longer served does nothing.
@@ -96,32 +119,123 @@ impl Served {
     }
 }
 
+/// Tells why a device is no longer served.
+fn end(told: &Mutex<DeviceStatus>, why: &ServeError) {
+    speech::follow();
+    told.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why.to_string());
+}
+
+/// Opens the device that has these numbers, this name and this descriptor, where it is plugged in.
+fn find_again(identity: &Identity, descriptor: &[u8]) -> Option<HidPort> {
+    let same = find().ok()?.into_iter().filter(|found| found.identity == *identity);
+    same.filter_map(|found| HidPort::open(&found).ok()).find(|port| port.descriptor() == descriptor)
+}
+
+/// Serves a device, and serves it again, without a force, each time that it was pulled out and is there again: `again` opens
+/// the one that has the descriptor which it is given, once there is one.
+///
+/// # Errors
+/// When it ends in another way than by its plug.
+fn keep_serving<P: Port>(
+    mut port: P,
+    identity: &Identity,
+    exchange: &Exchange,
+    inbox: &Receiver<DeviceCommand>,
+    told: &Mutex<DeviceStatus>,
+    again: impl Fn(&[u8]) -> Option<P>,
+) -> Result<(), ServeError> {
+    let descriptor = port.descriptor().to_vec();
+    loop {
+        let server = Server::new(port, identity.clone(), exchange.clone())?;
+        match server.serve(inbox, told, |_, _, _| {}) {
+            Err(gone @ ServeError::Port(PortError::Gone)) => end(told, &gone),
+            ended => return ended,
+        }
+        port = loop {
+            thread::sleep(AGAIN);
+            // What is asked meanwhile is asked of one that is gone: nothing of it, and no force, waits for the next.
+            loop {
+                match inbox.try_recv() {
+                    Ok(_) => {}
+                    Err(TryRecvError::Empty) => break,
+                    Err(TryRecvError::Disconnected) => return Ok(()),
+                }
+            }
+            if let Some(port) = again(&descriptor) {
+                break port;
+            }
+        };
+    }
+}
+
 /// The desktop's devices, of which one is served.
 pub(super) struct HapticDevices {
     exchange: Exchange,
     choices: Vec<Choice>,
+    /// Why the system lists none.
+    problem: Option<OpenError>,
+    /// The place of the one that is served.
+    chosen: Option<usize>,
     served: Option<Served>,
+    /// Whether what was listed is called otherwise by now.
+    has_changed: bool,
 }
 
 impl HapticDevices {
     /// None is served; whose hand is on the wire, `exchange` says.
     pub(super) fn new(exchange: Exchange) -> Self {
-        Self { exchange, choices: Vec::new(), served: None }
+        Self { exchange, choices: Vec::new(), problem: None, chosen: None, served: None, has_changed: false }
+    }
+
+    /// Another language is spoken now.
+    pub(super) fn speak(&mut self) {
+        // Nothing was listed before the first look.
+        self.has_changed = !self.choices.is_empty();
+    }
+
+    fn listing(&self) -> Listing {
+        Listing {
+            names: self.choices.iter().map(Choice::label).collect(),
+            problem: self.problem.as_ref().map(ToString::to_string),
+            chosen: self.chosen,
+        }
+    }
+}
+
+impl Drop for HapticDevices {
+    /// The program ends, and its threads with it: not before the device has heard its last.
+    fn drop(&mut self) {
+        let Some(Served { commands, thread, .. }) = self.served.take() else { return };
+        drop(commands);
+        let until = Instant::now() + FAREWELL;
+        while !thread.is_finished() && Instant::now() < until {
+            thread::sleep(LOOK);
+        }
     }
 }
 
 impl Devices for HapticDevices {
     fn look(&mut self) -> (Vec<String>, Option<String>) {
-        let (choices, problem) = choices();
-        self.choices = choices;
-        (self.choices.iter().map(|choice| choice.name.clone()).collect(), problem)
+        let (found, problem) = match find() {
+            Ok(found) => (found, None),
+            Err(error) => (Vec::new(), Some(error)),
+        };
+        self.choices =
+            [Choice::Virtual, Choice::Haply].into_iter().chain(found.into_iter().map(Choice::Found)).collect();
+        self.problem = problem;
+        let Listing { names, problem, .. } = self.listing();
+        (names, problem)
+    }
+
+    fn changed(&mut self) -> Option<Listing> {
+        std::mem::take(&mut self.has_changed).then(|| self.listing())
     }
 
     fn choose(&mut self, number: Option<usize>) {
         // The one before is let go first.
         self.served = None;
-        let choice = number.and_then(|number| self.choices.get(number));
-        self.served = choice.map(|choice| Served::new(choice.clone(), self.exchange.clone()));
+        self.chosen = number.filter(|&number| number < self.choices.len());
+        self.served = self.chosen.map(|number| Served::new(self.choices[number].clone(), self.exchange.clone()));
     }
 
     fn ask(&mut self, command: DeviceCommand) {
@@ -178,7 +292,8 @@ impl<P: Port> Server<P> {
     }
 
     fn look(&mut self, now: f64, passed_s: f64) -> Result<(), PortError> {
-        while let Some(report) = self.port.poll()? {
+        for _ in 0..REPORTS {
+            let Some(report) = self.port.poll()? else { break };
             self.service.device_mut().input(now, report.id, &report.data);
         }
         self.exchange.moves(self.service.advance(passed_s));
@@ -204,9 +319,43 @@ impl<P: Port> Server<P> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::haptics::feeder::DESCRIPTOR;
     use crate::haptics::learning::Ask;
     use crate::haptics::mapping::Mapping;
+    use crate::haptics::port::InputReport;
     use crate::haptics::safety::Halt;
+    use crate::language::{self, Language};
+
+    /// A feeder on a cable that can be pulled.
+    struct Cable(Arc<Mutex<VirtualFeeder>>);
+
+    impl Cable {
+        fn feeder(&self) -> std::sync::MutexGuard<'_, VirtualFeeder> {
+            self.0.lock().unwrap()
+        }
+    }
+
+    impl Port for Cable {
+        fn descriptor(&self) -> &[u8] {
+            DESCRIPTOR
+        }
+
+        fn send(&mut self, id: u8, data: &[u8]) -> Result<(), PortError> {
+            self.feeder().send(id, data)
+        }
+
+        fn set_feature(&mut self, id: u8, data: &[u8]) -> Result<(), PortError> {
+            self.feeder().set_feature(id, data)
+        }
+
+        fn get_feature(&mut self, id: u8, bytes: usize) -> Result<Vec<u8>, PortError> {
+            self.feeder().get_feature(id, bytes)
+        }
+
+        fn poll(&mut self) -> Result<Option<InputReport>, PortError> {
+            self.feeder().poll()
+        }
+    }
 
     /// Waits until something is so, or too long.
     fn until(mut is_so: impl FnMut() -> bool) -> bool {
@@ -219,7 +368,7 @@ mod tests {
     #[test]
     fn the_virtual_device_is_served_and_its_hand_moves_the_wire() {
         let exchange = Exchange::default();
-        let served = Served::new(Choice { name: "Virtual device".to_owned(), found: None }, exchange.clone());
+        let served = Served::new(Choice::Virtual, exchange.clone());
         assert!(until(|| served.status().axes.len() == 2));
         let status = served.status();
         assert!(status.has_force && status.halted == Some(Halt::NotArmed) && status.ended.is_none());
@@ -232,8 +381,24 @@ mod tests {
     }
 
     #[test]
+    fn what_is_listed_is_called_as_the_language_of_the_moment_has_it() {
+        let mut devices = HapticDevices::new(Exchange::default());
+        devices.speak();
+        assert_eq!(devices.changed(), None, "nothing was listed");
+        devices.look();
+        devices.choose(Some(0));
+        language::speak(Language::German, language::built_in(Language::German).unwrap());
+        devices.speak();
+        let listing = devices.changed().unwrap();
+        assert_eq!((listing.names[0].as_str(), listing.chosen), ("Virtuelles Gerät", Some(0)));
+        assert_eq!(devices.changed(), None);
+        assert_eq!(devices.status().unwrap().name, "Virtual device", "as tables have it");
+        language::speak(Language::English, &[]);
+    }
+
+    #[test]
     fn a_mapping_is_learnt_by_a_push_and_a_turn() {
-        let served = Served::new(Choice { name: "Virtual device".to_owned(), found: None }, Exchange::default());
+        let served = Served::new(Choice::Virtual, Exchange::default());
         served.ask(DeviceCommand::Learn);
         assert!(until(|| served.status().asks == Some(Ask::Push)));
         served.ask(DeviceCommand::Want([0.0, -4.0]));
@@ -243,5 +408,37 @@ mod tests {
         let Mapping { feed, roll, .. } = served.status().mapping;
         assert!(feed.is_some_and(|feed| feed.axis == 1 && feed.is_inverted));
         assert!(roll.is_some_and(|roll| roll.axis == 0 && roll.is_inverted));
+    }
+
+    #[test]
+    fn a_device_that_is_plugged_in_again_is_served_again_without_its_force() {
+        let feeder = Arc::new(Mutex::new(VirtualFeeder::default()));
+        let (commands, inbox) = channel();
+        let status = Arc::new(Mutex::new(DeviceStatus::default()));
+        let (told, cable) = (Arc::clone(&status), Arc::clone(&feeder));
+        let serving = thread::spawn(move || {
+            let again = |descriptor: &[u8]| {
+                assert_eq!(descriptor, DESCRIPTOR);
+                let is_there = cable.lock().unwrap().poll().is_ok();
+                is_there.then(|| Cable(Arc::clone(&cable)))
+            };
+            let first = Cable(Arc::clone(&cable));
+            keep_serving(first, &Identity::default(), &Exchange::default(), &inbox, &told, again)
+        });
+        let now = || status.lock().unwrap().clone();
+        commands.send(DeviceCommand::Arm).unwrap();
+        assert!(until(|| now().axes.len() == 2 && now().halted.is_none()), "{:?}", now());
+        for _ in 0..2 {
+            feeder.lock().unwrap().unplug();
+            assert!(until(|| now().ended.is_some_and(|why| why.contains("no longer there"))), "{:?}", now());
+            // What is asked of a device that is gone is not kept for the next.
+            commands.send(DeviceCommand::Arm).unwrap();
+            thread::sleep(2 * AGAIN);
+            feeder.lock().unwrap().plug_in();
+            assert!(until(|| now().ended.is_none()), "{:?}", now());
+            assert_eq!((now().halted, now().has_force), (Some(Halt::NotArmed), true));
+        }
+        drop(commands);
+        assert!(matches!(serving.join(), Ok(Ok(()))));
     }
 }

@@ -9,6 +9,7 @@ use hidapi::{HidApi, HidDevice, HidError};
 use crate::haptics::descriptor::{LONGEST, parse};
 use crate::haptics::device::Identity;
 use crate::haptics::port::{InputReport, Port, PortError};
+use crate::say;
 
 /// The longest input report that is read, with its id.
 const MOST_BYTES: usize = 4096;
@@ -24,16 +25,27 @@ pub(super) struct Found {
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OpenError {
     /// The system has no HID interface, or does not list devices.
-    #[error("the system does not list its devices: {0}")]
+    #[error("{}", say!("app-devices-not-listed", error = .0.to_string()))]
     System(HidError),
     /// It is there, but cannot be opened.
-    #[error("{name} cannot be opened: {error} (on Linux it needs a udev rule, see docs/haptics.md)")]
+    #[error("{}", say!("app-device-not-opened", name = .name, error = .error.to_string()))]
     Device {
         /// What it calls itself.
         name: String,
         /// What the system says.
         error: HidError,
     },
+    /// Haply's service is not there.
+    #[error("{}", say!("app-haply-not-there", address = *.address, error = .error.to_string()))]
+    Haply {
+        /// Where it should be.
+        address: &'static str,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// It is there, and has no arm.
+    #[error("{}", say!("app-haply-no-arm"))]
+    HaplyArm,
 }
 
 /// Devices that have axes: those that others own, keyboards and mice, are left out.

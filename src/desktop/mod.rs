@@ -1,6 +1,7 @@
 //! What the desktop gives the app: a window, file dialogs, engines and haptic devices on threads.
 
 mod files;
+mod haply;
 mod haptics;
 mod hid;
 #[cfg(not(feature = "scans"))]
@@ -8,6 +9,7 @@ mod hid;
 mod scans;
 #[cfg(feature = "scans")]
 mod scans;
+mod speech;
 mod thread;
 mod window;
 
@@ -19,6 +21,7 @@ use crate::app::{Devices, Offer, Platform, PlatformEvent, Waker};
 use crate::engine::scan::ScanLink;
 use crate::engine::trial::{Exchange, TrialLink};
 use crate::engine::{Engine, Link, TrialEngine};
+use crate::language::Language;
 
 /// The desktop.
 pub struct Desktop {
@@ -62,16 +65,26 @@ impl Platform for Desktop {
         Some(&mut self.devices)
     }
 
+    fn locale(&self) -> Option<String> {
+        sys_locale::get_locale()
+    }
+
+    fn speak(&mut self, language: Language, _: &str) {
+        speech::set(language);
+        self.devices.speak();
+    }
+
     fn enter(&mut self, ctx: &egui::Context) {
         self.waker.enter(ctx);
     }
 
     fn choose_file(&mut self, _: &egui::Context) {
-        files::choose(self.sender.clone(), self.waker.clone());
+        files::choose(self.scans.disk(), self.sender.clone(), self.waker.clone());
     }
 
-    fn read_dropped(&mut self, file: egui::DroppedFileHandle, _: &egui::Context) {
-        files::read(file.path().to_owned(), self.sender.clone(), self.waker.clone());
+    fn read_dropped(&mut self, files: Vec<egui::DroppedFileHandle>, _: &egui::Context) {
+        let paths = files.iter().map(|file| file.path().to_owned()).collect();
+        files::read(paths, self.scans.disk(), self.sender.clone(), self.waker.clone());
     }
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {

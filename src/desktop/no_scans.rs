@@ -21,9 +21,20 @@ impl Line {
     pub(super) fn link(&mut self) -> Option<&mut ScanLink> {
         None
     }
+
+    /// No files are put anywhere.
+    pub(super) fn disk(&self) -> Disk {
+        Disk
+    }
 }
 
-/// No file is a scan.
-pub(super) fn files(_: &[PathBuf]) -> Result<Option<Vec<NamedFile>>, String> {
-    Ok(None)
+/// No files.
+#[derive(Default)]
+pub(super) struct Disk;
+
+impl Disk {
+    /// No file is a scan.
+    pub(super) fn files(&self, _: &[PathBuf]) -> Result<Option<Vec<NamedFile>>, String> {
+        Ok(None)
+    }
 }

@@ -7,8 +7,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Instant;
 
+use super::speech;
 use crate::app::Waker;
 use crate::engine::{Link, Machine};
+use crate::say;
 
 /// Passing events are dropped while so many others are not heard.
 const UNHEARD: usize = 30;
@@ -39,7 +41,7 @@ impl<M: Machine> ThreadLink<M> {
 impl<M: Machine> Link<M::Command, M::Event> for ThreadLink<M> {
     fn send(&mut self, command: M::Command) {
         if self.commands.send(command).is_err() {
-            self.failure.get_or_insert_with(|| "its thread has ended".to_owned());
+            self.failure.get_or_insert_with(|| say!("app-thread-ended"));
         }
     }
 
@@ -80,7 +82,7 @@ fn start<M: Machine>(make: Make<M>, waker: Waker, unheard: Arc<AtomicUsize>) -> 
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let reason = text.or_else(|| panic.downcast_ref::<String>().cloned());
             // Without a window nobody listens any more.
-            let _ = outbox.send(Err(reason.unwrap_or_else(|| "for an unknown reason".to_owned())));
+            let _ = outbox.send(Err(reason.unwrap_or_else(|| say!("app-reason-unknown"))));
             waker.wake();
         }
     });
@@ -102,6 +104,7 @@ fn work<M: Machine>(
             None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
             Some(rest) => inbox.recv_timeout(rest),
         };
+        speech::follow();
         match heard {
             Ok(command) => machine.handle(command),
             Err(RecvTimeoutError::Timeout) => {}

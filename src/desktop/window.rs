@@ -12,6 +12,7 @@ use egui::{ViewportBuilder, ViewportCommand, ViewportInfo};
 use super::{Desktop, files};
 use crate::app::{LastingApp, LumenApp, OnEnd, Restarts};
 use crate::render::{Fault, device_descriptor};
+use crate::say;
 
 /// A device that has to be replaced, and how the window stood.
 type End = Rc<RefCell<Option<(Fault, ViewportInfo)>>>;
@@ -74,7 +75,8 @@ fn show(
             None => {
                 let platform = Desktop::new(&cc.egui_ctx);
                 if let Some(path) = file {
-                    files::read(path.to_owned(), platform.sender.clone(), platform.waker.clone());
+                    let disk = platform.scans.disk();
+                    files::read(vec![path.to_owned()], disk, platform.sender.clone(), platform.waker.clone());
                 }
                 LastingApp::new(LumenApp::new(&cc.egui_ctx, device, Box::new(platform)))
             }
@@ -119,12 +121,12 @@ fn graphics() -> WgpuConfiguration {
 /// Asks whether to open the window again, where it has been lost again and again. Nothing can be drawn, so the system's
 /// own dialog asks.
 fn goes_on() -> bool {
-    let again = "Try again".to_owned();
+    let again = say!("app-try-again");
     let answer = rfd::MessageDialog::new()
         .set_level(rfd::MessageLevel::Error)
         .set_title("Lumen")
-        .set_description("The graphics keep failing on this machine. What was open is still here.")
-        .set_buttons(rfd::MessageButtons::OkCancelCustom(again.clone(), "Close".to_owned()))
+        .set_description(say!("app-graphics-keep-failing"))
+        .set_buttons(rfd::MessageButtons::OkCancelCustom(again.clone(), say!("app-close")))
         .show();
     matches!(answer, rfd::MessageDialogResult::Ok) || answer == rfd::MessageDialogResult::Custom(again)
 }

@@ -1,20 +1,27 @@
 //! What passes between the app and the engine: it can cross between threads that share no memory, large arrays as buffers
 //! of their own ([`transfer`](crate::transfer)).
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::surfaces::{levels, surface};
 use crate::io::{Axes, Format, ImportOptions, ImportReport};
-use crate::mesh::TriMesh;
+use crate::mesh::mending::{FaultCounts, FaultPlace};
+use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::connectivity::Component;
+use crate::pipeline::deviation::Deviation;
+use crate::pipeline::histogram::Histogram;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Settings};
 use crate::pipeline::stage::Stage;
+use crate::report::ReportFormat;
+use crate::say;
 use crate::sharing::Digest;
+use crate::sharing::measures::Measure;
 use crate::transfer::{bulk, optional};
 use crate::vessel::CentrelineFormat;
 use crate::vessel::certificate::Certificate;
@@ -45,9 +52,13 @@ pub enum Source {
         name: String,
         /// What it was made of: "DICOM".
         format: String,
-        /// The surface, in LPS mm.
+        /// The surface in mm.
         #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
+        /// What its coordinates grow towards, as far as the scan says it.
+        axes: Axes,
+        /// What looked odd about the scan.
+        warnings: Vec<String>,
     },
 }
 
@@ -57,11 +68,19 @@ impl Source {
         Self::Sample { sample, triangles: sample.default_triangles() as u32 }
     }
 
-    /// What the surface is called.
+    /// What the surface is called, whatever is spoken: files are named by it.
     pub fn name(&self) -> &str {
         match self {
             Self::File { name, .. } | Self::Made { name, .. } => name,
-            Self::Sample { sample, .. } => sample.label(),
+            Self::Sample { sample, .. } => sample.title(),
+        }
+    }
+
+    /// The same to a user: a sample has a name in the language that is spoken.
+    pub fn label(&self) -> Cow<'_, str> {
+        match self {
+            Self::File { name, .. } | Self::Made { name, .. } => name.as_str().into(),
+            Self::Sample { sample, .. } => sample.label().into(),
         }
     }
 }
@@ -79,7 +98,7 @@ pub enum Command {
         /// The settings to begin with.
         settings: Settings,
     },
-    /// Change the settings.
+    /// Change the settings of what is open; passed over where nothing is yet.
     Set {
         /// Comes back with the results; each command's is larger than the one before.
         generation: u64,
@@ -93,6 +112,26 @@ pub enum Command {
         id: u64,
         /// The settings, each of which is answered once; none to stop.
         settings: Vec<Settings>,
+    },
+    /// Measure how far a compared surface is from the first of them, in place of what was measured so before. Forgotten
+    /// by a cancel.
+    Differ {
+        /// Comes back with the answer; counted with the generations.
+        id: u64,
+        /// The first.
+        #[serde(with = "surface")]
+        first: Arc<TriMesh>,
+        /// The other.
+        #[serde(with = "surface")]
+        other: Arc<TriMesh>,
+    },
+    /// Smooth what is kept of the surface that is open by so many passes of plain Laplacian smoothing, in place of what was
+    /// asked for so before: only to be shown.
+    Average {
+        /// Comes back with the answer; counted with the generations.
+        id: u64,
+        /// From 0.
+        passes: u32,
     },
     /// Stop, and go back to the last result; nothing goes on until there are other settings.
     Cancel,
@@ -111,6 +150,34 @@ pub enum Command {
         /// Its format.
         format: Format,
     },
+    /// Make a report on the surface that is open.
+    WriteReport {
+        /// The name of the file, with extension.
+        name: String,
+        /// What it is written as.
+        format: ReportFormat,
+        /// What the report is called.
+        title: Option<String>,
+        /// What the surface's coordinates grow towards.
+        axes: Axes,
+        /// What a user has measured.
+        measures: Vec<Measure>,
+        /// Its pictures.
+        pictures: Vec<Frame>,
+    },
+    /// Take the next frame of a picture, the last of which completes the file (PNG).
+    WriteFrame {
+        /// The name of the file, with extension.
+        name: String,
+        /// Its number, from 0, which begins another picture.
+        index: u32,
+        /// How many there are.
+        count: u32,
+        /// Whether the picture has an alpha channel.
+        has_alpha: bool,
+        /// The frame.
+        frame: Frame,
+    },
     /// Turn a surface into a file.
     Write {
         /// The name of the file, with extension.
@@ -122,7 +189,23 @@ pub enum Command {
         mesh: TriMesh,
         /// What its coordinates grow towards.
         axes: Axes,
+        /// What those of the file are to grow towards.
+        to: Axes,
     },
+}
+
+/// A picture that was drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// What it shows.
+    pub caption: String,
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+    /// Red, green, blue and alpha of each pixel, from the top left.
+    #[serde(with = "bulk")]
+    pub rgba: Vec<u8>,
 }
 
 /// What the engine is doing.
@@ -137,13 +220,18 @@ pub enum Work {
 }
 
 impl Work {
-    /// What the work is called while it goes on.
-    pub fn label(self) -> &'static str {
+    /// What the work is called while it goes on, in the language that is spoken.
+    pub fn label(self) -> String {
         match self {
-            Self::Reading => "Reading",
+            Self::Reading => say!("panel-work-reading"),
             Self::Stage(stage) => stage.label(),
-            Self::Comparing => "Comparing",
+            Self::Comparing => say!("panel-work-comparing"),
         }
+    }
+
+    /// Whether it only adds numbers to a level that is shown already, with its deviation.
+    pub fn adds_to_what_is_shown(self) -> bool {
+        matches!(self, Self::Stage(Stage::Arrays | Stage::SmoothedMeasures | Stage::Measures))
     }
 }
 
@@ -199,6 +287,28 @@ pub struct Carried {
     pub values: Vec<f32>,
 }
 
+/// What else is known of the deviation of a level, beside the numbers and the map from the smoothed surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Deviated {
+    /// That of the settings.
+    pub generation: u64,
+    /// Three numbers for each vertex of the level, in mm, one kind after the other: the mean signed distance from the
+    /// smoothed surface around it, the mean distance from the opened one, and the mean signed distance from that.
+    #[serde(with = "bulk")]
+    pub values: Vec<f32>,
+    /// How the samples are spread: from the smoothed surface, and from the opened one.
+    pub histograms: [Histogram; 2],
+}
+
+/// What is wrong with a surface as it was opened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaultsFound {
+    /// How often.
+    pub counts: FaultCounts,
+    /// Where: the first of each kind.
+    pub places: Vec<FaultPlace>,
+}
+
 /// What the pipeline made at one of the settings to compare.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
@@ -211,6 +321,35 @@ pub struct Compared {
     /// The level, over its own vertices.
     #[serde(with = "surface")]
     pub mesh: Arc<TriMesh>,
+}
+
+/// How far a surface is from another.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Differed {
+    /// That of the command.
+    pub id: u64,
+    /// For each vertex of the other surface its mean distance from the first around it, in mm; empty where one of them
+    /// has no area.
+    #[serde(with = "bulk")]
+    pub by_vertex: Vec<f32>,
+    /// The numbers, where both have one.
+    pub deviation: Option<Deviation>,
+    /// The diameter of the first one's lumen where they are farthest apart, in mm, where a wall faces it.
+    pub width_mm: Option<f32>,
+}
+
+/// What plain Laplacian smoothing makes of the surface that is open.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Averaged {
+    /// That of the command.
+    pub id: u64,
+    /// That of the command.
+    pub passes: u32,
+    /// The pieces that were smoothed.
+    pub keep: Keep,
+    /// Where each vertex of the surface as it was opened is moved to, in mm; those of other pieces stay.
+    #[serde(with = "bulk")]
+    pub positions: Vec<Vec3>,
 }
 
 /// What the engine has to say.
@@ -227,6 +366,15 @@ pub enum Event {
         /// One plain sentence.
         message: String,
     },
+    /// What goes through the stages is another surface than it was: the open one mended, or as it was opened again. Its
+    /// pieces follow.
+    Mended {
+        /// All of it.
+        #[serde(with = "surface")]
+        mesh: Arc<TriMesh>,
+    },
+    /// What is wrong with the surface as it was opened; it is looked for in the background.
+    Faults(Box<FaultsFound>),
     /// The pieces of the open surface.
     Pieces {
         /// The piece of each triangle.
@@ -257,6 +405,8 @@ pub enum Event {
         #[serde(with = "optional")]
         deviation: Option<Vec<f32>>,
     },
+    /// More of the deviation of the level that the settings ask for; after its numbers.
+    Deviated(Box<Deviated>),
     /// What the file says of the level that the settings ask for; only where it says something.
     Carried(Box<Carried>),
     /// What the level that the settings ask for makes of the vessels; it is measured in the background.
@@ -270,6 +420,10 @@ pub enum Event {
     },
     /// One of the settings to compare is done with.
     Compared(Box<Compared>),
+    /// How far a compared surface is from the first.
+    Differed(Box<Differed>),
+    /// The surface that is open, smoothed by plain Laplacian passes.
+    Averaged(Box<Averaged>),
     /// One of the settings to compare cannot be worked on.
     NotCompared {
         /// That of the command.
@@ -286,6 +440,8 @@ pub enum Event {
         /// Its bytes.
         #[serde(with = "bulk")]
         bytes: Vec<u8>,
+        /// A sentence on what is not in it that is shown, if anything is.
+        left_out: Option<String>,
     },
     /// A file could not be made.
     NotWritten {
@@ -318,6 +474,11 @@ pub trait Link<C = Command, E = Event> {
         self.restart();
     }
 
+    /// Whether the engine that has stopped by itself had no memory left: another would stop at the same place.
+    fn is_out_of_memory(&self) -> bool {
+        false
+    }
+
     /// One plain sentence on why the engine stopped by itself, once; whoever asks should [`Self::restart`] or
     /// [`Self::give_up`].
     fn failure(&mut self) -> Option<String>;
@@ -342,16 +503,49 @@ mod tests {
         let source = Source::File { name: "a.stl".into(), bytes: stl, options: ImportOptions::default() };
         let bad = Source::File { name: "b.stl".into(), bytes: Arc::new(vec![0; 3]), options: ImportOptions::default() };
         let sphere = crate::mesh::shapes::icosphere(1, 30.0, glam::Vec3::ZERO);
-        let made = Source::Made { name: "d".into(), format: "DICOM".into(), mesh: Arc::new(sphere) };
+        let small = Arc::new(sphere.clone());
+        let made = Source::Made {
+            name: "d".into(),
+            format: "DICOM".into(),
+            mesh: Arc::new(sphere),
+            axes: Axes::Lps,
+            warnings: vec!["odd".into()],
+        };
+        let holed = crate::mesh::shapes::icosphere(3, 30.0, glam::Vec3::ZERO).filtered(|t| t != 7);
+        let holed = Source::Made {
+            name: "e".into(),
+            format: "DICOM".into(),
+            mesh: Arc::new(holed),
+            axes: Axes::Unknown,
+            warnings: Vec::new(),
+        };
+        let mending = crate::pipeline::settings::Mending { fill_mm: Some(50.0), ..Default::default() };
         let settings = Settings::default();
+        let frame = Frame { caption: "c".into(), width: 1, height: 1, rgba: vec![1, 2, 3, 4] };
         let impossible = Settings { keep: Keep::Component(10_000), ..Settings::default() };
         let commands = [
             Command::Open { id: 1, source, settings: settings.clone() },
             Command::Open { id: 2, source: bad, settings: settings.clone() },
-            Command::Write { name: "c.stl".into(), format: Format::Stl, mesh, axes: Axes::Lps },
+            Command::Write { name: "c.stl".into(), format: Format::Stl, mesh, axes: Axes::Lps, to: Axes::Ras },
             Command::WriteCentrelines { name: "c.vtp".into(), format: CentrelineFormat::Vtp },
+            Command::WriteReport {
+                name: "c.pdf".into(),
+                format: ReportFormat::Pdf,
+                title: Some("c".into()),
+                axes: Axes::Lps,
+                measures: vec![Measure {
+                    name: "Ruler 1".into(),
+                    made_on: crate::sharing::measures::MadeOn::Opened,
+                    found: crate::sharing::measures::Found::Ruler { ends_mm: [[0.0; 3], [1.0; 3]] },
+                }],
+                pictures: vec![frame.clone()],
+            },
+            Command::WriteFrame { name: "c.png".into(), index: 0, count: 1, has_alpha: true, frame },
             Command::Set { generation: 3, settings: settings.clone() },
+            Command::Open { id: 7, source: holed, settings: Settings { mending, ..settings.clone() } },
             Command::Compare { id: 4, settings: vec![settings.clone(), impossible] },
+            Command::Differ { id: 8, first: small.clone(), other: small },
+            Command::Average { id: 9, passes: 3 },
             Command::Cancel,
             Command::Open { id: 6, source: made, settings: settings.clone() },
             Command::Open { id: 5, source: Source::sample(Sample::Coronary), settings },
@@ -371,10 +565,14 @@ mod tests {
             }
         }
         let expected = [
+            "Averaged",
             "Cancelled",
             "Certified",
             "Compared",
+            "Differed",
+            "Faults",
             "Measured",
+            "Mended",
             "NotCompared",
             "OpenFailed",
             "Opened",

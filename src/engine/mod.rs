@@ -6,23 +6,31 @@
 //! cross between threads that share no memory ([`transfer`](crate::transfer)).
 //!
 //! - `message`: commands and events; `surfaces`: how the surfaces in them cross.
-//! - `pipeline_engine`: what stands in force; `compare`: settings to compare ([`Command::Compare`]), which are worked on while
-//!   nothing else is to be done; `progress`: how far both are.
+//! - `pipeline_engine`: what stands in force; `opening`: a source on its way in; `compare`: settings to compare ([`Command::Compare`]), which are worked on while
+//!   nothing else is to be done; `differing`: how far two of them are apart; `averaging`: plain Laplacian
+//!   smoothing, to be seen beside the filter; `progress`: how far all this is.
 //! - [`trial`]: the guidewire trial, an engine of its own on a line of its own. It keeps pace with the clock.
 //! - [`scan`]: scans and masks, an engine of its own as well; the surface that it makes is opened as [`Source::Made`].
 //! - [`Machine`]: what they are to whoever runs them.
 
 mod arrays;
+mod averaging;
 mod compare;
+mod differing;
 mod machine;
 mod message;
+mod opening;
 mod pipeline_engine;
 mod progress;
+mod record;
 pub mod scan;
 mod surfaces;
 pub mod trial;
 
 pub use self::machine::{Machine, SLICE};
-pub use self::message::{Calibre, Carried, Command, Compared, Event, Link, Opened, Reduced, Source, Work};
+pub use self::message::{
+    Averaged, Calibre, Carried, Command, Compared, Deviated, Differed, Event, FaultsFound, Frame, Link, Opened,
+    Reduced, Source, Work,
+};
 pub use self::pipeline_engine::{Engine, PATIENCE};
 pub use self::trial::TrialEngine;

@@ -4,6 +4,7 @@
 //! slider being dragged shows one result after another; but no longer than [`PATIENCE`], after which the older work is
 //! dropped.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,21 +12,28 @@ use std::time::Duration;
 use web_time::Instant;
 
 use super::arrays;
+use super::averaging::Averaging;
 use super::compare::Comparing;
+use super::differing::Differing;
 use super::machine::{Machine, SLICE};
-use super::message::{Calibre, Carried, Command, Event, Opened, Reduced, Source, Work};
+use super::message::{Calibre, Carried, Command, Deviated, Event, FaultsFound, Opened, Reduced, Source, Work};
+use super::opening::Opening;
 use super::progress::tell_progress;
+use super::record::{self, Animation, Asked, Origin};
 use crate::io::{self, Axes, Imported, Output};
+use crate::language::Key;
 use crate::mesh::{TriMesh, Vec3};
-use crate::phantom;
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::report::Report;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
-use crate::pipeline::task::Budget;
-use crate::sharing::Digest;
+use crate::say;
+use crate::task::{Budget, Progress, Task as _, milliseconds};
 use crate::vessel::CentrelineFormat;
+
+/// What is said of a file whose surface was another by the time that it was written.
+const NOT_CARRIED: Key = Key("errors-not-carried");
 
 /// How long work on older settings may hold up newer ones.
 pub const PATIENCE: Duration = Duration::from_millis(400);
@@ -35,10 +43,17 @@ pub const PATIENCE: Duration = Duration::from_millis(400);
 pub struct Engine {
     /// Files to be opened, with the settings to begin with: the newest is, those before it only if it cannot be read.
     opening: Vec<(u64, Source, Settings)>,
+    /// The one that is being read; those that come meanwhile wait until it is.
+    reading: Option<Box<Opening>>,
     current: Option<Current>,
     /// Settings to compare on the surface that is open, or is opened next.
     pub(super) comparing: Option<Comparing>,
+    /// Two of their surfaces that are measured against each other.
+    differing: Option<Differing>,
+    /// Plain Laplacian smoothing, to be seen beside the filter.
+    averaging: Option<Averaging>,
     writing: VecDeque<Writing>,
+    animation: Animation,
     events: VecDeque<Event>,
 }
 
@@ -48,12 +63,16 @@ struct Writing {
     format: io::Format,
     mesh: TriMesh,
     axes: Axes,
+    to: Axes,
 }
 
 struct Current {
     name: String,
     axes: Axes,
+    origin: Origin,
     pipeline: Pipeline,
+    /// The surface that the app has: the opened one, or what mending made of it.
+    told: Arc<TriMesh>,
     read_ms: f64,
     /// The number of the settings that are worked on.
     generation: u64,
@@ -76,7 +95,7 @@ impl Engine {
         Self::default()
     }
 
-    /// Takes a command. Nothing long happens here.
+    /// Takes a command. Nothing long happens here, but for a report and a frame of a picture: some tens of milliseconds.
     pub fn handle(&mut self, command: Command) {
         match command {
             Command::Open { id, source, settings } => self.opening.push((id, source, settings)),
@@ -88,24 +107,33 @@ impl Engine {
             Command::Compare { id, settings } => {
                 let comparing = Comparing::new(id, settings);
                 // A surface that is on its way in would be another than that of the work so far.
-                let before = self.comparing.take().filter(|_| self.opening.is_empty());
+                let before = self.comparing.take().filter(|_| !self.is_opening());
                 self.comparing = Some(match before {
                     Some(before) => comparing.after(before),
                     None => comparing,
                 });
             }
+            Command::Differ { id, first, other } => self.differing = Some(Differing::new(id, first, other)),
+            Command::Average { id, passes } => self.averaging = Some(Averaging::new(id, passes)),
             Command::Cancel => self.cancel(),
             Command::WriteCentrelines { name, format } => self.write_centrelines(name, format),
             Command::WriteLevel { name, format } => self.write_level(name, format),
-            Command::Write { name, format, mesh, axes } => {
-                self.writing.push_back(Writing { name, format, mesh, axes });
+            Command::WriteReport { name, format, title, axes, measures, pictures } => {
+                self.write_report(name, Asked { format, title, axes, measures, pictures });
+            }
+            Command::WriteFrame { name, index, count, has_alpha, frame } => {
+                self.events.extend(self.animation.take(name, [index, count], has_alpha, frame));
+            }
+            Command::Write { name, format, mesh, axes, to } => {
+                self.writing.push_back(Writing { name, format, mesh, axes, to });
             }
         }
     }
 
     fn cancel(&mut self) {
         self.opening.clear();
-        self.comparing = None;
+        self.reading = None;
+        (self.comparing, self.differing) = (None, None);
         if let Some(current) = &mut self.current {
             current.waiting = None;
             current.pipeline.cancel();
@@ -114,21 +142,27 @@ impl Engine {
             if current.pipeline.reduced().is_some() {
                 current.generation = current.reached;
             }
+            // What was gone back to may be another surface than that of the settings in between.
+            if current.tell_mended(&mut self.events) {
+                current.tell_pieces(&mut self.events);
+            }
             let (generation, settings) = (current.generation, current.pipeline.settings().clone());
             self.events.push_back(Event::Cancelled { generation, settings });
         }
     }
 
-    /// Works for about `slice` and says whether there is more to do. Reading a file and writing one are one piece each
-    /// and may take longer; so may, for surfaces of a million triangles, the parts of connectivity and the beginning
-    /// and end of smoothing and decimation (tens of milliseconds).
+    /// Works for about `slice` and says whether there is more to do. Writing a file is one piece and may take longer; so may,
+    /// for surfaces of a million triangles, the JSON of a glTF text, the end of parsing and of an import, the parts of
+    /// connectivity and the beginning and end of smoothing and decimation (tens of milliseconds).
     pub fn advance(&mut self, slice: Duration) -> bool {
         let budget = Budget::new(slice);
         if let Some(writing) = self.writing.pop_front_if(|_| !self.current.as_ref().is_some_and(Current::is_carrying)) {
             self.write(writing);
-        } else if let Some((id, source, settings)) = self.opening.pop() {
-            self.open(id, source, settings);
-        } else if self.comparing.is_some() && self.current.as_ref().is_some_and(Current::is_in_background) {
+        } else if self.is_opening() {
+            self.open(budget);
+        } else if (self.comparing.is_some() || self.differing.is_some() || self.averaging.is_some())
+            && self.current.as_ref().is_some_and(Current::is_in_background)
+        {
             // What a user waits for goes before what nobody asked for.
             self.compare(budget);
         } else if let Some(current) = &mut self.current {
@@ -146,16 +180,27 @@ impl Engine {
             }
             return self.compare(budget) || !self.writing.is_empty();
         }
-        !self.opening.is_empty() || self.current.is_some() || !self.writing.is_empty()
+        self.is_opening() || self.current.is_some() || !self.writing.is_empty()
     }
 
-    /// Goes on with the settings to compare; whether there is more to do.
+    /// Goes on with plain Laplacian smoothing, then with the settings to compare, then with how far apart two surfaces are;
+    /// whether there is more to do.
     fn compare(&mut self, budget: Budget) -> bool {
-        let (Some(current), Some(comparing)) = (&self.current, &mut self.comparing) else { return false };
-        if !comparing.advance(&current.pipeline, &current.name, budget, &mut self.events) {
-            self.comparing = None;
+        let Some(current) = &self.current else { return false };
+        let events = &mut self.events;
+        let can_average = current.pipeline.kept().is_some();
+        if let Some(averaging) = self.averaging.as_mut().filter(|_| can_average) {
+            if !averaging.advance(&current.pipeline, budget, events) {
+                self.averaging = None;
+            }
+        } else if let Some(comparing) = &mut self.comparing {
+            if !comparing.advance(&current.pipeline, &current.name, budget, events) {
+                self.comparing = None;
+            }
+        } else {
+            self.differing.take_if(|differing| !differing.advance(budget, events));
         }
-        self.comparing.is_some()
+        self.comparing.is_some() || self.differing.is_some() || can_average && self.averaging.is_some()
     }
 
     /// The next event.
@@ -163,17 +208,26 @@ impl Engine {
         self.events.pop_front()
     }
 
-    fn write(&mut self, Writing { name, format, mesh, axes }: Writing) {
-        let normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
+    fn write(&mut self, Writing { name, format, mut mesh, axes, to }: Writing) {
+        let mut normals: Vec<Vec3> = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
         let carried = self.current.as_ref().and_then(|current| {
             let reduced = current.pipeline.reduced().filter(|reduced| *reduced.mesh == mesh);
             reduced.and(current.pipeline.level_arrays())
         });
-        let arrays = carried.map_or(&[][..], |arrays| arrays);
-        let output = Output { mesh: &mesh, normals: Some(&normals), arrays, axes };
-        self.events.push_back(match io::write_output(&output, format) {
-            Ok(bytes) => Event::Written { name, bytes },
-            Err(error) => Event::NotWritten { name, message: error.to_string() },
+        let has_arrays = self.current.as_ref().is_some_and(|current| current.pipeline.has_arrays());
+        let left_out = match carried {
+            None => has_arrays.then(|| NOT_CARRIED.say()),
+            Some(arrays) => io::left_out(arrays, format),
+        };
+        let mut arrays = Cow::Borrowed(carried.map_or(&[][..], |arrays| arrays));
+        let turned = if axes == to { Ok(()) } else { axes.turn(to, &mut mesh, &mut normals, arrays.to_mut()) };
+        let written = turned.map_err(|error| error.to_string()).and_then(|()| {
+            let output = Output { mesh: &mesh, normals: Some(&normals), arrays: &arrays, axes: to };
+            io::write_output(&output, format).map_err(|error| error.to_string())
+        });
+        self.events.push_back(match written {
+            Ok(bytes) => Event::Written { name, bytes, left_out },
+            Err(message) => Event::NotWritten { name, message },
         });
     }
 
@@ -181,72 +235,87 @@ impl Engine {
         match self.current.as_ref().and_then(|current| Some((current.pipeline.reduced()?, current.axes))) {
             Some((reduced, axes)) => {
                 let mesh = (*reduced.mesh).clone();
-                self.write(Writing { name, format, mesh, axes });
+                self.write(Writing { name, format, mesh, axes, to: axes });
             }
             None => {
-                let message = "there is no result yet".to_owned();
+                let message = say!("errors-no-result");
                 self.events.push_back(Event::NotWritten { name, message });
             }
         }
     }
 
-    fn write_centrelines(&mut self, name: String, format: CentrelineFormat) {
-        let vessels = self.current.as_ref().and_then(|current| current.pipeline.vessels());
-        self.events.push_back(match vessels {
-            Some(Ok(basis)) => Event::Written { name, bytes: basis.centrelines().written(format).into_bytes() },
-            Some(Err(error)) => Event::NotWritten { name, message: error.to_string() },
-            None => Event::NotWritten { name, message: "the vessels are still being measured".to_owned() },
+    fn write_report(&mut self, name: String, asked: Asked) {
+        let current = self.current.as_ref().ok_or_else(|| say!("errors-no-result"));
+        let made = current.and_then(|of| record::report(&of.name, &of.pipeline, &of.origin, asked));
+        self.events.push_back(match made {
+            Ok(bytes) => Event::Written { name, bytes, left_out: None },
+            Err(message) => Event::NotWritten { name, message },
         });
     }
 
-    /// Reads a source. What was open stays open if that fails.
-    fn open(&mut self, id: u64, source: Source, settings: Settings) {
-        let start = Instant::now();
-        let name = source.name().to_owned();
-        let digest = match &source {
-            Source::File { bytes, .. } => Some(Digest::of(bytes)),
-            Source::Sample { .. } | Source::Made { .. } => None,
-        };
-        match read(source) {
-            Ok(Imported { mesh, arrays, report }) => {
-                let mesh = Arc::new(mesh);
-                let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_arrays(arrays).with_safe();
-                if let Err(error) = pipeline.set(settings) {
-                    self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
-                    return;
-                }
-                // Those that were asked for before belong to the surface before.
-                self.comparing.take_if(|comparing| comparing.id < id);
-                let read_ms = start.elapsed().as_secs_f64() * 1e3;
-                let since = Instant::now();
-                self.current = Some(Current {
-                    name: name.clone(),
-                    axes: report.axes,
-                    pipeline,
-                    read_ms,
-                    generation: id,
-                    reached: id,
-                    waiting: None,
-                    since,
-                    is_stopped: false,
-                    has_new_levels: false,
-                });
-                self.opening.clear();
-                self.events.push_back(Event::Opened(Box::new(Opened { id, name, digest, report, mesh })));
+    fn write_centrelines(&mut self, name: String, format: CentrelineFormat) {
+        let vessels = self.current.as_ref().and_then(|current| current.pipeline.vessels());
+        self.events.push_back(match vessels {
+            Some(Ok(basis)) => {
+                let bytes = basis.centrelines().written(format).into_bytes();
+                Event::Written { name, bytes, left_out: None }
             }
-            Err(message) => self.events.push_back(Event::OpenFailed { id, name, message }),
+            Some(Err(error)) => Event::NotWritten { name, message: error.to_string() },
+            None => Event::NotWritten { name, message: say!("errors-not-measured") },
+        });
+    }
+
+    /// Whether a source is on its way in.
+    fn is_opening(&self) -> bool {
+        self.reading.is_some() || !self.opening.is_empty()
+    }
+
+    /// Reads the newest source. What was open stays open if that fails.
+    fn open(&mut self, budget: Budget) {
+        let next = || self.opening.pop().map(|(id, source, settings)| Box::new(Opening::new(id, source, settings)));
+        let Some(mut opening) = self.reading.take().or_else(next) else { return };
+        match opening.advance(budget) {
+            Progress::Working(fraction) => {
+                tell_progress(Work::Reading, fraction, &mut self.events);
+                self.reading = Some(opening);
+            }
+            Progress::Done(Ok(imported)) => self.opened(*opening, imported),
+            Progress::Done(Err(message)) => {
+                self.events.push_back(Event::OpenFailed { id: opening.id, name: opening.name, message });
+            }
         }
     }
-}
 
-fn read(source: Source) -> Result<Imported, String> {
-    match source {
-        Source::File { name, bytes, options } => io::read(&bytes, &name, &options).map_err(|error| error.to_string()),
-        Source::Made { format, mesh, .. } => Ok(io::import_mesh(Arc::unwrap_or_clone(mesh), &format)),
-        Source::Sample { sample, triangles } => {
-            let mesh = phantom::generate(sample, triangles as usize).map_err(|error| error.to_string())?;
-            Ok(io::import_mesh(mesh, "sample"))
+    /// What was read takes the place of what is open.
+    fn opened(&mut self, opening: Opening, Imported { mesh, arrays, report }: Imported) {
+        let Opening { id, name, settings, since, digest, has_units, .. } = opening;
+        let mesh = Arc::new(mesh);
+        let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_arrays(arrays).with_safe();
+        if let Err(error) = pipeline.set(settings) {
+            self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
+            return;
         }
+        // Those that were asked for before belong to the surface before.
+        self.comparing.take_if(|comparing| comparing.id < id);
+        self.differing.take_if(|differing| differing.id < id);
+        self.averaging.take_if(|averaging| averaging.id < id);
+        self.current = Some(Current {
+            name: name.clone(),
+            axes: report.axes,
+            origin: Origin { digest, import: report.clone(), has_units },
+            pipeline,
+            told: mesh.clone(),
+            read_ms: milliseconds(since),
+            generation: id,
+            reached: id,
+            waiting: None,
+            since: Instant::now(),
+            is_stopped: false,
+            has_new_levels: false,
+        });
+        // What came meanwhile is newer.
+        self.opening.retain(|(other, ..)| *other > id);
+        self.events.push_back(Event::Opened(Box::new(Opened { id, name, digest, report, mesh })));
     }
 }
 
@@ -257,9 +326,9 @@ impl Current {
         self.pipeline.has_arrays() && is_coming && !self.is_stopped
     }
 
-    /// Whether nothing is left but what nobody waits for: the vessels' calibre, and how far is safe.
+    /// Whether nothing is left but what nobody waits for: the faults of the file, the vessels' calibre, and how far is safe.
     fn is_in_background(&self) -> bool {
-        self.waiting.is_none() && self.pipeline.next_stage() >= Some(Stage::Vessels)
+        self.waiting.is_none() && self.pipeline.next_stage() >= Some(Stage::Faults)
     }
 
     /// One step; whether there is more to do.
@@ -272,7 +341,7 @@ impl Current {
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
             Advance::Idle => return Ok(self.pipeline.prepare(budget)),
             // Nobody waits for these: they go on in the background, and leave the bar to what is told there.
-            Advance::Working(Stage::Vessels | Stage::Certificate | Stage::Safe, _) => {}
+            Advance::Working(Stage::Faults | Stage::Vessels | Stage::Certificate | Stage::Safe, _) => {}
             Advance::Working(stage, fraction) => {
                 tell_progress(Work::Stage(stage), fraction, events);
             }
@@ -288,16 +357,17 @@ impl Current {
                 // Shape and lumen come when the deviation is told.
                 let has_new_map = !matches!(stage, Stage::Measures | Stage::Safe);
                 self.tell_numbers(stage != Stage::Level, has_new_map, events);
+                if stage == Stage::Deviation {
+                    self.tell_deviation(events);
+                }
             }
             Advance::Finished(Stage::Arrays) => self.tell_arrays(events),
             Advance::Finished(Stage::Certificate) => self.tell_calibre(events),
-            Advance::Finished(Stage::Connectivity) => {
-                let pieces = self.pipeline.connectivity();
-                if let Some(found) = pieces {
-                    let labels = found.labels.of_triangle.clone();
-                    events.push_back(Event::Pieces { labels, components: found.components.clone() });
-                }
+            Advance::Finished(Stage::Mending) => {
+                self.tell_mended(events);
             }
+            Advance::Finished(Stage::Faults) => self.tell_faults(events),
+            Advance::Finished(Stage::Connectivity) => self.tell_pieces(events),
             Advance::Finished(_) => {}
         }
         Ok(self.pipeline.next_stage().is_some() || self.waiting.is_some() || self.pipeline.can_prepare())
@@ -321,6 +391,7 @@ impl Current {
             if self.pipeline.reduced().is_some() {
                 self.reached = generation;
                 self.tell_numbers(self.pipeline.deviations().is_some(), true, events);
+                self.tell_deviation(events);
                 self.tell_arrays(events);
                 self.tell_calibre(events);
             }
@@ -339,6 +410,42 @@ impl Current {
         let deviation = with_deviation.then(by_node);
         let generation = self.generation;
         events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
+    }
+
+    /// The surface that goes through the stages, where it is another than the app has; whether it is.
+    fn tell_mended(&mut self, events: &mut VecDeque<Event>) -> bool {
+        let Some(entering) = self.pipeline.entering() else { return false };
+        if Arc::ptr_eq(&entering.mesh, &self.told) {
+            return false;
+        }
+        self.told = entering.mesh.clone();
+        events.push_back(Event::Mended { mesh: self.told.clone() });
+        true
+    }
+
+    fn tell_pieces(&self, events: &mut VecDeque<Event>) {
+        if let Some(found) = self.pipeline.connectivity() {
+            let labels = found.labels.of_triangle.clone();
+            events.push_back(Event::Pieces { labels, components: found.components.clone() });
+        }
+    }
+
+    fn tell_faults(&self, events: &mut VecDeque<Event>) {
+        if let Some(found) = self.pipeline.faults() {
+            let places = found.places(self.pipeline.opened());
+            events.push_back(Event::Faults(Box::new(FaultsFound { counts: found.counts(), places })));
+        }
+    }
+
+    /// What else is known of the deviation, once it is.
+    fn tell_deviation(&self, events: &mut VecDeque<Event>) {
+        let found = self.pipeline.deviations().map(|found| (&found.from_smoothed, &found.from_original));
+        if let Some((Some(smoothed), Some(original))) = found {
+            let values = [&smoothed.signed_map[..], &original.map, &original.signed_map].concat();
+            let histograms = [smoothed.histogram.clone(), original.histogram.clone()];
+            let generation = self.generation;
+            events.push_back(Event::Deviated(Box::new(Deviated { generation, values, histograms })));
+        }
     }
 
     /// What the file says of the level, if it says something and that is carried to it.

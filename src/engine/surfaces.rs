@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::{TriMesh, Vec3};
+use crate::pipeline::classes::Lines;
 use crate::pipeline::progressive::{Limit, ProgressiveMesh};
 
 #[derive(Serialize, Deserialize)]
@@ -29,7 +30,22 @@ struct Levels {
     triangle_ends: Vec<u32>,
     #[serde(with = "crate::transfer::bulk")]
     errors: Vec<f32>,
+    #[serde(with = "crate::transfer::bulk")]
+    costs: Vec<f32>,
+    #[serde(with = "LevelLines")]
+    lines: Lines,
     limit: Limit,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Lines")]
+struct LevelLines {
+    #[serde(with = "crate::transfer::bulk")]
+    features: Vec<[u32; 2]>,
+    #[serde(with = "crate::transfer::bulk")]
+    boundary: Vec<[u32; 2]>,
+    #[serde(with = "crate::transfer::bulk")]
+    complex: Vec<u32>,
 }
 
 /// For fields that are a surface, or share one.

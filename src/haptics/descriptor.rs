@@ -5,9 +5,12 @@
 //! `hidreport` reads the same, but panics on an item of three bytes and makes an element of each of 2^32 counted fields; it
 //! is what the tests compare with.
 
+use std::fmt;
+
 use super::field::{Content, Field, Range, Usages};
 use super::model::{Collection, DeviceModel, Kind, Report};
 use super::usage::Usage;
+use crate::say;
 
 /// The longest descriptor in bytes: USB has two for its length.
 pub const LONGEST: usize = 65_535;
@@ -21,32 +24,42 @@ const MOST_PUSHED: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ModelError {
     /// An item does not end within the bytes.
-    #[error("the report descriptor ends within the item at byte {at}")]
     Cut {
         /// Where the item begins.
         at: usize,
     },
     /// Longer than any device's.
-    #[error("the report descriptor has {bytes} bytes, more than {LONGEST}")]
     Long {
         /// Its length.
         bytes: usize,
     },
     /// A report is longer than any system takes.
-    #[error("report {id} of the device is longer than 65535 bytes")]
     Report {
         /// Its id.
         id: u8,
     },
     /// More than any device has.
-    #[error("the device has more than {MOST_FIELDS} fields, or collections more than {DEEPEST} deep")]
     Many,
     /// A report's id that is 0 or more than a byte.
-    #[error("a report of the device has the id {id}, which is not 1 to 255")]
     Id {
         /// That.
         id: u32,
     },
+}
+
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let most = LONGEST.to_string();
+        f.write_str(&match self {
+            Self::Cut { at } => say!("devices-descriptor-cut", at = at.to_string()),
+            Self::Long { bytes } => say!("devices-descriptor-long", bytes = bytes.to_string(), most = most),
+            Self::Report { id } => say!("devices-report-long", id = id.to_string(), most = most),
+            Self::Many => {
+                say!("devices-descriptor-many", fields = MOST_FIELDS.to_string(), depth = DEEPEST.to_string())
+            }
+            Self::Id { id } => say!("devices-report-id", id = id.to_string()),
+        })
+    }
 }
 
 /// A number as an item has it: without a sign, and how many bits it has.

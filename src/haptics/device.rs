@@ -7,12 +7,15 @@ use std::collections::VecDeque;
 
 use super::controls::{Controls, State};
 use super::descriptor::{ModelError, parse};
+use super::force::cartesian::Cartesian;
 use super::force::ffbeast::Ffbeast;
 use super::force::logitech::Logitech;
 use super::force::pid::PidDriver;
 use super::force::{AxisForce, Coupling, ForceDriver, ForceError, Reply, Request, Wish};
+use super::haply;
+use super::known;
 use super::latency::{Latency, Percentiles};
-use super::mapping::{Mapper, Mapping};
+use super::mapping::{Mapper, Mapping, TRAVEL};
 use super::model::DeviceModel;
 use super::passivity::Softness;
 use super::profile::{ForceReports, force_reports, profile};
@@ -55,6 +58,8 @@ enum UnderWay {
 /// A device in use.
 pub struct HapticDevice {
     identity: Identity,
+    /// By what its mapping is remembered.
+    key: String,
     model: DeviceModel,
     controls: Controls,
     state: State,
@@ -79,7 +84,7 @@ impl HapticDevice {
     /// When the descriptor makes no sense. That a device has no axes, or no force, is no error.
     pub fn from_descriptor(identity: Identity, descriptor: &[u8]) -> Result<Self, ModelError> {
         let own = parse(descriptor)?;
-        Ok(Self::new(identity, own))
+        Ok(Self::new(identity, own).known_by(descriptor))
     }
 
     /// A device of this model. Where it is known to be meant otherwise, that holds.
@@ -89,6 +94,7 @@ impl HapticDevice {
         let controls = Controls::new(&model);
         let state = controls.state();
         let mut device = Self {
+            key: known::key(&identity, &[]),
             identity,
             mapper: Mapper::default(),
             guard: Guard::new(Limits::default()),
@@ -103,8 +109,19 @@ impl HapticDevice {
             controls,
             state,
         };
-        device.set_mapping(Mapping::proposed(&device.controls));
+        device.propose_mapping();
         device
+    }
+
+    /// The same, told from others of its numbers by its report descriptor, or by what else says its reports.
+    #[must_use]
+    pub fn known_by(self, descriptor: &[u8]) -> Self {
+        Self { key: known::key(&self.identity, descriptor), ..self }
+    }
+
+    /// By what its mapping is remembered ([`known`]).
+    pub fn key(&self) -> &str {
+        &self.key
     }
 
     /// Its numbers and its name.
@@ -132,24 +149,45 @@ impl HapticDevice {
         self.mapper.mapping()
     }
 
+    /// Feeds and rolls as most devices of its axes do; the force has to be armed again.
+    pub fn propose_mapping(&mut self) {
+        self.set_mapping(Mapping::proposed(&self.controls, self.travel()));
+    }
+
     /// Feeds and rolls by other axes, from where they are; the force has to be armed again.
     pub fn set_mapping(&mut self, mapping: Mapping) {
         self.guard.halt(Halt::NotArmed);
         let usages = [mapping.feed, mapping.roll].map(|of| Some(self.controls.axes.get(of?.axis)?.usage));
         let alone = usize::from(mapping.feed.is_none());
         self.part();
-        self.driver = match force_reports(self.identity.vendor, self.identity.product, &self.model) {
+        self.driver = match self.force_reports() {
             Some(ForceReports::Pid) => match PidDriver::new(&self.model, usages) {
                 Ok(driver) => Some(Box::new(driver)),
                 Err(_) => None,
             },
             Some(ForceReports::Ffbeast) => Some(Box::new(Ffbeast::new(alone))),
             Some(ForceReports::Logitech) => Some(Box::new(Logitech::new(alone))),
+            Some(ForceReports::Cartesian) => {
+                Cartesian::new(usages).map(|driver| Box::new(driver) as Box<dyn ForceDriver>)
+            }
             None => None,
         };
         self.mapper = Mapper::new(mapping);
         self.softness.iter_mut().for_each(Softness::release);
         self.is_still = true;
+    }
+
+    /// What one way of an axis feeds, in mm, and rolls, in radians, unless the user says otherwise.
+    pub fn travel(&self) -> [f64; 2] {
+        match self.force_reports() {
+            // The hand's way is the wire's.
+            Some(ForceReports::Cartesian) => haply::HALF_WAY.map(|half| 2.0 * half),
+            _ => TRAVEL,
+        }
+    }
+
+    fn force_reports(&self) -> Option<ForceReports> {
+        force_reports(self.identity.vendor, self.identity.product, &self.model)
     }
 
     /// Drives it by another driver than the one that fits it; the force has to be armed again.

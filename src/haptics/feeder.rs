@@ -35,6 +35,9 @@ pub mod id {
     pub const POOL: u8 = 0x13;
 }
 
+/// USB's number of Lumen's vendor, pid.codes', and of its prototypes.
+pub const USB_IDS: [u16; 2] = [0x1209, 0x0001];
+
 /// Half of the feed's way, in mm, and of the roll's, in radians: what the numbers 32767 stand for.
 pub const HALF_WAY: [f64; 2] = [50.0, 2.0 * core::f64::consts::PI];
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::controls::{Axis, Controls, Motion, State};
-use super::mapping::{AxisMapping, Mapping, TRAVEL};
+use super::mapping::{AxisMapping, Mapping};
 
 /// An axis is taken once it has gone this part of its way, or this many counts...
 const ENOUGH: (f64, f64) = (0.25, 12.0);
@@ -30,15 +30,15 @@ pub struct Learning {
     farthest: Vec<f64>,
     learnt: Mapping,
     ask: Ask,
-}
-
-impl Default for Learning {
-    fn default() -> Self {
-        Self { rest: None, farthest: Vec::new(), learnt: Mapping::default(), ask: Ask::Push }
-    }
+    travel: [f64; 2],
 }
 
 impl Learning {
+    /// Asks for a push. `travel` is what one way of an axis is to feed, in mm, and to roll, in radians.
+    pub fn new(travel: [f64; 2]) -> Self {
+        Self { rest: None, farthest: Vec::new(), learnt: Mapping::default(), ask: Ask::Push, travel }
+    }
+
     /// What the user is to do now.
     pub fn ask(&self) -> Ask {
         self.ask
@@ -91,7 +91,7 @@ impl Learning {
 
     fn learn(&mut self, number: usize, axis: &Axis, way: f64) {
         let which = usize::from(self.ask == Ask::Turn);
-        let found = AxisMapping { is_inverted: way < 0.0, ..AxisMapping::new(number, axis.motion, TRAVEL[which]) };
+        let found = AxisMapping { is_inverted: way < 0.0, ..AxisMapping::new(number, axis.motion, self.travel[which]) };
         match self.ask {
             Ask::Push => self.learnt.feed = Some(found),
             Ask::Turn | Ask::Done => self.learnt.roll = Some(found),
@@ -111,13 +111,13 @@ mod tests {
     use super::*;
     use crate::haptics::descriptor::parse;
     use crate::haptics::fixtures::descriptor;
-    use crate::haptics::mapping::Mode;
+    use crate::haptics::mapping::{Mode, TRAVEL};
 
     #[test]
     fn a_push_and_a_turn_of_a_six_axis_knob_are_told_apart_from_what_moves_along() {
         let model = parse(&descriptor("spacenavigator")).unwrap();
         let controls = Controls::new(&model);
-        let (mut state, mut learning) = (controls.state(), Learning::default());
+        let (mut state, mut learning) = (controls.state(), Learning::new(TRAVEL));
         let six = |values: [i16; 3]| values.into_iter().flat_map(i16::to_le_bytes).collect::<Vec<_>>();
         let mut tell = |id: u8, values: [i16; 3]| {
             controls.read(&model, &mut state, id, &six(values));
@@ -140,7 +140,7 @@ mod tests {
     fn two_that_move_as_far_are_neither() {
         let model = parse(&descriptor("openffboard-2")).unwrap();
         let controls = Controls::new(&model);
-        let (mut state, mut learning) = (controls.state(), Learning::default());
+        let (mut state, mut learning) = (controls.state(), Learning::new(TRAVEL));
         let mut report = [0; 24];
         controls.read(&model, &mut state, 1, &report);
         learning.observe(&controls, &state);

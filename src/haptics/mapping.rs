@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::controls::{Controls, Motion, State};
 use super::usage::{desktop, simulation};
 
-/// What one way of an axis, or half a second at full speed, feeds, in mm, and rolls, in radians, unless the user says
-/// otherwise.
+/// What one way of an axis, or half a second at full speed, feeds, in mm, and rolls, in radians, unless the device's own way
+/// is known or the user says otherwise.
 pub(super) const TRAVEL: [f64; 2] = [100.0, 4.0 * PI];
 
 /// What an axis's motion becomes.
@@ -79,15 +79,16 @@ pub struct Mapping {
 
 impl Mapping {
     /// What most devices are held by: the first axis that is pushed feeds, the first that is turned rolls, or else the next
-    /// one; the first button is the clutch of an axis with ends.
-    pub fn proposed(controls: &Controls) -> Self {
+    /// one; the first button is the clutch of an axis with ends. `travel` is what one way of an axis feeds, in mm, and rolls,
+    /// in radians.
+    pub fn proposed(controls: &Controls, travel: [f64; 2]) -> Self {
         let turned = [desktop::RX, desktop::RY, desktop::RZ, desktop::DIAL, simulation::STEERING];
         let axes = &controls.axes;
         let feed =
             axes.iter().position(|axis| !turned.contains(&axis.usage)).or(Some(0)).filter(|feed| *feed < axes.len());
         let turns = axes.iter().position(|axis| turned.contains(&axis.usage)).filter(|roll| Some(*roll) != feed);
         let roll = turns.or_else(|| (0..axes.len()).find(|other| Some(*other) != feed));
-        let [feed, roll] = [(feed, TRAVEL[0]), (roll, TRAVEL[1])]
+        let [feed, roll] = [(feed, travel[0]), (roll, travel[1])]
             .map(|(axis, travel)| axis.map(|axis| AxisMapping::new(axis, axes[axis].motion, travel)));
         let has_ends = feed.is_some_and(|feed| matches!(feed.mode, Mode::Absolute { .. }));
         Self { feed, roll, clutch: (has_ends && controls.buttons() > 0).then_some(0) }

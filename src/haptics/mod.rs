@@ -12,11 +12,13 @@
 //! - What a device's reports are: [`usage`], [`field`] (bits to numbers and back), [`model`] (reports, fields, collections),
 //!   [`descriptor`] and [`webhid`], which make that of bytes and of what a browser tells.
 //! - What a hand does: [`controls`] (axes, hats, buttons, by their usages), [`mapping`] (which of them feeds and which
-//!   rolls), [`learning`] (finds that out), [`profile`] (devices that are known by their numbers).
+//!   rolls), [`learning`] (finds that out), [`known`] (what was chosen for which device), [`profile`] (devices that are known
+//!   by their numbers).
 //! - What a hand feels: [`force`] (drivers that say which report goes next), [`safety`] (what stands before them),
 //!   [`passivity`] (for forces that come late).
 //! - A device in use: [`device`] has all of these, [`service`] is what it is asked and how it is; [`port`] is what a transport
-//!   gives, [`latency`] what is measured.
+//!   gives, [`latency`] what is measured. By a serial line: [`framing`] is how reports go over it, [`serial`] the host's end. By a
+//!   maker's service: [`haply`].
 //! - The open device: [`feeder`] is its descriptor, [`virtual_feeder`] its firmware and a hand, without hardware.
 //!
 //! Times are in ms by any clock that does not go back. A report's bytes are without its id everywhere but in a transport
@@ -28,6 +30,9 @@ pub mod device;
 pub mod feeder;
 pub mod field;
 pub mod force;
+pub mod framing;
+pub mod haply;
+pub mod known;
 pub mod latency;
 pub mod learning;
 pub mod mapping;
@@ -36,6 +41,7 @@ pub mod passivity;
 pub mod port;
 pub mod profile;
 pub mod safety;
+pub mod serial;
 pub mod service;
 pub mod usage;
 pub mod virtual_feeder;
@@ -45,3 +51,5 @@ pub mod webhid;
 mod feeder_tests;
 #[cfg(test)]
 mod fixtures;
+#[cfg(test)]
+mod framing_tests;

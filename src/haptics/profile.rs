@@ -15,6 +15,8 @@ pub enum ForceReports {
     Ffbeast,
     /// Logitech's seven bytes.
     Logitech,
+    /// A force along X, Y and Z, by Lumen's own usage ([`haply`](super::haply)).
+    Cartesian,
 }
 
 /// A kind of device.
@@ -91,10 +93,13 @@ pub fn force_reports(vendor: u16, product: u16, model: &DeviceModel) -> Option<F
     let vendors = profile(vendor, product).and_then(|profile| profile.force).filter(|force| match force {
         ForceReports::Ffbeast => bytes(super::force::ffbeast::REPORT) == super::force::ffbeast::BYTES,
         ForceReports::Logitech => bytes(0) == super::force::logitech::BYTES,
-        ForceReports::Pid => true,
+        ForceReports::Pid | ForceReports::Cartesian => true,
     });
     let has_effects = model.report_in(Kind::Output, pid::SET_EFFECT_REPORT).is_some();
-    vendors.or(has_effects.then_some(ForceReports::Pid))
+    let has_forces = model
+        .report_in(Kind::Output, super::haply::FORCES)
+        .is_some_and(|report| (report.id, report.bytes()) == (super::haply::id::FORCE, super::haply::FORCE_BYTES));
+    vendors.or(has_effects.then_some(ForceReports::Pid)).or(has_forces.then_some(ForceReports::Cartesian))
 }
 
 #[cfg(test)]

@@ -20,6 +20,8 @@ pub enum DeviceCommand {
     Pause(bool),
     /// Other axes feed and roll.
     Map(Mapping),
+    /// Those that most devices are held by feed and roll.
+    Propose,
     /// Learns which axes those are: a push, then a turn.
     Learn,
     /// The part of the device's most force that 1 N, and 1 N mm, are felt as; not below 0.
@@ -44,6 +46,8 @@ pub struct AxisStatus {
 pub struct DeviceStatus {
     /// What it is called.
     pub name: String,
+    /// By what its mapping is remembered; empty before it is open.
+    pub key: String,
     /// Its axes.
     pub axes: Vec<AxisStatus>,
     /// Which feed and roll.
@@ -110,9 +114,13 @@ impl Service {
                 self.learning = None;
                 self.device.set_mapping(mapping);
             }
+            DeviceCommand::Propose => {
+                self.learning = None;
+                self.device.propose_mapping();
+            }
             DeviceCommand::Learn => {
                 self.device.halt(Halt::NotArmed);
-                self.learning = Some(Learning::default());
+                self.learning = Some(Learning::new(self.device.travel()));
             }
             DeviceCommand::Factor(factor) => {
                 self.factor = factor.map(|of| if of.is_finite() { of.max(0.0) } else { 0.0 });
@@ -150,6 +158,7 @@ impl Service {
         let axes = device.controls().axes.iter().zip(&device.state().axes);
         DeviceStatus {
             name: device.identity().name.clone(),
+            key: device.key().to_owned(),
             axes: axes.map(|(axis, at)| AxisStatus { name: axis.name(), part: axis.part(at), raw: at.raw }).collect(),
             mapping: *device.mapping(),
             asks: self.learning.as_ref().map(Learning::ask),

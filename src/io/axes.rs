@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::mesh::{Array, TriMesh, Vec3};
+use crate::say;
 
 /// What the coordinates grow towards.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -28,7 +29,7 @@ pub enum Axes {
 
 /// Axes that are asked for where those of the surface are not known, or the other way round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("Which way the axes of the surface point is not known, so it cannot be turned from {from} to {to}.")]
+#[error("{}", say!("errors-axes", from = .from.to_string(), to = .to.to_string()))]
 pub struct UnknownAxes {
     /// Those of the surface.
     pub from: Axes,
@@ -38,11 +39,11 @@ pub struct UnknownAxes {
 
 impl fmt::Display for Axes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Lps => "LPS",
-            Self::Ras => "RAS",
-            Self::Unknown => "unknown axes",
-        })
+        match self {
+            Self::Lps => f.write_str("LPS"),
+            Self::Ras => f.write_str("RAS"),
+            Self::Unknown => f.write_str(&say!("errors-axes-unknown")),
+        }
     }
 }
 
@@ -69,8 +70,10 @@ impl Axes {
         // Not to minus zero.
         let turned = |p: Vec3| Vec3::new(0.0 - p.x, 0.0 - p.y, p.z);
         mesh.positions.iter_mut().chain(normals).for_each(|p| *p = turned(*p));
-        for array in arrays.iter_mut().filter(|array| is_vector(array)) {
-            array.values = array.values.mapped(|i, x| if i % 3 < 2 { 0.0 - x } else { x });
+        for array in arrays {
+            if let Some(flips) = flips(array) {
+                array.values = array.values.mapped(|i, x| if flips[i % flips.len()] { 0.0 - x } else { x });
+            }
         }
         Ok(())
     }
@@ -94,10 +97,19 @@ impl Axes {
     }
 }
 
-/// Whether an array has a direction at each place.
-fn is_vector(array: &Array) -> bool {
+/// Which components change their sign where an array has a direction at each place: a vector, a tensor by rows, or a
+/// symmetric one in VTK's order (XX, YY, ZZ, XY, YZ, XZ).
+fn flips(array: &Array) -> Option<&'static [bool]> {
     let is_colour = array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
-    array.components == 3 && !array.values.scalar().is_whole() && !is_colour
+    if array.values.scalar().is_whole() || is_colour {
+        return None;
+    }
+    match array.components {
+        3 => Some(&[true, true, false]),
+        6 => Some(&[false, false, false, false, true, true]),
+        9 => Some(&[false, false, true, false, false, true, true, true, false]),
+        _ => None,
+    }
 }
 
 /// Where a header or comments end at the latest.
@@ -146,6 +158,28 @@ mod tests {
         Axes::Ras.turn(Axes::Lps, &mut mesh, &mut normals, &mut arrays).unwrap();
         assert_eq!(mesh, before);
         assert_eq!(Axes::Unknown.turn(Axes::Unknown, &mut mesh, &mut [], &mut []), Ok(()));
+    }
+
+    #[test]
+    fn tensors_are_turned_as_their_definition_has_it() {
+        let mut mesh = TriMesh { positions: vec![Vec3::ZERO], triangles: Vec::new() };
+        // T' = R T R^t, with R half a turn about z.
+        let half_turn = glam::DMat3::from_diagonal(glam::DVec3::new(-1.0, -1.0, 1.0));
+        let rows: Vec<f64> = (1..10).map(f64::from).collect();
+        let tensor = glam::DMat3::from_cols_slice(&rows).transpose();
+        let turned = half_turn * tensor * half_turn.transpose();
+        let symmetric = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [0, 2]];
+        let six: Vec<f64> = symmetric.iter().map(|&[r, c]| tensor.row(r)[c]).collect();
+        let array = |values: &[f64]| {
+            let floats: Vec<f32> = values.iter().map(|&x| x as f32).collect();
+            Array::new("Stress", On::Point, values.len(), Values::from_floats(&floats))
+        };
+        let mut arrays = [array(&rows), array(&six)];
+        Axes::Lps.turn(Axes::Ras, &mut mesh, &mut [], &mut arrays).unwrap();
+        let numbers = |array: &Array| (0..array.components).map(|i| array.values.get(i)).collect::<Vec<_>>();
+        assert_eq!(numbers(&arrays[0]), turned.transpose().to_cols_array());
+        let expected: Vec<f64> = symmetric.iter().map(|&[r, c]| turned.row(r)[c]).collect();
+        assert_eq!(numbers(&arrays[1]), expected);
     }
 
     #[test]

@@ -4,11 +4,18 @@
 //! is one of the surface where every part has it, with the same type and number of components. What is wrong with an
 //! array never stops a surface from being read: the array is left out, and a sentence says so.
 
+use std::collections::HashMap;
+
 use super::text::quoted;
 use crate::mesh::arrays::{Array, On, Values};
+use crate::say;
 
 /// Sentences that are told one by one; beyond these, how many more there are.
 const TOLD: usize = 8;
+/// Arrays of a file that are taken: more than these no list can show, and no vessel has.
+const MOST: usize = 1000;
+/// What an array without a name is called: without one, PLY and VTK could not hold it.
+const UNNAMED: &str = "array";
 
 /// The arrays so far.
 #[derive(Default)]
@@ -17,7 +24,12 @@ pub(super) struct Columns {
     points: usize,
     cells: usize,
     list: Vec<Column>,
+    /// Where each name stands in the list.
+    places: HashMap<(On, String), usize>,
+    /// What is said of the first that are left out.
     left_out: Vec<String>,
+    /// How many more are.
+    more: usize,
 }
 
 struct Column {
@@ -33,9 +45,20 @@ impl Columns {
         if components == 0 || values.is_empty() || is_normal(name, components, &values) {
             return;
         }
+        let name = if name.trim().is_empty() { UNNAMED } else { name };
         let before = components.saturating_mul(if on == On::Point { self.points } else { self.cells });
-        match self.list.iter_mut().find(|column| column.on == on && column.name == name) {
-            None if before == 0 => self.list.push(Column { name: name.to_owned(), on, components, values }),
+        let key = (on, name.to_owned());
+        let is_full = self.list.len() == MOST;
+        match self.places.get(&key).map(|&place| &mut self.list[place]) {
+            // A file may have a million of them: what is not told is not put into words.
+            None if is_full && self.left_out.len() == TOLD => self.more += 1,
+            None if is_full => {
+                self.leave_out(name, &say!("errors-array-beyond", most = MOST));
+            }
+            None if before == 0 => {
+                self.list.push(Column { name: name.to_owned(), on, components, values });
+                self.places.insert(key, self.list.len() - 1);
+            }
             Some(column)
                 if column.components == components
                     && column.values.scalar() == values.scalar()
@@ -43,18 +66,22 @@ impl Columns {
             {
                 column.values.push_from(&values, 0, values.len());
             }
-            _ => self.leave_out(name, "its parts do not go together"),
+            _ => self.leave_out(name, &say!("errors-array-parts")),
         }
     }
 
     /// Notes that an array stays behind. `why` goes on after a colon.
     pub(super) fn leave_out(&mut self, name: &str, why: &str) {
-        self.left_out.push(left_out(name, why));
+        if self.left_out.len() < TOLD {
+            self.left_out.push(left_out(name, why));
+        } else {
+            self.more += 1;
+        }
     }
 
     /// How many arrays there are, those left out included.
     pub(super) fn len(&self) -> usize {
-        self.list.len() + self.left_out.len()
+        self.list.len() + self.left_out.len() + self.more
     }
 
     /// Ends a part of so many points and cells.
@@ -64,33 +91,26 @@ impl Columns {
     }
 
     /// The arrays, with a tuple for each point or cell, and the sentences.
-    pub(super) fn finish(self) -> (Vec<Array>, Vec<String>) {
-        let Self { points, cells, list, mut left_out } = self;
+    pub(super) fn finish(mut self) -> (Vec<Array>, Vec<String>) {
+        let (points, cells, list) = (self.points, self.cells, std::mem::take(&mut self.list));
         let mut arrays = Vec::with_capacity(list.len());
         for Column { name, on, components, values } in list {
             if values.len() == components.saturating_mul(if on == On::Point { points } else { cells }) {
                 arrays.push(Array::new(name, on, components, values));
             } else {
-                left_out.push(self::left_out(&name, "not every part of the file has it"));
+                self.leave_out(&name, &say!("errors-array-not-everywhere"));
             }
         }
-        (arrays, shortened(left_out))
+        if self.more > 0 {
+            self.left_out.push(say!("errors-arrays-more", count = self.more, number = self.more.to_string()));
+        }
+        (arrays, self.left_out)
     }
 }
 
 /// That an array is left out.
 pub(super) fn left_out(name: &str, why: &str) -> String {
-    format!("The array {} is left out: {why}.", quoted(name.as_bytes()))
-}
-
-/// Not all of many sentences.
-fn shortened(mut sentences: Vec<String>) -> Vec<String> {
-    let more = sentences.len().saturating_sub(TOLD);
-    if more > 1 {
-        sentences.truncate(TOLD);
-        sentences.push(format!("{more} more arrays are left out."));
-    }
-    sentences
+    say!("errors-array-left-out", name = quoted(name.as_bytes()), why = why)
 }
 
 /// Whether it holds normals, which are made anew.
@@ -144,5 +164,18 @@ mod tests {
         (0..100).for_each(|i| columns.leave_out(&format!("a{i}"), "it holds text"));
         let (_, sentences) = columns.finish();
         assert_eq!((sentences.len(), &*sentences[8]), (9, "92 more arrays are left out."));
+    }
+
+    #[test]
+    fn no_more_are_taken_than_can_be_shown() {
+        let mut columns = Columns::default();
+        (0..100_000).for_each(|i| columns.add(On::Point, &format!("a{i}"), 1, zeros(Scalar::U8, 1)));
+        columns.end_part(1, 0);
+        columns.add(On::Point, "a7", 1, zeros(Scalar::U8, 1));
+        columns.end_part(1, 0);
+        let (arrays, sentences) = columns.finish();
+        assert_eq!((arrays.len(), &*arrays[0].name), (1, "a7"), "the rest is not everywhere");
+        assert_eq!(sentences[0], "The array \"a1000\" is left out: only the first 1,000 arrays of a file are read.");
+        assert_eq!(sentences.len(), 9);
     }
 }

@@ -1,47 +1,55 @@
 //! What can go wrong with a file, each in one sentence that needs no programmer to understand.
 
 use super::output::Output;
+use crate::language::exact;
 use crate::mesh::arrays::On;
+use crate::say;
 use thiserror::Error;
 
 /// Why a file was not opened. Every message is one sentence.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ReadError {
     /// No bytes at all.
-    #[error("The file is empty.")]
+    #[error("{}", say!("errors-file-empty"))]
     Empty,
     /// Neither the content nor the extension is one that Lumen knows.
-    #[error("\"{name}\" is not a surface that Lumen knows: it opens STL, PLY, OBJ, VTP, VTK, GLB and glTF files.")]
+    #[error("{}", say!("errors-file-unknown", name = .name))]
     Unknown {
         /// The file's name.
         name: String,
     },
     /// VTK data of another kind than surfaces.
-    #[error("This is VTK data of another kind ({kind}), and Lumen opens surfaces: extract its surface and save that.")]
+    #[error("{}", say!("errors-vtk-kind", kind = .kind))]
     VtkKind {
         /// What VTK calls it.
         kind: String,
     },
     /// A VTK file that only names others.
-    #[error("This VTK file ({kind}) only names others that hold the data: open one of those.")]
+    #[error("{}", say!("errors-vtk-index", kind = .kind))]
     VtkIndex {
         /// What VTK calls it.
         kind: String,
     },
     /// An image volume, not a surface.
-    #[error("This is an image volume ({format}), and Lumen opens surfaces: segment it and save the surface first.")]
+    #[error("{}", say!("errors-image-volume", format = *.format))]
     ImageVolume {
         /// The format.
         format: &'static str,
     },
     /// A compressed file or an archive.
-    #[error("This is a compressed file ({format}): unpack it and open the surface inside.")]
+    #[error("{}", say!("errors-compressed", format = *.format))]
     Compressed {
         /// The format.
         format: &'static str,
     },
     /// Less is there than the file itself announces.
-    #[error("The {format} file is cut short: it announces {announced} {what} and holds {found}.")]
+    #[error("{}", say!(
+        "errors-cut-short",
+        format = *.format,
+        announced = .announced.to_string(),
+        what = .what,
+        found = .found.to_string()
+    ))]
     CutShort {
         /// The format.
         format: &'static str,
@@ -53,7 +61,7 @@ pub enum ReadError {
         found: u64,
     },
     /// A text file breaks its format's rules.
-    #[error("The {format} file is broken at line {line}: {problem}.")]
+    #[error("{}", say!("errors-broken-line", format = *.format, line = .line.to_string(), problem = .problem))]
     Syntax {
         /// The format.
         format: &'static str,
@@ -63,7 +71,7 @@ pub enum ReadError {
         problem: String,
     },
     /// A file breaks its format's rules in a place that has no line.
-    #[error("The {format} file is broken: {problem}.")]
+    #[error("{}", say!("errors-broken", format = *.format, problem = .problem))]
     Malformed {
         /// The format.
         format: &'static str,
@@ -71,7 +79,13 @@ pub enum ReadError {
         problem: String,
     },
     /// A face names a vertex that does not exist.
-    #[error("Face {face} of the {format} file refers to vertex {index}, but the file has {vertices} vertices.")]
+    #[error("{}", say!(
+        "errors-face-refers",
+        format = *.format,
+        face = .face.to_string(),
+        index = .index.to_string(),
+        vertices = .vertices.to_string()
+    ))]
     IndexOutOfRange {
         /// The format.
         format: &'static str,
@@ -83,7 +97,7 @@ pub enum ReadError {
         vertices: usize,
     },
     /// A coordinate is NaN, infinite, or farther out than a thousand kilometres.
-    #[error("Vertex {vertex} of the file has the coordinate {value}, which is not a place in a body.")]
+    #[error("{}", say!("errors-coordinate", vertex = .vertex.to_string(), value = exact(*.value)))]
     Coordinate {
         /// Number of the vertex, from 1.
         vertex: usize,
@@ -91,13 +105,13 @@ pub enum ReadError {
         value: f64,
     },
     /// A glTF file that keeps its numbers in a second file.
-    #[error("The glTF file keeps its data in another file ({uri}): save it as one GLB file and open that.")]
+    #[error("{}", say!("errors-gltf-elsewhere", uri = .uri))]
     ExternalBuffer {
         /// Where the file says its data are.
         uri: String,
     },
     /// A part of a format that Lumen does not read.
-    #[error("The {format} file uses {feature}, which Lumen does not read.")]
+    #[error("{}", say!("errors-unsupported", format = *.format, feature = .feature))]
     Unsupported {
         /// The format.
         format: &'static str,
@@ -105,7 +119,7 @@ pub enum ReadError {
         feature: String,
     },
     /// More corners than 32-bit indices can number.
-    #[error("The surface is too large: it has {corners} vertices or corners, and Lumen can take {limit}.")]
+    #[error("{}", say!("errors-too-large", corners = .corners.to_string(), limit = .limit.to_string()))]
     TooLarge {
         /// Vertices or corners of triangles, whichever are more.
         corners: u64,
@@ -113,7 +127,7 @@ pub enum ReadError {
         limit: u64,
     },
     /// A readable file without a surface.
-    #[error("The {format} file holds no triangles ({vertices} vertices and nothing between them to show).")]
+    #[error("{}", say!("errors-no-triangles", format = *.format, vertices = .vertices.to_string()))]
     NoTriangles {
         /// The format.
         format: &'static str,
@@ -121,7 +135,7 @@ pub enum ReadError {
         vertices: usize,
     },
     /// A readable file of lines or points alone.
-    #[error("The {format} file holds no surface, only {found}: Lumen does not open centrelines.")]
+    #[error("{}", say!("errors-no-surface", format = *.format, found = .found))]
     NoSurface {
         /// The format.
         format: &'static str,
@@ -129,7 +143,7 @@ pub enum ReadError {
         found: String,
     },
     /// A few bytes that stand for more than can be honest.
-    #[error("The {format} file would unfold to {what}, more than a file of {file} bytes can honestly hold.")]
+    #[error("{}", say!("errors-unfolds", format = *.format, what = .what, file = .file.to_string()))]
     Unfolds {
         /// The format.
         format: &'static str,
@@ -139,7 +153,7 @@ pub enum ReadError {
         file: u64,
     },
     /// Triangles, but each with a repeated vertex.
-    #[error("None of the {triangles} triangles of the {format} file has an area: each repeats one of its vertices.")]
+    #[error("{}", say!("errors-all-degenerate", format = *.format, triangles = .triangles.to_string()))]
     AllDegenerate {
         /// The format.
         format: &'static str,
@@ -152,10 +166,15 @@ pub enum ReadError {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum WriteError {
     /// No triangle to write.
-    #[error("There is no surface to save.")]
+    #[error("{}", say!("errors-nothing-to-save"))]
     Empty,
     /// A triangle names a vertex that does not exist.
-    #[error("Triangle {triangle} refers to vertex {index}, but there are {vertices} vertices.")]
+    #[error("{}", say!(
+        "errors-triangle-refers",
+        triangle = .triangle.to_string(),
+        index = .index.to_string(),
+        vertices = .vertices.to_string()
+    ))]
     IndexOutOfRange {
         /// The triangle, from 0.
         triangle: usize,
@@ -165,13 +184,13 @@ pub enum WriteError {
         vertices: usize,
     },
     /// A position or a normal is NaN or infinite.
-    #[error("Vertex {vertex} has a position or a normal that is not a finite number.")]
+    #[error("{}", say!("errors-not-finite", vertex = .vertex.to_string()))]
     NotFinite {
         /// The vertex, from 0.
         vertex: usize,
     },
     /// There must be one normal for each vertex.
-    #[error("There are {normals} normals for {vertices} vertices.")]
+    #[error("{}", say!("errors-normal-count", normals = .normals.to_string(), vertices = .vertices.to_string()))]
     NormalCount {
         /// Normals given.
         normals: usize,
@@ -179,7 +198,7 @@ pub enum WriteError {
         vertices: usize,
     },
     /// An array must have a tuple for each vertex or triangle.
-    #[error("The array \"{name}\" has {tuples} tuples for {rows} vertices or triangles.")]
+    #[error("{}", say!("errors-array-length", name = .name, tuples = .tuples.to_string(), rows = .rows.to_string()))]
     ArrayLength {
         /// Its name.
         name: String,
@@ -189,7 +208,7 @@ pub enum WriteError {
         rows: usize,
     },
     /// More than the format's 32-bit counts can hold.
-    #[error("The surface is too large for a {format} file: it would take {bytes} bytes.")]
+    #[error("{}", say!("errors-format-too-large", format = *.format, bytes = .bytes.to_string()))]
     TooLarge {
         /// The format.
         format: &'static str,

@@ -5,6 +5,8 @@ use std::{fmt, str::FromStr};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::say;
+
 /// A format that Lumen reads and writes. (It also reads glTF as text, and the flat cells of VTK's unstructured grids.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -116,7 +118,7 @@ impl fmt::Display for Unit {
 
 /// A word that names no unit.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("\"{0}\" is not a unit of length that Lumen knows: mm, cm or m.")]
+#[error("{}", say!("errors-unknown-unit", word = .0))]
 pub struct UnknownUnit(pub String);
 
 impl FromStr for Unit {

@@ -1,46 +1,51 @@
 //! glTF 2.0 (Khronos 2021), as one binary file (GLB) or as text with its data inside.
 //!
-//! The crate `gltf` gives the structure of the JSON (`gltf::json`). Its readers of the GLB container and of
-//! accessors are not used: they subtract and multiply what a file claims without looking, and panic on some claims.
+//! The crate `gltf` gives the structure of the JSON (`gltf::json`); buffers and accessors are in `gltf_buffers`. Its readers of
+//! the GLB container and of accessors are not used: they subtract and multiply what a file claims without looking, and panic on some claims.
 //!
 //! A node's numbers are decimal in the file and f32 in that structure; they are taken back to the decimal they stood
 //! for before being multiplied in f64. So 0.001 times 1000 is exactly 1, and a surface that Lumen wrote, in mm under
 //! a node scale of 0.001, reads back to the same bits.
 //!
+//! Draco and meshopt compression are refused by name: of Draco there is no decoder in Rust alone (`draco_decoder` binds the
+//! C++ one, `draco-oxide` has only the encoder yet), and of meshopt's `meshopt` binds C++ and `meshoptimizer-rs` is a young port
+//! (0.2); surfaces are read in the browser's first visit, which has no room to spare for them.
+//!
 //! By the specification (3.4) y is up, and the front of what is shown looks along z. Lumen has z up, as patients' axes do,
 //! and the front towards -y: what is read is turned by a right angle about x, what is written is turned back.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use ::gltf::json::accessor::{ComponentType, GenericComponentType, Type};
+use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Node, Root, deserialize};
-use base64::Engine as _;
 use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::columns::Columns;
 use super::error::{ReadError, WriteError};
 use super::gltf_arrays::{Attribute, Names, array_name};
+use super::gltf_buffers::Buffers;
 use super::import::RawSurface;
 use super::output::Output;
+use super::pace::{NUMBERS, Pace};
 use super::room::Room;
-use super::text::BASE64;
 use super::{Format, Unit};
+use crate::language::Key;
 use crate::mesh::arrays::{On, Scalar, Values};
+use crate::say;
 
-const FORMAT: &str = "glTF";
+pub(super) const FORMAT: &str = "glTF";
 const JSON_CHUNK: u32 = 0x4e4f_534a;
 const BIN_CHUNK: u32 = 0x004e_4942;
 
 /// Reads a GLB file; its positions come in mm, relative to `origin`.
-pub(super) fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<RawSurface, ReadError> {
+pub(super) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
     let word = |at: usize| bytes.get(at..).and_then(|rest| rest.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let cut_short = |announced: usize| ReadError::CutShort {
         format: "GLB",
-        what: "bytes".to_owned(),
+        what: say!("errors-bytes"),
         announced: announced as u64,
         found: bytes.len() as u64,
     };
@@ -48,7 +53,10 @@ pub(super) fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<Raw
         return Err(cut_short(12));
     };
     if version != 2 {
-        return Err(ReadError::Unsupported { format: "GLB", feature: format!("version {version}") });
+        return Err(ReadError::Unsupported {
+            format: "GLB",
+            feature: say!("errors-version", version = version.to_string()),
+        });
     }
     if length as usize > bytes.len() {
         return Err(cut_short(length as usize));
@@ -65,41 +73,49 @@ pub(super) fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<Raw
         }
         at += 8 + chunk.len();
     }
-    let json = json.ok_or_else(|| malformed("it has no JSON part"))?;
-    read_scene("GLB", json, binary, unit, bytes.len(), origin)
+    let json = json.ok_or_else(|| malformed(say!("errors-gltf-no-json")))?;
+    pace.rest(json.len() as f64).await;
+    read_scene("GLB", json, binary, unit, bytes.len(), origin, pace).await
 }
 
 /// Reads a glTF text that carries its own data; its positions come in mm, relative to `origin`.
-pub(super) fn read_text(bytes: &[u8], unit: Unit, origin: DVec3) -> Result<RawSurface, ReadError> {
-    read_scene("glTF", super::text::without_mark(bytes), None, unit, bytes.len(), origin)
+pub(super) async fn read_text(bytes: &[u8], unit: Unit, origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+    read_scene("glTF", super::text::without_mark(bytes), None, unit, bytes.len(), origin, pace).await
 }
 
-fn malformed(problem: impl Into<String>) -> ReadError {
-    ReadError::Malformed { format: FORMAT, problem: problem.into() }
+pub(super) fn malformed(problem: String) -> ReadError {
+    ReadError::Malformed { format: FORMAT, problem }
 }
 
 /// Collects every triangle of the scene that opens first, through its tree of nodes.
-fn read_scene(
+async fn read_scene(
     label: &'static str,
     json: &[u8],
     binary: Option<&[u8]>,
     unit: Unit,
     file_length: usize,
     origin: DVec3,
+    pace: &Pace,
 ) -> Result<RawSurface, ReadError> {
     let room = Room::of(file_length);
     room.check_parts(FORMAT, json.iter().filter(|&&byte| byte == b'{').count())?;
+    pace.rest(0.0).await;
+    // The crate parses the JSON at once. Of a GLB that is some kilobytes, of a text mostly one long string: a few tens of
+    // milliseconds for a million triangles, and twice, for the names.
     let root: Root = deserialize::from_slice(json).map_err(|error| {
-        malformed(format!("its JSON is wrong or incomplete at line {}, column {}", error.line(), error.column()))
+        let (line, column) = (error.line().to_string(), error.column().to_string());
+        malformed(say!("errors-gltf-json", line = line, column = column))
     })?;
     let compressions = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
     if let Some(feature) = root.extensions_required.iter().find(|name| compressions.contains(&name.as_str())) {
         return Err(ReadError::Unsupported { format: FORMAT, feature: feature.clone() });
     }
-    let buffers = Buffers::new(&root, binary)?;
+    pace.rest(0.0).await;
     let names = Names::of(json);
+    pace.rest(0.0).await;
+    let buffers = Buffers::new(&root, binary, pace).await?;
     let raw = RawSurface::new(label, Vec::new(), Vec::new());
-    let mut collected = Collected { raw, room, columns: Columns::default(), array_bytes: 0 };
+    let mut collected = Collected { raw, room, columns: Columns::default(), array_bytes: 0, pace };
     collected.raw.in_mm = true;
     (collected.raw.has_doubles, collected.raw.origin) = (root.nodes.iter().any(is_moved), origin);
     let to_mm = DMat4::from_translation(-origin) * upright() * DMat4::from_scale(DVec3::splat(unit.to_mm()));
@@ -108,30 +124,31 @@ fn read_scene(
     let mut stack: Vec<(Index<Node>, DMat4)> = Vec::new();
     match scene {
         Some(scene) => {
-            let scene = root.get(scene).ok_or_else(|| malformed("its scene is missing"))?;
+            let scene = root.get(scene).ok_or_else(|| malformed(say!("errors-gltf-no-scene")))?;
             stack.extend(scene.nodes.iter().rev().map(|&node| (node, to_mm)));
         }
         // A library of meshes that are placed nowhere.
         None => {
             for (m, mesh) in root.meshes.iter().enumerate() {
                 for (p, primitive) in mesh.primitives.iter().enumerate() {
-                    collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_mm)?;
+                    collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_mm).await?;
                 }
             }
         }
     }
     let mut visited = vec![false; root.nodes.len()];
     while let Some((index, parent)) = stack.pop() {
-        let node = root.get(index).ok_or_else(|| malformed(format!("node {} is missing", index.value())))?;
+        let number = || index.value().to_string();
+        let node = root.get(index).ok_or_else(|| malformed(say!("errors-gltf-no-node", node = number())))?;
         if std::mem::replace(&mut visited[index.value()], true) {
-            return Err(malformed(format!("node {} hangs from two others, or from itself", index.value())));
+            return Err(malformed(say!("errors-gltf-node-twice", node = number())));
         }
         let to_world = parent * transform(node);
         if let Some(mesh) = node.mesh {
             let m = mesh.value();
-            let mesh = root.get(mesh).ok_or_else(|| malformed(format!("mesh {m} is missing")))?;
+            let mesh = root.get(mesh).ok_or_else(|| malformed(say!("errors-gltf-no-mesh", mesh = m.to_string())))?;
             for (p, primitive) in mesh.primitives.iter().enumerate() {
-                collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_world)?;
+                collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_world).await?;
             }
         }
         stack.extend(node.children.iter().flatten().rev().map(|&child| (child, to_world)));
@@ -177,27 +194,28 @@ fn decimal(x: f32) -> f64 {
 }
 
 /// What has been read so far.
-struct Collected {
+struct Collected<'a> {
     raw: RawSurface,
     /// A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
     room: Room,
     /// The attributes that are arrays, and the bytes that they take.
     columns: Columns,
     array_bytes: u64,
+    pace: &'a Pace,
 }
 
-impl Collected {
+impl Collected<'_> {
     /// Adds one primitive, placed by `to_world`; `names` has its attributes.
-    fn add(
+    async fn add(
         &mut self,
         root: &Root,
-        buffers: &Buffers,
+        buffers: &Buffers<'_>,
         primitive: &Primitive,
         names: Option<&BTreeMap<String, u32>>,
         to_world: DMat4,
     ) -> Result<(), ReadError> {
         let Checked::Valid(mode) = primitive.mode else {
-            return Err(malformed("a mesh has a drawing mode that does not exist"));
+            return Err(malformed(say!("errors-gltf-mode")));
         };
         let Some(&positions) = primitive.attributes.get(&Checked::Valid(Semantic::Positions)) else {
             return Ok(());
@@ -212,13 +230,13 @@ impl Collected {
             Mode::LineStrip => skipped.lines = skipped.lines.saturating_add(elements.saturating_sub(1)),
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
                 let vertices = self.raw.positions.len();
-                self.add_triangles(root, buffers, primitive, positions, mode, to_world)?;
+                self.add_triangles(root, buffers, primitive, positions, mode, to_world).await?;
                 let count = self.raw.positions.len() - vertices;
                 let arrays = names.into_iter().flatten().filter_map(|(name, &at)| Some((array_name(name)?, at)));
                 for (name, accessor) in arrays {
-                    match self.values(root, buffers, Index::new(accessor), count) {
+                    match self.values(root, buffers, Index::new(accessor), count).await {
                         Ok((components, values)) => self.columns.add(On::Point, name, components, values),
-                        Err(why) => self.columns.leave_out(name, why),
+                        Err(why) => self.columns.leave_out(name, &why.say()),
                     }
                 }
                 self.columns.end_part(count, 0);
@@ -228,27 +246,27 @@ impl Collected {
     }
 
     /// The numbers of an attribute of `count` vertices and its components, or why they cannot be had.
-    fn values(
+    async fn values(
         &mut self,
         root: &Root,
-        buffers: &Buffers,
+        buffers: &Buffers<'_>,
         accessor: Index<Accessor>,
         count: usize,
-    ) -> Result<(usize, Values), &'static str> {
-        const DAMAGED: &str = "its data are damaged or elsewhere";
+    ) -> Result<(usize, Values), Key> {
+        const DAMAGED: Key = Key("errors-array-damaged");
         let Some(Checked::Valid(shape)) = root.get(accessor).map(|accessor| accessor.type_) else {
             return Err(DAMAGED);
         };
         if !matches!(shape, Type::Scalar | Type::Vec2 | Type::Vec3 | Type::Vec4) {
-            return Err("it holds matrices");
+            return Err(Key("errors-array-matrices"));
         }
         let items = buffers.items(root, accessor, shape).map_err(|_| DAMAGED)?;
         if items.count != count {
-            return Err("it has another length than the surface");
+            return Err(Key("errors-array-other-length"));
         }
         let bytes = self.array_bytes.saturating_add((items.count * items.size) as u64);
         if !self.room.holds_arrays(self.raw.positions.len(), self.raw.triangles.len(), bytes) {
-            return Err("it would take more memory than a file of this size is given");
+            return Err(Key("errors-array-memory"));
         }
         self.array_bytes = bytes;
         let scalar = match items.component {
@@ -260,14 +278,17 @@ impl Collected {
             ComponentType::F32 => Scalar::F32,
         };
         let mut numbers = Vec::with_capacity(items.count * items.size);
-        items.iter().for_each(|item| numbers.extend_from_slice(item));
+        for block in items.blocks() {
+            block.clone().for_each(|i| numbers.extend_from_slice(items.item(i)));
+            self.pace.rest(items.done(&block)).await;
+        }
         Ok((shape.multiplicity(), Values::from_bytes(scalar, numbers)))
     }
 
-    fn add_triangles(
+    async fn add_triangles(
         &mut self,
         root: &Root,
-        buffers: &Buffers,
+        buffers: &Buffers<'_>,
         primitive: &Primitive,
         positions: Index<Accessor>,
         mode: Mode,
@@ -275,7 +296,7 @@ impl Collected {
     ) -> Result<(), ReadError> {
         let positions = buffers.items(root, positions, Type::Vec3)?;
         if positions.component == ComponentType::U32 {
-            let feature = "positions of 32-bit whole numbers".to_owned();
+            let feature = say!("errors-gltf-whole-positions");
             return Err(ReadError::Unsupported { format: FORMAT, feature });
         }
         let indices = primitive.indices.map(|index| buffers.items(root, index, Type::Scalar)).transpose()?;
@@ -284,14 +305,19 @@ impl Collected {
         let (vertices, triangles) = (self.raw.positions.len(), self.raw.triangles.len());
         self.room.check(FORMAT, vertices.saturating_add(positions.count), triangles.saturating_add(more))?;
         let base = self.raw.positions.len() as u32;
-        self.raw.positions.extend(positions.iter().map(|item| {
-            let size = item.len() / 3;
-            let [x, y, z] = [0, 1, 2].map(|i| positions.number(&item[i * size..(i + 1) * size]));
-            to_world.transform_point3(DVec3::new(x, y, z)).as_vec3()
-        }));
+        self.raw.positions.reserve(positions.count);
+        for block in positions.blocks() {
+            self.raw.positions.extend(block.clone().map(|i| {
+                let item = positions.item(i);
+                let size = item.len() / 3;
+                let [x, y, z] = [0, 1, 2].map(|i| positions.number(&item[i * size..(i + 1) * size]));
+                to_world.transform_point3(DVec3::new(x, y, z)).as_vec3()
+            }));
+            self.pace.rest(positions.done(&block)).await;
+        }
         let order: Vec<u32> = match indices {
             None => (0..positions.count as u32).collect(),
-            Some(indices) => indices.indices()?,
+            Some(indices) => indices.indices(self.pace).await?,
         };
         if let Some(at) = order.iter().position(|&v| v as usize >= positions.count) {
             let (face, index) = (self.raw.triangles.len() + at / 3 + 1, i64::from(order[at]));
@@ -303,126 +329,19 @@ impl Collected {
             let [a, b, c] = t.map(|v| base + v);
             if mirrored { [a, c, b] } else { [a, b, c] }
         };
-        let triangles = &mut self.raw.triangles;
-        match mode {
-            Mode::TriangleStrip => triangles.extend(order.windows(3).enumerate().map(|(i, three)| {
-                let [a, b, c] = [three[0], three[1], three[2]];
-                place(if i % 2 == 0 { [a, b, c] } else { [b, a, c] })
-            })),
-            Mode::TriangleFan => {
-                let hub = order.first().copied().unwrap_or_default();
-                let rim = order.get(1..).unwrap_or_default();
-                triangles.extend(rim.windows(2).map(|two| place([hub, two[0], two[1]])));
-            }
-            _ => triangles.extend(order.as_chunks::<3>().0.iter().map(|&t| place(t))),
+        let count = if mode == Mode::Triangles { order.len() / 3 } else { order.len().saturating_sub(2) };
+        let corners: fn(usize) -> [usize; 3] = match mode {
+            Mode::TriangleStrip => |i| if i % 2 == 0 { [i, i + 1, i + 2] } else { [i + 1, i, i + 2] },
+            Mode::TriangleFan => |i| [0, i + 1, i + 2],
+            _ => |i| [3 * i, 3 * i + 1, 3 * i + 2],
+        };
+        self.raw.triangles.reserve(count);
+        for start in (0..count).step_by(NUMBERS) {
+            let block = start..count.min(start + NUMBERS);
+            self.raw.triangles.extend(block.map(|i| place(corners(i).map(|corner| order[corner]))));
+            self.pace.rest(0.0).await;
         }
         Ok(())
-    }
-}
-
-/// The bytes of each buffer, or the address of the file that they are in.
-struct Buffers<'a> {
-    contents: Vec<Result<Cow<'a, [u8]>, String>>,
-}
-
-impl<'a> Buffers<'a> {
-    fn new(root: &Root, binary: Option<&'a [u8]>) -> Result<Self, ReadError> {
-        let mut contents = Vec::with_capacity(root.buffers.len());
-        for (i, buffer) in root.buffers.iter().enumerate() {
-            contents.push(match (&buffer.uri, binary) {
-                (Some(uri), _) => match uri.strip_prefix("data:").and_then(|data| data.split_once(";base64,")) {
-                    Some((_, data)) => {
-                        Ok(Cow::Owned(BASE64.decode(data).map_err(|_| malformed("its base64 data are damaged"))?))
-                    }
-                    None => Err(uri.chars().take(80).collect()),
-                },
-                (None, Some(binary)) if i == 0 => Ok(Cow::Borrowed(binary)),
-                (None, _) => Err("which it does not name".to_owned()),
-            });
-        }
-        Ok(Self { contents })
-    }
-
-    /// The items of an accessor, checked to be of `shape` and to lie within their buffer in full.
-    fn items(&self, root: &Root, index: Index<Accessor>, shape: Type) -> Result<Items<'_>, ReadError> {
-        let broken = |problem: &str| malformed(format!("accessor {} {problem}", index.value()));
-        let accessor = root.get(index).ok_or_else(|| broken("is missing"))?;
-        if accessor.sparse.is_some() {
-            return Err(ReadError::Unsupported { format: FORMAT, feature: "sparse accessors".to_owned() });
-        }
-        let (Checked::Valid(GenericComponentType(component)), Checked::Valid(type_)) =
-            (accessor.component_type, accessor.type_)
-        else {
-            return Err(broken("has a type that does not exist"));
-        };
-        if type_ != shape {
-            return Err(broken("is not of the shape that its use asks for"));
-        }
-        let view = accessor.buffer_view.and_then(|view| root.get(view)).ok_or_else(|| broken("has no data"))?;
-        let contents = self.contents.get(view.buffer.value()).ok_or_else(|| broken("has no data"))?;
-        let contents = contents.as_ref().map_err(|uri| ReadError::ExternalBuffer { uri: uri.clone() })?;
-        let offset = |at: Option<u64>| usize::try_from(at.unwrap_or(0)).ok();
-        let view_bytes = offset(view.byte_offset.map(|at| at.0))
-            .and_then(|at| contents.get(at..))
-            .and_then(|rest| rest.get(..offset(Some(view.byte_length.0))?))
-            .ok_or_else(|| broken("lies beyond the end of the data"))?;
-        let size = component.size() * type_.multiplicity();
-        let stride = view.byte_stride.map_or(size, |stride| stride.0);
-        if stride < size {
-            return Err(broken("has items that overlap"));
-        }
-        let count = accessor.count.0;
-        let bytes = offset(accessor.byte_offset.map(|at| at.0))
-            .and_then(|at| view_bytes.get(at..))
-            .filter(|rest| {
-                let needed =
-                    count.checked_sub(1).map_or(Some(0), |n| n.checked_mul(stride as u64)?.checked_add(size as u64));
-                needed.is_some_and(|needed| needed <= rest.len() as u64)
-            })
-            .ok_or_else(|| broken("lies beyond the end of the data"))?;
-        Ok(Items { bytes, component, size, stride, count: count as usize, is_normalized: accessor.normalized })
-    }
-}
-
-/// The items of an accessor.
-struct Items<'a> {
-    bytes: &'a [u8],
-    component: ComponentType,
-    /// Bytes of an item, and from one to the next.
-    size: usize,
-    stride: usize,
-    count: usize,
-    /// Whether whole numbers stand for parts of their largest.
-    is_normalized: bool,
-}
-
-impl Items<'_> {
-    fn iter(&self) -> impl Iterator<Item = &[u8]> {
-        (0..self.count).map(|i| &self.bytes[i * self.stride..i * self.stride + self.size])
-    }
-
-    /// A number of an item, which may be quantised (KHR_mesh_quantization).
-    fn number(&self, bytes: &[u8]) -> f64 {
-        let (number, largest) = match (self.component, bytes) {
-            (ComponentType::I8, &[a]) => (f64::from(a as i8), f64::from(i8::MAX)),
-            (ComponentType::U8, &[a]) => (f64::from(a), f64::from(u8::MAX)),
-            (ComponentType::I16, &[a, b]) => (f64::from(i16::from_le_bytes([a, b])), f64::from(i16::MAX)),
-            (ComponentType::U16, &[a, b]) => (f64::from(u16::from_le_bytes([a, b])), f64::from(u16::MAX)),
-            (_, &[a, b, c, d]) => return f64::from(f32::from_le_bytes([a, b, c, d])),
-            _ => (f64::NAN, 1.0),
-        };
-        // The least of signed numbers stands for -1 too.
-        if self.is_normalized { (number / largest).max(-1.0) } else { number }
-    }
-
-    /// The items as vertex numbers.
-    fn indices(&self) -> Result<Vec<u32>, ReadError> {
-        match self.component {
-            ComponentType::U8 => Ok(self.iter().map(|b| u32::from(b[0])).collect()),
-            ComponentType::U16 => Ok(self.iter().map(|b| u32::from(u16::from_le_bytes([b[0], b[1]]))).collect()),
-            ComponentType::U32 => Ok(self.iter().map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()),
-            _ => Err(malformed("its vertex numbers are not whole numbers without sign")),
-        }
     }
 }
 
@@ -501,6 +420,10 @@ pub(super) fn write(output: &Output) -> Result<Vec<u8>, WriteError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pace::at_once;
+    use base64::Engine as _;
+
+    use super::super::text::BASE64;
     use super::*;
     use crate::mesh::{TriMesh, Vec3};
 
@@ -521,7 +444,7 @@ mod tests {
     }
 
     fn read(text: &str) -> Result<RawSurface, ReadError> {
-        read_text(text.as_bytes(), Unit::Metre, DVec3::ZERO)
+        at_once(read_text(text.as_bytes(), Unit::Metre, DVec3::ZERO, &Pace::default()))
     }
 
     #[test]
@@ -601,7 +524,10 @@ mod tests {
 
     #[test]
     fn a_container_that_lies_is_refused() {
-        let problem = |bytes: &[u8]| read_binary(bytes, Unit::Metre, DVec3::ZERO).err().unwrap().to_string();
+        let problem = |bytes: &[u8]| {
+            let read = at_once(read_binary(bytes, Unit::Metre, DVec3::ZERO, &Pace::default()));
+            read.err().unwrap().to_string()
+        };
         assert_eq!(problem(b"glTF\x02\0\0"), "The GLB file is cut short: it announces 12 bytes and holds 7.");
         assert!(problem(b"glTF\x01\0\0\0\x0c\0\0\0").contains("uses version 1"));
         assert!(problem(b"glTF\x02\0\0\0\x00\0\0\0").contains("no JSON part"));
@@ -634,7 +560,7 @@ mod tests {
         let normals = vec![Vec3::Z; mesh.positions.len()];
         for normals in [None, Some(&normals[..])] {
             let raw = write(&Output { normals, ..Output::new(&mesh) }).unwrap();
-            let raw = read_binary(&raw, Unit::Metre, DVec3::ZERO).unwrap();
+            let raw = at_once(read_binary(&raw, Unit::Metre, DVec3::ZERO, &Pace::default())).unwrap();
             assert_eq!((&raw.positions, &raw.triangles), (&mesh.positions, &mesh.triangles));
         }
     }

@@ -3,7 +3,8 @@
 //! By the specification (3.7.2.1) an attribute that an application has named for itself begins with an underscore, has
 //! up to four components, of floats or whole numbers of 8 or 16 bits, and each vertex begins at a multiple of four
 //! bytes. So whole numbers of more bits are written in 16 where all of them fit, else as floats where these hold them
-//! exactly; doubles as floats. What fits in neither way, and arrays of triangles, have no place in glTF.
+//! exactly or where they are no labels; doubles as floats. What fits in neither way, and arrays of triangles, have no place
+//! in glTF.
 
 use std::collections::BTreeMap;
 

@@ -3,6 +3,10 @@
 //! In this order: coordinates are checked, coincident vertices welded, triangles that repeat a vertex dropped, unused
 //! vertices left out, numbers turned into mm, windings made to agree, inward components turned. Welding comes before
 //! the change of unit, because rounding to f32 after a multiplication can make two places one.
+//!
+//! The stage is done in slices: for a surface of ten million triangles it takes longer than the reading of its bytes.
+
+use std::mem;
 
 use glam::DVec3;
 
@@ -12,13 +16,16 @@ use super::polygons::Faces;
 use super::report::{ImportReport, Imported, Skipped};
 use super::room::Room;
 use super::size::length;
-use super::weld::welded;
-use super::{Axes, Unit, winding};
+use super::weld::Welding;
+use super::{Axes, Unit};
+use crate::language::Key;
 use crate::mesh::arrays::{On, infos};
-use crate::mesh::{Array, Topology, TriMesh, Vec3, components, measures};
+use crate::mesh::{Array, Components, EdgeCounts, Topology, TriMesh, Vec3, components, measures, winding};
+use crate::say;
+use crate::task::{Budget, Progress, Task};
 
 /// What is said of a surface whose windings cannot be made to agree.
-pub const NO_INSIDE: &str = "The surface has no inside and outside (its triangles cannot be made to agree).";
+pub const NO_INSIDE: Key = Key("errors-no-inside");
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 pub(super) const FARTHEST_MM: f64 = 1e9;
@@ -79,10 +86,7 @@ impl RawSurface {
         raw.cells = faces.cells();
         raw.skipped.short_faces = faces.short;
         if cut.fanned > 0 {
-            raw.warnings.push(format!(
-                "{} could not be cut into triangles without folding, having no area or crossing itself.",
-                count(cut.fanned, "polygon", "polygons")
-            ));
+            raw.warnings.push(say!("errors-fanned", count = cut.fanned, number = cut.fanned.to_string()));
         }
         raw
     }
@@ -100,10 +104,9 @@ impl RawSurface {
             let of_row = array.components as u64 * array.values.scalar().size() as u64;
             let larger = bytes + of_row.saturating_mul(rows.max(array.len()) as u64);
             if !fits {
-                self.warnings.push(self::left_out(&array.name, "it has another length than the surface"));
+                self.warnings.push(self::left_out(&array.name, &say!("errors-array-other-length")));
             } else if !room.holds_arrays(self.positions.len(), self.triangles.len(), larger) {
-                let why = "it would take more memory than a file of this size is given";
-                self.warnings.push(self::left_out(&array.name, why));
+                self.warnings.push(self::left_out(&array.name, &say!("errors-array-memory")));
             } else {
                 bytes = larger;
                 self.arrays.push(if array.on == On::Point { array } else { array.gathered(&self.cells) });
@@ -119,28 +122,46 @@ pub(super) fn check_size(vertices: usize, triangles: usize) -> Result<(), ReadEr
     if corners > limit { Err(ReadError::TooLarge { corners, limit }) } else { Ok(()) }
 }
 
-/// Takes a surface from a file through the stage.
-pub(super) fn import(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Imported, ReadError> {
-    let format = raw.label;
-    if raw.triangles.is_empty() {
-        return Err(ReadError::NoTriangles { format, vertices: raw.positions.len() });
-    }
-    check_size(raw.positions.len(), raw.triangles.len())?;
-    let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
-    for &v in raw.triangles.as_flattened() {
-        for x in raw.positions[v as usize].to_array() {
-            let value = f64::from(x) * scale;
-            // NaN is in no range.
-            if !(-FARTHEST_MM..=FARTHEST_MM).contains(&value) {
-                return Err(ReadError::Coordinate { vertex: v as usize + 1, value });
+/// Takes a surface from a file through the stage; fails where nothing of it has a place or an area.
+pub(super) struct FileImport {
+    import: Import,
+    format: &'static str,
+}
+
+impl FileImport {
+    pub(super) fn new(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Self, ReadError> {
+        let format = raw.label;
+        if raw.triangles.is_empty() {
+            return Err(ReadError::NoTriangles { format, vertices: raw.positions.len() });
+        }
+        check_size(raw.positions.len(), raw.triangles.len())?;
+        let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
+        for &v in raw.triangles.as_flattened() {
+            for x in raw.positions[v as usize].to_array() {
+                let value = f64::from(x) * scale;
+                // NaN is in no range.
+                if !(-FARTHEST_MM..=FARTHEST_MM).contains(&value) {
+                    return Err(ReadError::Coordinate { vertex: v as usize + 1, value });
+                }
             }
         }
+        Ok(Self { import: Import::new(raw, unit, axes), format })
     }
-    let imported = assemble(raw, unit, axes);
-    if imported.mesh.triangles.is_empty() {
-        return Err(ReadError::AllDegenerate { format, triangles: imported.report.triangles });
+}
+
+impl Task for FileImport {
+    type Output = Result<Imported, ReadError>;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
+        match self.import.advance(budget) {
+            Progress::Working(fraction) => Progress::Working(fraction),
+            Progress::Done(imported) if imported.mesh.triangles.is_empty() => {
+                let triangles = imported.report.triangles;
+                Progress::Done(Err(ReadError::AllDegenerate { format: self.format, triangles }))
+            }
+            Progress::Done(imported) => Progress::Done(Ok(imported)),
+        }
     }
-    Ok(imported)
 }
 
 /// Takes a surface that was made, not read, through the same stage; its positions are in mm, its axes the patient's as
@@ -149,70 +170,145 @@ pub(super) fn import(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Imported
 /// # Panics
 /// When an index of `mesh` is out of range.
 pub fn import_mesh(mesh: TriMesh, format_label: &str) -> Imported {
-    let mut imported = assemble(RawSurface::new("", mesh.positions, mesh.triangles), Unit::Millimetre, Axes::Lps);
+    let mut imported = Import::made(mesh).finish();
     imported.report.format = format_label.to_owned();
     imported
 }
 
 /// The stage itself.
-fn assemble(raw: RawSurface, unit: Unit, axes: Axes) -> Imported {
-    let triangles = raw.triangles.len();
-    let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
-    let (mut mesh, arrays) = welded(raw.positions, raw.triangles, &raw.arrays);
-    drop(raw.arrays);
-    let degenerate_triangles = triangles - mesh.triangles.len();
-    if scale != 1.0 {
-        for p in &mut mesh.positions {
-            *p = (p.as_dvec3() * scale).as_vec3();
+pub(super) struct Import {
+    /// The surface, without its lists, which went on to the steps.
+    raw: RawSurface,
+    /// Triangles in the file.
+    triangles: usize,
+    unit: Unit,
+    axes: Axes,
+    step: Step,
+}
+
+/// How far the stage is: welding is cut into slices, each of the others is one.
+enum Step {
+    Weld(Welding),
+    Orient(TriMesh, Vec<Array>),
+    Measure(Box<Oriented>),
+    Done,
+}
+
+/// A surface whose windings agree as far as they can.
+struct Oriented {
+    mesh: TriMesh,
+    arrays: Vec<Array>,
+    topology: Topology,
+    pieces: Components,
+    /// Edges as they were before.
+    edges: EdgeCounts,
+    duplicate_triangles: usize,
+    /// Whether the windings of a piece agree.
+    orientable: Vec<bool>,
+    reoriented_triangles: usize,
+}
+
+impl Import {
+    fn new(mut raw: RawSurface, unit: Unit, axes: Axes) -> Self {
+        let triangles = raw.triangles.len();
+        let lists = (mem::take(&mut raw.positions), mem::take(&mut raw.triangles), mem::take(&mut raw.arrays));
+        let step = Step::Weld(Welding::new(lists.0, lists.1, lists.2));
+        Self { raw, triangles, unit, axes, step }
+    }
+
+    /// Of a surface that was made.
+    pub(super) fn made(mesh: TriMesh) -> Self {
+        Self::new(RawSurface::new("", mesh.positions, mesh.triangles), Unit::Millimetre, Axes::Lps)
+    }
+
+    /// Turns triangles until neighbours agree.
+    fn orient(&self, mut mesh: TriMesh, arrays: Vec<Array>) -> Oriented {
+        if !self.raw.in_mm && self.unit.to_mm() != 1.0 {
+            for p in &mut mesh.positions {
+                *p = (p.as_dvec3() * self.unit.to_mm()).as_vec3();
+            }
+        }
+        let mut topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let pieces = components(mesh.positions.len(), &mesh.triangles);
+        let edges = topology.edge_counts();
+        let duplicate_triangles = duplicates(&mesh.triangles, &topology);
+
+        // Without a flip there is nothing to reverse: every pair of neighbours agrees.
+        let (mut orientable, mut reoriented_triangles) = (vec![true; pieces.count()], 0);
+        if edges.flipped > 0 {
+            let result = winding::make_consistent(&mut mesh.triangles, &topology, &pieces);
+            (orientable, reoriented_triangles) = (result.orientable, result.reversed);
+            topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        }
+        Oriented { mesh, arrays, topology, pieces, edges, duplicate_triangles, orientable, reoriented_triangles }
+    }
+
+    /// Turns pieces outward, and measures.
+    fn measure(&mut self, oriented: Oriented) -> Imported {
+        let Oriented { mut mesh, arrays, mut topology, pieces, edges, duplicate_triangles, orientable, .. } = oriented;
+        let components_turned = winding::turn_outward(&mut mesh, &topology, &pieces, &orientable);
+        if components_turned > 0 {
+            topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        }
+        let measured = measures(&mesh, &topology);
+        let largest = pieces.largest().map_or(0, |piece| pieces.triangle_counts[piece as usize] as usize);
+        let scale = if self.raw.in_mm { 1.0 } else { self.unit.to_mm() };
+        let mut report = ImportReport {
+            format: self.raw.label.to_owned(),
+            unit: self.unit,
+            unit_by_size: false,
+            scale_to_mm: self.unit.to_mm(),
+            axes: self.axes,
+            triangles: self.triangles,
+            vertices: mesh.positions.len(),
+            polygons_triangulated: self.raw.polygons,
+            degenerate_triangles: self.triangles - mesh.triangles.len(),
+            duplicate_triangles,
+            components: pieces.count(),
+            largest_component_triangles: largest,
+            boundary_edges: edges.boundary,
+            non_manifold_edges: edges.non_manifold,
+            winding_flips: edges.flipped,
+            reoriented_triangles: oriented.reoriented_triangles,
+            components_turned,
+            orientable: orientable.iter().all(|&orientable| orientable),
+            area_mm2: measured.area_mm2,
+            volume_mm3: measured.volume_mm3,
+            bounds_mm: mesh.bounds(),
+            moved_mm: ((DVec3::ZERO - self.raw.origin) * scale).to_array(),
+            skipped: self.raw.skipped,
+            arrays: infos(&arrays),
+            warnings: mem::take(&mut self.raw.warnings),
+        };
+        let mut told = sentences(&report);
+        report.warnings.append(&mut told);
+        Imported { mesh, arrays, report }
+    }
+}
+
+impl Task for Import {
+    type Output = Imported;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Imported> {
+        match mem::replace(&mut self.step, Step::Done) {
+            Step::Weld(mut welding) => match welding.advance(budget) {
+                Progress::Working(fraction) => {
+                    self.step = Step::Weld(welding);
+                    Progress::Working(0.5 * fraction)
+                }
+                Progress::Done((mesh, arrays)) => {
+                    self.step = Step::Orient(mesh, arrays);
+                    Progress::Working(0.5)
+                }
+            },
+            Step::Orient(mesh, arrays) => {
+                self.step = Step::Measure(Box::new(self.orient(mesh, arrays)));
+                Progress::Working(0.8)
+            }
+            Step::Measure(oriented) => Progress::Done(self.measure(*oriented)),
+            Step::Done => panic!("an import that is done goes no further"),
         }
     }
-    let mut topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    let pieces = components(mesh.positions.len(), &mesh.triangles);
-    let edges = topology.edge_counts();
-    let duplicate_triangles = duplicates(&mesh.triangles, &topology);
-
-    // Without a flip there is nothing to reverse: every pair of neighbours agrees.
-    let (mut orientable, mut reoriented_triangles) = (vec![true; pieces.count()], 0);
-    if edges.flipped > 0 {
-        let result = winding::make_consistent(&mut mesh.triangles, &topology, &pieces);
-        (orientable, reoriented_triangles) = (result.orientable, result.reversed);
-        topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    }
-    let components_turned = winding::turn_outward(&mut mesh, &topology, &pieces, &orientable);
-    if components_turned > 0 {
-        topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    }
-
-    let measured = measures(&mesh, &topology);
-    let largest = pieces.largest().map_or(0, |piece| pieces.triangle_counts[piece as usize] as usize);
-    let mut report = ImportReport {
-        format: raw.label.to_owned(),
-        unit,
-        scale_to_mm: unit.to_mm(),
-        axes,
-        triangles,
-        vertices: mesh.positions.len(),
-        polygons_triangulated: raw.polygons,
-        degenerate_triangles,
-        duplicate_triangles,
-        components: pieces.count(),
-        largest_component_triangles: largest,
-        boundary_edges: edges.boundary,
-        non_manifold_edges: edges.non_manifold,
-        winding_flips: edges.flipped,
-        reoriented_triangles,
-        components_turned,
-        orientable: orientable.iter().all(|&orientable| orientable),
-        area_mm2: measured.area_mm2,
-        volume_mm3: measured.volume_mm3,
-        bounds_mm: mesh.bounds(),
-        moved_mm: ((DVec3::ZERO - raw.origin) * scale).to_array(),
-        skipped: raw.skipped,
-        arrays: infos(&arrays),
-        warnings: raw.warnings,
-    };
-    warn(&mut report);
-    Imported { mesh, arrays, report }
 }
 
 /// Triangles over the same three vertices as an earlier one.
@@ -235,44 +331,72 @@ fn duplicates(triangles: &[[u32; 3]], topology: &Topology) -> usize {
     found
 }
 
-/// Puts into sentences what a user should hear about.
-fn warn(report: &mut ImportReport) {
+impl ImportReport {
+    /// The warnings, with those on what was found and mended in the language that is spoken now: it may be another than when
+    /// the file was read.
+    pub fn warnings_now(&self) -> Vec<String> {
+        let mut sentences = sentences(self);
+        if sentences.iter().all(|sentence| self.warnings.contains(sentence)) {
+            return self.warnings.clone();
+        }
+        // They are the last.
+        let mut warnings = self.warnings[..self.warnings.len().saturating_sub(sentences.len())].to_vec();
+        warnings.append(&mut sentences);
+        warnings
+    }
+}
+
+/// What a user should hear about, in sentences.
+fn sentences(report: &ImportReport) -> Vec<String> {
     let mut sentences = Vec::new();
     sentences.extend(report.unusual_size().map(|found| found.sentence));
     if report.moved_mm != [0.0; 3] {
         let [x, y, z] = report.moved_mm.map(length);
-        sentences.push(format!(
-            "The surface lies far from the origin of its coordinates: it was moved by ({x}, {y}, {z}) mm to keep its detail, and is saved there."
-        ));
+        sentences.push(say!("errors-moved", x = x, y = y, z = z));
     }
-    let skipped = report.skipped;
-    let mut tell = |n: usize, one: &str, many: &str, rest: &str| {
-        if n > 0 {
-            sentences.push(format!("{} {rest}", count(n, one, many)));
-        }
-    };
-    tell(report.degenerate_triangles, "triangle", "triangles", "with a repeated vertex dropped.");
-    tell(report.duplicate_triangles, "triangle", "triangles", "present twice; kept.");
-    tell(skipped.short_faces, "face", "faces", "of fewer than three corners left out.");
-    tell(skipped.lines, "line", "lines", "left out: Lumen shows surfaces.");
-    tell(skipped.points, "point", "points", "left out: Lumen shows surfaces.");
-    tell(report.reoriented_triangles, "triangle", "triangles", "turned over to agree with the neighbours.");
-    tell(report.components_turned, "piece", "pieces", "found inside out and turned.");
-    tell(report.non_manifold_edges, "edge", "edges", "where more than two triangles meet; left as in the file.");
+    let Skipped { short_faces, lines, points } = report.skipped;
+    let (degenerate, duplicate) = (report.degenerate_triangles, report.duplicate_triangles);
+    let (reoriented, turned, edges) =
+        (report.reoriented_triangles, report.components_turned, report.non_manifold_edges);
+    if degenerate > 0 {
+        sentences.push(say!("errors-degenerate", count = degenerate, number = degenerate.to_string()));
+    }
+    if duplicate > 0 {
+        sentences.push(say!("errors-duplicate", count = duplicate, number = duplicate.to_string()));
+    }
+    if short_faces > 0 {
+        sentences.push(say!("errors-short-faces", count = short_faces, number = short_faces.to_string()));
+    }
+    if lines > 0 {
+        sentences.push(say!("errors-lines-left-out", count = lines, number = lines.to_string()));
+    }
+    if points > 0 {
+        sentences.push(say!("errors-points-left-out", count = points, number = points.to_string()));
+    }
+    if reoriented > 0 {
+        sentences.push(say!("errors-reoriented", count = reoriented, number = reoriented.to_string()));
+    }
+    if turned > 0 {
+        sentences.push(say!("errors-turned", count = turned, number = turned.to_string()));
+    }
+    if edges > 0 {
+        sentences.push(say!("errors-non-manifold", count = edges, number = edges.to_string()));
+    }
     if !report.orientable {
-        sentences.push(NO_INSIDE.to_owned());
+        sentences.push(NO_INSIDE.say());
     }
-    report.warnings.append(&mut sentences);
-}
-
-pub(super) fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
+    sentences
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::{Language, built_in, speak};
     use crate::mesh::shapes::tube;
+
+    fn import(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Imported, ReadError> {
+        FileImport::new(raw, unit, axes)?.finish()
+    }
 
     /// Ten triangle corners of a tetrahedron of the given size, not welded, one triangle turned over, with a
     /// duplicate, a degenerate triangle and a vertex that nothing uses.
@@ -296,6 +420,22 @@ mod tests {
         assert_eq!(
             report.warnings,
             ["1 triangle with a repeated vertex dropped.", "1 triangle turned over to agree with the neighbours."]
+        );
+    }
+
+    #[test]
+    fn what_was_mended_is_said_in_the_language_of_the_moment() {
+        let Imported { report, .. } = import(soup(4.0), Unit::Centimetre, Axes::Unknown).unwrap();
+        assert_eq!(report.warnings_now(), report.warnings);
+        speak(Language::German, built_in(Language::German).unwrap());
+        let german = report.warnings_now();
+        speak(Language::English, &[]);
+        assert_eq!(
+            german,
+            [
+                "1 Dreieck mit wiederholtem Eckpunkt verworfen.",
+                "1 Dreieck umgedreht, damit es zu seinen Nachbarn passt."
+            ]
         );
     }
 

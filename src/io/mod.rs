@@ -23,17 +23,22 @@ mod axes;
 mod columns;
 mod detect;
 mod error;
+mod estimate;
 mod far;
 mod format;
 mod gltf;
 mod gltf_arrays;
+mod gltf_buffers;
 mod import;
 mod numbers;
 mod obj;
 mod output;
+mod pace;
+mod parsing;
 mod ply;
 mod ply_arrays;
 mod polygons;
+mod reading;
 mod report;
 mod room;
 mod size;
@@ -43,63 +48,27 @@ mod text;
 pub mod volume;
 mod vtk;
 mod weld;
-mod winding;
 
 pub use axes::{Axes, UnknownAxes};
+pub use detect::may_be_volume;
 pub use error::{ReadError, WriteError};
+pub use estimate::{Estimate, estimate};
 pub use format::{Format, Unit, UnknownUnit};
 pub use import::{NO_INSIDE, import_mesh};
 pub use output::{Output, left_out};
+pub use reading::{Reading, read};
 pub use report::{ImportReport, Imported, Skipped};
 pub use size::UnusualSize;
 
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::{TriMesh, Vec3};
-use detect::Content;
-use room::Room;
 
 /// What the user says about a file that the file does not say itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImportOptions {
     /// The unit of the file's numbers; `None` takes millimetres, and metres for glTF.
     pub unit: Option<Unit>,
-}
-
-/// Reads the surface in `bytes`. `name` is the file's name: it matters only where the content alone does not tell
-/// the format, as with OBJ.
-///
-/// # Errors
-/// [`ReadError`], each in one plain sentence: the file is empty, of another kind, cut short or broken, or holds no
-/// triangle that has an area.
-pub fn read(bytes: &[u8], name: &str, options: &ImportOptions) -> Result<Imported, ReadError> {
-    let content = detect::detect(bytes, name)?;
-    let unit = options.unit.unwrap_or(match content {
-        Content::Glb | Content::Gltf => Unit::Metre,
-        _ => Unit::Millimetre,
-    });
-    let relative_to = |origin: DVec3| match content {
-        Content::Stl => stl::read(bytes, origin),
-        Content::Ply => ply::read(bytes, origin),
-        Content::Obj => obj::read(bytes, origin),
-        Content::Vtp => vtk::read_xml(bytes, origin),
-        Content::Vtk => vtk::read_legacy(bytes, origin),
-        Content::Glb => gltf::read_binary(bytes, unit, origin),
-        Content::Gltf => gltf::read_text(bytes, unit, origin),
-    };
-    let mut raw = relative_to(DVec3::ZERO)?;
-    if let Some(origin) = far::origin_for(&raw, unit) {
-        // Never both at once.
-        drop(raw);
-        raw = relative_to(origin)?;
-    }
-    Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
-    let axes = match content {
-        Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
-        Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,
-    };
-    import::import(raw, unit, axes)
 }
 
 /// The bytes of `mesh` in `format`, in mm (GLB: in mm under a node scale of 0.001, since glTF is metres, and with y

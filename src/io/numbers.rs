@@ -3,6 +3,7 @@
 use super::error::ReadError;
 use super::text::{self, Words};
 pub(super) use crate::mesh::arrays::Scalar;
+use crate::say;
 
 /// The numbers of a body, one after another. `None` is the end of the file, or a [`Numbers::fault`]: these calls
 /// are the inner loop, so they return what fits into registers.
@@ -48,11 +49,16 @@ impl<'a> TextNumbers<'a> {
         self.words.next().is_none()
     }
 
+    /// The line of the last word.
+    pub(super) fn line(&self) -> usize {
+        self.words.line()
+    }
+
     fn parse<T>(&mut self, of: impl Fn(&[u8]) -> Option<T>) -> Option<T> {
         let word = self.words.next()?;
         let value = of(word);
         if value.is_none() {
-            let problem = format!("{} stands where a number should", text::quoted(word));
+            let problem = say!("errors-no-number", word = text::quoted(word));
             self.fault = Some(ReadError::Syntax { format: self.format, line: self.words.line(), problem });
         }
         value

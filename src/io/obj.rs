@@ -9,6 +9,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::mem;
 
 use glam::DVec3;
 
@@ -20,6 +21,11 @@ use super::room::Room;
 use super::{Format, text};
 use crate::mesh::arrays::{On, Scalar, Values};
 use crate::mesh::{Array, Vec3};
+use crate::say;
+use crate::task::{Budget, Progress};
+
+/// Lines between two looks at the clock.
+const BLOCK: usize = 1 << 14;
 
 /// Whether a text without a telling name has vertices as OBJ writes them among its first lines.
 pub(super) fn looks_like(bytes: &[u8]) -> bool {
@@ -31,87 +37,138 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
         })
 }
 
-/// Reads an OBJ file, with positions relative to `origin`.
-pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
-    if !text::is_text(bytes) {
-        let problem = "it should be a text and is not".to_owned();
-        return Err(ReadError::Malformed { format: "OBJ", problem });
+/// An OBJ file on its way to a surface, in slices, with positions relative to an origin.
+pub(super) struct Parsing {
+    origin: DVec3,
+    /// Where the next line begins, behind a byte-order mark, and its number.
+    at: usize,
+    line: usize,
+    positions: Vec<Vec3>,
+    faces: Faces,
+    colours: Values,
+    groups: Groups,
+    lines: usize,
+    points: usize,
+    faces_read: usize,
+    /// The farthest vertex that a face names, and that face.
+    farthest: (u32, usize),
+}
+
+impl Parsing {
+    /// Of `bytes`, which are handed over again with each slice.
+    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
+        if !text::is_text(bytes) {
+            let problem = say!("errors-no-text");
+            return Err(ReadError::Malformed { format: "OBJ", problem });
+        }
+        Ok(Self {
+            origin,
+            at: 0,
+            line: 1,
+            positions: Vec::new(),
+            faces: Faces::default(),
+            colours: Values::new(Scalar::F32),
+            groups: Groups::default(),
+            lines: 0,
+            points: 0,
+            faces_read: 0,
+            farthest: (0, 0),
+        })
     }
-    let mut positions: Vec<Vec3> = Vec::new();
-    let mut faces = Faces::default();
-    let (mut colours, mut groups) = (Values::new(Scalar::F32), Groups::default());
-    let (mut lines, mut points, mut faces_read) = (0, 0, 0);
-    // The farthest vertex that a face names, and that face.
-    let mut farthest = (0, 0);
-    for (line, row) in logical_lines(text::without_mark(bytes)) {
+
+    pub(super) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        let text = text::without_mark(bytes);
+        let mut lines = Lines { bytes: text, at: self.at, line: self.line };
+        loop {
+            for _ in 0..BLOCK {
+                let Some((line, row)) = lines.next() else { return Progress::Done(self.surface(bytes.len())) };
+                if let Err(error) = self.take(line, &row) {
+                    return Progress::Done(Err(error));
+                }
+            }
+            if budget.is_spent() {
+                (self.at, self.line) = (lines.at, lines.line);
+                return Progress::Working(self.at.min(text.len()) as f32 / text.len().max(1) as f32);
+            }
+        }
+    }
+
+    /// Takes a line.
+    fn take(&mut self, line: usize, row: &[u8]) -> Result<(), ReadError> {
         let mut words = row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let syntax = |problem: String| ReadError::Syntax { format: "OBJ", line, problem };
         match words.next() {
             Some(b"v") => {
                 let mut coordinates = [0.0; 3];
-                for (coordinate, origin) in coordinates.iter_mut().zip(origin.to_array()) {
-                    let word = words.next().ok_or_else(|| syntax("a vertex needs three coordinates".to_owned()))?;
-                    let broken = || syntax(format!("{} stands where a coordinate should", text::quoted(word)));
+                for (coordinate, origin) in coordinates.iter_mut().zip(self.origin.to_array()) {
+                    let word = words.next().ok_or_else(|| syntax(say!("errors-obj-vertex")))?;
+                    let broken = || syntax(say!("errors-no-coordinate", word = text::quoted(word)));
                     *coordinate = text::coordinate(word, origin).ok_or_else(broken)?;
                 }
                 let colour: [Option<f32>; 3] = std::array::from_fn(|_| words.next().and_then(text::number));
                 if let ([Some(r), Some(g), Some(b)], None, true) =
-                    (colour, words.next(), colours.len() == 3 * positions.len())
+                    (colour, words.next(), self.colours.len() == 3 * self.positions.len())
                 {
-                    [r, g, b].iter().for_each(|&part| colours.push(f64::from(part)));
+                    [r, g, b].iter().for_each(|&part| self.colours.push(f64::from(part)));
                 }
-                positions.push(Vec3::from(coordinates));
+                self.positions.push(Vec3::from(coordinates));
             }
             Some(b"f") => {
-                faces_read += 1;
+                self.faces_read += 1;
                 for word in words {
                     // A corner is v, v/vt, v//vn or v/vt/vn.
                     let vertex = word.split(|&byte| byte == b'/').next().unwrap_or(word);
-                    let broken = || syntax(format!("{} stands where a vertex number should", text::quoted(word)));
+                    let broken = || syntax(say!("errors-no-vertex", word = text::quoted(word)));
                     let index: i64 = text::number(vertex).ok_or_else(broken)?;
                     // Negative numbers count back from the vertex read last; positive ones may look ahead.
                     let place =
-                        if index < 0 { index.checked_add(positions.len() as i64) } else { index.checked_sub(1) };
+                        if index < 0 { index.checked_add(self.positions.len() as i64) } else { index.checked_sub(1) };
                     let corner =
                         place.and_then(|place| u32::try_from(place).ok()).ok_or(ReadError::IndexOutOfRange {
                             format: "OBJ",
-                            face: faces_read,
+                            face: self.faces_read,
                             index,
-                            vertices: positions.len(),
+                            vertices: self.positions.len(),
                         })?;
-                    farthest = farthest.max((corner, faces_read));
-                    faces.push_corner(corner);
+                    self.farthest = self.farthest.max((corner, self.faces_read));
+                    self.faces.push_corner(corner);
                 }
-                faces.of_cell(groups.present);
-                faces.finish_face();
+                self.faces.of_cell(self.groups.present);
+                self.faces.finish_face();
             }
-            Some(b"g" | b"o") => groups.enter(row.get(1..).unwrap_or_default().trim_ascii()),
-            Some(b"l") => lines += 1,
-            Some(b"p") => points += 1,
+            Some(b"g" | b"o") => self.groups.enter(row.get(1..).unwrap_or_default().trim_ascii()),
+            Some(b"l") => self.lines += 1,
+            Some(b"p") => self.points += 1,
             _ => {}
         }
+        Ok(())
     }
-    let (corner, face) = farthest;
-    if face > 0 && corner as usize >= positions.len() {
-        let (index, vertices) = (i64::from(corner) + 1, positions.len());
-        return Err(ReadError::IndexOutOfRange { format: "OBJ", face, index, vertices });
+
+    /// The surface, once all lines are read, of a file of `file` bytes.
+    fn surface(&mut self, file: usize) -> Result<RawSurface, ReadError> {
+        let (corner, face) = self.farthest;
+        if face > 0 && corner as usize >= self.positions.len() {
+            let (index, vertices) = (i64::from(corner) + 1, self.positions.len());
+            return Err(ReadError::IndexOutOfRange { format: "OBJ", face, index, vertices });
+        }
+        let mut raw = RawSurface::of_faces("OBJ", mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        (raw.has_doubles, raw.origin) = (true, self.origin);
+        raw.skipped.lines = self.lines;
+        raw.skipped.points = self.points;
+        let mut arrays = Vec::new();
+        if self.colours.len() == 3 * raw.positions.len() {
+            let colours = mem::replace(&mut self.colours, Values::new(Scalar::F32));
+            arrays.push(Array::new("RGB", On::Point, 3, colours));
+        }
+        // The cell of a triangle is its group here.
+        if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
+            let mut numbers = Values::new(Scalar::I32);
+            (0..=self.groups.numbers.len()).for_each(|group| numbers.push(group as f64));
+            arrays.push(Array::new("Groups", On::Triangle, 1, numbers));
+        }
+        raw.carry((arrays, Vec::new()), Room::of(file));
+        Ok(raw)
     }
-    let mut raw = RawSurface::of_faces("OBJ", positions, &faces);
-    (raw.has_doubles, raw.origin) = (true, origin);
-    raw.skipped.lines = lines;
-    raw.skipped.points = points;
-    let mut arrays = Vec::new();
-    if colours.len() == 3 * raw.positions.len() {
-        arrays.push(Array::new("RGB", On::Point, 3, colours));
-    }
-    // The cell of a triangle is its group here.
-    if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
-        let mut numbers = Values::new(Scalar::I32);
-        (0..=groups.numbers.len()).for_each(|group| numbers.push(group as f64));
-        arrays.push(Array::new("Groups", On::Triangle, 1, numbers));
-    }
-    raw.carry((arrays, Vec::new()), Room::of(bytes.len()));
-    Ok(raw)
 }
 
 /// The groups that faces are in.
@@ -134,21 +191,35 @@ impl Groups {
     }
 }
 
-/// The lines of a text with their numbers from 1, those that end in a backslash joined with the next.
-fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
-    let mut physical = bytes.split(|&byte| byte == b'\n').zip(1..);
-    std::iter::from_fn(move || {
-        let (first, number) = physical.next()?;
-        let mut line = Cow::Borrowed(first);
+/// The lines of a text with their numbers, those that end in a backslash joined with the next.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    /// Where the next one begins: behind the text where there is none.
+    at: usize,
+    line: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn physical(&mut self) -> Option<&'a [u8]> {
+        let rest = self.bytes.get(self.at..)?;
+        let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+        self.at += length + 1;
+        self.line += 1;
+        Some(&rest[..length])
+    }
+
+    fn next(&mut self) -> Option<(usize, Cow<'a, [u8]>)> {
+        let number = self.line;
+        let mut line = Cow::Borrowed(self.physical()?);
         while let Some(start) = line.trim_ascii_end().strip_suffix(b"\\") {
             let length = start.trim_ascii_end().len();
             let joined = line.to_mut();
             joined.truncate(length);
             joined.push(b' ');
-            joined.extend_from_slice(physical.next().map_or(b"", |(next, _)| next));
+            joined.extend_from_slice(self.physical().unwrap_or_default());
         }
         Some((number, line))
-    })
+    }
 }
 
 /// Whether an array is a colour that can stand behind the coordinates.
@@ -200,7 +271,10 @@ mod tests {
     use super::*;
 
     fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-        super::read(bytes, DVec3::ZERO)
+        match Parsing::new(bytes, DVec3::ZERO)?.advance(bytes, Budget::UNLIMITED) {
+            Progress::Done(read) => read,
+            Progress::Working(_) => panic!("without a limit it runs to its end"),
+        }
     }
 
     #[test]
@@ -211,6 +285,12 @@ mod tests {
         assert_eq!(raw.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
         assert_eq!(raw.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2], [0, 2, 3]]);
         assert_eq!((raw.skipped.short_faces, raw.skipped.lines, raw.skipped.points), (1, 1, 1));
+    }
+
+    #[test]
+    fn faces_may_name_vertices_that_come_after_them() {
+        let raw = read(b"f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").unwrap();
+        assert_eq!((raw.triangles, raw.positions[2]), (vec![[0, 1, 2]], Vec3::Y));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::{Axes, Format};
 use crate::mesh::arrays::On;
 use crate::mesh::{Array, TriMesh, Vec3};
+use crate::say;
 
 /// What is written.
 #[derive(Clone, Copy, Debug)]
@@ -26,34 +27,42 @@ impl<'a> Output<'a> {
 
     /// The arrays that the format has a place for.
     pub(super) fn arrays_in(&self, format: Format) -> impl Iterator<Item = &'a Array> {
-        self.arrays.iter().filter(move |array| has_place(format, array))
+        places(self.arrays, format).filter(|&(_, has_place)| has_place).map(|(array, _)| array)
     }
 }
 
-/// Whether `format` has a place for an array.
-fn has_place(format: Format, array: &Array) -> bool {
-    match format {
-        Format::Vtp | Format::Vtk | Format::Ply => true,
-        Format::Glb => super::gltf_arrays::has_place(array),
-        Format::Obj => super::obj::is_colour(array),
-        Format::Stl => false,
-    }
+/// Each array, and whether `format` has a place for it.
+fn places(arrays: &[Array], format: Format) -> impl Iterator<Item = (&Array, bool)> {
+    let mut has_colour = false;
+    arrays.iter().map(move |array| {
+        let has_place = match format {
+            Format::Vtp | Format::Vtk | Format::Ply => true,
+            Format::Glb => super::gltf_arrays::has_place(array),
+            // A vertex has one colour.
+            Format::Obj => super::obj::is_colour(array) && !std::mem::replace(&mut has_colour, true),
+            Format::Stl => false,
+        };
+        (array, has_place)
+    })
 }
 
 /// A sentence about the arrays that a file of `format` does not hold, if there are any.
 pub fn left_out(arrays: &[Array], format: Format) -> Option<String> {
-    let names: Vec<&str> =
-        arrays.iter().filter(|array| !has_place(format, array)).map(|array| array.name.as_str()).collect();
-    let of_triangles = arrays.iter().filter(|array| !has_place(format, array)).all(|array| array.on == On::Triangle);
-    let what = match format {
-        Format::Glb if of_triangles => "arrays of triangles",
-        Format::Obj => "arrays other than colours",
-        Format::Stl => "arrays",
-        _ => "such arrays",
-    };
-    let verb = if names.len() == 1 { "is" } else { "are" };
-    let format = format.label();
-    (!names.is_empty()).then(|| format!("{format} has no place for {what}: {} {verb} left out.", names.join(", ")))
+    let homeless = || places(arrays, format).filter(|&(_, has_place)| !has_place).map(|(array, _)| array);
+    let names: Vec<&str> = homeless().map(|array| array.name.as_str()).collect();
+    if names.is_empty() {
+        return None;
+    }
+    let of_triangles = homeless().all(|array| array.on == On::Triangle);
+    let (label, count, names) = (format.label(), names.len(), names.join(", "));
+    Some(match format {
+        Format::Glb if of_triangles => {
+            say!("errors-no-place-triangles", format = label, count = count, names = names)
+        }
+        Format::Obj => say!("errors-no-place-colour", format = label, count = count, names = names),
+        Format::Stl => say!("errors-no-place-arrays", format = label, count = count, names = names),
+        _ => say!("errors-no-place-such", format = label, count = count, names = names),
+    })
 }
 
 #[cfg(test)]
@@ -76,8 +85,10 @@ mod tests {
         assert_eq!(said(&all, Format::Stl), "STL has no place for arrays: Height, Face, RGB, Stress are left out.");
         assert_eq!(
             said(&all[..3], Format::Obj),
-            "OBJ has no place for arrays other than colours: Height, Face are left out."
+            "OBJ has no place for arrays other than one colour: Height, Face are left out."
         );
+        let two = [all[2].clone(), Array { name: "RGBA".to_owned(), ..all[2].clone() }];
+        assert_eq!(said(&two, Format::Obj), "OBJ has no place for arrays other than one colour: RGBA is left out.");
         assert_eq!(said(&all[..3], Format::Glb), "GLB has no place for arrays of triangles: Face is left out.");
         assert_eq!(said(&all, Format::Glb), "GLB has no place for such arrays: Face, Stress are left out.");
     }

@@ -5,6 +5,8 @@
 //! everything else is stepped over. The crate `ply-rs-bw` is not used:
 //! it wants a structure a row filled property by property, names included, which is slow at a million faces.
 
+use std::mem;
+
 use glam::DVec3;
 
 use super::columns::Columns;
@@ -16,8 +18,14 @@ use super::ply_arrays::{Extras, Written};
 use super::polygons::Faces;
 use super::room::Room;
 use super::text::{self, Words};
+use crate::language::Key;
 use crate::mesh::Vec3;
 use crate::mesh::arrays::On;
+use crate::say;
+use crate::task::{Budget, Progress};
+
+/// Rows between two looks at the clock.
+const BLOCK: u64 = 1 << 14;
 
 impl Scalar {
     /// The type that a header calls `name`.
@@ -56,10 +64,10 @@ impl Element {
     /// What to call many of it.
     fn plural(&self) -> String {
         match self.name.as_str() {
-            "vertex" => "vertices".to_owned(),
-            "face" => "faces".to_owned(),
-            "tristrips" => "triangle strips".to_owned(),
-            name => format!("rows of {}", text::quoted(name.as_bytes())),
+            "vertex" => say!("errors-vertices"),
+            "face" => say!("errors-faces"),
+            "tristrips" => say!("errors-strips"),
+            name => say!("errors-rows", name = text::quoted(name.as_bytes())),
         }
     }
 }
@@ -89,52 +97,91 @@ struct Header {
     body_line: usize,
 }
 
-/// Reads a PLY file, with positions relative to `origin`.
-pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
-    let bytes = text::without_mark(bytes).trim_ascii_start();
-    let header = header(bytes)?;
-    let body = &bytes[header.body..];
-    match header.encoding {
-        Encoding::Ascii => read_ascii(&header, body, origin, bytes.len()),
-        Encoding::Little => read_body(&header, &mut BinaryNumbers::<false>::new(body), origin, bytes.len()),
-        Encoding::Big => read_body(&header, &mut BinaryNumbers::<true>::new(body), origin, bytes.len()),
-    }
+/// A PLY file on its way to a surface, in slices, with positions relative to an origin.
+///
+/// White space is white space to a body of text; but where its numbers do not come out even, a header has left out some that
+/// stand at the ends of lines (MeshLab once wrote colours so), and taking every row to be a line gets over them.
+pub(super) struct Parsing {
+    header: Header,
+    /// Where the file begins, behind a mark and white space.
+    start: usize,
+    origin: DVec3,
+    body: Body,
+    /// What came of a text whose numbers do not come out even: its rows are read once more, as lines.
+    uneven: Option<Result<RawSurface, ReadError>>,
 }
 
-/// Reads a body of text. White space is white space to the format; but where the numbers do not come out even, a
-/// header has left out some that stand at the ends of lines (MeshLab once wrote colours so), and taking every row to
-/// be a line gets over them.
-fn read_ascii(header: &Header, body: &[u8], origin: DVec3, file: usize) -> Result<RawSurface, ReadError> {
-    let attempt = |row_is_line| {
-        let mut numbers = TextNumbers::new("PLY", Words::new(body, header.body_line), row_is_line);
-        let result = read_body(header, &mut numbers, origin, file);
-        let even = result.is_ok() && numbers.is_at_end();
-        (result, even)
-    };
-    let (result, even) = attempt(false);
-    if even {
-        return result;
+impl Parsing {
+    /// Of `bytes`, which are handed over again with each slice.
+    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
+        let file = text::without_mark(bytes).trim_ascii_start();
+        let header = header(file)?;
+        let body = Body::new(&header, file.len(), origin);
+        Ok(Self { start: bytes.len() - file.len(), header, origin, body, uneven: None })
     }
-    match attempt(true) {
-        (Ok(mut raw), true) => {
-            raw.warnings.push("Numbers that the file's header does not announce were left out.".to_owned());
-            Ok(raw)
+
+    pub(super) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        let Self { header, body, .. } = self;
+        let file = &bytes[self.start..];
+        let length = file.len() - header.body;
+        let numbers = &file[header.body + body.at..];
+        let read = match header.encoding {
+            Encoding::Little => body.advance(header, &mut BinaryNumbers::<false>::new(numbers), budget),
+            Encoding::Big => body.advance(header, &mut BinaryNumbers::<true>::new(numbers), budget),
+            Encoding::Ascii => {
+                let words = Words::new(numbers, body.line);
+                let mut numbers = TextNumbers::new("PLY", words, self.uneven.is_some());
+                let read = body.advance(header, &mut numbers, budget);
+                body.line = numbers.line();
+                match read {
+                    Progress::Done(read) => {
+                        let is_even = read.is_ok() && numbers.is_at_end();
+                        return self.judged(read, is_even, file.len());
+                    }
+                    working => working,
+                }
+            }
+        };
+        match read {
+            Progress::Working(_) => Progress::Working(body.at as f32 / length.max(1) as f32),
+            done => done,
         }
-        _ => result.map(|mut raw| {
-            raw.warnings.push("Numbers after the last element were left out.".to_owned());
-            raw
-        }),
+    }
+
+    /// What comes of a text that was read, or the beginning of another reading of it.
+    fn judged(
+        &mut self,
+        read: Result<RawSurface, ReadError>,
+        is_even: bool,
+        file: usize,
+    ) -> Progress<Result<RawSurface, ReadError>> {
+        let told = |read: Result<RawSurface, ReadError>, what: Key| {
+            read.map(|mut raw| {
+                raw.warnings.push(what.say());
+                raw
+            })
+        };
+        Progress::Done(match (self.uneven.take(), is_even) {
+            (None, true) => read,
+            (None, false) => {
+                self.uneven = Some(read);
+                self.body = Body::new(&self.header, file, self.origin);
+                return Progress::Working(0.0);
+            }
+            (Some(_), true) => told(read, Key("errors-ply-unannounced")),
+            (Some(first), false) => told(first, Key("errors-ply-more-numbers")),
+        })
     }
 }
 
-fn malformed(problem: impl Into<String>) -> ReadError {
-    ReadError::Malformed { format: "PLY", problem: problem.into() }
+fn malformed(problem: String) -> ReadError {
+    ReadError::Malformed { format: "PLY", problem }
 }
 
 /// Reads the header, which is text in every encoding.
 fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     if !bytes.get(..3).is_some_and(|magic| magic.eq_ignore_ascii_case(b"ply")) {
-        return Err(malformed("it does not begin with the word \"ply\""));
+        return Err(malformed(say!("errors-ply-begin")));
     }
     // Old Macintosh files end lines with a carriage return alone; then a line feed after it is a number's byte.
     let ending: &[u8] = match bytes.get(3..5) {
@@ -148,7 +195,7 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     loop {
         let rest = &bytes[at..];
         let Some(length) = rest.windows(ending.len()).position(|part| part == ending) else {
-            return Err(malformed("its header has no \"end_header\""));
+            return Err(malformed(say!("errors-ply-end")));
         };
         at += length + ending.len();
         line += 1;
@@ -158,7 +205,7 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
         let words: Vec<&str> = row.split_ascii_whitespace().take(6).collect();
         let property = |name: &str, kind: &str, length: Option<&str>| {
             let scalar = |kind: &str| {
-                let unknown = || syntax(format!("{} is no type of number", text::quoted(kind.as_bytes())));
+                let unknown = || syntax(say!("errors-no-type", word = text::quoted(kind.as_bytes())));
                 Scalar::named(kind).ok_or_else(unknown)
             };
             Ok(Property { name: name.to_owned(), kind: scalar(kind)?, length: length.map(scalar).transpose()? })
@@ -170,28 +217,28 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
                     "ascii" => Encoding::Ascii,
                     "binary_little_endian" => Encoding::Little,
                     "binary_big_endian" => Encoding::Big,
-                    _ => return Err(syntax(format!("the encoding {} is not known", text::quoted(kind.as_bytes())))),
+                    _ => return Err(syntax(say!("errors-ply-encoding", word = text::quoted(kind.as_bytes())))),
                 });
             }
             ["element", name, count] => {
-                let count =
-                    count.parse().map_err(|_| syntax(format!("{} is no count", text::quoted(count.as_bytes()))))?;
+                let count = count
+                    .parse()
+                    .map_err(|_| syntax(say!("errors-no-count", word = text::quoted(count.as_bytes()))))?;
                 elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
             }
             ["property", ref rest @ ..] => {
-                let element =
-                    elements.last_mut().ok_or_else(|| syntax("a property stands before any element".to_owned()))?;
+                let element = elements.last_mut().ok_or_else(|| syntax(say!("errors-ply-property-first")))?;
                 element.properties.push(match *rest {
                     ["list", length, kind, name] => property(name, kind, Some(length))?,
                     [kind, name] => property(name, kind, None)?,
-                    _ => return Err(syntax("a property needs a type and a name".to_owned())),
+                    _ => return Err(syntax(say!("errors-ply-property"))),
                 });
             }
             // Comments, obj_info and what later versions may add.
             _ => {}
         }
     }
-    let encoding = encoding.ok_or_else(|| malformed("its header does not say which encoding it has"))?;
+    let encoding = encoding.ok_or_else(|| malformed(say!("errors-ply-no-encoding")))?;
     Ok(Header { encoding, elements, body: at, body_line: line + 1 })
 }
 
@@ -206,6 +253,17 @@ enum Meaning {
     Other,
 }
 
+impl Meaning {
+    /// What arrays of the element are on.
+    fn on(&self) -> Option<On> {
+        match self {
+            Self::Vertices(_) => Some(On::Point),
+            Self::Faces(_) => Some(On::Triangle),
+            Self::Strips(_) | Self::Other => None,
+        }
+    }
+}
+
 fn meaning(element: &Element) -> Result<Meaning, ReadError> {
     let scalar = |name: &str| element.properties.iter().position(|p| p.name == name && p.length.is_none());
     let indices = || {
@@ -215,7 +273,7 @@ fn meaning(element: &Element) -> Result<Meaning, ReadError> {
     Ok(match element.name.as_str() {
         "vertex" => match (scalar("x"), scalar("y"), scalar("z")) {
             (Some(x), Some(y), Some(z)) => Meaning::Vertices([x, y, z]),
-            _ => return Err(malformed("its vertices have no x, y and z")),
+            _ => return Err(malformed(say!("errors-ply-no-xyz"))),
         },
         "face" => indices().map_or(Meaning::Other, Meaning::Faces),
         "tristrips" => indices().map_or(Meaning::Other, Meaning::Strips),
@@ -223,48 +281,91 @@ fn meaning(element: &Element) -> Result<Meaning, ReadError> {
     })
 }
 
-/// Reads the numbers of a file of `file` bytes.
-fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3, file: usize) -> Result<RawSurface, ReadError> {
-    let mut positions: Vec<Vec3> = Vec::new();
-    let mut faces = Faces::default();
-    // An index beyond this can stand for no vertex, and may be too large to be kept as one.
-    let claimed: u64 =
-        header.elements.iter().filter(|e| e.name == "vertex").map(|e| e.count).fold(0, u64::saturating_add);
-    let room = Room::of(file);
-    let mut row = Row::default();
-    let mut columns = Columns::default();
-    // Faces and strips so far; which of them a triangle is of is noted where it matters.
-    let mut cells = 0u32;
-    let notes_cells = header.elements.iter().any(|e| e.name == "face" && Extras::are_in(&e.properties, On::Triangle));
-    for element in &header.elements {
+/// The numbers of a file, row by row.
+struct Body {
+    /// Bytes of it that are read, and the line there.
+    at: usize,
+    line: usize,
+    origin: DVec3,
+    room: Room,
+    /// An index beyond this can stand for no vertex, and may be too large to be kept as one.
+    claimed: u64,
+    /// The element that is read, and how many of its rows are.
+    element: usize,
+    rows: u64,
+    row: Row,
+    positions: Vec<Vec3>,
+    faces: Faces,
+    columns: Columns,
+    /// Faces and strips so far; which of them a triangle is of is noted where it matters.
+    cells: u32,
+    notes_cells: bool,
+}
+
+impl Body {
+    /// Of a file of `file` bytes.
+    fn new(header: &Header, file: usize, origin: DVec3) -> Self {
+        let vertices = header.elements.iter().filter(|e| e.name == "vertex");
+        let has_extras = |e: &Element| e.name == "face" && Extras::are_in(&e.properties, On::Triangle);
+        Self {
+            at: 0,
+            line: header.body_line,
+            origin,
+            room: Room::of(file),
+            claimed: vertices.map(|e| e.count).fold(0, u64::saturating_add),
+            element: 0,
+            rows: 0,
+            row: Row::default(),
+            positions: Vec::new(),
+            faces: Faces::default(),
+            columns: Columns::default(),
+            cells: 0,
+            notes_cells: header.elements.iter().any(has_extras),
+        }
+    }
+
+    /// Reads on with `numbers`, those that are left; the fraction is not told here.
+    fn advance(
+        &mut self,
+        header: &Header,
+        numbers: &mut impl Numbers,
+        budget: Budget,
+    ) -> Progress<Result<RawSurface, ReadError>> {
+        let before = numbers.remaining();
+        while let Some(element) = header.elements.get(self.element) {
+            if let Err(error) = self.read(header.encoding, element, numbers) {
+                return Progress::Done(Err(error));
+            }
+            if budget.is_spent() {
+                self.at += before - numbers.remaining();
+                return Progress::Working(0.0);
+            }
+        }
+        Progress::Done(Ok(self.surface(header, numbers.remaining())))
+    }
+
+    /// Reads the next rows of an element, and goes on to the next one after its last.
+    fn read(&mut self, encoding: Encoding, element: &Element, numbers: &mut impl Numbers) -> Result<(), ReadError> {
         let meaning = meaning(element)?;
         if element.properties.is_empty() {
-            continue;
+            self.element += 1;
+            return Ok(());
         }
-        let on = match meaning {
-            Meaning::Vertices(_) => Some(On::Point),
-            Meaning::Faces(_) => Some(On::Triangle),
-            Meaning::Strips(_) | Meaning::Other => None,
-        };
-        // Every number takes a byte at least.
-        let most = (numbers.remaining() / element.properties.len()) as u64;
-        row.extras = Extras::new(&element.properties, on, element.count.min(most), room, &mut columns);
-        row.origins = vec![0.0; element.properties.len()];
-        if let Meaning::Vertices(places) = meaning {
-            places.iter().zip(origin.to_array()).for_each(|(&place, origin)| row.origins[place] = origin);
-            // Every number takes a byte at least.
-            let most = numbers.remaining() / element.properties.len();
-            positions.reserve(usize::try_from(element.count).unwrap_or(most).min(most));
+        if self.rows == 0 {
+            self.begin(element, &meaning, numbers.remaining());
         }
-        for n in 0..element.count {
+        let claimed = self.claimed;
+        let Self { row, positions, faces, .. } = self;
+        let end = element.count.min(self.rows.saturating_add(BLOCK));
+        for n in self.rows..end {
             let wanted = match meaning {
                 Meaning::Faces(list) | Meaning::Strips(list) => Some(list),
                 Meaning::Vertices(_) | Meaning::Other => None,
             };
             if row.read(&element.properties, wanted, numbers).is_none() {
-                let (format, what) = (header.encoding.label(), element.plural());
+                let (format, what) = (encoding.label(), element.plural());
                 return Err(match (row.bad_length, numbers.fault()) {
-                    (Some(length), _) => malformed(format!("a list has the length {length}")),
+                    (Some(length), _) => malformed(say!("errors-ply-list", length = length.to_string())),
                     (None, Some(fault)) => fault,
                     (None, None) => ReadError::CutShort { format, what, announced: element.count, found: n },
                 });
@@ -282,10 +383,10 @@ fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3, file: u
                 })
             };
             // A number makes a triangle at most.
-            room.check(header.encoding.label(), positions.len(), faces.triangles() + row.list.len())?;
-            if notes_cells && matches!(meaning, Meaning::Faces(_) | Meaning::Strips(_)) {
-                faces.of_cell(cells);
-                cells = cells.saturating_add(1);
+            self.room.check(encoding.label(), positions.len(), faces.triangles() + row.list.len())?;
+            if self.notes_cells && matches!(meaning, Meaning::Faces(_) | Meaning::Strips(_)) {
+                faces.of_cell(self.cells);
+                self.cells = self.cells.saturating_add(1);
             }
             match meaning {
                 Meaning::Vertices(places) => positions.push(Vec3::from(places.map(|place| row.scalars[place]))),
@@ -306,23 +407,51 @@ fn read_body(header: &Header, numbers: &mut impl Numbers, origin: DVec3, file: u
                 Meaning::Other => {}
             }
         }
+        self.rows = end;
+        if end == element.count {
+            self.end(element, &meaning);
+        }
+        Ok(())
+    }
+
+    /// Makes room for an element, of whose numbers and those after it `remaining` bytes are left.
+    fn begin(&mut self, element: &Element, meaning: &Meaning, remaining: usize) {
+        // Every number takes a byte at least.
+        let most = remaining / element.properties.len();
+        let rows = element.count.min(most as u64);
+        self.row.extras = Extras::new(&element.properties, meaning.on(), rows, self.room, &mut self.columns);
+        self.row.origins = vec![0.0; element.properties.len()];
+        if let Meaning::Vertices(places) = meaning {
+            places.iter().zip(self.origin.to_array()).for_each(|(&place, origin)| self.row.origins[place] = origin);
+            self.positions.reserve(rows as usize);
+        }
+    }
+
+    /// Puts the arrays of an element to those before, and goes on to the next.
+    fn end(&mut self, element: &Element, meaning: &Meaning) {
         let count = element.count as usize;
-        if let Some(on) = on {
-            std::mem::take(&mut row.extras).add_to(&mut columns, on, &element.properties);
+        if let Some(on) = meaning.on() {
+            mem::take(&mut self.row.extras).add_to(&mut self.columns, on, &element.properties);
         }
         match meaning {
-            Meaning::Vertices(_) => columns.end_part(count, 0),
-            Meaning::Faces(_) | Meaning::Strips(_) => columns.end_part(0, count),
+            Meaning::Vertices(_) => self.columns.end_part(count, 0),
+            Meaning::Faces(_) | Meaning::Strips(_) => self.columns.end_part(0, count),
             Meaning::Other => {}
         }
+        (self.element, self.rows) = (self.element + 1, 0);
     }
-    let mut raw = RawSurface::of_faces(header.encoding.label(), positions, &faces);
-    (raw.has_doubles, raw.origin) = (has_doubles(header), origin);
-    raw.carry(columns.finish(), room);
-    if header.encoding != Encoding::Ascii && numbers.remaining() > 0 {
-        raw.warnings.push(format!("{} bytes after the last element left out.", numbers.remaining()));
+
+    /// The surface, once all is read and so many bytes are left.
+    fn surface(&mut self, header: &Header, left: usize) -> RawSurface {
+        let label = header.encoding.label();
+        let mut raw = RawSurface::of_faces(label, mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        (raw.has_doubles, raw.origin) = (has_doubles(header), self.origin);
+        raw.carry(mem::take(&mut self.columns).finish(), self.room);
+        if header.encoding != Encoding::Ascii && left > 0 {
+            raw.warnings.push(say!("errors-ply-trailing", bytes = left.to_string()));
+        }
+        raw
     }
-    Ok(raw)
 }
 
 /// Whether coordinates may have more digits than f32.
@@ -424,7 +553,12 @@ mod tests {
     use super::*;
 
     fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-        super::read(bytes, DVec3::ZERO)
+        let mut parsing = Parsing::new(bytes, DVec3::ZERO)?;
+        loop {
+            if let Progress::Done(read) = parsing.advance(bytes, Budget::UNLIMITED) {
+                return read;
+            }
+        }
     }
 
     const SQUARE: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement camera 1\nproperty list uchar float view\n\

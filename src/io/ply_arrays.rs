@@ -11,6 +11,7 @@ use super::ply::Property;
 use super::room::Room;
 use crate::mesh::Array;
 use crate::mesh::arrays::{On, Values};
+use crate::say;
 
 const COLOURS: [&str; 4] = ["red", "green", "blue", "alpha"];
 
@@ -38,7 +39,7 @@ impl Extras {
             }
             let more = bytes.saturating_add(rows.saturating_mul(property.kind.size() as u64));
             if !room.holds_arrays(0, 0, more) {
-                columns.leave_out(&property.name, "it would take more memory than a file of this size is given");
+                columns.leave_out(&property.name, &say!("errors-array-memory"));
                 return None;
             }
             bytes = more;

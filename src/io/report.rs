@@ -26,6 +26,9 @@ pub struct ImportReport {
     pub format: String,
     /// The unit that the file's numbers were taken in.
     pub unit: Unit,
+    /// Whether that unit was taken because the surface would be of an unusual size in the one that the format says.
+    #[serde(default)]
+    pub unit_by_size: bool,
     /// Millimetres in one of that unit.
     pub scale_to_mm: f64,
     /// What the coordinates grow towards, as far as the file says: "lps", "ras" or "unknown".
@@ -72,7 +75,7 @@ pub struct ImportReport {
     pub arrays: Vec<ArrayInfo>,
     /// What the file holds besides the surface.
     pub skipped: Skipped,
-    /// Sentences for the user about what looks odd or was mended.
+    /// Sentences for the user about what looks odd or was mended, in the language that was spoken where the file was read.
     pub warnings: Vec<String>,
 }
 

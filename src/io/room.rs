@@ -5,6 +5,7 @@
 //! write stay far below: a triangle of a compressed strip takes seven bytes, of anything else ten or more.
 
 use super::error::ReadError;
+use crate::say;
 
 const MB: u64 = 1_000_000;
 /// What a vertex and a triangle take at most on their way through the import stage, in bytes (`tests/formats` measures).
@@ -34,7 +35,8 @@ impl Room {
     /// Refuses a structure of so many parts that, each taking a few bytes in the file, would not fit.
     pub(super) fn check_parts(self, format: &'static str, parts: usize) -> Result<(), ReadError> {
         if PART * parts as u64 > self.bytes() {
-            return Err(ReadError::Unfolds { format, what: format!("{parts} parts"), file: self.file });
+            let what = say!("errors-parts", parts = parts.to_string());
+            return Err(ReadError::Unfolds { format, what, file: self.file });
         }
         Ok(())
     }
@@ -55,7 +57,8 @@ impl Room {
     pub(super) fn check(self, format: &'static str, vertices: usize, triangles: usize) -> Result<(), ReadError> {
         let needed = VERTEX * vertices as u64 + TRIANGLE * triangles as u64;
         if needed > self.bytes() {
-            let what = format!("{vertices} vertices and {triangles} triangles");
+            let (vertices, triangles) = (vertices.to_string(), triangles.to_string());
+            let what = say!("errors-vertices-triangles", vertices = vertices, triangles = triangles);
             return Err(ReadError::Unfolds { format, what, file: self.file });
         }
         Ok(())

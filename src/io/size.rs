@@ -7,6 +7,8 @@ use std::ops::RangeInclusive;
 
 use super::Unit;
 use super::report::ImportReport;
+use crate::language::{decimal, scientific};
+use crate::say;
 
 /// Diagonals, in mm, that draw no warning.
 const USUAL_DIAGONAL_MM: RangeInclusive<f64> = 20.0..=2000.0;
@@ -20,9 +22,19 @@ pub struct UnusualSize {
     pub sentence: String,
     /// The units in which the size would be usual; none where no unit helps.
     pub units: Vec<Unit>,
+    /// Whether it is the calibre that is unusual, which a wall with two sides has none of.
+    pub is_calibre: bool,
 }
 
 impl ImportReport {
+    /// The one unit in which the size would be usual, where it is not and only one would do.
+    pub fn unit_by_size(&self) -> Option<Unit> {
+        match self.unusual_size()?.units[..] {
+            [unit] => Some(unit),
+            _ => None,
+        }
+    }
+
     /// What is unusual about the size; `None` where nothing is.
     pub fn unusual_size(&self) -> Option<UnusualSize> {
         if self.vertices == 0 {
@@ -37,34 +49,30 @@ impl ImportReport {
         let fitting: Vec<Unit> = others().filter(is_as_wide).collect();
         let list = |units: &[Unit], mm: f64| {
             let each = units.iter().map(|&other| format!("{other} ({} mm)", length(in_unit(mm, other))));
-            each.collect::<Vec<_>>().join(" or in ")
+            each.reduce(|first, next| say!("errors-size-or", first = first, next = next)).unwrap_or_default()
         };
         if !is_as_long(&self.unit) {
             let units = if fitting.is_empty() { others().collect() } else { fitting };
-            let advice = if units.is_empty() {
-                "check its unit of length".to_owned()
-            } else {
-                format!("its numbers may be in {}", list(&units, diagonal))
-            };
             let across = length(diagonal);
-            let sentence = format!("The surface is {across} mm across, which is unusual for vessels: {advice}.");
-            return Some(UnusualSize { sentence, units });
+            let sentence = if units.is_empty() {
+                say!("errors-size", across = across)
+            } else {
+                say!("errors-size-units", across = across, units = list(&units, diagonal))
+            };
+            return Some(UnusualSize { sentence, units, is_calibre: false });
         }
         let calibre = calibre.filter(|_| !is_as_wide(&self.unit) && !fitting.is_empty())?;
-        let (wide, advice) = (length(calibre), list(&fitting, calibre));
-        let sentence = format!(
-            "Its vessels are {wide} mm wide on average, which is unusual: the numbers of the file may be in {advice}."
-        );
-        Some(UnusualSize { sentence, units: fitting })
+        let sentence = say!("errors-calibre-units", wide = length(calibre), units = list(&fitting, calibre));
+        Some(UnusualSize { sentence, units: fitting, is_calibre: true })
     }
 }
 
 /// A length in mm to three digits or to the mm, whichever is more.
 pub(super) fn length(mm: f64) -> String {
     match mm.abs() {
-        x if x >= 100.0 || x == 0.0 => format!("{mm:.0}"),
-        x if x >= 10.0 => format!("{mm:.1}"),
-        x if x >= 0.01 => format!("{mm:.3}"),
-        _ => format!("{mm:.2e}"),
+        x if x >= 100.0 || x == 0.0 => decimal(mm, 0),
+        x if x >= 10.0 => decimal(mm, 1),
+        x if x >= 0.01 => decimal(mm, 3),
+        _ => scientific(mm, 2),
     }
 }

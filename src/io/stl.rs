@@ -4,6 +4,8 @@
 //! the free text of a binary header with "solid", which the crate `stl_io` takes for text; that is why the format is
 //! read here. Facet normals are not used: they are often wrong, and the winding says the same.
 
+use std::mem;
+
 use glam::DVec3;
 
 use super::error::{ReadError, WriteError};
@@ -12,7 +14,11 @@ use super::output::Output;
 use super::polygons::Faces;
 use super::text::{self, Words};
 use crate::mesh::Vec3;
+use crate::say;
+use crate::task::{Budget, Progress};
 
+/// Facets, or words, between two looks at the clock.
+const BLOCK: usize = 1 << 15;
 const HEADER: usize = 80;
 const FACET: usize = 50;
 const BINARY: &str = "STL binary";
@@ -32,85 +38,162 @@ fn binary_length(facets: u32) -> u64 {
     (HEADER + 4) as u64 + FACET as u64 * u64::from(facets)
 }
 
-/// Reads either kind; the text, which may have more digits than f32, with positions relative to `origin`.
-pub(super) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
-    if !has_binary_length(bytes) && text::is_text(bytes) { read_ascii(bytes, origin) } else { read_binary(bytes) }
+/// A file of either kind on its way to a surface, in slices; the text, which may have more digits than f32, with positions
+/// relative to an origin.
+pub(super) enum Parsing {
+    Binary(Facets),
+    Text(Box<Solids>),
 }
 
-fn read_binary(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-    let cut_short = |what: &str, announced: u64, found: usize| ReadError::CutShort {
-        format: BINARY,
-        what: what.to_owned(),
-        announced,
-        found: found as u64,
-    };
-    let facets = announced(bytes).ok_or_else(|| cut_short("bytes of header", 84, bytes.len()))?;
-    let body = &bytes[HEADER + 4..];
-    if binary_length(facets) > bytes.len() as u64 {
-        return Err(cut_short("triangles", u64::from(facets), body.len() / FACET));
-    }
-    check_size(0, facets as usize)?;
-    let (body, trailing) = body.split_at(FACET * facets as usize);
-    let mut positions = Vec::with_capacity(3 * facets as usize);
-    for facet in body.as_chunks::<FACET>().0 {
-        // A facet is its normal, its corners and two bytes of its own.
-        for corner in facet[12..48].as_chunks::<12>().0 {
-            let [x, y, z] =
-                [0, 4, 8].map(|i| f32::from_le_bytes([corner[i], corner[i + 1], corner[i + 2], corner[i + 3]]));
-            positions.push(Vec3::new(x, y, z));
+impl Parsing {
+    /// Of `bytes`, which are handed over again with each slice.
+    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
+        if !has_binary_length(bytes) && text::is_text(bytes) {
+            Ok(Self::Text(Box::new(Solids::new(origin))))
+        } else {
+            Facets::new(bytes).map(Self::Binary)
         }
     }
-    let mut raw = RawSurface::new(BINARY, positions, (0..facets).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect());
-    if !trailing.is_empty() {
-        raw.warnings.push(format!("{} bytes after the last triangle left out.", trailing.len()));
+
+    pub(super) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        match self {
+            Self::Binary(facets) => facets.advance(bytes, budget),
+            Self::Text(solids) => solids.advance(bytes, budget),
+        }
     }
-    Ok(raw)
 }
 
-/// Reads the text form word by word: `solid`, `facet`, `outer loop`, `vertex`, in any case and with any indenting,
-/// any number of solids. Words that are none of these, such as colours, are passed over.
-fn read_ascii(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
-    let mut words = Words::new(text::without_mark(bytes), 1);
-    let mut positions: Vec<Vec3> = Vec::new();
-    let mut faces = Faces::default();
-    let (mut in_loop, mut in_solid, mut known) = (false, false, false);
-    while let Some(word) = words.next() {
+/// The binary form.
+pub(super) struct Facets {
+    count: u32,
+    /// The corners of those that are read.
+    positions: Vec<Vec3>,
+}
+
+impl Facets {
+    fn new(bytes: &[u8]) -> Result<Self, ReadError> {
+        let cut_short = |what: String, announced: u64, found: usize| ReadError::CutShort {
+            format: BINARY,
+            what,
+            announced,
+            found: found as u64,
+        };
+        let count = announced(bytes).ok_or_else(|| cut_short(say!("errors-header-bytes"), 84, bytes.len()))?;
+        if binary_length(count) > bytes.len() as u64 {
+            return Err(cut_short(say!("errors-triangles"), u64::from(count), (bytes.len() - HEADER - 4) / FACET));
+        }
+        check_size(0, count as usize)?;
+        Ok(Self { count, positions: Vec::with_capacity(3 * count as usize) })
+    }
+
+    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        let count = self.count as usize;
+        let (body, trailing) = bytes[HEADER + 4..].split_at(FACET * count);
+        let left = &body.as_chunks::<FACET>().0[self.positions.len() / 3..];
+        for block in left.chunks(BLOCK) {
+            for facet in block {
+                // A facet is its normal, its corners and two bytes of its own.
+                for corner in facet[12..48].as_chunks::<12>().0 {
+                    let [x, y, z] =
+                        [0, 4, 8].map(|i| f32::from_le_bytes([corner[i], corner[i + 1], corner[i + 2], corner[i + 3]]));
+                    self.positions.push(Vec3::new(x, y, z));
+                }
+            }
+            let done = self.positions.len() / 3;
+            if done < count && budget.is_spent() {
+                return Progress::Working(done as f32 / count as f32);
+            }
+        }
+        let triangles = (0..self.count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let mut raw = RawSurface::new(BINARY, mem::take(&mut self.positions), triangles);
+        if !trailing.is_empty() {
+            raw.warnings.push(say!("errors-stl-trailing", bytes = trailing.len().to_string()));
+        }
+        Progress::Done(Ok(raw))
+    }
+}
+
+/// The text form, word by word: `solid`, `facet`, `outer loop`, `vertex`, in any case and with any indenting, any number
+/// of solids. Words that are none of these, such as colours, are passed over.
+pub(super) struct Solids {
+    origin: DVec3,
+    /// Where the next word is looked for, behind a byte-order mark, and the line there.
+    at: usize,
+    line: usize,
+    positions: Vec<Vec3>,
+    faces: Faces,
+    in_loop: bool,
+    in_solid: bool,
+    /// Whether any word was one of the format's.
+    known: bool,
+}
+
+impl Solids {
+    fn new(origin: DVec3) -> Self {
+        let (positions, faces) = (Vec::new(), Faces::default());
+        Self { origin, at: 0, line: 1, positions, faces, in_loop: false, in_solid: false, known: false }
+    }
+
+    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        let text = text::without_mark(bytes);
+        let mut words = Words::new(&text[self.at..], self.line);
+        loop {
+            for _ in 0..BLOCK {
+                let Some(word) = words.next() else { return Progress::Done(self.surface(words.line())) };
+                if let Err(error) = self.take(word, &mut words) {
+                    return Progress::Done(Err(error));
+                }
+            }
+            if budget.is_spent() {
+                (self.at, self.line) = (text.len() - words.remaining(), words.line());
+                return Progress::Working(self.at as f32 / text.len() as f32);
+            }
+        }
+    }
+
+    /// Takes a word, and what belongs to it.
+    fn take(&mut self, word: &[u8], words: &mut Words) -> Result<(), ReadError> {
         let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
         if is(b"vertex") {
-            faces.push_corner(positions.len() as u32);
-            positions.push(vertex(&mut words, origin)?);
-            in_loop = true;
+            self.faces.push_corner(self.positions.len() as u32);
+            self.positions.push(vertex(words, self.origin)?);
+            self.in_loop = true;
         } else if is(b"endloop") || is(b"endfacet") {
             // Some writers leave out one of the two.
-            if in_loop {
-                faces.finish_face();
+            if self.in_loop {
+                self.faces.finish_face();
             }
-            in_loop = false;
+            self.in_loop = false;
         } else if is(b"solid") || is(b"endsolid") {
             // What follows is a name, and a name may be any word.
             words.skip_line();
-            in_solid = is(b"solid");
+            self.in_solid = is(b"solid");
         } else if is(b"facet") {
-            in_solid = true;
+            self.in_solid = true;
         } else {
-            continue;
+            return Ok(());
         }
-        known = true;
+        self.known = true;
+        Ok(())
     }
-    if !known {
-        let problem = "it is a text without a single \"facet\"".to_owned();
-        return Err(ReadError::Malformed { format: "STL", problem });
+
+    /// The surface, once there is no word left in `line`, the last.
+    fn surface(&mut self, line: usize) -> Result<RawSurface, ReadError> {
+        if !self.known {
+            let problem = say!("errors-stl-no-facet");
+            return Err(ReadError::Malformed { format: "STL", problem });
+        }
+        if self.in_loop {
+            let problem = say!("errors-stl-ends");
+            return Err(ReadError::Syntax { format: ASCII, line, problem });
+        }
+        let mut raw = RawSurface::of_faces(ASCII, mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        (raw.has_doubles, raw.origin) = (true, self.origin);
+        if self.in_solid {
+            raw.warnings.push(say!("errors-stl-open"));
+        }
+        Ok(raw)
     }
-    if in_loop {
-        let problem = "the file ends in the middle of a triangle".to_owned();
-        return Err(ReadError::Syntax { format: ASCII, line: words.line(), problem });
-    }
-    let mut raw = RawSurface::of_faces(ASCII, positions, &faces);
-    (raw.has_doubles, raw.origin) = (true, origin);
-    if in_solid {
-        raw.warnings.push("The file may be cut short: its last solid has no end.".to_owned());
-    }
-    Ok(raw)
 }
 
 /// The three coordinates after the word `vertex`, relative to `origin`.
@@ -122,8 +205,8 @@ fn vertex(words: &mut Words, origin: DVec3) -> Result<Vec3, ReadError> {
             format: ASCII,
             line: words.line(),
             problem: match word {
-                Some(word) => format!("{} stands where a coordinate should", text::quoted(word)),
-                None => "the file ends in the middle of a triangle".to_owned(),
+                Some(word) => say!("errors-no-coordinate", word = text::quoted(word)),
+                None => say!("errors-stl-ends"),
             },
         })?;
     }
@@ -156,7 +239,10 @@ mod tests {
     use crate::mesh::TriMesh;
 
     fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-        super::read(bytes, DVec3::ZERO)
+        match Parsing::new(bytes, DVec3::ZERO)?.advance(bytes, Budget::UNLIMITED) {
+            Progress::Done(read) => read,
+            Progress::Working(_) => panic!("without a limit it runs to its end"),
+        }
     }
 
     const TWO: &str = "SOLID vertex of facets\n Facet Normal 0 0 1\n outer loop\nVERTEX 0 0 0\nvertex 1 0 0\n\

@@ -5,41 +5,93 @@
 //! depend on how the table hashes. Arrays go along: of vertices that become one, scalars take the mean and labels the
 //! majority.
 
+use std::mem;
+
 use hashbrown::hash_table::{Entry, HashTable};
 
 use crate::mesh::arrays::On;
 use crate::mesh::{Array, Blend, TriMesh, Vec3, compacted, used_vertices};
+use crate::task::{Budget, Progress, Task};
 
-/// The distinct positions of a list, and which of them each entry became.
-struct Welded {
-    /// Each position once, in the order of first occurrence.
+/// Positions between two looks at the clock.
+const BLOCK: usize = 1 << 15;
+
+/// Coincident vertices welded, in slices; without degenerate triangles and unused vertices.
+pub(super) struct Welding {
     positions: Vec<Vec3>,
-    /// For each entry of the list, its place in `positions`.
+    triangles: Vec<[u32; 3]>,
+    arrays: Vec<Array>,
+    table: HashTable<u32>,
+    /// Each position once, in the order of first occurrence.
+    distinct: Vec<Vec3>,
+    /// For each position so far, its place in `distinct`.
     index: Vec<u32>,
 }
 
-/// Welds `positions`; minus zeros become zeros. There may be at most `u32::MAX` of them.
-fn weld(positions: &[Vec3]) -> Welded {
-    // A closed surface written triangle by triangle has six entries a vertex, an indexed one has one.
-    let mut table: HashTable<u32> = HashTable::with_capacity(positions.len() / 4);
-    let mut distinct: Vec<Vec3> = Vec::with_capacity(positions.len() / 4);
-    let mut index = Vec::with_capacity(positions.len());
-    for &position in positions {
-        let position = position + Vec3::ZERO;
-        let key = bits(position);
-        let found =
-            table.entry(hash(key), |&v| bits(distinct[v as usize]) == key, |&v| hash(bits(distinct[v as usize])));
-        index.push(match found {
-            Entry::Occupied(entry) => *entry.get(),
-            Entry::Vacant(entry) => {
-                let v = distinct.len() as u32;
-                entry.insert(v);
-                distinct.push(position);
-                v
-            }
-        });
+impl Welding {
+    /// Of `positions`, at most `u32::MAX`, `triangles` over them, and arrays of either.
+    pub(super) fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, arrays: Vec<Array>) -> Self {
+        // A closed surface written triangle by triangle has six entries a vertex, an indexed one has one.
+        let table = HashTable::with_capacity(positions.len() / 4);
+        let distinct = Vec::with_capacity(positions.len() / 4);
+        let index = Vec::with_capacity(positions.len());
+        Self { positions, triangles, arrays, table, distinct, index }
     }
-    Welded { positions: distinct, index }
+
+    /// Looks up the next positions; minus zeros become zeros.
+    fn look_up(&mut self, positions: usize) {
+        let Self { table, distinct, index, .. } = self;
+        for &position in &self.positions[index.len()..][..positions] {
+            let position = position + Vec3::ZERO;
+            let key = bits(position);
+            let found =
+                table.entry(hash(key), |&v| bits(distinct[v as usize]) == key, |&v| hash(bits(distinct[v as usize])));
+            index.push(match found {
+                Entry::Occupied(entry) => *entry.get(),
+                Entry::Vacant(entry) => {
+                    let v = distinct.len() as u32;
+                    entry.insert(v);
+                    distinct.push(position);
+                    v
+                }
+            });
+        }
+    }
+
+    /// The surface, once all are looked up, and its arrays.
+    fn welded(&mut self) -> (TriMesh, Vec<Array>) {
+        let Self { positions, triangles, arrays, table, distinct, index } =
+            mem::replace(self, Self::new(Vec::new(), Vec::new(), Vec::new()));
+        drop((positions, table));
+        let mut kept = triangles;
+        let mut rows = Rows::of(&arrays, index.len(), &kept);
+        for t in &mut kept {
+            *t = t.map(|v| index[v as usize]);
+        }
+        let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+        if let Some(rows) = &mut rows {
+            rows.triangles = (0..kept.len() as u32).filter(|&t| has_area(&kept[t as usize])).collect();
+        }
+        kept.retain(has_area);
+        let arrays = rows.map_or_else(Vec::new, |rows| rows.welded(&arrays, &index, &kept));
+        (compacted(&distinct, kept), arrays)
+    }
+}
+
+impl Task for Welding {
+    type Output = (TriMesh, Vec<Array>);
+
+    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
+        loop {
+            match self.positions.len() - self.index.len() {
+                0 => return Progress::Done(self.welded()),
+                left => self.look_up(left.min(BLOCK)),
+            }
+            if budget.is_spent() {
+                return Progress::Working(self.index.len() as f32 / self.positions.len() as f32);
+            }
+        }
+    }
 }
 
 fn bits(p: Vec3) -> [u32; 3] {
@@ -54,24 +106,6 @@ fn hash([x, y, z]: [u32; 3]) -> u64 {
     h = (h ^ u64::from(z)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
     h ^= h >> 29;
     h.wrapping_mul(0xff51_afd7_ed55_8ccd)
-}
-
-/// The surface with coincident vertices welded, and without degenerate triangles and unused vertices; and its arrays.
-pub(super) fn welded(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, arrays: &[Array]) -> (TriMesh, Vec<Array>) {
-    let welded = weld(&positions);
-    drop(positions);
-    let mut kept = triangles;
-    let mut rows = Rows::of(arrays, welded.index.len(), &kept);
-    for t in &mut kept {
-        *t = t.map(|v| welded.index[v as usize]);
-    }
-    let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
-    if let Some(rows) = &mut rows {
-        rows.triangles = (0..kept.len() as u32).filter(|&t| has_area(&kept[t as usize])).collect();
-    }
-    kept.retain(has_area);
-    let arrays = rows.map_or_else(Vec::new, |rows| rows.welded(arrays, &welded.index, &kept));
-    (compacted(&welded.positions, kept), arrays)
 }
 
 /// Which rows of arrays the import keeps.
@@ -114,20 +148,26 @@ impl Rows {
 mod tests {
     use super::*;
 
+    /// The positions that stay, and what became of each.
+    fn weld(positions: &[Vec3]) -> (Vec<Vec3>, Vec<u32>) {
+        let mut welding = Welding::new(positions.to_vec(), Vec::new(), Vec::new());
+        welding.look_up(positions.len());
+        (welding.distinct, welding.index)
+    }
+
     #[test]
     fn equal_positions_become_one_in_the_order_they_come() {
         let p = |x: f32| Vec3::new(x, 0.0, 1.0);
-        let welded = weld(&[p(2.0), p(0.0), p(2.0), p(-0.0), p(f32::MIN_POSITIVE), p(2.0)]);
-        assert_eq!(welded.index, [0, 1, 0, 1, 2, 0]);
-        assert_eq!(welded.positions, [p(2.0), p(0.0), p(f32::MIN_POSITIVE)]);
-        assert!(welded.positions[1].x.is_sign_positive());
+        let (positions, index) = weld(&[p(2.0), p(0.0), p(2.0), p(-0.0), p(f32::MIN_POSITIVE), p(2.0)]);
+        assert_eq!(index, [0, 1, 0, 1, 2, 0]);
+        assert_eq!(positions, [p(2.0), p(0.0), p(f32::MIN_POSITIVE)]);
+        assert!(positions[1].x.is_sign_positive());
     }
 
     #[test]
     fn a_grid_of_positions_stays_apart() {
         let grid: Vec<Vec3> =
             (0..40 * 40 * 40).map(|i| Vec3::new((i % 40) as f32, (i / 40 % 40) as f32, (i / 1600) as f32)).collect();
-        let welded = weld(&grid);
-        assert_eq!(welded.positions, grid);
+        assert_eq!(weld(&grid).0, grid);
     }
 }

@@ -40,6 +40,22 @@ impl Blend {
         Self { ends, sources }
     }
 
+    /// A row for each of `sources`, of that alone.
+    pub fn of_rows(sources: impl Iterator<Item = u32>) -> Self {
+        let sources: Vec<(u32, f32)> = sources.map(|source| (source, 1.0)).collect();
+        Self { ends: (1..=sources.len() as u32).collect(), sources }
+    }
+
+    /// These rows, and then `rows`.
+    #[must_use]
+    pub fn followed_by(mut self, rows: &[Vec<(u32, f32)>]) -> Self {
+        for row in rows {
+            row.iter().for_each(|&(source, weight)| self.push(source, weight));
+            self.finish_row();
+        }
+        self
+    }
+
     /// Adds a source of the row that [`Self::finish_row`] ends. One without weight counts for nothing.
     pub fn push(&mut self, source: u32, weight: f32) {
         if weight > 0.0 {

@@ -1,4 +1,6 @@
-//! Connected pieces of a surface: triangles that share a vertex belong together (union-find, Tarjan 1975).
+//! Connected pieces of a surface: triangles that share a vertex belong together (`disjoint_sets`).
+
+use super::disjoint_sets::{singles, union};
 
 /// A partition of the triangles into connected pieces, numbered by their first triangle.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -24,12 +26,12 @@ impl Components {
 
 /// The connected pieces of `triangles` over `vertex_count` vertices.
 pub fn components(vertex_count: usize, triangles: &[[u32; 3]]) -> Components {
-    let mut parent: Vec<u32> = (0..vertex_count as u32).collect();
+    let mut parent = singles(vertex_count);
     for &[a, b, c] in triangles {
         let [up_a, up_b, up_c] = [a, b, c].map(|v| parent[v as usize]);
         if up_a != up_b || up_b != up_c {
-            let root = union(&mut parent, a, b);
-            union(&mut parent, root, c);
+            union(&mut parent, a, b);
+            union(&mut parent, a, c);
         }
     }
     // No parent is larger than its child, so each finds its parent at the root already.
@@ -61,24 +63,6 @@ fn number(roots: &[u32], triangles: &[[u32; 3]]) -> Components {
         result.triangle_counts[piece as usize] += 1;
     }
     result
-}
-
-/// The representative of `v`, halving the path on the way.
-fn find(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        let up = parent[parent[v as usize] as usize];
-        parent[v as usize] = up;
-        v = up;
-    }
-    v
-}
-
-/// Joins the sets of `a` and `b` under the smaller representative, which is returned.
-fn union(parent: &mut [u32], a: u32, b: u32) -> u32 {
-    let (a, b) = (find(parent, a), find(parent, b));
-    let (low, high) = (a.min(b), a.max(b));
-    parent[high as usize] = low;
-    low
 }
 
 #[cfg(test)]

@@ -34,6 +34,16 @@ pub(crate) struct Face {
 
 /// Whether two triangles of a surface run into each other.
 pub(crate) fn cross(a: &Face, b: &Face) -> bool {
+    cross_beyond(EPSILON, a, b)
+}
+
+/// The same, but a crossing as near to a side as can be counts too: what a triangle only touches, or passes by rounding.
+pub(crate) fn cross_at_all(a: &Face, b: &Face) -> bool {
+    cross_beyond(0.0, a, b)
+}
+
+/// The same, where a crossing within a part of a triangle's height from a side does not count.
+fn cross_beyond(margin: f64, a: &Face, b: &Face) -> bool {
     if !boxes_overlap(a.corners, b.corners) {
         return false;
     }
@@ -48,7 +58,7 @@ pub(crate) fn cross(a: &Face, b: &Face) -> bool {
     let (p, q) = (a.corners.map(Vec3::as_dvec3), b.corners.map(Vec3::as_dvec3));
     match common {
         (0, ..) => triangles_meet(p, q),
-        (1, i, j) => meet_beyond_vertex(p, i, q, j),
+        (1, i, j) => meet_beyond_vertex(margin, p, i, q, j),
         (2, ..) => false,
         _ => true,
     }
@@ -62,15 +72,16 @@ fn boxes_overlap(a: [Vec3; 3], b: [Vec3; 3]) -> bool {
 }
 
 /// Two triangles whose corners `i` and `j` are one vertex.
-fn meet_beyond_vertex(p: [DVec3; 3], i: usize, q: [DVec3; 3], j: usize) -> bool {
+fn meet_beyond_vertex(margin: f64, p: [DVec3; 3], i: usize, q: [DVec3; 3], j: usize) -> bool {
     let half_way = |corners: [DVec3; 3], at: usize| {
         [(at + 1) % 3, (at + 2) % 3].map(|other| corners[other] * 0.5 + corners[at] * 0.5)
     };
-    crossing(half_way(p, i), q).or_else(|| crossing(half_way(q, j), p)).unwrap_or(false)
+    crossing(margin, half_way(p, i), q).or_else(|| crossing(margin, half_way(q, j), p)).unwrap_or(false)
 }
 
-/// Where a segment crosses a triangle, whether that is inside of it and not on a side; `None` where it does not.
-fn crossing([from, to]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<bool> {
+/// Where a segment crosses a triangle, whether that is inside of it and not within `margin` of a side; `None` where it does
+/// not.
+fn crossing(margin: f64, [from, to]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<bool> {
     let length = (to - from).length();
     let (direction, ab, ac) = ((to - from) / length, b - a, c - a);
     let across = direction.cross(ac);
@@ -85,7 +96,7 @@ fn crossing([from, to]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<bool> {
     let (v, w, t) =
         (offset.dot(across) / determinant, direction.dot(turned) / determinant, ac.dot(turned) / determinant);
     let is_on = v >= 0.0 && w >= 0.0 && v + w <= 1.0 && (0.0..=length).contains(&t);
-    is_on.then_some(v > EPSILON && w > EPSILON && v + w < 1.0)
+    is_on.then_some(v > margin && w > margin && v + w < 1.0)
 }
 
 /// Whether two triangles without a common vertex share a point.

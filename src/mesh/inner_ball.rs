@@ -201,6 +201,37 @@ impl SurfaceIndex {
         Some(InnerBall { centre, radius: ball.radius as f32 })
     }
 
+    /// The inner ball at the place of the surface that is nearest to `p`: where it touches, and the ball. Its normal is
+    /// between those of the triangle's corners, by the place in it. `positions` and `triangles` are those of the index;
+    /// all of the triangles are looked at.
+    pub fn inner_ball_beside(
+        &self,
+        positions: &[Vec3],
+        triangles: &[[u32; 3]],
+        p: Vec3,
+        limit: f32,
+    ) -> Option<(Vec3, InnerBall)> {
+        let nearest = self.nearest(p)?;
+        let corners = *triangles.get(nearest.triangle as usize)?;
+        let mut normals = [DVec3::ZERO; 3];
+        for triangle in triangles {
+            if !triangle.iter().any(|v| corners.contains(v)) {
+                continue;
+            }
+            let [a, b, c] = triangle.map(|v| positions[v as usize].as_dvec3());
+            let area = (b - a).cross(c - a);
+            for (normal, corner) in normals.iter_mut().zip(corners) {
+                if triangle.contains(&corner) {
+                    *normal += area;
+                }
+            }
+        }
+        let weighted = normals.iter().zip(nearest.barycentric);
+        let sum: DVec3 = weighted.map(|(normal, weight)| normal.normalize_or_zero() * f64::from(weight)).sum();
+        let normal = sum.try_normalize()?.as_vec3();
+        Some((nearest.point, self.inner_ball(nearest.point, normal, limit)?))
+    }
+
     /// A first, small ball: as deep as the inward normal goes before it leaves the surface.
     fn shoot(&self, ball: &mut Shrinking) {
         let (p, inward) = (ball.p, ball.inward);
@@ -375,5 +406,20 @@ mod tests {
             assert_eq!(index.inner_ball(p, n, limit), None);
         }
         assert_eq!(SurfaceIndex::default().inner_ball(Vec3::X, Vec3::X, 9.0), None);
+    }
+
+    #[test]
+    fn wherever_one_points_in_a_tube_the_ball_is_as_wide_as_it() {
+        let mesh = crate::mesh::shapes::tube(96, 60, 40.0, |_| 3.0);
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        for (angle, z) in [(0.0, 20.0), (0.31, 17.7), (2.0, 11.11), (4.4, 29.03)] {
+            let (sin, cos) = libm::sincos(angle);
+            // A little beside the wall, as a pick is.
+            let p = Vec3::new(3.01 * cos as f32, 3.01 * sin as f32, z);
+            let (at, ball) = index.inner_ball_beside(&mesh.positions, &mesh.triangles, p, 100.0).unwrap();
+            assert!((ball.radius / 3.0 - 1.0).abs() < 0.005, "{angle} {z}: {ball:?}");
+            assert!(at.distance(p) < 0.05 && ball.centre.distance(Vec3::Z * z) < 0.02, "{ball:?}");
+        }
+        assert!(index.inner_ball_beside(&mesh.positions, &mesh.triangles, Vec3::NAN, 100.0).is_none());
     }
 }

@@ -70,6 +70,22 @@ impl SurfaceIndex {
         (best.1 != u32::MAX).then_some(best.1)
     }
 
+    /// The first triangle, other than `own`, that a ray from `p` along `direction` (of length 1) meets from either side
+    /// within `farthest` mm, and how far it is; of several at the same depth that of the least number.
+    pub(super) fn first_met(&self, p: DVec3, direction: DVec3, farthest: f64, own: u32) -> Option<(f64, u32)> {
+        let mut best = (farthest, u32::MAX);
+        self.along(p, direction, farthest, |leaf, farthest| {
+            if leaf.triangle != own
+                && let Some(hit) = Hit::of(p, direction, leaf.corners)
+                && (hit.depth, leaf.triangle) < best
+            {
+                best = (hit.depth, leaf.triangle);
+                *farthest = farthest.min(hit.depth);
+            }
+        });
+        (best.1 != u32::MAX).then_some(best)
+    }
+
     /// Visits the leaves whose boxes a ray passes before `farthest`, which the visits may lower.
     pub(super) fn along(&self, p: DVec3, direction: DVec3, mut farthest: f64, mut visit: impl FnMut(&Leaf, &mut f64)) {
         let origin = p.as_vec3().to_array().map(Vec4::splat);

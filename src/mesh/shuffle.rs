@@ -3,19 +3,20 @@
 //! Where results depend on that order, by sums and by which of two equals comes first, this shows by how much.
 
 use super::TriMesh;
+use crate::chance::Chance;
 
 /// The surface with its vertices and triangles in an order that `seed` decides, each triangle from a corner that it
 /// decides on.
 #[must_use]
 pub fn shuffled(mesh: &TriMesh, seed: u64) -> TriMesh {
-    let mut chance = Chance(seed);
-    let vertices = chance.order(mesh.positions.len());
-    let triangles = chance.order(mesh.triangles.len());
+    let mut chance = Chance::new(seed);
+    let vertices = order(&mut chance, mesh.positions.len());
+    let triangles = order(&mut chance, mesh.triangles.len());
     let mut place = vec![0u32; vertices.len()];
     vertices.iter().enumerate().for_each(|(to, &from)| place[from as usize] = to as u32);
     let triangle = |&t: &u32| {
         let mut corners = mesh.triangles[t as usize].map(|v| place[v as usize]);
-        corners.rotate_left(chance.below(3));
+        corners.rotate_left(below(&mut chance, 3));
         corners
     };
     TriMesh {
@@ -24,31 +25,18 @@ pub fn shuffled(mesh: &TriMesh, seed: u64) -> TriMesh {
     }
 }
 
-/// Numbers that a seed decides: `SplitMix64` (Steele, Lea and Flood 2014).
-struct Chance(u64);
+/// From 0 to less than `count`, all about as often.
+fn below(chance: &mut Chance, count: usize) -> usize {
+    (chance.bits() % count.max(1) as u64) as usize
+}
 
-impl Chance {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+/// All numbers below `count`, each once (Fisher and Yates).
+fn order(chance: &mut Chance, count: usize) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..count as u32).collect();
+    for last in (1..count).rev() {
+        order.swap(last, below(chance, last + 1));
     }
-
-    /// From 0 to less than `count`, all about as often.
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count.max(1) as u64) as usize
-    }
-
-    /// All numbers below `count`, each once (Fisher and Yates).
-    fn order(&mut self, count: usize) -> Vec<u32> {
-        let mut order: Vec<u32> = (0..count as u32).collect();
-        for last in (1..count).rev() {
-            order.swap(last, self.below(last + 1));
-        }
-        order
-    }
+    order
 }
 
 #[cfg(test)]

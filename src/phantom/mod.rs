@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::mesh::{TriMesh, components};
+use crate::say;
 use crate::volume::MarchingCubes;
 use field::Field;
 pub use vessel::{Station, Vessel};
@@ -63,11 +64,19 @@ impl Sample {
         }
     }
 
-    /// The name in menus.
-    pub fn label(self) -> &'static str {
+    /// What a surface made from it is called in reports and files, whatever is spoken.
+    pub fn title(self) -> &'static str {
         match self {
             Self::Aorta => "Abdominal aorta",
             Self::Coronary => "Coronary arteries",
+        }
+    }
+
+    /// The name in menus, in the language that is spoken.
+    pub fn label(self) -> String {
+        match self {
+            Self::Aorta => say!("panel-sample-aorta"),
+            Self::Coronary => say!("panel-sample-coronary"),
         }
     }
 
@@ -126,13 +135,18 @@ impl FromStr for Sample {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum PhantomError {
     /// The count is out of range.
-    #[error("{asked} triangles are outside the range of {MIN_TRIANGLES} to {MAX_TRIANGLES}")]
+    #[error("{}", say!(
+        "errors-sample-range",
+        asked = .asked.to_string(),
+        least = MIN_TRIANGLES.to_string(),
+        most = MAX_TRIANGLES.to_string()
+    ))]
     TrianglesOutOfRange {
         /// The count that was asked for.
         asked: usize,
     },
     /// No grid that was tried comes within 1 % of the count.
-    #[error("no grid gives {asked} triangles to within 1 %; the nearest gives {nearest}")]
+    #[error("{}", say!("errors-sample-grid", asked = .asked.to_string(), nearest = .nearest.to_string()))]
     NotReached {
         /// The count that was asked for.
         asked: usize,
@@ -140,7 +154,7 @@ pub enum PhantomError {
         nearest: usize,
     },
     /// The caller broke off.
-    #[error("cancelled")]
+    #[error("{}", say!("errors-cancelled"))]
     Cancelled,
 }
 

@@ -88,9 +88,41 @@ impl Filter {
         Self { coefficients: c, sigma, pass_band_response, reaches_pass_band }
     }
 
+    /// As many passes of plain Laplacian smoothing as a filter ([`laplacian`](super::laplacian)): `(1 - k/2)^passes`.
+    pub fn laplacian(passes: u32) -> Self {
+        // x T_n is half of T_n+1 and T_n-1; of x^0 there is T_0 alone.
+        let mut c = vec![0.0; passes as usize + 1];
+        c[0] = 1.0;
+        for degree in 1..c.len() {
+            let mut next = vec![0.0; c.len()];
+            for (n, half) in c[..degree].iter().map(|c| c / 2.0).enumerate() {
+                next[n + 1] += half;
+                next[n.abs_diff(1)] += half;
+            }
+            c = next;
+        }
+        let pass_band_response = evaluate(&c, band_angle(0.0));
+        Self { coefficients: c, sigma: 0.0, pass_band_response, reaches_pass_band: true }
+    }
+
     /// The response `f(k)` at the eigenvalue `k`, 0 to 2.
     pub fn response(&self, k: f64) -> f64 {
         evaluate(&self.coefficients, band_angle(k))
+    }
+
+    /// The sum of the series at the eigenvalue `k`, 0 to 2, up to the term `T_n`: the response where `n` is the last.
+    pub fn partial_response(&self, n: usize, k: f64) -> f64 {
+        evaluate(&self.coefficients[..self.coefficients.len().min(n + 1)], band_angle(k))
+    }
+
+    /// How far that sum is from the response where it is farthest, to about a hundredth: 0 where `n` is the last.
+    pub fn left_after(&self, n: usize) -> f64 {
+        let mut rest = self.coefficients.clone();
+        rest.iter_mut().take(n + 1).for_each(|c| *c = 0.0);
+        // What is left swings no faster than the last term: so many steps of the angles of k from 0 to 2 a swing.
+        let steps = 8 * rest.len();
+        let at = |step: usize| evaluate(&rest, step as f64 / steps as f64 * (PI / 2.0)).abs();
+        (0..=steps).map(at).fold(0.0, f64::max)
     }
 
     /// The smallest eigenvalue `k` at which the response is a half: waves that are rougher are more gone than there.
@@ -198,6 +230,33 @@ mod tests {
                 let settings = Smoothing { window, pass_band: 2.0, iterations, ..Smoothing::PAPER };
                 let c = Filter::with_sigma(&settings, 0.0).coefficients;
                 assert!((c[0] - 0.5).abs() < 1e-12 && (c[1] * PI / 2.0 - value).abs() < 1e-12, "{window:?}: {c:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_terms_add_up_to_the_response() {
+        for window in Window::ALL {
+            let settings = Smoothing { window, pass_band: 0.1, iterations: 40, ..Smoothing::PAPER };
+            let filter = Filter::new(&settings);
+            // Denser where k is small, as the angles are.
+            let ks = || (0..=1000).map(|part| 2.0 * (f64::from(part) / 1000.0).powi(2));
+            for k in ks() {
+                assert!((filter.partial_response(40, k) - filter.response(k)).abs() < 1e-12);
+                // The first term is a constant: c_0 w_0 T_0, where every window is 1, divided by the sum of all.
+                let first =
+                    (band_angle(0.1) + filter.sigma) / PI / Filter::with_sigma(&settings, filter.sigma).dc_gain();
+                assert!((filter.partial_response(0, k) - first).abs() < 1e-12);
+                // The second is the operator itself: T_1(1 - k/2) = 1 - k/2.
+                let second = filter.partial_response(1, k) - first;
+                assert!((second - filter.coefficients[1] * (1.0 - k / 2.0)).abs() < 1e-12);
+            }
+            assert_eq!(filter.left_after(40), 0.0);
+            for n in [0, 1, 7, 25, 39] {
+                let farthest =
+                    ks().map(|k| (filter.partial_response(n, k) - filter.response(k)).abs()).fold(0.0, f64::max);
+                let stated = filter.left_after(n);
+                assert!(stated > 0.0 && (stated / farthest - 1.0).abs() < 0.01, "{window:?} {n}: {stated} {farthest}");
             }
         }
     }

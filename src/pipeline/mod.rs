@@ -6,13 +6,18 @@
 
 pub mod bound;
 pub mod carry;
+pub mod classes;
 pub mod connectivity;
 pub mod decimation;
 pub mod deviation;
+pub mod error_curve;
 pub mod filter;
+pub mod histogram;
+pub mod laplacian;
 pub mod lumen;
 pub mod narrowest;
 pub mod normals;
+pub mod one_collapse;
 pub mod paper;
 pub mod pinch;
 pub mod progressive;
@@ -27,6 +32,7 @@ pub mod smoothing;
 pub mod stage;
 mod stages;
 mod store;
+pub mod verdict;
 mod widths;
 
 pub use crate::task;

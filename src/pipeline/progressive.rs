@@ -12,8 +12,10 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::classes::Lines;
 use super::settings::Target;
 use crate::mesh::{TriMesh, compacted};
+use crate::say;
 
 /// The step at which a node or triangle ends that is never removed.
 pub const NEVER: u32 = u32::MAX;
@@ -36,6 +38,10 @@ pub struct ProgressiveMesh {
     pub triangle_ends: Vec<u32>,
     /// The error of each step in mm, as the method measures it, made non-decreasing.
     pub errors: Vec<f32>,
+    /// The same as it was measured, which may fall from one step to the next.
+    pub costs: Vec<f32>,
+    /// Feature edges, boundary and complex vertices of the finest level.
+    pub lines: Lines,
     /// Why the run ended where it did.
     pub limit: Limit,
 }
@@ -122,15 +128,13 @@ pub struct Shortfall {
 
 impl std::fmt::Display for Shortfall {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { wanted, reached, limit } = self;
-        write!(f, "{reached} triangles is as far as this surface goes ({wanted} were asked for): ")?;
-        let Limit { topology, geometry, complex } = *limit;
-        let reason = match (topology >= geometry && topology >= complex, geometry >= complex) {
-            (true, _) => "removing more would close an open end or pinch a vessel",
-            (false, true) => "removing more would fold the surface over itself",
-            (false, false) => "the rest lies on edges of more than two triangles, which are kept as they are",
-        };
-        f.write_str(reason)
+        let Limit { topology, geometry, complex } = self.limit;
+        let (wanted, reached) = (self.wanted.to_string(), self.reached.to_string());
+        f.write_str(&match (topology >= geometry && topology >= complex, geometry >= complex) {
+            (true, _) => say!("verdict-shortfall-topology", reached = reached, wanted = wanted),
+            (false, true) => say!("verdict-shortfall-geometry", reached = reached, wanted = wanted),
+            (false, false) => say!("verdict-shortfall-complex", reached = reached, wanted = wanted),
+        })
     }
 }
 
@@ -188,6 +192,7 @@ impl ProgressiveMesh {
             sorted_ends[*place as usize] = end;
             *place += 1;
         }
+        let costs = errors.clone();
         (1..errors.len()).for_each(|i| errors[i] = errors[i].max(errors[i - 1]));
         Self {
             positions: order.iter().map(|&node| position(node)).collect(),
@@ -196,8 +201,21 @@ impl ProgressiveMesh {
             triangles,
             triangle_ends: sorted_ends,
             errors,
+            costs,
+            lines: Lines::default(),
             limit,
         }
+    }
+
+    /// The same with `lines` over the vertices of the mesh that entered, of which `vertices_of_nodes` says what each node
+    /// was.
+    #[must_use]
+    pub fn with_lines(self, lines: &Lines, vertices_of_nodes: &[u32]) -> Self {
+        let mut nodes = vec![0; vertices_of_nodes.len()];
+        for (node, &vertex) in (0..).zip(vertices_of_nodes).filter(|(_, vertex)| **vertex != MADE) {
+            nodes[vertex as usize] = node;
+        }
+        Self { lines: lines.mapped(|vertex| nodes[vertex as usize]), ..self }
     }
 
     /// For each node of what [`Self::from_merges`] makes of `vertices` vertices and `made` new ones, the vertex that it
@@ -282,6 +300,7 @@ impl ProgressiveMesh {
         assert_eq!((self.parents.len(), self.node_ends.len()), (nodes, nodes));
         assert_eq!(self.triangles.len(), self.triangle_ends.len());
         assert!(self.node_ends.is_sorted_by(|a, b| a >= b) && self.triangle_ends.is_sorted_by(|a, b| a >= b));
+        assert_eq!(self.costs.len(), self.errors.len());
         assert!(self.errors.is_sorted() && self.errors.iter().all(|e| e.is_finite()));
         for (node, (&parent, &end)) in self.parents.iter().zip(&self.node_ends).enumerate() {
             assert!(if end == NEVER { parent as usize == node } else { (parent as usize) < node && end < steps });

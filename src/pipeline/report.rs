@@ -1,5 +1,7 @@
 //! What a run came to, as numbers. The names of the fields are public and stay.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
@@ -12,9 +14,13 @@ use super::run::Pipeline;
 use super::safe::Safe;
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
-use crate::io::Axes;
+use super::verdict;
+use crate::io::{Axes, Unit};
+use crate::language::{decimal, signed};
 use crate::mesh::arrays::infos;
+use crate::mesh::mending::{FaultCounts, MendReport};
 use crate::mesh::{ArrayInfo, Measures, TriMesh, components};
+use crate::say;
 use crate::vessel::certificate::{BranchCalibre, CalibreError, Verdict};
 
 /// What stands in every report.
@@ -37,6 +43,15 @@ impl Counts {
         let components = components(mesh.positions.len(), &mesh.triangles).count();
         Self { vertices: mesh.positions.len(), triangles: mesh.triangles.len(), components }
     }
+}
+
+/// In which unit a file was read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct UnitReport {
+    /// The unit of the file's numbers.
+    pub unit: Unit,
+    /// Whether it was taken because the surface would be of an unusual size in the one that the format says.
+    pub by_size: bool,
 }
 
 /// What a bound on the deviation led to.
@@ -96,8 +111,17 @@ pub struct Report {
     /// What the output's coordinates grow towards, as far as that is known; set by whoever writes it.
     #[serde(default)]
     pub axes: Axes,
+    /// The unit that the numbers of the file were taken in; set by whoever read it, null of what is no file.
+    #[serde(default)]
+    pub unit: Option<UnitReport>,
     /// The settings that were used.
     pub settings: Settings,
+    /// What was mended before connectivity; null where nothing was asked for.
+    #[serde(default)]
+    pub mending: Option<MendReport>,
+    /// What is wrong with the surface as it was opened; null where that was not asked for.
+    #[serde(default)]
+    pub faults: Option<FaultCounts>,
     /// The part of the triangles after connectivity that is gone, in percent.
     pub reduction_percent: f64,
     /// Why the target was not met; null where it was.
@@ -155,6 +179,9 @@ pub struct Report {
     /// The calibre of each branch; null where that was not asked for, and where there is no vessel tree.
     #[serde(default)]
     pub branches: Option<Vec<BranchCalibre>>,
+    /// What there is to say of the result, the weightiest first; set by whoever writes it, null before.
+    #[serde(default)]
+    pub verdict: Option<Box<verdict::Verdict>>,
 }
 
 /// Whether the vessels keep their calibre.
@@ -181,23 +208,30 @@ impl Report {
         };
         let (from_kept, from_smoothed) =
             (change(&kept.measures, &reduced.measures), change(&smoothed.measures, &reduced.measures));
-        let opened = pipeline.opened();
+        let (opened, entering) = (pipeline.opened(), pipeline.entering()?);
         let pass_band = pipeline.settings().smoothing.pass_band;
         let certified = pipeline.certified();
         Some(Self {
             disclaimer: DISCLAIMER.to_owned(),
             lumen: env!("CARGO_PKG_VERSION").to_owned(),
             input: input.to_owned(),
-            opened: Counts {
-                vertices: opened.positions.len(),
-                triangles: opened.triangles.len(),
-                components: pipeline.connectivity()?.components.len(),
+            opened: if Arc::ptr_eq(opened, &entering.mesh) {
+                Counts {
+                    vertices: opened.positions.len(),
+                    triangles: opened.triangles.len(),
+                    components: pipeline.connectivity()?.components.len(),
+                }
+            } else {
+                Counts::of(opened)
             },
             after_connectivity: Counts::of(&kept.mesh),
             output: Counts::of(&reduced.mesh),
             output_fingerprint: format!("{:016x}", reduced.fingerprint),
             axes: Axes::Unknown,
+            unit: None,
             settings: pipeline.settings().clone(),
+            mending: entering.report,
+            faults: pipeline.faults().map(|found| found.counts()),
             reduction_percent: reduction_percent(kept.mesh.triangles.len(), reduced.mesh.triangles.len()),
             shortfall: reduced.level.shortfall.as_ref().map(Shortfall::to_string),
             bound: pipeline.bound().zip(pipeline.settings().target.deviation_mm()).map(|(found, asked)| BoundReport {
@@ -230,22 +264,27 @@ impl Report {
                 ms: pipeline.times().calibre,
             }),
             branches: certified.and_then(|found| Some(found.as_ref().ok()?.certificate.branches.clone())),
+            verdict: None,
         })
     }
 }
 
 impl Report {
+    /// Sentences where mending left something that it was asked to do.
+    pub fn mending_warnings(&self) -> Vec<String> {
+        self.mending.map_or_else(Vec::new, |done| done.warnings(&self.settings.mending))
+    }
+
     /// A sentence where the volume was to be held and could not be.
     pub fn volume_held_warning(&self) -> Option<String> {
-        let sentence = if self.smoothing_weakened.is_some() {
-            "The volume is not held to 0.01 %: vertices were put back, so that no triangles cross."
+        self.volume_held.filter(|is_held| !is_held)?;
+        Some(if self.smoothing_weakened.is_some() {
+            say!("verdict-volume-put-back")
         } else if self.volume_change_percent.is_none() {
-            "The volume could not be held, because the surface encloses none: it is smoothed as without it."
+            say!("verdict-volume-none")
         } else {
-            "The volume could not be held, because vessels as thin as these would tear or swell at this pass band: the \
-             surface is smoothed as without it."
-        };
-        (self.volume_held == Some(false)).then(|| sentence.to_owned())
+            say!("verdict-volume-thin")
+        })
     }
 
     /// A sentence where smoothing has drawn a vessel shut.
@@ -256,43 +295,35 @@ impl Report {
         if lumen.diameter_mm >= SHUT * response.edge_length_mm {
             return None;
         }
-        let [x, y, z] = lumen.at_mm;
+        let [x, y, z] = lumen.at_mm.map(|mm| decimal(mm, 1));
         if self.settings.smoothing.adapt {
-            let diameter = lumen.diameter_mm;
-            return Some(format!(
-                "A vessel is all but shut at ({x:.1}, {y:.1}, {z:.1}): {diameter:.2} mm are left of it."
-            ));
+            let diameter = decimal(lumen.diameter_mm, 2);
+            return Some(say!("verdict-all-but-shut", x = x, y = y, z = z, diameter = diameter));
         }
-        Some(format!(
-            "Smoothing has drawn a vessel shut at ({x:.1}, {y:.1}, {z:.1}): it takes away waves below {wave:.1} mm, \
-             the way around a vessel of {:.1} mm. A wider pass band keeps thin vessels open.",
-            wave / std::f64::consts::PI
-        ))
+        let (wave, around) = (decimal(wave, 1), decimal(wave / std::f64::consts::PI, 1));
+        Some(say!("verdict-drawn-shut", x = x, y = y, z = z, wave = wave, around = around))
     }
 
     /// A sentence where the output pinches a vessel.
     pub fn pinch_warning(&self) -> Option<String> {
         let narrowed = self.narrowing.filter(|found| found.pinched_places > 0)?;
-        let Narrowing { at_mm: [x, y, z], diameter_before_mm: before, diameter_after_mm: after, .. } = narrowed;
-        let places = match narrowed.pinched_places {
-            1 => String::new(),
-            count => format!(" It is the worst of {count} places."),
-        };
         // The rate at which it began says more, where the search met it.
-        let begun = self.pinch.filter(|pinch| pinch.from_percent <= self.reduction_percent + 0.05);
-        let sentence = match begun {
-            Some(pinch) => format!("{pinch}."),
-            None => format!(
-                "A vessel of {before:.1} mm is {} at ({x:.1}, {y:.1}, {z:.1}).",
-                if after > 0.0 { format!("pinched to {after:.1} mm") } else { "lost".to_owned() }
-            ),
+        if let Some(pinch) = self.pinch.filter(|pinch| pinch.from_percent <= self.reduction_percent + 0.05) {
+            return Some(format!("{pinch}."));
+        }
+        let Narrowing { at_mm, diameter_before_mm, diameter_after_mm: after, .. } = narrowed;
+        let ([x, y, z], before) = (at_mm.map(|mm| decimal(mm, 1)), decimal(diameter_before_mm, 1));
+        let sentence = if after > 0.0 {
+            say!("verdict-pinched-to", before = before, after = decimal(after, 1), x = x, y = y, z = z)
+        } else {
+            say!("verdict-lost-at", before = before, x = x, y = y, z = z)
         };
-        Some(format!("{sentence}{}", if begun.is_some() { "" } else { &places }))
+        Some(match narrowed.pinched_places {
+            1 => sentence,
+            count => format!("{sentence} {}", say!("verdict-worst-of", count = count)),
+        })
     }
 }
-
-/// What smoothing does to vessels whose circumference is shorter than the waves that it stops.
-const TOO_NARROW: &str = "the pass band is too narrow for vessels as thin as these";
 
 /// A change of volume, in percent, above which a report warns.
 const LARGE_CHANGE: f64 = 10.0;
@@ -301,21 +332,27 @@ impl Report {
     /// A sentence where the volume changed so much that the settings do not suit the surface.
     pub fn volume_warning(&self) -> Option<String> {
         let change = self.volume_change_percent.filter(|change| change.abs() > LARGE_CHANGE)?;
-        let cause = volume_cause(change, self.volume_change_from_smoothed_percent.unwrap_or(0.0));
-        let remedy = if cause == TOO_NARROW && !self.settings.smoothing.adapt {
-            " Adapt to calibre (--smoothing auto) keeps it."
+        let reduction = self.volume_change_from_smoothed_percent.unwrap_or(0.0);
+        let cause = volume_cause(change, reduction);
+        let sentence = say!("verdict-volume-changed", change = signed(change, 1), cause = cause);
+        Some(if is_by_smoothing(change, reduction) && !self.settings.smoothing.adapt {
+            format!("{sentence} {}", say!("verdict-volume-adapt"))
         } else {
-            ""
-        };
-        Some(format!("The volume changed by {change:+.1} %: {cause}.{remedy}"))
+            sentence
+        })
     }
 }
 
 /// What made the most of a change of volume of `change` percent, of which the reduction made `reduction` percent of
 /// the smoothed surface's volume.
-fn volume_cause(change: f64, reduction: f64) -> &'static str {
+fn volume_cause(change: f64, reduction: f64) -> String {
+    if is_by_smoothing(change, reduction) { say!("verdict-volume-narrow") } else { say!("verdict-volume-few") }
+}
+
+/// Whether that is smoothing, as of vessels whose circumference is shorter than the waves that it stops.
+fn is_by_smoothing(change: f64, reduction: f64) -> bool {
     let smoothing = ((1.0 + change / 100.0) / (1.0 + reduction / 100.0) - 1.0) * 100.0;
-    if smoothing.abs() >= (change - smoothing).abs() { TOO_NARROW } else { "so few triangles do not carry this shape" }
+    smoothing.abs() >= (change - smoothing).abs()
 }
 
 /// Change of volume and area in percent of `before`; `None` where there is nothing to compare with.

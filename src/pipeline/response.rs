@@ -12,7 +12,9 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::filter::Filter;
+use crate::language::decimal;
 use crate::mesh::{TriMesh, Vec3};
+use crate::say;
 
 /// Where a filter cuts, without unit and in mm on one surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,18 +47,20 @@ impl SmoothingResponse {
     /// The half gain in words: "k = 0.023: waves of 12.3 mm".
     pub fn half_gain_text(&self) -> Option<String> {
         let k = self.half_gain?;
-        let waves = self.wavelength_mm_at_half_gain.map_or(String::new(), |mm| format!(": waves of {}", in_mm(mm)));
-        Some(format!("k = {}{waves}", short(k)))
+        Some(match self.wavelength_mm_at_half_gain {
+            Some(mm) => say!("verdict-half-gain", k = short(k), length = in_mm(mm)),
+            None => format!("k = {}", short(k)),
+        })
     }
 }
 
-/// Three significant digits of a length in mm, with its unit.
+/// Three significant digits of a length in mm, with its unit, in the language that is spoken.
 pub fn in_mm(length: f64) -> String {
     format!("{} mm", short(length))
 }
 
-/// A positive number to about three significant digits.
-fn short(x: f64) -> String {
+/// A positive number to about three significant digits, in the language that is spoken.
+pub(crate) fn short(x: f64) -> String {
     let decimals = if x >= 100.0 {
         0
     } else if x >= 10.0 {
@@ -68,7 +72,7 @@ fn short(x: f64) -> String {
     } else {
         4
     };
-    format!("{x:.decimals$}")
+    decimal(x, decimals)
 }
 
 /// The eigenvalue `k` of waves of `wavelength` on a lattice of edges of `edge_length`, the mean over all directions.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use web_time::Instant;
 
 use super::bound::Bound;
+use super::connectivity::Connectivity;
 use super::deviation::Comparison;
 use super::filter::Filter;
 use super::lumen::{Narrowing, Sample};
@@ -18,6 +19,7 @@ use super::settings::Settings;
 use super::shape::Shape;
 use super::stage::{PerStage, Stage};
 use super::task::milliseconds;
+use crate::mesh::mending::{Faults, MendReport};
 use crate::mesh::{Array, Measures, SurfaceIndex, Topology, TriMesh};
 use crate::vessel::certificate::{Basis, CalibreError, Certificate};
 
@@ -26,6 +28,9 @@ use crate::vessel::certificate::{Basis, CalibreError, Certificate};
 pub struct StageTimes {
     /// File to surface; set by whoever reads it.
     pub read: f64,
+    /// Mending; next to nothing where it was not asked for.
+    #[serde(default)]
+    pub mending: f64,
     /// Pieces, and the surface of those that are kept.
     pub connectivity: f64,
     /// Who touches whom in what is kept; smoothing and decimation rest on it.
@@ -55,6 +60,9 @@ pub struct StageTimes {
     /// The vessels' calibre before and after smoothing, if it is new, and on the level; 0 where that was not asked for.
     #[serde(default)]
     pub calibre: f64,
+    /// The search for faults of the surface as it was opened; 0 where that was not asked for.
+    #[serde(default)]
+    pub faults: f64,
     /// The search for how far a reduction is safe, when it last ran.
     #[serde(default)]
     pub safe: f64,
@@ -105,6 +113,7 @@ impl Times {
         let part = |part: Part| self.parts[part as usize];
         StageTimes {
             read: 0.0,
+            mending: self.stages[Stage::Mending],
             connectivity: self.stages[Stage::Connectivity],
             adjacency: part(Part::Adjacency),
             smoothing: self.stages[Stage::Smoothing],
@@ -117,6 +126,7 @@ impl Times {
             arrays: self.stages[Stage::Arrays],
             measures: self.stages[Stage::SmoothedMeasures] + self.stages[Stage::Measures],
             calibre: self.stages[Stage::Vessels] + self.stages[Stage::Certificate],
+            faults: self.stages[Stage::Faults],
             safe: self.stages[Stage::Safe],
             write: 0.0,
         }
@@ -127,6 +137,10 @@ impl Times {
 #[derive(Clone, Default)]
 pub(super) struct Results {
     pub(super) settings: Settings,
+    /// Mending.
+    pub(super) mended: Option<Arc<Entering>>,
+    /// The pieces of that: the same whichever of them are kept.
+    pub(super) connectivity: Option<Arc<Connectivity>>,
     /// Connectivity.
     pub(super) kept: Option<Arc<Surface>>,
     /// Smoothing.
@@ -145,6 +159,8 @@ pub(super) struct Results {
     pub(super) smoothed_measures: Option<Arc<SmoothedMeasures>>,
     /// Shape and lumen of the level.
     pub(super) level_measures: Option<Arc<LevelMeasures>>,
+    /// What is wrong with the surface as it was opened.
+    pub(super) faults: Option<Arc<Faults>>,
     /// Where the vessels are, or why there are none.
     pub(super) vessels: Option<Result<Arc<Basis>, CalibreError>>,
     /// What the level makes of them.
@@ -174,10 +190,30 @@ pub(super) struct Indices {
     pub(super) level: Option<Arc<SurfaceIndex>>,
 }
 
+/// Triangles of the finest level up to which its index is kept from one level to the next: 63 bytes for each, and 16 more with
+/// its planes. In the four gigabytes that a page's program can have, those of ten million left no room for the finding of the
+/// vessels (`tests/browser/large.test.mjs`); everything else grows by the triangles as well, so that four million have room.
+const KEPT_INDEX: usize = if usize::BITS < 64 { 4_000_000 } else { usize::MAX };
+
+impl Indices {
+    /// A level of `finest` triangles at its finest is measured: what only it has asked for is given up.
+    pub(super) fn let_go(&mut self, finest: usize) {
+        self.let_go_beyond(finest, KEPT_INDEX);
+    }
+
+    fn let_go_beyond(&mut self, finest: usize, most: usize) {
+        self.level = None;
+        if finest > most {
+            self.finest = None;
+        }
+    }
+}
+
 impl Results {
     /// Whether the slot of `stage` is filled.
     pub(super) fn has(&self, stage: Stage) -> bool {
         match stage {
+            Stage::Mending => self.mended.is_some(),
             Stage::Connectivity => self.kept.is_some(),
             Stage::Smoothing => self.smoothed.is_some(),
             Stage::Decimation => self.levels.is_some(),
@@ -187,6 +223,7 @@ impl Results {
             Stage::Arrays => self.arrays.is_some(),
             Stage::SmoothedMeasures => self.smoothed_measures.is_some(),
             Stage::Measures => self.level_measures.is_some(),
+            Stage::Faults => self.faults.is_some(),
             Stage::Vessels => self.vessels.is_some(),
             Stage::Certificate => self.certified.is_some(),
             Stage::Safe => self.safe.is_some(),
@@ -196,6 +233,7 @@ impl Results {
     /// Empties the slot of `stage`.
     pub(super) fn clear(&mut self, stage: Stage) {
         match stage {
+            Stage::Mending => (self.mended, self.connectivity) = (None, None),
             Stage::Connectivity => (self.kept, self.indices.kept) = (None, None),
             Stage::Smoothing => self.smoothed = None,
             Stage::Decimation => (self.levels, self.indices.finest) = (None, None),
@@ -215,6 +253,7 @@ impl Results {
                 self.certified = None;
                 self.times.begin(stage);
             }
+            Stage::Faults => self.faults = None,
             Stage::Safe => self.safe = None,
             Stage::Measures => {
                 self.level_measures = None;
@@ -224,6 +263,17 @@ impl Results {
             }
         }
     }
+}
+
+/// The surface that goes through the other stages: as it was opened, or mended.
+#[derive(Clone, Debug)]
+pub struct Entering {
+    /// The surface: the opened one itself where mending changed nothing.
+    pub mesh: Arc<TriMesh>,
+    /// Its arrays.
+    pub arrays: Arc<Vec<Array>>,
+    /// What was mended; `None` where nothing was asked for.
+    pub report: Option<MendReport>,
 }
 
 /// A surface on its way, with its topology and measures.
@@ -361,6 +411,17 @@ pub fn fingerprint(mesh: &TriMesh) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_index_of_a_large_finest_level_is_given_up_and_that_of_the_opened_surface_stays() {
+        let some = || Some(Arc::new(SurfaceIndex::default()));
+        for (finest, is_kept) in [(1000, true), (1001, false)] {
+            let mut indices = Indices { kept: some(), finest: some(), level: some() };
+            indices.let_go_beyond(finest, 1000);
+            let has = [&indices.kept, &indices.finest, &indices.level].map(Option::is_some);
+            assert_eq!(has, [true, is_kept, false], "{finest}");
+        }
+    }
 
     #[test]
     fn surfaces_have_one_fingerprint_only_where_they_are_the_same() {

@@ -1,7 +1,7 @@
 //! The stages in order, each remembered with the settings that made it.
 //!
 //! ```text
-//! opened --connectivity--> kept --smoothing--> smoothed --decimation--> progressive --level--> Level --> Deviations
+//! opened --mending--> entering --connectivity--> kept --smoothing--> smoothed --decimation--> progressive --level--> Level --> Deviations
 //! ```
 //!
 //! Where the target is a bound on the deviation, the level that meets it is found before it is taken. Last come the
@@ -20,7 +20,7 @@ use super::connectivity::Connectivity;
 use super::deviation::INTERACTIVE_SAMPLES;
 use super::progressive::ProgressiveMesh;
 use super::results::{
-    Certified, Deviations, LevelMeasures, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes, Surface,
+    Certified, Deviations, Entering, LevelMeasures, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes, Surface,
 };
 use super::safe::Safe;
 use super::settings::{Keep, Settings, SettingsError};
@@ -30,6 +30,7 @@ use super::stages::{self, Run};
 use super::store::Store;
 use super::task::{Budget, Progress, milliseconds};
 use crate::mesh::arrays::On;
+use crate::mesh::mending::Faults;
 use crate::mesh::{Array, TriMesh};
 use crate::vessel::certificate::{Basis, CalibreError};
 
@@ -119,7 +120,8 @@ impl Pipeline {
     /// When a setting is out of range; nothing changes then.
     pub fn set(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
-        if let (Keep::Component(wanted), Some(found)) = (settings.keep, &self.store.connectivity)
+        let known = self.store.now.connectivity.as_ref().filter(|_| settings.mending == self.settings().mending);
+        if let (Keep::Component(wanted), Some(found)) = (settings.keep, known)
             && wanted as usize >= found.components.len()
         {
             return Err(SettingsError::Component { wanted, count: found.components.len() });
@@ -236,9 +238,19 @@ impl Pipeline {
         &self.store.now.settings
     }
 
+    /// The surface that goes through the other stages: as it was opened, or mended.
+    pub fn entering(&self) -> Option<&Arc<Entering>> {
+        self.store.now.mended.as_ref()
+    }
+
+    /// What is wrong with the surface as it was opened, where that was asked for.
+    pub fn faults(&self) -> Option<&Arc<Faults>> {
+        self.store.now.faults.as_ref()
+    }
+
     /// The pieces that were found.
     pub fn connectivity(&self) -> Option<&Connectivity> {
-        self.store.connectivity.as_deref()
+        self.store.now.connectivity.as_deref()
     }
 
     /// The part of the surface that goes on.

@@ -19,7 +19,9 @@ use super::pinch::Pinch;
 use super::progressive::ProgressiveMesh;
 use super::settings::{Target, reduction_percent};
 use super::task::{Budget, Progress, Task};
+use crate::language::{decimal, signed};
 use crate::mesh::TriMesh;
+use crate::say;
 use crate::vessel::Subject;
 use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, Verdict};
 
@@ -205,18 +207,18 @@ impl SafeTask {
         let can_measure = has(Verdict::Kept);
         let refused = match (can_measure, has(Verdict::Changed)) {
             (true, _) => None,
-            (false, true) => Some("smoothing itself changes every vessel that can be measured".to_owned()),
-            (false, false) => Some("no vessel can be measured".to_owned()),
+            (false, true) => Some(say!("verdict-safe-none-kept")),
+            (false, false) => Some(say!("verdict-safe-none-measured")),
         };
         let good = good.filter(|_| can_measure);
         let stopped_by = bad.filter(|_| can_measure).and_then(|look| match self.changed(look) {
             Some(branch) => Some(match branch.reduced.largest_change {
                 Some(change) if branch.verdict == Verdict::Changed => {
-                    let [x, y, z] = change.at_mm;
-                    let (name, by, at) = (&branch.name, change.percent, look.percent());
-                    format!("At {at:.1} % {name} changes by {by:+.1} %, at ({x:.1}, {y:.1}, {z:.1})")
+                    let [x, y, z] = change.at_mm.map(|mm| decimal(mm, 1));
+                    let (rate, by) = (decimal(look.percent(), 1), signed(change.percent, 1));
+                    say!("verdict-safe-changed", rate = rate, name = branch.label(), by = by, x = x, y = y, z = z)
                 }
-                _ => format!("At {:.1} % {} can no longer be measured", look.percent(), branch.name),
+                _ => say!("verdict-safe-unmeasured", rate = decimal(look.percent(), 1), name = branch.label()),
             }),
             None => self.pinch.map(|pinch| pinch.to_string()),
         });

@@ -2,12 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::language::exact;
+pub use crate::mesh::mending::Mending;
+use crate::say;
 use crate::vessel::certificate::TOLERANCE_PERCENT;
 
 /// Settings of all stages, in the order of the method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
+    /// What of the surface is mended; by default nothing.
+    #[serde(default, skip_serializing_if = "Mending::is_off")]
+    pub mending: Mending,
     /// Which connected pieces go on.
     pub keep: Keep,
     /// The windowed-sinc filter.
@@ -25,6 +31,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
+            mending: Mending::default(),
             keep: Keep::default(),
             smoothing: Smoothing::default(),
             decimation: Decimation::default(),
@@ -128,12 +135,12 @@ impl Preset {
     /// All, the default first.
     pub const ALL: [Self; 3] = [Self::Auto, Self::Paper, Self::None];
 
-    /// What it is called where a user chooses.
-    pub fn label(self) -> &'static str {
+    /// What it is called where a user chooses, in the language that is spoken.
+    pub fn label(self) -> String {
         match self {
-            Self::Auto => "Suits this surface",
-            Self::Paper => "The paper's",
-            Self::None => "None",
+            Self::Auto => say!("panel-preset-auto"),
+            Self::Paper => say!("panel-preset-paper"),
+            Self::None => say!("panel-preset-none"),
         }
     }
 
@@ -228,12 +235,15 @@ pub struct Decimation {
     /// vessel is.
     #[serde(default)]
     pub spare_thin: bool,
+    /// Whether borders between labels are held as feature edges.
+    #[serde(default)]
+    pub keep_labels: bool,
 }
 
 impl Default for Decimation {
     /// 60 degrees: above the 35 to 55 degrees of a marching-cubes stair-step, which is no feature of a vessel.
     fn default() -> Self {
-        Self { method: Method::default(), feature_angle: 60.0, spare_thin: false }
+        Self { method: Method::default(), feature_angle: 60.0, spare_thin: false, keep_labels: false }
     }
 }
 
@@ -241,7 +251,8 @@ impl Decimation {
     /// Whether these make the same levels: [`Method::Quadric`] knows no feature edges.
     pub fn gives_same(&self, other: &Self) -> bool {
         let angle = |of: &Self| (of.method == Method::Schroeder).then_some(of.feature_angle);
-        (self.method, self.spare_thin, angle(self)) == (other.method, other.spare_thin, angle(other))
+        let all = |of: &Self| (of.method, of.spare_thin, of.keep_labels, angle(of));
+        all(self) == all(other)
     }
 }
 
@@ -306,25 +317,31 @@ pub fn reduction_percent(before: usize, after: usize) -> f64 {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SettingsError {
     /// The pass band is not a number in `(0, 2]`.
-    #[error("the pass band must lie between 0.001 and 2, not {0}")]
+    #[error("{}", say!("errors-pass-band", value = exact(*.0)))]
     PassBand(f64),
     /// Too many iterations.
-    #[error("the number of iterations must lie between 0 and 200, not {0}")]
+    #[error("{}", say!("errors-iterations", value = .0.to_string()))]
     Iterations(u32),
     /// The feature angle is not a number in `[0, 180]`.
-    #[error("the feature angle must lie between 0 and 180 degrees, not {0}")]
+    #[error("{}", say!("errors-feature-angle", value = exact(*.0)))]
     FeatureAngle(f64),
     /// The tolerance is not a number in `[0, 100]`.
-    #[error("the tolerance must lie between 0 and 100 %, not {0} %")]
+    #[error("{}", say!("errors-tolerance", value = exact(*.0)))]
     Tolerance(f64),
     /// The reduction rate is above 99.9 %.
-    #[error("the reduction rate must lie between 0 and 99.9 %, not {0} %")]
+    #[error("{}", say!("errors-reduction", value = exact(*.0)))]
     Reduction(f64),
     /// The bound on the deviation is too small or too large.
-    #[error("the largest deviation must lie between 0.001 and 1000 mm, not {0} mm")]
+    #[error("{}", say!("errors-deviation", value = exact(*.0)))]
     Deviation(f64),
+    /// The tolerance of a weld is too small or too large.
+    #[error("{}", say!("errors-weld", value = exact(*.0)))]
+    Weld(f64),
+    /// The size of holes to fill is too small or too large.
+    #[error("{}", say!("errors-fill", value = exact(*.0)))]
+    Fill(f64),
     /// There is no such component.
-    #[error("there is no component {wanted}: the surface has {count}")]
+    #[error("{}", say!("errors-no-component", wanted = .wanted.to_string(), number = .count.to_string()))]
     Component {
         /// The number asked for, from 0.
         wanted: u32,
@@ -336,7 +353,8 @@ pub enum SettingsError {
 impl Settings {
     /// Whether these make the same level.
     pub fn gives_same(&self, other: &Self) -> bool {
-        self.keep == other.keep
+        self.mending == other.mending
+            && self.keep == other.keep
             && self.target == other.target
             && self.smoothing.gives_same(&other.smoothing)
             && self.decimation.gives_same(&other.decimation)
@@ -347,6 +365,12 @@ impl Settings {
     /// # Errors
     /// The first setting that is out of range.
     pub fn check(&self) -> Result<(), SettingsError> {
+        if let Some(tolerance) = self.mending.weld_mm.filter(|mm| !Mending::WELD_MM.contains(mm)) {
+            return Err(SettingsError::Weld(tolerance));
+        }
+        if let Some(size) = self.mending.fill_mm.filter(|mm| !Mending::FILL_MM.contains(mm)) {
+            return Err(SettingsError::Fill(size));
+        }
         if !Smoothing::PASS_BAND.contains(&self.smoothing.pass_band) {
             return Err(SettingsError::PassBand(self.smoothing.pass_band));
         }
@@ -392,6 +416,20 @@ mod tests {
         let spared = Decimation { spare_thin: true, method: Method::Quadric, ..Decimation::default() };
         assert!(!spared.gives_same(&Decimation { spare_thin: false, ..spared }));
         assert!(spared.gives_same(&Decimation { feature_angle: 10.0, ..spared }));
+    }
+
+    #[test]
+    fn mending_is_told_only_where_something_is_mended() {
+        let plain = serde_json::to_value(Settings::default()).unwrap();
+        assert!(plain.get("mending").is_none());
+        let mending = Mending { fill_mm: Some(2.0), split: true, ..Mending::default() };
+        let settings = Settings { mending, ..Settings::default() };
+        let told = serde_json::to_value(&settings).unwrap();
+        assert_eq!(serde_json::from_value::<Settings>(told).unwrap(), settings);
+        for fill_mm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let mending = Mending { fill_mm: Some(fill_mm), ..mending };
+            assert!(matches!(Settings { mending, ..Settings::default() }.check(), Err(SettingsError::Fill(_))));
+        }
     }
 
     #[test]

@@ -6,10 +6,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::settings::Settings;
+use crate::say;
 
 /// A stage of the pipeline, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Stage {
+    /// What is wrong with the surface is mended, where that was asked for.
+    Mending,
     /// Which pieces there are, and the ones that go on.
     Connectivity,
     /// The windowed-sinc filter.
@@ -28,6 +31,8 @@ pub enum Stage {
     SmoothedMeasures,
     /// Shape and lumen of the level.
     Measures,
+    /// What is wrong with the surface as it was opened.
+    Faults,
     /// Where the vessels are, and how wide before and after smoothing.
     Vessels,
     /// Whether the level keeps the calibre of each.
@@ -38,7 +43,8 @@ pub enum Stage {
 
 impl Stage {
     /// All, in their order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
+        Self::Mending,
         Self::Connectivity,
         Self::Smoothing,
         Self::Decimation,
@@ -48,32 +54,36 @@ impl Stage {
         Self::Arrays,
         Self::SmoothedMeasures,
         Self::Measures,
+        Self::Faults,
         Self::Vessels,
         Self::Certificate,
         Self::Safe,
     ];
 
-    /// What the stage is called while it runs.
-    pub fn label(self) -> &'static str {
+    /// What the stage is called while it runs, in the language that is spoken.
+    pub fn label(self) -> String {
         match self {
-            Self::Connectivity => "Finding pieces",
-            Self::Smoothing => "Smoothing",
-            Self::Decimation => "Reducing",
-            Self::Bound => "Finding the level",
-            Self::Level => "Taking the level",
-            Self::Deviation => "Measuring deviation",
-            Self::Arrays => "Carrying the arrays",
-            Self::SmoothedMeasures | Self::Measures => "Measuring shape and lumen",
-            Self::Vessels => "Finding the vessels",
-            Self::Certificate => "Measuring calibre",
-            Self::Safe => "Finding how far is safe",
+            Self::Mending => say!("panel-stage-mending"),
+            Self::Connectivity => say!("panel-stage-connectivity"),
+            Self::Smoothing => say!("panel-stage-smoothing"),
+            Self::Decimation => say!("panel-stage-decimation"),
+            Self::Bound => say!("panel-stage-bound"),
+            Self::Level => say!("panel-stage-level"),
+            Self::Deviation => say!("panel-stage-deviation"),
+            Self::Arrays => say!("panel-stage-arrays"),
+            Self::SmoothedMeasures | Self::Measures => say!("panel-stage-measures"),
+            Self::Faults => say!("panel-stage-faults"),
+            Self::Vessels => say!("panel-stage-vessels"),
+            Self::Certificate => say!("panel-stage-certificate"),
+            Self::Safe => say!("panel-stage-safe"),
         }
     }
 
     /// The stages whose results it takes.
     fn rests_on(self) -> &'static [Self] {
         match self {
-            Self::Connectivity => &[],
+            Self::Mending | Self::Faults => &[],
+            Self::Connectivity => &[Self::Mending],
             Self::Smoothing => &[Self::Connectivity],
             Self::Decimation => &[Self::Smoothing],
             Self::Bound | Self::SmoothedMeasures => &[Self::Decimation],
@@ -89,12 +99,15 @@ impl Stage {
     /// Whether other settings make it another by themselves.
     fn is_decided_anew(self, old: &Settings, new: &Settings) -> bool {
         match self {
+            Self::Mending => old.mending != new.mending,
             Self::Connectivity => old.keep != new.keep,
             Self::Smoothing => !old.smoothing.gives_same(&new.smoothing),
             Self::Decimation => !old.decimation.gives_same(&new.decimation),
             Self::Bound | Self::Level => old.target != new.target,
             Self::Certificate | Self::Safe => old.tolerance_percent != new.tolerance_percent,
-            Self::Deviation | Self::Arrays | Self::SmoothedMeasures | Self::Measures | Self::Vessels => false,
+            Self::Deviation | Self::Arrays | Self::SmoothedMeasures | Self::Measures | Self::Faults | Self::Vessels => {
+                false
+            }
         }
     }
 
@@ -103,9 +116,9 @@ impl Stage {
         match self {
             Self::Bound => settings.target.deviation_mm().is_some(),
             Self::Deviation | Self::Arrays | Self::SmoothedMeasures | Self::Measures => wanted >= Wanted::Measures,
-            Self::Vessels | Self::Certificate => wanted >= Wanted::Certificate,
+            Self::Faults | Self::Vessels | Self::Certificate => wanted >= Wanted::Certificate,
             Self::Safe => wanted >= Wanted::Safe,
-            Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,
+            Self::Mending | Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,
         }
     }
 }
@@ -150,7 +163,7 @@ pub(super) fn stale(old: &Settings, new: &Settings) -> PerStage<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::settings::{Keep, Smoothing, Target};
+    use crate::pipeline::settings::{Keep, Mending, Smoothing, Target};
 
     #[test]
     fn no_stage_rests_on_a_later_one() {
@@ -166,6 +179,7 @@ mod tests {
         let smoothing = Smoothing { iterations: old.smoothing.iterations + 1, ..old.smoothing };
         let changes = [
             (old.clone(), None),
+            (Settings { mending: Mending { split: true, ..Mending::default() }, ..old.clone() }, Some(Stage::Mending)),
             (Settings { keep: Keep::All, ..old.clone() }, Some(Stage::Connectivity)),
             (Settings { smoothing, ..old.clone() }, Some(Stage::Smoothing)),
             (Settings { target: Target::Reduction(10), ..old.clone() }, Some(Stage::Bound)),
@@ -175,6 +189,8 @@ mod tests {
             let stale = stale(&old, &new);
             let expected = |stage: Stage| match first {
                 None => false,
+                // What the file holds is the same whatever is made of it.
+                _ if stage == Stage::Faults => false,
                 // What is measured of the smoothed surface and of all levels is the same for every level.
                 Some(Stage::Bound) => {
                     let of_all = [Stage::SmoothedMeasures, Stage::Vessels, Stage::Safe];

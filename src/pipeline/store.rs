@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::connectivity::Connectivity;
 use super::results::{Results, Surface};
 use super::settings::Settings;
 use super::smoothing::KeptTerms;
@@ -15,8 +14,6 @@ pub(super) struct Store {
     pub(super) arrays: Arc<Vec<Array>>,
     /// Of each surface, for the deviation.
     pub(super) samples: usize,
-    /// The pieces: the same for all settings.
-    pub(super) connectivity: Option<Arc<Connectivity>>,
     pub(super) now: Results,
     /// The arrays of what connectivity kept, and the surface that they are of.
     pub(super) kept_arrays: Option<(Arc<Surface>, Arc<Vec<Array>>)>,
@@ -37,7 +34,6 @@ impl Store {
             opened,
             arrays: Arc::default(),
             samples,
-            connectivity: None,
             now,
             kept_arrays: None,
             widths: None,
@@ -53,7 +49,6 @@ impl Store {
             opened: self.opened.clone(),
             arrays: self.arrays.clone(),
             samples: self.samples,
-            connectivity: self.connectivity.clone(),
             now: self.now.clone(),
             kept_arrays: self.kept_arrays.clone(),
             widths: self.widths.clone(),

@@ -9,7 +9,7 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
+use glam::{Mat3, Mat4, Quat, Vec2, Vec3, Vec4};
 
 use super::{Ray, StandardView};
 use crate::mesh::Bounds;
@@ -36,6 +36,9 @@ pub struct Camera {
     pub fov_y: f32,
     /// What is shown, in mm: the near and far planes are fitted to it. [`Bounds::EMPTY`] for nothing.
     pub bounds: Bounds,
+    /// With the eye within the bounds, the near plane is no farther from it than this, in mm. With infinity, the default,
+    /// it is where depth is precise.
+    pub nearest_mm: f32,
 }
 
 impl Default for Camera {
@@ -47,6 +50,7 @@ impl Default for Camera {
             distance: 1000.0,
             fov_y: PI / 6.0,
             bounds: Bounds::EMPTY,
+            nearest_mm: f32::INFINITY,
         }
     }
 }
@@ -78,6 +82,16 @@ impl Camera {
         self.target = at;
         if height_mm.is_finite() && height_mm > 0.0 {
             self.distance = height_mm / (2.0 * (self.fov_y / 2.0).tan());
+        }
+    }
+
+    /// Looks against `way`, from where it points, with the head up; nothing changes where it points up or down.
+    pub fn face(&mut self, way: Vec3) {
+        let back = way.normalize_or_zero();
+        let right = Vec3::Z.cross(back);
+        if right.length() > 1e-3 {
+            let right = right.normalize();
+            self.rotation = Quat::from_mat3(&Mat3::from_cols(right, back.cross(right), back));
         }
     }
 
@@ -192,7 +206,7 @@ impl Camera {
             return [NEAR_FRACTION * self.distance, 2.0 * self.distance];
         }
         let far = middle + radius;
-        [(middle - radius).max(NEAR_FRACTION * far), far]
+        [(middle - radius).max((NEAR_FRACTION * far).min(self.nearest_mm)), far]
     }
 
     /// Half the width and height of the view at distance 1.

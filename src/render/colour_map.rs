@@ -31,14 +31,40 @@ pub const VIRIDIS: [Colour; 256] = {
 /// The colour at `t`, 0 (least) to 1 (largest), between the two nearest of the table: what a legend shows. The same
 /// as the shader's, to its rounding. Not-a-number takes the first colour.
 pub fn viridis(t: f32) -> Colour {
-    let at = if t > 0.0 { t.min(1.0) * 255.0 } else { 0.0 };
-    let i = (at as usize).min(254);
+    between(&VIRIDIS, t)
+}
+
+fn between(table: &[Colour], t: f32) -> Colour {
+    let last = table.len() - 1;
+    let at = if t > 0.0 { t.min(1.0) * last as f32 } else { 0.0 };
+    let i = (at as usize).min(last - 1);
     let fraction = at - i as f32;
-    let (low, high) = (VIRIDIS[i].0, VIRIDIS[i + 1].0);
+    let (low, high) = (table[i].0, table[i + 1].0);
     Colour(std::array::from_fn(|k| {
         let (low, high) = (f32::from(low[k]), f32::from(high[k]));
         (low + (high - low) * fraction).round() as u8
     }))
+}
+
+/// From blue over white to red, even to either side and safe for colour-blind eyes: the eleven classes RdBu of ColorBrewer
+/// (Harrower and Brewer 2003, Apache 2.0), from the last to the first.
+const BLUE_RED: [Colour; 11] = [
+    Colour::hex(0x05_30_61),
+    Colour::hex(0x21_66_AC),
+    Colour::hex(0x43_93_C3),
+    Colour::hex(0x92_C5_DE),
+    Colour::hex(0xD1_E5_F0),
+    Colour::hex(0xF7_F7_F7),
+    Colour::hex(0xFD_DB_C7),
+    Colour::hex(0xF4_A5_82),
+    Colour::hex(0xD6_60_4D),
+    Colour::hex(0xB2_18_2B),
+    Colour::hex(0x67_00_1F),
+];
+
+/// The colour of the diverging map at `t`, 0 (blue) to 1 (red), white at 0.5. Not-a-number takes the first.
+pub fn diverging(t: f32) -> Colour {
+    between(&BLUE_RED, t)
 }
 
 /// Colours that stay apart to every kind of colour vision (Okabe and Ito 2008), without black, and grey: those of labels.
@@ -97,6 +123,17 @@ mod tests {
         assert_eq!(viridis(-3.0), viridis(0.0));
         assert_eq!(viridis(f32::INFINITY), viridis(1.0));
         assert_eq!(viridis(f32::NAN), viridis(0.0));
+    }
+
+    #[test]
+    fn the_diverging_map_is_white_in_the_middle_and_as_dark_at_both_ends() {
+        assert_eq!(diverging(0.5), Colour::hex(0xF7_F7_F7));
+        assert_eq!((diverging(0.0), diverging(1.0)), (Colour::hex(0x05_30_61), Colour::hex(0x67_00_1F)));
+        for i in 0..50 {
+            let [near, far] = [0.5 - i as f32 * 0.01, 0.5 - (i + 1) as f32 * 0.01];
+            assert!(diverging(far).luminance() < diverging(near).luminance());
+            assert!(diverging(1.0 - far).luminance() < diverging(1.0 - near).luminance());
+        }
     }
 
     #[test]

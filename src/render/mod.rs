@@ -4,10 +4,11 @@
 //!   what it is drawn by. That of a 3-D view ([`ViewTarget`]) has 4x multisampled colour and depth.
 //! - A [`GpuSurface`] holds the positions of all nodes of a progressive mesh, uploaded once; a level brings triangles,
 //!   edges and normals. A [`GpuWire`] is written anew every frame (`tube`).
-//! - A kind of drawing is one file with one shader: `backdrop`, `shaded`, `wireframe`, `glass`, `wire`, `thickness`,
+//! - A kind of drawing is one file with one shader: `backdrop`, `shaded`, `wireframe`, `slice`, `glass`, `wire`, `thickness`,
 //!   `fluoroscopy`. Over the camera and the theme (`scene`) and a paint for each thing drawn (`paint`) it makes its
 //!   pipelines (`pipeline`) and draws from buffers (`buffer`).
-//! - A [`Renderer`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`], by all kinds for surfaces (`kind`).
+//! - A [`Renderer`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`], by all kinds for surfaces (`kind`), with
+//!   ambient occlusion where that is asked for (`occlusion`).
 //! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel, from its tip, and as a fluoroscope sees it.
 //! - [`DeviceHealth`] hears what goes wrong with a device, [`SurfaceError`] is what does not come to it;
 //!   [`device_descriptor`] says what is asked of one.
@@ -35,6 +36,7 @@ mod fluoroscopy;
 mod glass;
 mod kind;
 mod limits;
+mod occlusion;
 mod paint;
 mod pick;
 mod picture;
@@ -42,6 +44,7 @@ mod pipeline;
 mod renderer;
 mod scene;
 mod shaded;
+mod slice;
 mod standard_view;
 mod style;
 mod surface;
@@ -55,7 +58,7 @@ mod wireframe;
 
 pub use camera::Camera;
 pub use colour::{Colour, contrast};
-pub use colour_map::{ColourMap, LABELS, VIRIDIS, label_colour, viridis};
+pub use colour_map::{ColourMap, LABELS, VIRIDIS, diverging, label_colour, viridis};
 pub use edges::unique_edges;
 pub use error::SurfaceError;
 pub use fault::{DeviceHealth, Fault};
@@ -65,8 +68,10 @@ pub use limits::device_descriptor;
 pub use pick::{Hit, Ray, pick};
 pub use picture::{Picture, PictureError};
 pub use renderer::Renderer;
+pub use slice::GpuSlice;
+
 pub use standard_view::StandardView;
-pub use style::Style;
+pub use style::{ClipPlane, Style};
 pub use surface::GpuSurface;
 pub use target::{Attachments, Multisampled, Target, ViewTarget};
 pub use thickness::ThicknessFormat;

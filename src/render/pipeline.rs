@@ -28,6 +28,10 @@ pub(super) struct PipelineParts<'a> {
     pub(super) cull: Option<wgpu::Face>,
     /// In place of a [`ViewTarget`]: one texture of this format, a sample a pixel, without depth.
     pub(super) plain: Option<wgpu::TextureFormat>,
+    /// In place of a [`ViewTarget`]: depth alone, a sample a pixel.
+    pub(super) depth_alone: bool,
+    /// What is bound beside the scene and the paint, as group 2.
+    pub(super) group: Option<&'a wgpu::BindGroupLayout>,
 }
 
 impl<'a> PipelineParts<'a> {
@@ -47,6 +51,8 @@ impl<'a> PipelineParts<'a> {
             write_mask: wgpu::ColorWrites::ALL,
             cull: None,
             plain: None,
+            depth_alone: false,
+            group: None,
         }
     }
 }
@@ -68,9 +74,15 @@ impl SceneLayout {
                 })
             })
             .collect();
+        let colours = [Some(wgpu::ColorTargetState {
+            format: parts.plain.unwrap_or(ViewTarget::FORMAT),
+            blend: parts.blend,
+            write_mask: parts.write_mask,
+        })];
+        let with_group = parts.group.map(|group| self.with_group(device, group));
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(parts.label),
-            layout: Some(&self.pipeline),
+            layout: Some(with_group.as_ref().unwrap_or(&self.pipeline)),
             vertex: wgpu::VertexState {
                 module: parts.module,
                 entry_point: Some(parts.vertex),
@@ -86,18 +98,14 @@ impl SceneLayout {
                 bias: parts.depth_bias,
             }),
             multisample: wgpu::MultisampleState {
-                count: if parts.plain.is_none() { ViewTarget::SAMPLES } else { 1 },
+                count: if parts.plain.is_none() && !parts.depth_alone { ViewTarget::SAMPLES } else { 1 },
                 ..Default::default()
             },
             fragment: Some(wgpu::FragmentState {
                 module: parts.module,
                 entry_point: Some(parts.fragment),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[Some(wgpu::ColorTargetState {
-                    format: parts.plain.unwrap_or(ViewTarget::FORMAT),
-                    blend: parts.blend,
-                    write_mask: parts.write_mask,
-                })],
+                targets: &colours[usize::from(parts.depth_alone)..],
             }),
             multiview_mask: None,
             cache: None,

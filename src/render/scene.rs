@@ -7,10 +7,13 @@ use wgpu::util::DeviceExt;
 
 use super::buffer::uniforms;
 use super::paint::{Paint, PaintUniforms, encoded};
-use super::{Camera, Colour, Style, VIRIDIS, label_colour};
+use super::{Camera, Colour, Style, VIRIDIS, diverging, label_colour};
 
 /// Distance of two sets of uniforms in a buffer: the largest alignment that any device asks for.
 const STRIDE: u64 = 256;
+
+/// How far ambient occlusion reaches, as a part of the diagonal of what is shown: about a vessel's radius.
+const REACH: f32 = 0.04;
 
 /// The camera and the theme; `Scene` in `scene.wgsl`.
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -24,12 +27,19 @@ struct SceneUniforms {
     background_top: [f32; 4],
     /// Gamma-encoded.
     background_bottom: [f32; 4],
-    /// The scalar of the map's first colour, one over the width of its range; that is negative for labels.
+    /// The scalar of the map's first colour, one over the width of its range; that is negative for labels,
+    /// of which the first is 1 where they are the vertices' own.
     map: [f32; 2],
     /// Height of a pixel at distance 1.
     pixel: f32,
     /// Height of the view in pixels.
     height: f32,
+    /// 1 for raking light, how far ambient occlusion reaches in mm; the others are not in use.
+    light: [f32; 4],
+    /// A plane in camera coordinates: what has a positive product with it, the fourth part added, is left out.
+    clip: [f32; 4],
+    /// The row of the colour map's texture; the others are not in use.
+    row: [f32; 4],
 }
 
 /// Layouts that all pipelines share, and the colour map.
@@ -66,7 +76,7 @@ impl SceneLayout {
         };
         let map = wgpu::BindGroupLayoutEntry {
             binding: 1,
-            visibility: wgpu::ShaderStages::FRAGMENT,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Texture {
                 sample_type: wgpu::TextureSampleType::Float { filterable: false },
                 view_dimension: wgpu::TextureViewDimension::D2,
@@ -85,6 +95,15 @@ impl SceneLayout {
             immediate_size: 0,
         });
         Self { queue: queue.clone(), scene, paint, pipeline, map: map_texture(device, queue) }
+    }
+
+    /// The layout of pipelines that bind something beside the scene and the paint.
+    pub(super) fn with_group(&self, device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("scene and more"),
+            bind_group_layouts: &[Some(&self.scene), Some(&self.paint), Some(group)],
+            immediate_size: 0,
+        })
     }
 
     /// Uniforms of one view of `size` pixels, in which these paints are used.
@@ -141,34 +160,45 @@ impl SceneBindings {
 
 fn scene_uniforms([width, height]: [u32; 2], camera: &Camera, style: &Style) -> SceneUniforms {
     let (width, height) = (width as f32, height as f32);
+    let view = camera.view();
     let map = style.map.map_or([0.0, 0.0], |map| {
         if style.labels {
-            return [0.0, -1.0];
+            return [f32::from(u8::from(style.by_vertex)), -1.0];
         }
         let (low, high) = map.range;
         // Without a width, a step as steep as a number can be.
         [low, 1.0 / (high - low).max(f32::MIN_POSITIVE)]
     });
+    let reach = if style.occlusion { REACH * camera.bounds.diagonal() } else { 0.0 };
     SceneUniforms {
-        view: camera.view(),
+        view,
         projection: camera.projection(width / height),
         background_top: encoded(style.background_top),
         background_bottom: encoded(style.background_bottom),
         map,
         pixel: 2.0 * (camera.fov_y / 2.0).tan() / height,
         height,
+        light: [f32::from(u8::from(style.raking)), reach, 0.0, 0.0],
+        clip: style.clip.map_or([0.0, 0.0, 0.0, -1.0], |plane| {
+            let point = view.transform_point3(plane.normal * plane.offset);
+            let normal = view.transform_vector3(plane.normal);
+            normal.extend(-normal.dot(point)).to_array()
+        }),
+        row: [if style.diverging { 2.0 } else { 0.0 }, 0.0, 0.0, 0.0],
     }
 }
 
-/// The colour map's table as a texture, and below it a row of the labels' palette over and over.
+/// The colour map's table as a texture, below it a row of the labels' palette over and over, and the diverging map's.
 fn map_texture(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
-    let rows = VIRIDIS.into_iter().chain((0..VIRIDIS.len()).map(label_colour));
+    let last = VIRIDIS.len() - 1;
+    let both_ways = (0..=last).map(|i| diverging(i as f32 / last as f32));
+    let rows = VIRIDIS.into_iter().chain((0..=last).map(label_colour)).chain(both_ways);
     let texels: Vec<u8> = rows.flat_map(|Colour([r, g, b])| [r, g, b, 255]).collect();
     let texture = device.create_texture_with_data(
         queue,
         &wgpu::TextureDescriptor {
             label: Some("viridis"),
-            size: wgpu::Extent3d { width: VIRIDIS.len() as u32, height: 2, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d { width: VIRIDIS.len() as u32, height: 3, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,

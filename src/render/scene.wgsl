@@ -8,12 +8,19 @@ struct Scene {
     // Gamma-encoded.
     background_top: vec4<f32>,
     background_bottom: vec4<f32>,
-    // The scalar of the colour map's first colour, one over the width of its range; that is negative for labels.
+    // The scalar of the colour map's first colour, one over the width of its range; that is negative for labels,
+    // of which the first is 1 where they are the vertices' own.
     map: vec2<f32>,
     // Height of a pixel at distance 1.
     pixel: f32,
     // Height of the view in pixels.
     height: f32,
+    // 1 for raking light, how far ambient occlusion reaches in mm.
+    light: vec4<f32>,
+    // A plane in camera coordinates: what lies before it is left out.
+    clip: vec4<f32>,
+    // First the row of the colour map's texture.
+    row: vec4<f32>,
 }
 
 struct Paint {
@@ -31,6 +38,12 @@ struct Paint {
 @group(0) @binding(0) var<uniform> scene: Scene;
 @group(0) @binding(1) var viridis: texture_2d<f32>;
 @group(1) @binding(0) var<uniform> paint: Paint;
+
+// How far a place in camera coordinates lies before the plane: what lies before it at all is left out. Where a triangle
+// is seen edge-on it has to be taken within the triangle (centroid): beside it, it is far off.
+fn before_clip(position: vec3<f32>) -> f32 {
+    return dot(scene.clip.xyz, position) + scene.clip.w;
+}
 
 // IEC 61966-2-1.
 fn encode(linear: vec3<f32>) -> vec3<f32> {
@@ -56,8 +69,9 @@ fn dither(encoded: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
 fn map_colour(t: f32) -> vec3<f32> {
     let at = clamp(t, 0.0, 1.0) * 255.0;
     let i = min(i32(at), 254);
-    let low = textureLoad(viridis, vec2(i, 0), 0).rgb;
-    let high = textureLoad(viridis, vec2(i + 1, 0), 0).rgb;
+    let row = i32(scene.row.x);
+    let low = textureLoad(viridis, vec2(i, row), 0).rgb;
+    let high = textureLoad(viridis, vec2(i + 1, row), 0).rgb;
     return mix(low, high, at - f32(i));
 }
 

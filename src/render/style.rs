@@ -1,5 +1,7 @@
 //! What a theme gives the renderer: colours, and whether scalars are shown.
 
+use glam::Vec3;
+
 use super::{Colour, ColourMap};
 
 /// Colours of a view. The presets are calm: a neutral graded background, a matte vessel of warm clay.
@@ -23,6 +25,33 @@ pub struct Style {
     pub map: Option<ColourMap>,
     /// Whether these scalars are numbers of labels, from 0: each triangle has one of the palette's colours.
     pub labels: bool,
+    /// Whether the light comes from the side, nearly along the surface that faces the eye: what stands out of it casts its
+    /// own shade, stair-steps and dents among it. Colours of a map stay evenly lit.
+    pub raking: bool,
+    /// Whether shaded surfaces are darker where they stand close together, as in folds and forks; not under a map.
+    pub occlusion: bool,
+    /// Whether scalars go both ways from white: below the middle of their range, and above.
+    pub diverging: bool,
+    /// Whether these labels are the vertices' own: each has its colour, blended between them.
+    pub by_vertex: bool,
+    /// Leaves out what lies before a plane.
+    pub clip: Option<ClipPlane>,
+}
+
+/// A plane; what lies before it is not drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClipPlane {
+    /// What it is square to, of length 1: towards what is left out.
+    pub normal: Vec3,
+    /// Where the plane is along that, in mm.
+    pub offset: f32,
+}
+
+impl ClipPlane {
+    /// How far a point lies before the plane, in mm; below zero behind it.
+    pub fn height(&self, point: Vec3) -> f32 {
+        self.normal.dot(point) - self.offset
+    }
 }
 
 impl Style {
@@ -37,6 +66,11 @@ impl Style {
         line_facing: Colour::hex(0x56_61_6C),
         map: None,
         labels: false,
+        raking: false,
+        occlusion: false,
+        diverging: false,
+        clip: None,
+        by_vertex: false,
     };
 
     /// Light on dark.
@@ -50,6 +84,11 @@ impl Style {
         line_facing: Colour::hex(0x93_9D_A8),
         map: None,
         labels: false,
+        raking: false,
+        occlusion: false,
+        diverging: false,
+        clip: None,
+        by_vertex: false,
     };
 }
 

@@ -1,6 +1,6 @@
 //! A surface on the GPU: positions once, then levels.
 //!
-//! The positions are those of all nodes of a progressive mesh. A level is a triangle list over them, its edges, and a
+//! The positions are those of the first nodes of a progressive mesh. A level is a triangle list over them, its edges, and a
 //! normal for each node (those of nodes that the level does not use are never read), so moving the reduction slider
 //! uploads indices and normals and leaves positions alone. Buffers keep their memory and grow by half again.
 

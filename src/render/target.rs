@@ -3,6 +3,9 @@
 //! A target of any kind is made here, has its size changed here, and is let go of when it is dropped. On another device
 //! it is made anew, like all that stands on one.
 
+use std::sync::OnceLock;
+
+use super::occlusion::Gathered;
 use super::texture::{allowed, attachment, whole};
 
 /// What a kind of target has beside its picture.
@@ -70,11 +73,13 @@ impl<A: Attachments> Target<A> {
     }
 }
 
-/// What a 3-D view is drawn by: multisampled colour, resolved into the picture, and depth.
+/// What a 3-D view is drawn by: multisampled colour, resolved into the picture, and depth; beside it what ambient
+/// occlusion takes, once that is drawn.
 #[derive(Debug)]
 pub struct Multisampled {
     colour: wgpu::TextureView,
     depth: wgpu::TextureView,
+    pub(super) gathered: OnceLock<Gathered>,
 }
 
 impl Attachments for Multisampled {
@@ -89,6 +94,7 @@ impl Attachments for Multisampled {
         Self {
             colour: texture("view, multisampled", ViewTarget::FORMAT),
             depth: texture("view, depth", ViewTarget::DEPTH_FORMAT),
+            gathered: OnceLock::new(),
         }
     }
 

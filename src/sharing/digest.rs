@@ -13,13 +13,31 @@ pub struct Digest([u8; 32]);
 impl Digest {
     /// The hash of a file's bytes.
     pub fn of(bytes: &[u8]) -> Self {
-        Self(Sha256::digest(bytes).into())
+        let mut digesting = Digesting::default();
+        digesting.add(bytes);
+        digesting.digest()
     }
 
     /// Its first sixteen digits: as likely to be those of another file as a number of 64 bits that was drawn by lot.
     pub fn short(&self) -> ShortDigest {
         let [a, b, c, d, e, f, g, h, ..] = self.0;
         ShortDigest(u64::from_be_bytes([a, b, c, d, e, f, g, h]))
+    }
+}
+
+/// A digest on its way: of a large file it takes seconds in a browser.
+#[derive(Clone, Default)]
+pub struct Digesting(Sha256);
+
+impl Digesting {
+    /// Takes the next bytes of the file.
+    pub fn add(&mut self, bytes: &[u8]) {
+        self.0.update(bytes);
+    }
+
+    /// The hash of all of them.
+    pub fn digest(self) -> Digest {
+        Digest(self.0.finalize().into())
     }
 }
 
@@ -67,6 +85,9 @@ mod tests {
         assert_eq!(Digest::of(b"abc").short().to_string(), abc[..16]);
         let none = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
         assert_eq!(Digest::of(b"").to_string(), none);
+        let mut digesting = Digesting::default();
+        b"abc".iter().for_each(|&byte| digesting.add(&[byte]));
+        assert_eq!(digesting.digest().to_string(), abc);
     }
 
     #[test]

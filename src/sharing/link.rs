@@ -12,8 +12,9 @@ use super::{SharedSettings, ShortDigest};
 use crate::io::Unit;
 use crate::phantom::Sample;
 use crate::pipeline::settings::{
-    Boundary, Decimation, Keep, Method, Settings, SettingsError, Smoothing, Target, Window,
+    Boundary, Decimation, Keep, Mending, Method, Settings, SettingsError, Smoothing, Target, Window,
 };
+use crate::say;
 
 /// The version that is written and read.
 const VERSION: u32 = 1;
@@ -42,25 +43,25 @@ pub struct Link {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinkError {
     /// Too long to be one.
-    #[error("The link is longer than any that Lumen makes: it has {0} bytes.")]
+    #[error("{}", say!("app-link-long", bytes = .0.to_string()))]
     Long(usize),
     /// A later version.
-    #[error("The link was made by a newer Lumen: its version is {found}, and this Lumen reads {VERSION}.")]
+    #[error("{}", say!("app-link-newer", found = .found.to_string(), known = VERSION.to_string()))]
     Newer {
         /// The version in the link.
         found: u32,
     },
     /// A pair is not there: part of the link was lost.
-    #[error("The link is not whole: it does not say \"{0}\".")]
+    #[error("{}", say!("app-link-missing", pair = *.0))]
     Missing(&'static str),
     /// Two values of one name.
-    #[error("The link says \"{0}\" twice.")]
+    #[error("{}", say!("app-link-twice", pair = .0))]
     Twice(String),
     /// A name without a meaning, or with none beside the others.
-    #[error("The link says \"{0}\", which means nothing here.")]
+    #[error("{}", say!("app-link-unknown", pair = .0))]
     Unknown(String),
     /// A value that the name cannot have.
-    #[error("The link cannot be read: \"{value}\" is no value for \"{key}\".")]
+    #[error("{}", say!("app-link-value", value = .value, key = *.key))]
     Value {
         /// The name.
         key: &'static str,
@@ -68,7 +69,7 @@ pub enum LinkError {
         value: String,
     },
     /// A number is out of range.
-    #[error("The link cannot be used: {0}.")]
+    #[error("{}", say!("app-link-range", why = .0.to_string()))]
     Range(#[from] SettingsError),
 }
 
@@ -76,9 +77,10 @@ impl Link {
     /// The link's fragment, without `#`.
     pub fn fragment(&self) -> String {
         // All by name: a setting that is new has to find its pair here and in `parse`.
-        let Settings { keep, smoothing, decimation, target, tolerance_percent } = &self.shared.settings;
+        let Settings { mending, keep, smoothing, decimation, target, tolerance_percent } = &self.shared.settings;
         let Smoothing { window, pass_band, iterations, boundary, preserve_volume, adapt, guard } = smoothing;
-        let Decimation { method, feature_angle, spare_thin } = decimation;
+        let Decimation { method, feature_angle, spare_thin, keep_labels } = decimation;
+        let Mending { weld_mm, split, fill_mm, lumen } = mending;
         let mut pairs = vec![("v", VERSION.to_string())];
         pairs.push(match self.surface {
             SharedSurface::File(digest) => ("file", digest.to_string()),
@@ -87,6 +89,12 @@ impl Link {
         if let Some(unit) = self.shared.unit {
             pairs.push(("unit", unit.to_string()));
         }
+        // Only where they are asked for: a link without them is as it was before there was mending.
+        pairs.extend(weld_mm.map(|mm| ("weld", mm.to_string())));
+        pairs.extend(split.then(|| ("split", switch_word(true))));
+        pairs.extend(fill_mm.map(|mm| ("fill-holes", mm.to_string())));
+        pairs.extend(lumen.then(|| ("lumen", switch_word(true))));
+        pairs.extend(keep_labels.then(|| ("keep-labels", switch_word(true))));
         pairs.extend([
             ("keep", keep_word(*keep)),
             ("window", window.name().to_lowercase()),
@@ -124,6 +132,9 @@ impl Link {
         if version > VERSION {
             return Err(LinkError::Newer { found: version });
         }
+        if version == 0 {
+            return Err(LinkError::Value { key: "v", value: version.to_string() });
+        }
         let link = Self {
             surface: match pairs.find("sample") {
                 Some(value) => SharedSurface::Sample(read("sample", value)?),
@@ -132,6 +143,12 @@ impl Link {
             shared: SharedSettings {
                 unit: pairs.find("unit").map(|value| read::<Unit>("unit", value)).transpose()?,
                 settings: Settings {
+                    mending: Mending {
+                        weld_mm: pairs.find("weld").map(|value| read("weld", value)).transpose()?,
+                        split: pairs.optional_switch("split")?,
+                        fill_mm: pairs.find("fill-holes").map(|value| read("fill-holes", value)).transpose()?,
+                        lumen: pairs.optional_switch("lumen")?,
+                    },
                     keep: pairs.with("keep", read_keep)?,
                     smoothing: Smoothing {
                         window: pairs.with("window", |value| named(&Window::ALL, Window::name, value))?,
@@ -148,6 +165,7 @@ impl Link {
                         method: pairs.with("method", |value| named(&Method::ALL, Method::name, value))?,
                         feature_angle: pairs.read("feature-angle")?,
                         spare_thin: pairs.switch("spare-thin")?,
+                        keep_labels: pairs.optional_switch("keep-labels")?,
                     },
                     target: pairs.target()?,
                     tolerance_percent: pairs.read("tolerance")?,
@@ -164,6 +182,25 @@ impl Link {
         link.shared.settings.check()?;
         Ok(link)
     }
+}
+
+/// `settings` with `changes` in place of their own: names and values as in a link.
+///
+/// # Errors
+/// The first of them that is unknown, or a value that it cannot have.
+pub fn changed_settings(settings: &Settings, changes: &[(&str, &str)]) -> Result<Settings, LinkError> {
+    const TARGETS: [&str; 3] = ["reduction", "triangles", "max-deviation"];
+    let surface = SharedSurface::Sample(Sample::Aorta);
+    let whole = Link { surface, shared: SharedSettings { unit: None, settings: settings.clone() } }.fragment();
+    let has_target = changes.iter().any(|(key, _)| TARGETS.contains(key));
+    let is_kept = |pair: &&str| {
+        let key = pair.split_once('=').map_or(*pair, |(key, _)| key);
+        let is_changed = changes.iter().any(|(changed, _)| *changed == key) && !["v", "sample"].contains(&key);
+        !(is_changed || has_target && TARGETS.contains(&key))
+    };
+    let kept = whole.split('&').filter(is_kept).map(str::to_owned);
+    let changed = changes.iter().map(|(key, value)| format!("{key}={value}"));
+    Ok(Link::parse(&kept.chain(changed).collect::<Vec<_>>().join("&"))?.shared.settings)
 }
 
 /// The pairs that have not been read yet.
@@ -188,21 +225,33 @@ impl<'a> Pairs<'a> {
         self.with(key, |value| [true, false].into_iter().find(|&is_on| switch_word(is_on) == value))
     }
 
+    /// Off where it is not there.
+    fn optional_switch(&mut self, key: &'static str) -> Result<bool, LinkError> {
+        if self.0.iter().any(|(found, _)| *found == key) { self.switch(key) } else { Ok(false) }
+    }
+
     fn target(&mut self) -> Result<Target, LinkError> {
         if let Some(value) = self.find("triangles") {
             return read("triangles", value).map(Target::Triangles);
         }
         if let Some(value) = self.find("max-deviation") {
-            let thousandths = read::<f64>("max-deviation", value)? * 1e3;
-            return Ok(Target::Deviation(nearest(thousandths)));
+            return steps("max-deviation", value, 1e3).map(Target::Deviation);
         }
-        Ok(Target::Reduction(nearest(self.read::<f64>("reduction")? * 10.0)))
+        let value = self.find("reduction").ok_or(LinkError::Missing("reduction"))?;
+        steps("reduction", value, 10.0).map(Target::Reduction)
     }
 }
 
-/// The nearest integer; what is none (NaN, negative, huge) becomes one that `Settings::check` refuses.
-fn nearest(value: f64) -> u32 {
-    if value.is_nan() || value < 0.0 { u32::MAX } else { value.round() as u32 }
+/// A number as a count of steps, of which there are so many in one; a number between two is refused. What is none (NaN,
+/// negative, huge) becomes one that `Settings::check` refuses.
+fn steps(key: &'static str, value: &str, in_one: f64) -> Result<u32, LinkError> {
+    let number = read::<f64>(key, value)? * in_one;
+    if !(0.0..=f64::from(u32::MAX)).contains(&number) {
+        return Ok(u32::MAX);
+    }
+    // A tenth is no binary fraction.
+    let is_step = (number - number.round()).abs() < 1e-6;
+    if is_step { Ok(number.round() as u32) } else { Err(LinkError::Value { key, value: shown(value) }) }
 }
 
 fn read<T: FromStr>(key: &'static str, value: &str) -> Result<T, LinkError> {
@@ -278,19 +327,27 @@ mod tests {
                 adapt,
                 guard,
             });
-        let decimation = (prop::sample::select(Method::ALL.to_vec()), 0.0..=180.0, any::<bool>())
-            .prop_map(|(method, feature_angle, spare_thin)| Decimation { method, feature_angle, spare_thin });
+        let decimation = (prop::sample::select(Method::ALL.to_vec()), 0.0..=180.0, any::<bool>(), any::<bool>())
+            .prop_map(|(method, feature_angle, spare_thin, keep_labels)| Decimation {
+                method,
+                feature_angle,
+                spare_thin,
+                keep_labels,
+            });
         let unit = prop::option::of(prop::sample::select(Unit::ALL.to_vec()));
         let surface = prop_oneof![
             any::<[u8; 4]>().prop_map(|bytes| SharedSurface::File(Digest::of(&bytes).short())),
             prop::sample::select(Sample::ALL.to_vec()).prop_map(SharedSurface::Sample)
         ];
-        (surface, unit, keep, smoothing, decimation, target, 0.0..=100.0).prop_map(
-            |(surface, unit, keep, smoothing, decimation, target, tolerance_percent)| Link {
+        let mending =
+            (prop::option::of(Mending::WELD_MM), any::<bool>(), prop::option::of(Mending::FILL_MM), any::<bool>())
+                .prop_map(|(weld_mm, split, fill_mm, lumen)| Mending { weld_mm, split, fill_mm, lumen });
+        (surface, unit, mending, keep, smoothing, decimation, target, 0.0..=100.0).prop_map(
+            |(surface, unit, mending, keep, smoothing, decimation, target, tolerance_percent)| Link {
                 surface,
                 shared: SharedSettings {
                     unit,
-                    settings: Settings { keep, smoothing, decimation, target, tolerance_percent },
+                    settings: Settings { mending, keep, smoothing, decimation, target, tolerance_percent },
                 },
             },
         )
@@ -351,6 +408,11 @@ mod tests {
         assert_eq!(
             said(&whole.replace("pass-band=0.01", "pass-band=NaN")),
             "The link cannot be used: the pass band must lie between 0.001 and 2, not NaN."
+        );
+        assert_eq!(said(&whole.replace("v=1", "v=0")), "The link cannot be read: \"0\" is no value for \"v\".");
+        assert_eq!(
+            said(&whole.replace("reduction=90", "reduction=90.04")),
+            "The link cannot be read: \"90.04\" is no value for \"reduction\"."
         );
         for rate in ["-1", "100", "1e300", "NaN"] {
             let error = Link::parse(&whole.replace("reduction=90", &format!("reduction={rate}"))).unwrap_err();

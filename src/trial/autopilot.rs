@@ -16,6 +16,7 @@ use glam::DVec3;
 
 use super::route::Route;
 use super::setup::Input;
+use crate::say;
 
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;
@@ -209,11 +210,11 @@ impl Autopilot {
     }
 
     /// What it is doing, in words.
-    pub fn words(&self) -> &'static str {
+    pub fn words(&self) -> String {
         match self.doing {
-            Doing::Advancing if self.trouble.is_none() => "Following the route",
-            Doing::Advancing => "Trying again, turned",
-            Doing::Withdrawing { .. } => "Withdrawing",
+            Doing::Advancing if self.trouble.is_none() => say!("trial-doing-following"),
+            Doing::Advancing => say!("trial-doing-again"),
+            Doing::Withdrawing { .. } => say!("trial-doing-withdrawing"),
         }
     }
 }

@@ -8,15 +8,17 @@ use web_time::Instant;
 
 use super::placement::PlacementError;
 use super::proposal::{proposed, reached};
-use super::route::{Route, RouteError, Target, phantom_task};
+use super::route::{PlaceName, Route, RouteError, phantom_task};
 use super::setup::{Entry, Setup};
 use super::simulation::Simulation;
 use super::wall::Wall;
 use super::wire::Wire;
+use crate::chance::Chance;
 use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::pipeline::results::fingerprint;
 use crate::pipeline::task::milliseconds;
+use crate::say;
 use crate::vessel::{Tree, TreeError};
 
 /// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
@@ -35,11 +37,18 @@ pub enum TrialError {
     #[error(transparent)]
     Placement(#[from] PlacementError),
     /// No place is known where a wire could enter.
-    #[error("no vessel of this surface has an end where a wire could enter; give an entry")]
+    #[error("{}", say!("trial-no-entry"))]
     NoEntry,
     /// No place is known where it could go.
-    #[error("no vessel of this surface is far enough from the entry to be a target; give a target")]
+    #[error("{}", say!("trial-no-target"))]
     NoTarget,
+}
+
+impl TrialError {
+    /// The place that is the reason, in mm, where there is one.
+    pub fn place(&self) -> Option<[f32; 3]> {
+        if let Self::Route(error) = self { error.place() } else { None }
+    }
 }
 
 /// A vessel that is ready for trials, and the way through it.
@@ -51,10 +60,10 @@ pub struct Course {
     pub tree: Tree,
     /// The way.
     pub route: Route,
-    /// Places where a wire could enter.
-    pub entries: Vec<Entry>,
-    /// Places where it could go, by name.
-    pub targets: Vec<(String, [f32; 3])>,
+    /// Places where a wire could enter, with their names.
+    pub entries: Vec<(PlaceName, Entry)>,
+    /// Places where it could go, with their names.
+    pub targets: Vec<(PlaceName, [f32; 3])>,
     /// Milliseconds to build the hierarchy of boxes.
     pub wall_ms: f64,
     /// Milliseconds to find tree and route.
@@ -79,11 +88,12 @@ impl Course {
         let task = sample.map(phantom_task);
         // Where walls cross each other, the end of one vessel may be outside of another.
         let is_inside = |entry: &Entry| tree.is_inside(Vec3::from(entry.at));
-        let found = tree.entries().into_iter().filter(is_inside);
-        let entries: Vec<Entry> = task.iter().map(|(entry, _)| *entry).chain(found).collect();
+        let found = tree.entries().into_iter().filter(|(_, entry)| is_inside(entry));
+        let own = task.iter().map(|(entry, _)| (PlaceName::Own, *entry));
+        let entries: Vec<_> = own.chain(found).collect();
         let entry = match setup.entry {
             Some(entry) => entry,
-            None => *entries.first().ok_or(TrialError::NoEntry)?,
+            None => entries.first().ok_or(TrialError::NoEntry)?.1,
         };
         setup.entry = Some(entry);
         let from = Vec3::from(entry.at);
@@ -94,9 +104,9 @@ impl Course {
                 None => proposed(&tree, from, setup.target.map(Vec3::from)),
             };
         }
-        let named = |target: Target| (target.name, target.at.to_array());
-        let own = task.iter().map(|(_, target)| ("the sample's own".to_owned(), target.to_array()));
-        let targets: Vec<_> = own.chain(tree.targets(from, 0.0).into_iter().map(named)).collect();
+        let found = tree.targets(from, 0.0).into_iter().map(|target| (target.name(), target.at.to_array()));
+        let own = task.iter().map(|(_, target)| (PlaceName::Own, target.to_array()));
+        let targets: Vec<_> = own.chain(found).collect();
         let target = match (setup.target, &task) {
             (Some(target), _) => target,
             (None, Some((_, target))) => target.to_array(),
@@ -135,12 +145,12 @@ impl Course {
         if !is_inside(&entry) {
             return Err(PlacementError::Outside.into());
         }
-        let mut chance = Chance(setup.seed);
+        let mut chance = Chance::new(setup.seed);
         let is_varied = setup.seed != 0;
         let part = |x: f64| if is_varied { x } else { 0.0 };
-        let (angle, out, tilt, tilted) = (chance.next(), chance.next(), chance.next(), chance.next());
-        let roll = part(std::f64::consts::TAU * chance.next());
-        let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * chance.next() - 1.0))));
+        let (angle, out, tilt, tilted) = (chance.unit(), chance.unit(), chance.unit(), chance.unit());
+        let roll = part(std::f64::consts::TAU * chance.unit());
+        let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * chance.unit() - 1.0))));
         let way = DVec3::from(entry.direction.map(f64::from)).try_normalize().ok_or(PlacementError::Direction)?;
         let across = way.any_orthonormal_vector();
         let turned = |angle: f64| DQuat::from_axis_angle(way, std::f64::consts::TAU * angle) * across;
@@ -161,18 +171,5 @@ impl Course {
             }
         }
         Ok((Simulation::new(&setup.wire, friction, &entry, roll, Some(self.wall.clone()))?, friction))
-    }
-}
-
-/// Numbers from 0 to 1 that a seed decides: `SplitMix64` (Steele, Lea and Flood 2014).
-struct Chance(u64);
-
-impl Chance {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 }

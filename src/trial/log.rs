@@ -11,6 +11,8 @@ use thiserror::Error;
 use super::STEP;
 use super::meter::SinceRow;
 use super::setup::{Input, Setup};
+use crate::language::Key;
+use crate::say;
 
 /// Version of the columns of the log and of the fields of the summary.
 pub const SCHEMA: u32 = 2;
@@ -84,27 +86,27 @@ pub struct Log {
 #[derive(Debug, Error)]
 pub enum LogError {
     /// Not one of ours.
-    #[error("this is no log of a Lumen trial: its first line is not \"# lumen trial log\"")]
+    #[error("{}", say!("trial-log-none"))]
     NoLog,
     /// From another version.
-    #[error("the log has schema {found}; this version reads schemas {OLDEST} to {SCHEMA}")]
+    #[error("{}", say!("trial-log-schema", found = found, oldest = OLDEST, newest = SCHEMA))]
     Schema {
         /// The number that stands there.
         found: String,
     },
     /// The setup cannot be read.
-    #[error("the setup in the log cannot be read: {0}")]
+    #[error("{}", say!("trial-log-setup", why = .0.to_string()))]
     Setup(#[from] serde_json::Error),
     /// The setup is not there.
-    #[error("the log does not say what the setup was")]
+    #[error("{}", say!("trial-log-no-setup"))]
     NoSetup,
     /// A line cannot be read.
-    #[error("line {line} of the log cannot be read: {what}")]
+    #[error("{}", say!("trial-log-line", line = line.to_string(), what = what.say()))]
     Line {
         /// Counted from 1.
         line: usize,
         /// What is wrong.
-        what: &'static str,
+        what: Key,
     },
 }
 
@@ -167,7 +169,7 @@ impl Log {
             if let Some(json) = line.strip_prefix("# setup ") {
                 setup = Some(serde_json::from_str(json)?);
             } else if let Some(count) = line.strip_prefix("# steps ") {
-                steps = count.trim().parse().map_err(|_| wrong("the number of steps is no number"))?;
+                steps = count.trim().parse().map_err(|_| wrong(Key("trial-log-steps")))?;
             } else if let Some(hash) = line.strip_prefix("# surface ") {
                 surface = hash.trim().to_owned();
             } else if line.starts_with('#') || line.trim().is_empty() {
@@ -176,18 +178,18 @@ impl Log {
                 let speed = |column: usize| {
                     fields.get(column).and_then(|field| field.parse::<f32>().ok()).filter(|x| x.is_finite())
                 };
-                let step = fields[0].parse().map_err(|_| wrong("its step is no number"))?;
-                let feed = speed(2).ok_or(wrong("its feed is no number"))?;
-                let roll = speed(3).ok_or(wrong("its roll is no number"))?;
+                let step = fields[0].parse().map_err(|_| wrong(Key("trial-log-step")))?;
+                let feed = speed(2).ok_or(wrong(Key("trial-log-feed")))?;
+                let roll = speed(3).ok_or(wrong(Key("trial-log-roll")))?;
                 let input = Input { feed, roll };
                 if inputs.last().is_some_and(|&(last, _)| last >= step) {
-                    return Err(wrong("its step is not after the one before"));
+                    return Err(wrong(Key("trial-log-order")));
                 }
                 inputs.push((step, input.limited()));
             } else if line.starts_with("step,time_s,feed_mm_s,roll_rad_s,") {
                 has_columns = true;
             } else {
-                return Err(wrong("the columns are not those of a log"));
+                return Err(wrong(Key("trial-log-columns")));
             }
         }
         Ok(Recorded { setup: setup.ok_or(LogError::NoSetup)?, surface, inputs, steps })

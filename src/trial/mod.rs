@@ -15,7 +15,8 @@
 //! - The wire: [`wire`], [`setup`], [`placement`].
 //! - A step: [`rod`], [`contact`], `descent` (which contacts press), [`body`] (rod and contacts through a step),
 //!   [`simulation`] (the guide that feeds and rolls), [`report`] (what a step tells of itself).
-//! - A trial: [`session`], [`autopilot`], [`hold`] (what a hand feels), `press` (what presses the wire to the wall).
+//! - A trial: [`session`], [`autopilot`], [`hold`] (what a hand feels), `press` (what presses the wire to the wall), `missed`
+//!   (the fork that a failure names).
 //! - What comes of it: [`meter`], [`stopwatch`], [`felt`], [`log`], [`frame`], [`summary`], [`compare`].
 //! - [`audit`] checks walls and openness, and shares no code with the solver.
 //!
@@ -63,6 +64,7 @@ pub mod frame;
 pub mod hold;
 pub mod log;
 pub mod meter;
+mod missed;
 pub mod placement;
 mod press;
 mod proposal;

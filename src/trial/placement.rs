@@ -3,6 +3,8 @@
 use thiserror::Error;
 
 use super::wire::WireError;
+use crate::language::{decimal, grouped};
+use crate::say;
 
 /// The largest load in N/mm; a setup has loads in f32.
 const MOST_LOAD: f32 = 0.1;
@@ -14,9 +16,7 @@ pub enum PlacementError {
     #[error(transparent)]
     Wire(#[from] WireError),
     /// A wall is too near.
-    #[error(
-        "the wire does not fit where it enters: the wall is {distance_mm:.2} mm away, the wire's radius is {radius_mm:.2} mm"
-    )]
+    #[error("{}", say!("trial-tight", distance = decimal(*distance_mm, 2), radius = decimal(*radius_mm, 2)))]
     Tight {
         /// Distance of the entry from the wall.
         distance_mm: f64,
@@ -24,13 +24,13 @@ pub enum PlacementError {
         radius_mm: f64,
     },
     /// The direction of the entry is no direction.
-    #[error("the entry has no direction")]
+    #[error("{}", say!("trial-no-direction"))]
     Direction,
     /// The load is no load, or more than a wire can bear.
-    #[error("a load of {0} N on each mm of the wire is not possible: it can be from 0 to {MOST_LOAD} N")]
+    #[error("{}", say!("trial-load", load = grouped(.0), most = grouped(MOST_LOAD)))]
     Load(f32),
     /// It is not in the vessel.
-    #[error("the entry is not inside the vessel")]
+    #[error("{}", say!("trial-not-inside"))]
     Outside,
 }
 

@@ -9,6 +9,8 @@ use super::report::StepCounts;
 use super::session::Trial;
 use super::setup::{Entry, Press};
 use super::stopwatch::{StationResult, StepTimes};
+use crate::language::decimal;
+use crate::say;
 
 /// What came of a trial.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -17,8 +19,10 @@ pub struct Summary {
     pub schema: u32,
     /// Whether the tip arrived.
     pub success: bool,
-    /// Why it ended, as a sentence.
+    /// Why it ended, as a sentence in the language that is spoken; with the fork that was missed, where one was.
     pub reason: String,
+    /// The fork that was missed, where it did not arrive for that: where the tip left the route, in mm.
+    pub missed_fork_at: Option<[f32; 3]>,
     /// Simulated seconds.
     pub time_s: f64,
     /// Steps.
@@ -117,24 +121,24 @@ impl Trial {
         let tip_distance_mm = route.distance_to_target(simulation.tip());
         let time_s = steps as f64 * STEP;
         let per = |sum: f64, count: u64| sum / count.max(1) as f64;
+        let is_failure = !matches!(self.progress(), Progress::Running | Progress::Arrived);
+        let away = decimal(tip_distance_mm, 1);
+        let why = match self.progress() {
+            Progress::Running => say!("trial-end-running", away = away),
+            Progress::Arrived => say!("trial-end-arrived", time = decimal(time_s, 1)),
+            Progress::TimedOut => say!("trial-end-timed-out", limit = decimal(self.limit_s(), 0), away = away),
+            Progress::Over => say!("trial-end-over", away = away),
+            Progress::GaveUp => say!("trial-end-gave-up", count = meter.retractions, away = away),
+        };
+        let missed = self.missed_fork().filter(|_| is_failure);
         Summary {
             schema: SCHEMA,
             success: self.progress() == Progress::Arrived,
-            reason: match self.progress() {
-                Progress::Running => format!("not over yet: the tip is {tip_distance_mm:.1} mm from the target"),
-                Progress::Arrived => format!("the tip arrived after {time_s:.1} s"),
-                Progress::TimedOut => format!(
-                    "the autopilot's time of {:.0} s was over with the tip {tip_distance_mm:.1} mm from the target",
-                    self.limit_s()
-                ),
-                Progress::Over => {
-                    format!("the recorded input was over with the tip {tip_distance_mm:.1} mm from the target")
-                }
-                Progress::GaveUp => format!(
-                    "the autopilot gave up after {} retractions with the tip {tip_distance_mm:.1} mm from the target",
-                    meter.retractions
-                ),
+            reason: match missed {
+                Some(missed) => say!("trial-end-missed", why = why, missed = missed),
+                None => why,
             },
+            missed_fork_at: self.missed_fork_at().filter(|_| is_failure).map(|at| at.as_vec3().to_array()),
             time_s,
             steps,
             steps_per_second: 1e3 * steps as f64 / clock.total_ms().max(1e-6),

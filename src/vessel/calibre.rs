@@ -92,6 +92,11 @@ pub struct Calibre {
     pub middle_mm: Option<DVec3>,
 }
 
+/// The radius of the circle of an area.
+pub(super) fn circle(area: f64) -> f64 {
+    (area / std::f64::consts::PI).sqrt()
+}
+
 /// The measuring of one surface.
 #[derive(Debug)]
 pub(super) struct Measuring {

@@ -10,8 +10,8 @@ use std::fmt::{Display, Write as _};
 
 use serde::{Deserialize, Serialize};
 
-use super::calibre::{Calibre, Indexing, Measuring, Subject};
-use super::certificate::{CalibreError, checked, circle};
+use super::calibre::{Calibre, Indexing, Measuring, Subject, circle};
+use super::certificate::{CalibreError, checked};
 use super::recentring::recentre;
 use super::stations::{Station, Stations};
 use super::tree::{Branch, TreeTask};

@@ -10,6 +10,7 @@
 use glam::{DVec3, Vec3};
 
 use super::space::Space;
+use crate::mesh::cut::{area_and_middle, winding};
 use crate::mesh::{SurfaceIndex, Topology, TriMesh};
 
 /// Rays that are tried.
@@ -155,29 +156,8 @@ impl Wall<'_> {
 
 /// Area and centroid of a loop of points relative to `p`.
 fn summed(rim: &[DVec3], p: DVec3, normal: DVec3) -> Section {
-    let (mut area, mut moment) = (0.0, DVec3::ZERO);
-    for (i, &one) in rim.iter().enumerate() {
-        let next = rim[(i + 1) % rim.len()];
-        let part = one.cross(next).dot(normal) / 2.0;
-        area += part;
-        moment += (one + next) / 3.0 * part;
-    }
-    Section { area, middle: p + if area == 0.0 { DVec3::ZERO } else { moment / area } }
-}
-
-/// How often a loop winds about the origin, by what passes the half-line along x.
-fn winding(rim: &[DVec3], [x, y]: [DVec3; 2]) -> i32 {
-    let mut turns = 0;
-    for (i, &one) in rim.iter().enumerate() {
-        let next = rim[(i + 1) % rim.len()];
-        let (before, after) = (one.dot(y), next.dot(y));
-        if (before < 0.0) != (after < 0.0) {
-            let part = before / (before - after);
-            let meets = one.dot(x) + (next.dot(x) - one.dot(x)) * part > 0.0;
-            turns += i32::from(meets) * if before < 0.0 { 1 } else { -1 };
-        }
-    }
-    turns
+    let (area, middle) = area_and_middle(rim, DVec3::ZERO, normal);
+    Section { area, middle: p + middle }
 }
 
 #[cfg(test)]

@@ -8,13 +8,13 @@ use glam::{DVec3, Vec3};
 use super::TreeError;
 use super::balls::Filling;
 use super::centreline::{Place, arcs, centreline};
+use super::locating::{Located, Segments};
 use super::paths::{Graph, Path};
 use super::space::{Ball, Space};
 use crate::mesh::{SurfaceIndex, Topology, TriMesh, volume};
+use crate::say;
 use crate::task::{Budget, Progress, Task};
 
-/// Segments of a branch that are left out together in a search.
-const CHUNK: usize = 8;
 /// A group of balls with less than this part of the largest group's volume is a speck, and has no branches.
 const SPECK: f64 = 0.005;
 
@@ -51,6 +51,11 @@ pub struct Branch {
 }
 
 impl Branch {
+    /// What it is called in the language that is spoken; `name` is English.
+    pub fn label(&self) -> String {
+        say!("vessels-branch", number = (self.id + 1).to_string())
+    }
+
     /// Whether it only goes on where its parent ends, past the ostium of a third.
     pub fn goes_straight_on(&self) -> bool {
         self.parent.is_some() && self.ostium == 0
@@ -60,53 +65,6 @@ impl Branch {
     pub fn length_mm(&self) -> f64 {
         self.arcs.last().copied().unwrap_or(0.0)
     }
-}
-
-/// Where a point is in the tree.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Located {
-    /// The branch.
-    pub branch: u32,
-    /// Arc length along its centreline of the place next to the point, in mm.
-    pub arc_mm: f64,
-    /// Radius of the lumen there, in mm.
-    pub radius_mm: f64,
-    /// Distance of the point from that place, in mm.
-    pub distance_mm: f64,
-    /// The segment of the centreline, for a faster search near by.
-    pub(crate) segment: u32,
-}
-
-/// A segment of a centreline, with the radii at its ends.
-#[derive(Clone, Copy, Debug)]
-struct Segment {
-    from: Place,
-    to: Place,
-    branch: u32,
-    arc: f64,
-}
-
-impl Segment {
-    /// The power of a point with regard to the balls along the segment, least where a ball holds it deepest; where along
-    /// the segment, 0 to 1; the squared distance.
-    #[inline]
-    fn power(&self, p: DVec3) -> (f64, f64, f64) {
-        let along = self.to.at - self.from.at;
-        let part = ((p - self.from.at).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let squared = p.distance_squared(self.from.at + along * part);
-        let radius = self.from.radius + (self.to.radius - self.from.radius) * part;
-        (squared - radius * radius, part, squared)
-    }
-}
-
-/// The box around a few segments, and the largest radius there.
-#[derive(Clone, Copy, Debug)]
-struct Chunk {
-    low: DVec3,
-    high: DVec3,
-    squared_radius: f64,
-    first: u32,
-    count: u32,
 }
 
 /// A group of linked balls on the way to a tree.
@@ -155,8 +113,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> TreeTask<M, T> {
             let triangles = self.mesh.triangles.len();
             return Err(if is_turned { TreeError::InsideOut } else { TreeError::NoInside { triangles } });
         }
-        let (branches, groups, segments, chunks) = Default::default();
-        Ok(Tree { space, graph, branches, groups, segments, chunks })
+        Ok(Tree { space, graph, branches: Vec::new(), groups: Vec::new(), segments: Segments::default() })
     }
 }
 
@@ -194,7 +151,9 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for TreeTask<
                         (Step::Lines(tree, groups, group), 0.7)
                     }
                     None => {
-                        tree.index_segments();
+                        for Branch { id, ostium, points, arcs, .. } in &tree.branches {
+                            tree.segments.add(*id, &points[*ostium..], &arcs[*ostium..]);
+                        }
                         return Progress::Done(Ok(*tree));
                     }
                 },
@@ -226,8 +185,7 @@ pub struct Tree {
     branches: Vec<Branch>,
     /// Balls of each tree's group.
     pub(crate) groups: Vec<u32>,
-    segments: Vec<Segment>,
-    chunks: Vec<Chunk>,
+    segments: Segments,
 }
 
 impl Tree {
@@ -415,53 +373,10 @@ impl Tree {
         }
     }
 
-    fn index_segments(&mut self) {
-        for branch in &self.branches {
-            let bottom = self.segments.len();
-            for i in branch.ostium..branch.points.len().saturating_sub(1) {
-                let (from, to) = (branch.points[i], branch.points[i + 1]);
-                self.segments.push(Segment { from, to, branch: branch.id, arc: branch.arcs[i] });
-            }
-            for (i, piece) in self.segments[bottom..].chunks(CHUNK).enumerate() {
-                let ends = || piece.iter().flat_map(|segment| [segment.from, segment.to]);
-                let low = ends().map(|place| place.at).fold(DVec3::INFINITY, DVec3::min);
-                let high = ends().map(|place| place.at).fold(DVec3::NEG_INFINITY, DVec3::max);
-                let radius = ends().map(|place| place.radius).fold(0.0, f64::max);
-                let first = (bottom + i * CHUNK) as u32;
-                let count = piece.len() as u32;
-                self.chunks.push(Chunk { low, high, squared_radius: radius * radius, first, count });
-            }
-        }
-    }
-
     /// Where `p` is: the branch whose lumen holds it deepest, or is nearest to it. `last` is the answer for a point near
     /// by, if there is one; it makes this faster and changes nothing.
     pub fn locate(&self, p: DVec3, last: Option<&Located>) -> Option<Located> {
-        let mut best = (f64::INFINITY, u32::MAX);
-        if let Some(segment) = last.and_then(|last| self.segments.get(last.segment as usize).map(|_| last.segment)) {
-            best = (self.segments[segment as usize].power(p).0, segment);
-        }
-        for chunk in &self.chunks {
-            let gap = (chunk.low - p).max(p - chunk.high).max(DVec3::ZERO);
-            if gap.length_squared() - chunk.squared_radius > best.0 {
-                continue;
-            }
-            for number in chunk.first..chunk.first + chunk.count {
-                let power = self.segments[number as usize].power(p).0;
-                if (power, number) < best {
-                    best = (power, number);
-                }
-            }
-        }
-        let segment = self.segments.get(best.1 as usize)?;
-        let (_, part, squared) = segment.power(p);
-        Some(Located {
-            branch: segment.branch,
-            arc_mm: segment.arc + part * segment.from.at.distance(segment.to.at),
-            radius_mm: segment.from.radius + (segment.to.radius - segment.from.radius) * part,
-            distance_mm: squared.sqrt(),
-            segment: best.1,
-        })
+        self.segments.locate(p, last)
     }
 
     /// Whether a point lies in the lumen.

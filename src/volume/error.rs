@@ -2,17 +2,19 @@
 
 use thiserror::Error;
 
-use super::geometry::GeometryError;
+use super::geometry::{GeometryError, product};
 use super::selection::PRESETS;
+use crate::language::exact;
+use crate::say;
 
 /// Why a volume, or a surface of it, was not made.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum VolumeError {
     /// Its points cannot lie so.
-    #[error("The volume cannot be placed in the patient: {0}.")]
+    #[error("{}", say!("scan-no-place", why = .0.to_string()))]
     Geometry(#[from] GeometryError),
     /// Not one number for each point.
-    #[error("The volume has {points} points and {samples} numbers for them.")]
+    #[error("{}", say!("scan-points", points = .points.to_string(), samples = .samples.to_string()))]
     Samples {
         /// Points of the grid.
         points: usize,
@@ -20,10 +22,7 @@ pub enum VolumeError {
         samples: usize,
     },
     /// A scan, of which nobody said where the vessels begin.
-    #[error(
-        "This is a scan with values from {low} to {high}: say at which threshold its surface is to be made \
-         (contrast-filled vessels in CT: {presets})."
-    )]
+    #[error("{}", say!("scan-nothing-chosen", low = exact(*.low), high = exact(*.high), presets = .presets))]
     NothingChosen {
         /// The smallest value.
         low: f64,
@@ -33,7 +32,10 @@ pub enum VolumeError {
         presets: String,
     },
     /// A threshold that no value, or every value, reaches.
-    #[error("No surface lies at the threshold {threshold}: the values go from {low} to {high}.")]
+    #[error(
+        "{}",
+        say!("scan-outside-range", threshold = exact(*.threshold), low = exact(*.low), high = exact(*.high))
+    )]
     OutsideRange {
         /// The threshold.
         threshold: f64,
@@ -43,7 +45,7 @@ pub enum VolumeError {
         high: f64,
     },
     /// A label that the volume has not.
-    #[error("There is no label {label} in the volume; {known}.")]
+    #[error("{}", say!("scan-no-label", label = .label.to_string(), known = .known))]
     NoSuchLabel {
         /// The label.
         label: i64,
@@ -51,19 +53,24 @@ pub enum VolumeError {
         known: String,
     },
     /// A box that holds no cube of eight points.
-    #[error("The box holds nothing of the volume, which has {} x {} x {} voxels.", .size[0], .size[1], .size[2])]
+    #[error("{}", say!("scan-outside-box", size = product(*.size)))]
     OutsideBox {
         /// Points along i, j, k.
         size: [usize; 3],
     },
+    /// Slices for which there would be no memory.
+    #[error("{}", say!("scan-slice-too-large", points = .points.to_string(), limit = .limit.to_string()))]
+    SliceTooLarge {
+        /// Points of a slice.
+        points: usize,
+        /// The most that are worked on.
+        limit: usize,
+    },
     /// Nothing but inside, or nothing but outside.
-    #[error("There is no surface within the box: all of it lies on one side.")]
+    #[error("{}", say!("scan-one-side"))]
     NoSurface,
     /// More than can be worked on.
-    #[error(
-        "The surface has more than {limit} triangles, most of them noise or bone: raise the threshold or set a box around \
-         the vessels."
-    )]
+    #[error("{}", say!("scan-too-many-triangles", limit = .limit.to_string()))]
     TooManyTriangles {
         /// The most that are made.
         limit: usize,
@@ -73,7 +80,7 @@ pub enum VolumeError {
 impl VolumeError {
     /// That a threshold is wanted of a scan with values from `low` to `high`.
     pub(super) fn nothing_chosen([low, high]: [f64; 2]) -> Self {
-        let named = PRESETS.map(|preset| format!("{} {}", preset.value, preset.name));
+        let named = PRESETS.map(|preset| format!("{} {}", preset.value, preset.name.say()));
         Self::NothingChosen { low, high, presets: named.join(", ") }
     }
 }

@@ -3,6 +3,9 @@
 use glam::{DMat3, DVec3};
 use thiserror::Error;
 
+use crate::language::exact;
+use crate::say;
+
 /// The most points along an axis that indices are kept for.
 const LONGEST: usize = 1 << 20;
 /// Spacings outside of this, in mm, are of no scan.
@@ -14,7 +17,8 @@ const FLAT: f64 = 1e-3;
 
 /// A regular grid of sample points: point (i, j, k) lies at `origin + direction * (spacing * (i, j, k))`.
 ///
-/// Coordinates are the patient's, in LPS millimetres: x to the left, y to the back, z to the head.
+/// Coordinates are the patient's, in millimetres; where a file says how the patient lies, in LPS: x to the left, y to the back,
+/// z to the head.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
     /// Points along i, j, k.
@@ -32,22 +36,22 @@ pub struct Geometry {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum GeometryError {
     /// An axis without points, or with more than can be.
-    #[error("{} x {} x {} points make no volume", .size[0], .size[1], .size[2])]
+    #[error("{}", say!("scan-no-points", size = product(*.size)))]
     Size {
         /// Points along i, j, k.
         size: [usize; 3],
     },
     /// A spacing that no scan has.
-    #[error("a distance of {spacing} mm between its points is none that a scan has")]
+    #[error("{}", say!("scan-no-spacing", spacing = exact(*.spacing)))]
     Spacing {
         /// The spacing in mm.
         spacing: f64,
     },
     /// Directions that are in one plane, or no numbers.
-    #[error("the directions of its axes span no space")]
+    #[error("{}", say!("scan-no-directions"))]
     Direction,
     /// An origin that is no number, or too far away.
-    #[error("its origin is not a place in a body")]
+    #[error("{}", say!("scan-no-origin"))]
     Origin,
 }
 
@@ -159,6 +163,11 @@ impl Region {
     pub(crate) fn size(&self) -> [usize; 3] {
         std::array::from_fn(|axis| self.last[axis] + 1 - self.first[axis])
     }
+}
+
+/// Points along i, j, k: 512 x 512 x 800.
+pub(super) fn product([i, j, k]: [usize; 3]) -> String {
+    format!("{i} x {j} x {k}")
 }
 
 #[cfg(test)]

@@ -15,8 +15,8 @@ pub fn preview_step(points: usize) -> usize {
 }
 
 /// Makes a volume of one point for each block of `step` points along each axis: the largest value of the block, so that
-/// contrast in a vessel thinner than a block is still seen, if wider than it is. Of a mask the first point of the block,
-/// for a largest label means nothing.
+/// contrast in a vessel thinner than a block is still seen, if wider than it is. Of a mask the first label of the block that
+/// is not 0, for a largest label means nothing.
 pub struct Reducing {
     grid: Arc<Grid>,
     step: usize,
@@ -36,17 +36,20 @@ impl Reducing {
     fn slice(&mut self) {
         let [nx, ny, nz] = self.grid.geometry().size;
         let (step, grid) = (self.step, &self.grid);
+        let outside = grid.stored_for(0.0);
         let planes = self.done * step..nz.min((self.done + 1) * step);
         with_samples!(grid.samples(), values => {
             for j in (0..ny).step_by(step) {
                 for i in (0..nx).step_by(step) {
                     let first = values[grid.index([i, j, planes.start])];
-                    let chosen = if self.is_mask { first } else {
-                        let rows = planes.clone().flat_map(|k| (j..ny.min(j + step)).map(move |j| [i, j, k]));
-                        let block = rows.flat_map(|point| {
-                            let start = grid.index(point);
-                            values[start..start + step.min(nx - i)].iter().copied()
-                        });
+                    let rows = planes.clone().flat_map(|k| (j..ny.min(j + step)).map(move |j| [i, j, k]));
+                    let mut block = rows.flat_map(|point| {
+                        let start = grid.index(point);
+                        values[start..start + step.min(nx - i)].iter().copied()
+                    });
+                    let chosen = if self.is_mask {
+                        block.find(|value| value.to_f64() != outside).unwrap_or(first)
+                    } else {
                         let is_larger = |a, b| if grid.is_inverted() { a < b } else { a > b };
                         block.fold(first, |a, b| if is_larger(b, a) || a.to_f64().is_nan() { b } else { a })
                     };
@@ -91,13 +94,13 @@ mod tests {
     }
 
     #[test]
-    fn blocks_keep_their_largest_value_and_masks_their_first() {
+    fn blocks_keep_their_largest_value_and_masks_their_first_label() {
         let scan = Reducing::new(numbered(), 2, false).finish();
         assert_eq!(scan.geometry().size, [3, 2, 2]);
         assert_eq!(scan.geometry().spacing, DVec3::splat(2.0));
         assert_eq!(scan.samples(), &Samples::I16(vec![26, 28, 29, 36, 38, 39, 46, 48, 49, 56, 58, 59]));
         let mask = Reducing::new(numbered(), 2, true).finish();
-        assert_eq!(mask.samples(), &Samples::I16(vec![0, 2, 4, 10, 12, 14, 40, 42, 44, 50, 52, 54]));
+        assert_eq!(mask.samples(), &Samples::I16(vec![1, 2, 4, 10, 12, 14, 40, 42, 44, 50, 52, 54]));
         assert_eq!(Reducing::new(numbered(), 1, false).finish(), numbered());
     }
 

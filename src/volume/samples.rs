@@ -58,7 +58,7 @@ macro_rules! sample_types {
                 }
             }
 
-            /// Adds a number, rounded and clamped to the type.
+            /// Adds a number, cut to a whole one and clamped where the type needs that.
             pub fn push(&mut self, value: f64) {
                 match self {
                     $(Self::$variant(values) => values.push(value as $type),)*

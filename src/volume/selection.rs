@@ -11,6 +11,8 @@ use super::grid::Grid;
 use super::marching_cubes::Mask;
 use super::samples::{Sample, with_samples};
 use super::survey::Survey;
+use crate::language::{Key, exact};
+use crate::say;
 
 /// What lies inside.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,7 +29,7 @@ pub enum Selection {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     /// What it shows.
-    pub name: &'static str,
+    pub name: Key,
     /// Hounsfield units.
     pub value: f64,
 }
@@ -35,9 +37,9 @@ pub struct Preset {
 /// Thresholds for contrast-filled vessels in CT. Blood with contrast has 200 to 500 HU in the arterial phase, muscle 50,
 /// and half way between is where the wall is; spongy bone has 200 HU and more and comes along.
 pub const PRESETS: [Preset; 3] = [
-    Preset { name: "for vessels with little contrast", value: 130.0 },
-    Preset { name: "for arteries", value: 180.0 },
-    Preset { name: "for the aorta and the coronary arteries", value: 250.0 },
+    Preset { name: Key("scan-preset-little"), value: 130.0 },
+    Preset { name: Key("scan-preset-arteries"), value: 180.0 },
+    Preset { name: Key("scan-preset-aorta"), value: 250.0 },
 ];
 
 impl Selection {
@@ -68,11 +70,13 @@ impl Selection {
             Self::Threshold(threshold) if !(low < threshold && threshold <= high) => {
                 Err(VolumeError::OutsideRange { threshold, low, high })
             }
+            // What has too many values to be told as a mask may be one of a whole body.
+            Self::Label(label) if !survey.is_mask() && (low..=high).contains(&(label as f64)) => Ok(()),
             Self::Label(label) if !survey.labels.iter().any(|known| known.value == label) => {
                 let known: Vec<String> = survey.labels.iter().map(|label| label.value.to_string()).collect();
                 let known = match known.len() {
-                    0 => format!("it is a scan with values from {low} to {high}"),
-                    _ => format!("it has {}", known.join(", ")),
+                    0 => say!("scan-known-range", low = exact(low), high = exact(high)),
+                    _ => say!("scan-known-labels", labels = known.join(", ")),
                 };
                 Err(VolumeError::NoSuchLabel { label, known })
             }
@@ -116,6 +120,10 @@ impl Selected {
     }
 }
 
+/// How near to a voxel the surface comes, as a part of the way to the next: where a value is the threshold itself, as whole
+/// numbers often are, all vertices around that voxel would be one, and thin vessels fall together.
+const LEAST: f64 = 2e-4;
+
 impl Mask for Selected {
     const CLOSED: bool = false;
 
@@ -145,7 +153,7 @@ impl Mask for Selected {
         let (here, there) = (samples.stored(self.index(point)), samples.stored(self.index(next)));
         let along = (bound - here) / (there - here);
         // Beside a number that is none there is nothing to interpolate.
-        if (0.0..=1.0).contains(&along) { along } else { 0.5 }
+        if (0.0..=1.0).contains(&along) { along.clamp(LEAST, 1.0 - LEAST) } else { 0.5 }
     }
 }
 

@@ -33,7 +33,7 @@ pub struct Slice {
     pub size: [usize; 2],
     /// A shade of grey for each point, the first axis running fastest.
     pub pixels: Vec<u8>,
-    /// Where its four corners lie in the patient, in LPS mm: the first point, the last along the first axis, the last along
+    /// Where its four corners lie in the patient, in mm: the first point, the last along the first axis, the last along
     /// both, the last along the second.
     pub corners: [[f64; 3]; 4],
 }

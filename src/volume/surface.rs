@@ -13,6 +13,9 @@ use crate::task::{Budget, Progress, Task};
 /// The most triangles that a surface is made of: with what the import stage takes for each, 1.6 GB.
 pub const MOST_TRIANGLES: usize = 12_000_000;
 
+/// The most points of a slice, for each of which the way over the grid takes some 22 bytes.
+const MOST_OF_A_SLICE: usize = 1 << 26;
+
 /// Makes the surface of a selection: LPS millimetres, triangles counter-clockwise seen from outside, open where the
 /// selection meets the faces of the volume or of the box. A vertex lies where values interpolated along its grid edge reach
 /// the threshold, or half way for labels.
@@ -26,11 +29,16 @@ impl Surfacing {
     /// Before the first layer. Only what is within `region`, if there is one, is looked at.
     ///
     /// # Errors
-    /// [`VolumeError::OutsideBox`] where the box holds no two points along each axis.
+    /// [`VolumeError::OutsideBox`] where the box holds no two points along each axis, [`VolumeError::SliceTooLarge`] where
+    /// a slice of it has more than 67 million.
     pub fn new(grid: &Arc<Grid>, selection: Selection, region: Option<Region>) -> Result<Self, VolumeError> {
         let geometry = grid.geometry();
         let region = region.unwrap_or_else(|| Region::all(geometry)).within(geometry);
         let region = region.ok_or(VolumeError::OutsideBox { size: geometry.size })?;
+        let [i, j, _] = region.size();
+        if i.saturating_mul(j) > MOST_OF_A_SLICE {
+            return Err(VolumeError::SliceTooLarge { points: i.saturating_mul(j), limit: MOST_OF_A_SLICE });
+        }
         let selected = Selected::new(Arc::clone(grid), selection, region);
         Ok(Self { cubes: Some(MarchingCubes::new(&geometry.cropped(&region), selected)), limit: MOST_TRIANGLES })
     }
@@ -140,6 +148,38 @@ mod tests {
         // Around it the other label is open at the faces of the volume.
         let around = surface(grid.clone(), Selection::Label(3), None).unwrap();
         assert_eq!(around.triangles.len(), surface(grid, Selection::Label(7), None).unwrap().triangles.len());
+    }
+
+    #[test]
+    fn whole_numbers_that_are_the_threshold_itself_fall_together_nowhere() {
+        let geometry = Geometry::upright([12, 12, 12], DVec3::splat(0.5), DVec3::ZERO);
+        // A sheet one voxel thick, a rod, and a voxel alone, all at the threshold and nothing above it.
+        let is_inside = |i, j, k| {
+            k == 2 && (2..9).contains(&i) && j > 2 && j < 9
+                || (i, j) == (6, 6) && (4..9).contains(&k)
+                || (i, j, k) == (2, 2, 9)
+        };
+        let values = (0..12 * 12 * 12).map(|n| if is_inside(n % 12, n / 12 % 12, n / 144) { 180 } else { 0 });
+        let grid = Grid::new(geometry, Samples::I16(values.collect()), 1.0, 0.0).unwrap();
+        let mesh = surface(grid, Selection::Threshold(180.0), None).unwrap();
+        let imported = crate::io::import_mesh(mesh.clone(), "made");
+        let report = imported.report;
+        assert_eq!((report.degenerate_triangles, report.duplicate_triangles, report.non_manifold_edges), (0, 0, 0));
+        assert_eq!(
+            (imported.mesh.triangles.len(), report.boundary_edges, report.components),
+            (mesh.triangles.len(), 0, 3)
+        );
+    }
+
+    #[test]
+    fn a_slice_for_which_there_is_no_memory_is_refused_before_it_is_begun() {
+        let geometry = Geometry::upright([1 << 20, 128, 2], DVec3::ONE, DVec3::ZERO);
+        let grid = Grid::new(geometry, Samples::U8(vec![0; 1 << 28]), 1.0, 0.0).unwrap();
+        let refused = surface(grid, Selection::Threshold(1.0), None).unwrap_err().to_string();
+        assert_eq!(
+            refused,
+            "A slice has 134217728 voxels, of which 67108864 can be worked on: set a box around the vessels."
+        );
     }
 
     #[test]

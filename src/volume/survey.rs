@@ -10,7 +10,7 @@ use crate::task::{Budget, Progress, Task};
 
 /// Bars of a histogram.
 pub const BINS: usize = 256;
-/// The most labels that a mask has; what has more values is a scan.
+/// The most labels that a mask has beside 0; what has more values is a scan, as one of 8 bits is.
 const MOST_LABELS: usize = 64;
 /// Numbers that are looked at between two looks at the clock.
 const STRETCH: usize = 1 << 18;
@@ -39,6 +39,13 @@ impl Survey {
     /// Whether it is a mask: few whole numbers.
     pub fn is_mask(&self) -> bool {
         !self.labels.is_empty()
+    }
+
+    /// Whether values reach down to where only the air of a CT is, which has -1000 HU: most files do not say that they are
+    /// of CT.
+    pub fn has_air(&self) -> bool {
+        const AIR_HU: f64 = -500.0;
+        self.range[0] <= AIR_HU
     }
 }
 

@@ -33,7 +33,7 @@ test("every screen passes axe", { timeout: 300_000 }, async (t) => {
     await page.keyboard.press("Escape");
     await frames(page, 10);
   }
-  for (const menu of ["Sample", "Save", "View"]) {
+  for (const menu of ["Sample", "Save", "View", "Learn"]) {
     await press(page, "button", menu);
     await isAccessible(page, `the menu ${menu}`);
     await page.keyboard.press("Escape");

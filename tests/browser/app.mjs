@@ -27,24 +27,33 @@ export async function settled(page, timeout = 120_000) {
   ).then(({ all }) => all);
 }
 
+/** Waits until the sample is shown and all that is kept for a time without a network is: nothing is loaded after that. */
+export async function loaded(page) {
+  await settled(page);
+  await page.evaluate(async () => void (await navigator.serviceWorker.ready));
+}
+
 /** The number of triangles shown, as the panel's result has it ("Triangles", "6,698 of 66,982"), or null. */
 export function shownTriangles(all) {
   const row = all.findIndex((text, i) => text === "Triangles" && /^[\d,]+ of [\d,]+$/.test(all[i + 1] ?? ""));
   return row < 0 ? null : Number(all[row + 1].split(" of ")[0].replaceAll(",", ""));
 }
 
-/** Opens a file (a path, or { name, buffer }) through the browser's own dialog. */
+/** The Workers on a job ("pipeline", "trial", "scan"). */
+export const workersOn = (page, job) => page.workers().filter((worker) => worker.url().endsWith(`#${job}`));
+
+/** Opens a file (a path, or { name, buffer }), or several, through the browser's own dialog. */
 export async function openFile(page, file) {
   const chooser = page.waitForEvent("filechooser");
   await press(page, "button", "Open...");
-  const payload = typeof file === "string" ? file : { mimeType: "application/octet-stream", ...file };
-  await (await chooser).setFiles(payload);
+  const payload = (file) => (typeof file === "string" ? file : { mimeType: "application/octet-stream", ...file });
+  await (await chooser).setFiles(Array.isArray(file) ? file.map(payload) : payload(file));
 }
 
 /** Saves in a format ("STL", "PLY", "OBJ", "GLB") and returns the file's name and bytes. */
-export async function save(page, format) {
+export async function save(page, format, timeout = 30_000) {
   await press(page, "button", "Save");
-  const download = page.waitForEvent("download");
+  const download = page.waitForEvent("download", { timeout });
   await press(page, "menuitem", `${format}...`);
   const file = await download;
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };

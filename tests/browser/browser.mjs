@@ -105,7 +105,7 @@ async function middle(control) {
 }
 
 /** Turns the wheel over a control until it stands above the bar at the window's foot, as a user does. */
-async function inSight(page, control) {
+export async function inSight(page, control) {
   const { height } = page.viewportSize();
   for (let turns = 0; turns < 8; turns++) {
     const { x, box } = await middle(control);

@@ -1,25 +1,75 @@
-// A haptic device by WebHID: paired by a click, served in the trial's Worker, felt and stopped. The device is a mock behind
-// `navigator.hid` (fake-hid.js) with the descriptor of the open feeder; nothing here was tried on hardware.
+// A haptic device by WebHID and by Web Serial: paired by a click, served in the trial's Worker, felt and stopped. The device is
+// a mock behind `navigator.hid` (fake-hid.js) or `navigator.serial` (fake-serial.js) with the descriptor of the open feeder;
+// nothing here was tried on hardware.
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { atEntry, atRest, fed, inserted, settled } from "./app.mjs";
-import { dist, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { dist, eventually, frames, launch, openApp, press, started, texts, twin } from "./browser.mjs";
 
 const beside = (name) => readFile(new URL(name, import.meta.url), "utf8");
 const fake = (await beside("fake-hid.js")).replace(/^/, `const COLLECTIONS = ${await beside("../haptics/feeder-collections.json")};\n`);
+
+/** The feeder at a serial port, in a browser without WebHID: its descriptor's bytes are those of the app's source. */
+async function bySerial() {
+  const source = await beside("../../src/haptics/feeder.rs");
+  const table = source.slice(source.indexOf("DESCRIPTOR: &[u8]")).replace(/\/\/.*/g, "");
+  const descriptor = (table.match(/0x[0-9A-F]{2}\b/g) ?? []).map(Number);
+  const feeder = `const FEEDER = { collections: ${await beside("../haptics/feeder-collections.json")}, descriptor: ${JSON.stringify(descriptor)} };`;
+  return `${feeder}\n${await beside("fake-serial.js")}`;
+}
 
 let browser;
 before(async () => (browser = await launch()));
 after(() => browser.close());
 
+/** A gamepad at rest, whose motors note what they are told. */
+function gamepad() {
+  globalThis.shaken = [];
+  const vibrationActuator = {
+    playEffect: async (kind, how) => (globalThis.shaken.push({ kind, ...how }), "complete"),
+    reset: async () => (globalThis.shaken.push("reset"), "complete"),
+  };
+  const pad = Object.create(Gamepad.prototype);
+  for (const [key, value] of Object.entries({ axes: [0, 0, 0, 0], buttons: [], vibrationActuator })) {
+    Object.defineProperty(pad, key, { value });
+  }
+  navigator.getGamepads = () => [pad];
+}
+
+/** A loudspeaker that notes what it is told: a machine for tests may have none. */
+function loudspeaker() {
+  globalThis.sounded = [];
+  const param = (what) => ({
+    value: 0,
+    cancelScheduledValues() {
+      return this;
+    },
+    setTargetAtTime(value, from, constant) {
+      globalThis.sounded.push({ what, value, from, constant });
+      return this;
+    },
+  });
+  const connect = (to) => to;
+  globalThis.AudioContext = class {
+    currentTime = 0;
+    destination = {};
+    resume = async () => {};
+    createOscillator = () => ({ frequency: param("pitch"), connect, start() {} });
+    createGain = () => ({ gain: param("loudness"), connect });
+  };
+}
+
 /** Opens the app with the mock in the page and in its Workers, and the trial. */
-async function openTrial(t) {
+async function openTrial(t, more = [], mock = fake) {
   const worker = await readFile(`${dist}/worker.js`, "utf8");
   const opened = await openApp(t, browser, {
-    before: (page) => page.addInitScript(fake),
-    files: { "worker.js": { type: "text/javascript", body: `${fake}\n${worker}` } },
+    before: async (page) => {
+      await page.addInitScript(mock);
+      for (const script of more) await page.addInitScript(script);
+    },
+    files: { "worker.js": { type: "text/javascript", body: `${mock}\n${worker}` } },
   });
   await settled(opened.page);
   await press(opened.page, "button", "Trial");
@@ -85,7 +135,7 @@ test("a device is paired, feeds the wire, pushes back once armed, and is stopped
   assert.deepEqual(wrong, []);
 });
 
-test("leaving the window ends the force at once, and unplugging pauses the trial", { timeout: 300_000 }, async (t) => {
+test("leaving the window ends the force at once, unplugging pauses the trial, plugging in goes on", { timeout: 300_000 }, async (t) => {
   const { page } = await openTrial(t);
   await choose(page, "Pair a device...");
   await there(page, "Arm force...");
@@ -107,11 +157,112 @@ test("leaving the window ends the force at once, and unplugging pauses the trial
   await page.evaluate(() => globalThis.fakeHid.plug(false));
   await shows(page, /no longer there/, "that it is gone");
   await shows(page, /^Paused/, "the trial, which waits");
+
+  const [before, start] = [(await heard(page)).length, await inserted(page)];
+  await page.evaluate(() => globalThis.fakeHid.plug(true));
+  await there(page, "Arm force...");
+  await shows(page, /holds the wire again; its force is not armed/, "that it is back");
+  // What it did while it was out is not made up for; from here on it feeds, and is not pushed.
+  await page.evaluate(() => globalThis.fakeHid.go(1, 0, 1000));
+  await fed(page, start, 0.5);
+  assert.equal((await heard(page)).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
 });
 
-test("without a device the virtual one holds the wire", { timeout: 300_000 }, async (t) => {
-  const { page, wrong } = await openTrial(t);
+test("by serial the feeder is paired, feeds, pushes back once armed, is unplugged and plugged in, and let go", { timeout: 300_000 }, async (t) => {
+  const { page, wrong } = await openTrial(t, [], await bySerial());
+  const serial = (more) => page.evaluate(`globalThis.fakeSerial.${more}`);
+  const isStop = ({ id, bytes }) => (id === 4 && bytes[1] === 3) || (id === 6 && bytes[0] === 3);
+  await shows(page, /reaches the open feeder alone, by serial/, "what this browser reaches");
+  await choose(page, "Pair by serial...");
+  await there(page, "Arm force...");
+  assert.equal((await serial("heard")).filter(isStart).length, 0, "no effect is started before it is armed");
+  const start = await inserted(page);
+  await serial("go(0.8, 0, 2000)");
+  await fed(page, start, 2);
+
+  await find(page, "button", "Arm force...");
+  await find(page, "button", "Arm force");
+  await there(page, "Stop force");
+  await serial("go(-0.5, 0.3, 1500)");
+  await eventually(() => serial("heard"), (all) => all.some(isStart), { what: "an effect that is started" });
+  await page.keyboard.press("Escape");
+  await there(page, "Arm force...");
+  await eventually(() => serial("heard"), (all) => all.some(isStop), { what: "the stop" });
+  const all = await serial("heard");
+  assert.equal(all.slice(all.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
+
+  await serial("plug(false)");
+  await shows(page, /no longer there/, "that it is gone");
+  await shows(page, /^Paused/, "the trial, which waits");
+  const [before, out] = [(await serial("heard")).length, await inserted(page)];
+  await serial("plug(true)");
+  await there(page, "Arm force...");
+  await shows(page, /holds the wire again; its force is not armed/, "that it is back");
+  await serial("go(1, 0, 1000)");
+  await fed(page, out, 0.5);
+  assert.equal((await serial("heard")).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
+
+  await choose(page, "None");
+  await eventually(() => serial("isOpen"), (is) => !is, { what: "the port, which is closed" });
+  assert.deepEqual(await serial("wrong"), [], "every frame was whole, and every report of its length");
+  assert.deepEqual(wrong, []);
+});
+
+test("without a device the virtual one holds the wire, its axes are remembered, a gamepad shakes, and a tone sounds", { timeout: 300_000 }, async (t) => {
+  const { page, wrong } = await openTrial(t, [gamepad, loudspeaker]);
   await choose(page, "Virtual device");
   await there(page, "Arm force...");
+  const feeds = () => twin(page, "combobox", "Feed: axis").textContent();
+  assert.equal(await feeds(), "X");
+  await find(page, "combobox", "Feed: axis");
+  await press(page, "option", "Rx");
+  await there(page, "Forget axes");
+  // A virtual device has no numbers.
+  const kept = () => page.evaluate(() => Object.values({ ...localStorage }).some((text) => text.includes("0000:0000:")));
+  await eventually(kept, (is) => is, { what: "the axes in what is kept" });
+
+  await page.reload();
+  await started(page);
+  await settled(page);
+  await press(page, "button", "Trial");
+  await atEntry(page);
+  await choose(page, "Virtual device");
+  await eventually(feeds, (axis) => axis === "Rx", { what: "the axis that was chosen" });
+  await find(page, "button", "Forget axes");
+  await eventually(feeds, (axis) => axis === "X", { what: "the axis that is proposed" });
+  await eventually(kept, (is) => !is, { what: "nothing of it in what is kept" });
+
+  // A gamepad shakes by the force once it is armed, and is still as the window is left.
+  const shakes = () => page.evaluate(() => globalThis.shaken.filter((it) => it !== "reset"));
+  await find(page, "button", "Arm rumble...");
+  assert.deepEqual(await shakes(), [], "nothing before it is armed");
+  await find(page, "button", "Arm rumble");
+  await there(page, "Stop rumble");
+  const sounded = () => page.evaluate(() => globalThis.sounded);
+  assert.deepEqual(await sounded(), [], "nothing sounds before it is turned on");
+  await find(page, "checkbox", "Sound of the force");
+  await page.keyboard.down("Shift");
+  await page.keyboard.down("w");
+  const heard = await eventually(shakes, (all) => all.length > 0, { timeout: 60_000, what: "a shake" });
+  for (const { kind, duration, strongMagnitude, weakMagnitude } of heard) {
+    assert.deepEqual([kind, duration, weakMagnitude], ["dual-rumble", 100, strongMagnitude]);
+    assert(strongMagnitude > 0 && strongMagnitude <= 0.4, `${strongMagnitude} is within the cap`);
+  }
+  const isPitch = ({ what }) => what === "pitch";
+  const tones = await eventually(sounded, (all) => all.some(isPitch), { timeout: 60_000, what: "a tone" });
+  for (const tone of tones) {
+    const [least, most] = isPitch(tone) ? [220, 880] : [0, 0.2 + 1e-6];
+    assert(tone.value >= least && tone.value <= most, `${tone.what} ${tone.value} is within the bounds`);
+  }
+  const ending = tones[tones.findIndex(isPitch) + 1];
+  assert(ending.what === "loudness" && ending.value === 0 && Math.abs(ending.from - 0.1) < 1e-9, "each tone ends by itself");
+  await page.evaluate(() => dispatchEvent(new Event("blur")));
+  await shows(page, /ended as the window was left/, "why it is still");
+  const count = (await shakes()).length;
+  await frames(page, 30);
+  assert.equal((await shakes()).length, count, "nothing after it");
+  assert.equal(await page.evaluate(() => globalThis.shaken.at(-1)), "reset");
+  await page.keyboard.up("w");
+  await page.keyboard.up("Shift");
   assert.deepEqual(wrong, []);
 });

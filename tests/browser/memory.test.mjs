@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, openFile, settled, shownTriangles } from "./app.mjs";
+import { REDUCTION, openFile, settled, shownTriangles, workersOn } from "./app.mjs";
 import { COARSE, dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
@@ -83,7 +83,7 @@ test("a file that does not fit into memory is told, and what was open stays", as
 test("an answer that its Worker cannot copy ends that Worker, and another takes its place", async (t) => {
   const { page } = await openApp(t, browser, { context: COARSE });
   await settled(page);
-  const [worker] = page.workers();
+  const [worker] = workersOn(page, "pipeline");
   await worker.evaluate(limitArrays);
   await worker.evaluate(() => (self.mostBytes = 10_000));
   const iterations = twin(page, "slider", "Iterations");
@@ -91,5 +91,22 @@ test("an answer that its Worker cannot copy ends that Worker, and another takes 
   await eventually(() => page.locator("#lumen").getAttribute("aria-activedescendant"), (id) => id !== null);
   await page.keyboard.press("ArrowRight");
   await says(page, /^The computation stopped \(.*no memory left for [\d.]+ MB.*\) and was started again\. Nothing was lost\.$/);
+  await works(page, 60);
+});
+
+test("a computation that has no memory left is not begun again by itself, and what is shown stays", async (t) => {
+  const { page } = await openApp(t, browser, { context: COARSE });
+  const shown = shownTriangles(await settled(page));
+  const [worker] = workersOn(page, "pipeline");
+  // A program whose allocation fails ends in this trap.
+  await worker.evaluate(() => {
+    // (module (func (export "f") unreachable))
+    const bytes = [0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 7, 5, 1, 1, 102, 0, 0, 10, 5, 1, 3, 0, 0, 11];
+    const { f } = new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.from(bytes))).exports;
+    setTimeout(f);
+  });
+  await says(page, /^The computation stopped \(there is no memory left beyond its [\d.]+ GB\)\. What is shown is still there/);
+  assert.equal(shownTriangles(await texts(page)), shown);
+  // A setting that the levels do not hold asks for another, which does as before.
   await works(page, 60);
 });

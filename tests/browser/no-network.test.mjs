@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { REDUCTION, openFile, save, settled } from "./app.mjs";
+import { REDUCTION, loaded, openFile, save, settled } from "./app.mjs";
 import { COARSE, data, dragTo, launch, openApp } from "./browser.mjs";
 
 const AORTA = join(data, "real/aorta-surface-segment-2.stl");
@@ -14,14 +14,14 @@ before(async () => (browser = await launch()));
 after(() => browser.close());
 
 test("no request leaves the page after it is loaded", { skip: existsSync(AORTA) ? false : `${AORTA} is not there` }, async (t) => {
-  let loaded = false;
+  let isLoaded = false;
   const requests = { loading: [], later: [] };
   const listen = (page) =>
     // The context hears its Workers too.
-    page.context().on("request", (request) => (loaded ? requests.later : requests.loading).push(request.url()));
+    page.context().on("request", (request) => (isLoaded ? requests.later : requests.loading).push(request.url()));
   const { page, address } = await openApp(t, browser, { context: COARSE, before: listen });
-  await settled(page);
-  loaded = true;
+  await loaded(page);
+  isLoaded = true;
 
   await openFile(page, AORTA);
   await settled(page);

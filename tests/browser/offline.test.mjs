@@ -51,6 +51,24 @@ async function versions(page) {
   return found.page;
 }
 
+/** Waits until the page has found the new build that is served, and that waits. */
+async function findNew(page) {
+  await page.evaluate(() => navigator.serviceWorker.getRegistration().then((registration) => registration.update()));
+  const waits = () => page.evaluate(() => navigator.serviceWorker.getRegistration().then(({ waiting }) => waiting !== null));
+  await eventually(waits, Boolean, { what: "the new build, ready" });
+  assert.equal((await caches(page)).length, 2);
+}
+
+/** Waits until the page is of a build, whole. */
+async function becomes(page, wanted) {
+  await eventually(
+    () => page.evaluate(() => document.querySelector('meta[name="lumen-version"]')?.content).catch(() => null),
+    (version) => version === wanted,
+    { what: "the new build" },
+  );
+  assert.equal(await versions(page), wanted);
+}
+
 /** The text of a file as the page gets it. */
 const text = (page, address) => page.evaluate((address) => fetch(address).then((response) => response.text()), address);
 
@@ -97,27 +115,44 @@ test("a new build takes the place of the old one at the next start, whole", asyn
   await kept(page);
 
   await folder.to(second);
-  await page.evaluate(() => navigator.serviceWorker.getRegistration().then((registration) => registration.update()));
-  const waits = () => page.evaluate(() => navigator.serviceWorker.getRegistration().then(({ waiting }) => waiting !== null));
-  await eventually(waits, Boolean, { what: "the new build, ready" });
-  assert.equal((await caches(page)).length, 2);
+  await findNew(page);
   // The page that is open goes on with the files of its own build.
   const style = await text(page, `style.css?v=${before}`);
   assert(!style.includes("second"));
 
   await page.reload();
   const after = await versionOf(second);
-  await eventually(
-    () => page.evaluate(() => document.querySelector('meta[name="lumen-version"]')?.content).catch(() => null),
-    (version) => version === after,
-    { what: "the new build" },
-  );
-  assert.equal(await versions(page), after);
+  await becomes(page, after);
   assert((await text(page, `style.css?v=${after}`)).includes("second"));
   await eventually(() => caches(page), (names) => names.length === 1 && names[0].endsWith(after), { what: "the old build, gone" });
   // A file of another build is none at all.
   assert.equal(await text(page, `style.css?v=${before}`).catch(() => "refused"), "refused");
   assert.deepEqual(wrong.filter((line) => !line.includes("ERR_FAILED")), []);
+});
+
+test("a second tab leaves the first its build, and a link that is opened alone has the new one", async (t) => {
+  const next = join(scratch, "next");
+  await anotherBuild(dist, next, "next");
+  const folder = await served("two-tabs", dist);
+  const { page, address, wrong } = await openApp(t, browser, { context: COARSE, folder: folder.path });
+  const before = await versions(page);
+  await kept(page);
+  await folder.to(next);
+  await findNew(page);
+
+  const second = await page.context().newPage();
+  await second.goto(address);
+  assert.equal(await versions(second), before);
+  // What the first has not asked for yet, a Worker for the trial, is there for it.
+  assert((await text(page, `worker.js?v=${before}`)).includes("worker_main"));
+  assert.deepEqual(wrong, []);
+
+  const context = page.context();
+  await page.close();
+  await second.close();
+  const third = await context.newPage();
+  await third.goto(`${address}#v=1`);
+  await becomes(third, await versionOf(next));
 });
 
 test("a server that has files of two builds leaves the old one standing", async (t) => {

@@ -23,6 +23,11 @@ after(async () => {
   await rm(folder, { recursive: true });
 });
 
+/** A link to a sample at 70 %. */
+const LINK =
+  "v=1&sample=aorta&keep=largest&window=hamming&pass-band=0.01&iterations=100&boundary=loop&preserve-volume=no&adapt=yes" +
+  "&guard=yes&method=schroeder&feature-angle=60&spare-thin=no&reduction=70&tolerance=2";
+
 /** Waits until the app says something. */
 const says = (page, words) =>
   eventually(() => texts(page), (all) => all.some((text) => text.includes(words)), { timeout: 90_000, what: `"${words}"` });
@@ -74,7 +79,7 @@ test("settings and the name come back after a reload, the surface only where it 
   await openFile(page, vessel);
   await says(page, "vessel.stl is back");
 
-  await choose(page, "menuitemcheckbox", "Keep this surface on this device");
+  await choose(page, "menuitemcheckbox", "Keep opened surfaces on this device");
   await eventually(() => surfaces(page), (count) => count === 1, { what: "the surface, kept" });
   await eventually(() => kept(page), (text) => text.includes('keeps_surface\\":true'), { what: "that it is kept" });
   await page.reload();
@@ -116,6 +121,48 @@ test("a link has the settings and tells whether the file is the same", async (t)
   await says(theirs, "This is another file than the one that the link belongs to");
   await openFile(theirs, vessel);
   await says(theirs, "This is what the link belongs to: you see the same.");
+});
+
+test("a link is followed once: a reload brings back what was made of it since", async (t) => {
+  const { page, address } = await openApp(t, browser, { context: COARSE });
+  await settled(page);
+  await page.evaluate((link) => (location.hash = link), LINK);
+  await says(page, "The settings of the link are in force.");
+  assert.equal(await value(twin(page, "slider", REDUCTION)), 70);
+  assert.equal(page.url(), address);
+  const rate = await dragTo(page, REDUCTION, 40);
+  await settled(page);
+  await eventually(() => kept(page), (text) => text.includes(`Reduction\\":${rate * 10}`), { what: "the rate, kept" });
+  await page.reload();
+  await started(page);
+  await says(page, "The settings and the view are as they were left.");
+  assert.equal(await value(twin(page, "slider", REDUCTION)), rate);
+  // The same link once more, and the page by its own name.
+  await page.evaluate((link) => (location.hash = link), LINK);
+  await eventually(() => value(twin(page, "slider", REDUCTION)), (now) => now === 70, { what: "the rate of the link" });
+  await page.goto(`${address}index.html`);
+  await started(page);
+  await says(page, "The settings and the view are as they were left.");
+});
+
+test("where there is no room for a surface, the one before does not come back in its place", async (t) => {
+  const { page } = await openApp(t, browser, { context: COARSE });
+  await settled(page);
+  await openFile(page, vessel);
+  await says(page, "vessel.stl");
+  // While it is being opened, Escape would be for that.
+  await settled(page);
+  await choose(page, "menuitemcheckbox", "Keep opened surfaces on this device");
+  await says(page, "vessel.stl, and each surface file that is opened after it, is kept on this device");
+  await eventually(() => surfaces(page), (count) => count === 1, { what: "the surface, kept" });
+  await page.evaluate(() => {
+    IDBObjectStore.prototype.put = () => {
+      throw new DOMException("no room", "QuotaExceededError");
+    };
+  });
+  await openFile(page, { name: "second.stl", buffer: await readFile(vessel) });
+  await says(page, "second.stl is not kept: this browser has no room for");
+  assert.equal(await surfaces(page), 0);
 });
 
 test("after a panic the result can still be saved", async (t) => {

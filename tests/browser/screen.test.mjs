@@ -55,15 +55,15 @@ const touch = (session, type, points) =>
 
 const middle = ({ x, y, width, height }) => ({ x: x + width / 2, y: y + height / 2 });
 
-/** Swipes the panel up from its head until a control is in sight; its box. */
+/** Swipes the panel up from below its handle until a control is in sight; its box. */
 async function swipedTo(page, session, control) {
   const { height } = PHONE.viewport;
   for (let i = 0; i < 9; i++) {
     const box = await control.boundingBox();
     if (box.y + box.height < height - 48) return box;
     const x = [250, 200, 340][i % 3];
-    await touch(session, "touchStart", [{ x, y: 490 }]);
-    for (let y = 490; y > 300; y -= 30) {
+    await touch(session, "touchStart", [{ x, y: 580 }]);
+    for (let y = 580; y > 390; y -= 30) {
       await touch(session, "touchMove", [{ x, y }]);
       await frames(page, 2);
     }

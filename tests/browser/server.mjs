@@ -20,9 +20,11 @@ const MEDIA_TYPES = {
 /**
  * Serves `folder` on a free port of this machine. `slow` is the number of bytes per millisecond a module is sent with
  * (0: as fast as it goes), so that a download lasts long enough to be looked at. `headers` go with every answer, and
- * `files` has what is served beside the folder: { name: { type, body } }.
+ * `files` has what is served beside the folder: { name: { type, body } }, where the body may be a promise. The result has the
+ * addresses that were asked for, without the prefix, in their order.
  */
 export async function serve(folder, { slow = 0, headers = {}, files = {} } = {}) {
+  const asked = [];
   const server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
     const name = normalize(path.slice(PREFIX.length) || "index.html");
@@ -30,8 +32,9 @@ export async function serve(folder, { slow = 0, headers = {}, files = {} } = {})
       response.writeHead(404).end();
       return;
     }
+    asked.push(request.url.slice(PREFIX.length));
     try {
-      const body = files[name]?.body ?? (await readFile(join(folder, name)));
+      const body = (await files[name]?.body) ?? (await readFile(join(folder, name)));
       const type = files[name]?.type ?? MEDIA_TYPES[extname(name)] ?? "application/octet-stream";
       // No policy, no length, no caching: the plainest host there is.
       response.writeHead(200, { "Content-Type": type, "Cache-Control": "no-store", ...headers });
@@ -43,6 +46,7 @@ export async function serve(folder, { slow = 0, headers = {}, files = {} } = {})
   });
   await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
   return {
+    asked,
     address: `http://127.0.0.1:${server.address().port}${PREFIX}`,
     close: () => new Promise((closed) => (server.closeAllConnections(), server.close(closed))),
   };

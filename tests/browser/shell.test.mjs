@@ -12,9 +12,12 @@ let browser;
 before(async () => (browser = await launch()));
 after(() => browser.close());
 
-test("a first visit downloads at most 4 MB, compressed", async () => {
+test("a first visit downloads at most 4 MB, compressed, before the app starts", async () => {
   const files = await readdir(dist, { recursive: true, withFileTypes: true });
-  const sizes = files.filter((file) => file.isFile()).map(async (file) => {
+  // What reads scans is fetched in the background after the first picture (scans.test.mjs).
+  const first = files.filter((file) => file.isFile() && !file.name.startsWith("lumen-scan"));
+  assert(first.length < files.length, "there is a second program");
+  const sizes = first.map(async (file) => {
     return gzipSync(await readFile(join(file.parentPath ?? file.path, file.name))).length;
   });
   const total = (await Promise.all(sizes)).reduce((sum, size) => sum + size, 0);

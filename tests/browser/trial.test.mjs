@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { atEntry, atRest, fed, settled } from "./app.mjs";
+import { atEntry, atRest, fed, settled, workersOn } from "./app.mjs";
 import { eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 /** How long the autopilot may take. */
@@ -24,12 +24,12 @@ const told = (page, pattern, what, timeout = 60_000) =>
 test("the autopilot steers the wire to the target, and the log is saved", { timeout: 4 * LIMIT }, async (t) => {
   const { page, wrong } = await openApp(t, browser);
   await settled(page);
-  assert.equal(page.workers().length, 1, "no Worker before it is needed");
+  assert.equal(workersOn(page, "trial").length, 0, "no Worker before it is needed");
 
   await press(page, "button", "Trial");
   await twin(page, "img", "Fluoroscopy view").waitFor({ state: "attached" });
   await told(page, /^[\d.]+ cm$/, "the wire at the entry");
-  assert.equal(page.workers().length, 2, "the trial has a Worker of its own");
+  assert.equal(workersOn(page, "trial").length, 1, "the trial has a Worker of its own");
   await press(page, "button", "Autopilot");
   const end = await told(page, /^(Success|Failed)/, "the end of the trial", LIMIT);
   t.diagnostic(end);

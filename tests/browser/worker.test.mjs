@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, atEntry, openFile, save, settled, shownTriangles, stlTriangles } from "./app.mjs";
+import { REDUCTION, atEntry, openFile, save, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
 import { COARSE, dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
@@ -43,12 +43,12 @@ test("the engine dies twice, and what was open is never lost", { timeout: 300_00
   await dragTo(page, REDUCTION, 50);
   const shown = shownTriangles(await settled(page));
   for (let death = 1; death <= 2; death++) {
-    await kill(page.workers()[0]);
+    await kill(workersOn(page, "pipeline")[0]);
     await says(page, /^The computation stopped \(.+\) and was started again\. Nothing was lost\.$/);
     const all = await settled(page);
     assert.equal(shownTriangles(all), shown, `after death ${death}`);
     assert(all.some((text) => /sheet\.obj/.test(text)) || (await twin(page, "img", /shaded/i).count()) > 0);
-    assert.equal(page.workers().length, 1, "one Worker, no more");
+    assert.equal(workersOn(page, "pipeline").length, 1, "one Worker, no more");
   }
   const { bytes } = await save(page, "STL");
   assert.equal(stlTriangles(bytes), shown, "the new engine saves what is shown");
@@ -68,7 +68,7 @@ test("an engine that dies at every start is left alone, and what is shown can st
       }
     };
   });
-  await kill(page.workers()[0]);
+  await kill(workersOn(page, "pipeline")[0]);
   await says(page, /^The computation keeps stopping \(.+\)\. What is shown is still there and can be saved/);
   const started = await page.evaluate(() => window.started);
   await new Promise((later) => setTimeout(later, 2000));
@@ -84,7 +84,7 @@ test("the trial's engine dies: the surface stays, and a new trial starts", { tim
   const shown = shownTriangles(await settled(page));
   await press(page, "button", "Trial");
   await atEntry(page);
-  const [, trial] = page.workers();
+  const [trial] = workersOn(page, "trial");
   await kill(trial);
   await says(page, /^The trial stopped \(.+\)\. The surface is still open; start again\.$/);
   await press(page, "button", "Trial");

@@ -62,8 +62,8 @@ fn flat_cells_of_a_grid_are_its_surface() {
 fn other_data_are_refused_by_their_name() {
     let xml = |kind: &str| refused(format!("<?xml version=\"1.0\"?><VTKFile type=\"{kind}\"></VTKFile>").as_bytes());
     let legacy = |kind: &str| refused(format!("# vtk DataFile Version 3.0\n\nASCII\nDATASET {kind}\n").as_bytes());
-    assert!(xml("ImageData").starts_with("This is an image volume (VTK image data)"));
-    assert!(legacy("STRUCTURED_POINTS").starts_with("This is an image volume (VTK structured points)"));
+    assert!(xml("ImageData").starts_with("This is no surface but an image volume (VTK image data)"));
+    assert!(legacy("STRUCTURED_POINTS").starts_with("This is no surface but an image volume (VTK structured points)"));
     assert!(xml("StructuredGrid").starts_with("This is VTK data of another kind (StructuredGrid)"));
     assert!(legacy("RECTILINEAR_GRID").starts_with("This is VTK data of another kind (RECTILINEAR_GRID)"));
     for kind in ["Collection", "PPolyData", "vtkMultiBlockDataSet"] {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use lumen::sharing::{SharedSettings, write_settings};
 use sha2::{Digest as _, Sha256};
 
 use crate::program::{Folder, json, lumen, succeed};
@@ -78,11 +79,21 @@ fn names_that_collide_are_told_before_anything_is_written() {
         std::fs::write(&path, "never read").unwrap();
         path
     });
-    let cases: [(&[&str], &str); 4] = [
+    let (settings, summary) = (folder.file("x/Vessel.json"), format!("{out}/summary.csv"));
+    std::fs::write(&settings, write_settings(&SharedSettings::default())).unwrap();
+    let report = format!("{out}/./VESSEL.json");
+    let cases: [(&[&str], &str); 11] = [
         (&[&first, &second, "-o", &out], "would both be written to"),
-        (&[&first, "-o", &folder.file("x/")], "would be overwritten, and is to be read"),
+        (&[&first, "-o", &folder.file("x/")], "is to be read"),
+        (&[&first, "sample:aorta", "-o", &out, "--save-settings", &first], "is to be read"),
+        (&[&first, "sample:aorta", "-o", &out, "--save-settings", &report], "would both be written to"),
+        (&[&first, "sample:aorta", "-o", &out, "--save-settings", &summary], "would both be written to"),
+        (&[&second, "-o", &folder.file("x/"), "--settings", &settings], "is to be read"),
+        (&[&first, "sample:aorta", "-o", &out, "--save-settings", &settings, "--reduction", "safe"], "is for one file"),
         (&[&first, &second, "-o", &second], "is no folder"),
         (&[&first, "-o", &format!("{out}/"), "--report", "r.json"], "--report is for one file"),
+        (&[&first, &second, "-o", &format!("{out}.stl")], "would be a folder: if it is to be one"),
+        (&[&first, "-o", &format!("{out}.stl"), "--jobs", "2"], "--jobs is for many files"),
     ];
     for (arguments, sentence) in cases {
         let output = lumen(&[&["optimise"], arguments].concat());
@@ -91,9 +102,30 @@ fn names_that_collide_are_told_before_anything_is_written() {
         assert!(error.contains(sentence), "{arguments:?}: {error}");
     }
     assert!(!Path::new(&out).exists());
+    assert_eq!(std::fs::read_to_string(&first).unwrap(), "never read");
     let empty = folder.file("empty");
     std::fs::create_dir_all(&empty).unwrap();
     assert_eq!(lumen(&["optimise", &empty, "-o", &out]).status.code(), Some(1));
+}
+
+/// Whoever listens to the run goes away before the first surface is there.
+#[test]
+fn results_are_in_the_summary_though_nobody_hears_of_them() {
+    use std::process::{Command, Stdio};
+
+    let folder = Folder::new("batch-deaf");
+    let vessels = vessels(&folder);
+    let out = folder.file("out");
+    let mut run = Command::new(env!("CARGO_BIN_EXE_lumen"))
+        .args(["optimise", &vessels, "-o", &out, "--jobs", "2"])
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    drop(run.stderr.take());
+    assert_eq!(run.wait().unwrap().code(), Some(1));
+    let rows = rows(&format!("{out}/summary.csv"));
+    assert_eq!(rows.iter().map(|row| &*row["status"]).collect::<Vec<_>>(), ["ok", "ok", "failed"]);
 }
 
 /// Ends a run in the middle: what is in the folder then is whole.
@@ -124,5 +156,5 @@ fn an_interrupted_run_leaves_no_part_of_a_file() {
     names.sort();
     assert_eq!(names, ["small.json", "small.stl", "summary.csv"]);
     let rows = rows(&format!("{out}summary.csv"));
-    assert_eq!(rows.iter().map(|row| &*row["status"]).collect::<Vec<_>>(), ["ok", "failed", "not run"]);
+    assert_eq!(rows.iter().map(|row| &*row["status"]).collect::<Vec<_>>(), ["ok", "not run", "not run"]);
 }

@@ -484,3 +484,47 @@ fn arrays_and_axes_go_from_file_to_file() {
     assert_eq!(inspect(&out)["axes"], "ras");
     assert_eq!(optimise(&lps, &out, &["--axes-in", "ras"]).0, Some(1));
 }
+
+#[test]
+fn mend_says_what_was_wrong_and_what_is_left() {
+    let folder = Folder::new("mend");
+    let (tube, out, report) = (folder.file("tube.obj"), folder.file("out.ply"), folder.file("report.json"));
+    // A box of 30 by 30 by 60 mm as 6 quads, without one triangle, and with a fin.
+    let mut text = String::new();
+    for i in 0..8 {
+        text += &format!("v {} {} {}\n", 30 * (i & 1), 30 * (i >> 1 & 1), 60 * (i >> 2));
+    }
+    text += "v 45 45 30\nf 1 3 4 2\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\nf 5 6 8\nf 4 8 9\n";
+    std::fs::write(&tube, text).unwrap();
+    let found: Value = serde_json::from_str(&succeed(&["inspect", &tube, "--json"])).unwrap();
+    assert_eq!((&found["faults"]["non_manifold_edges"], &found["faults"]["holes"]), (&1.into(), &1.into()));
+    let table = succeed(&["mend", &tube, "-o", &out, "--split", "--fill-holes", "100", "--report", &report]);
+    assert!(table.contains("holes filled"), "{table}");
+    let told = json(&report);
+    assert_eq!((&told["mending"]["edges_split"], &told["mending"]["holes_filled"]), (&1.into(), &1.into()));
+    assert_eq!((&told["faults_after"]["non_manifold_edges"], &told["faults_after"]["holes"]), (&0.into(), &0.into()));
+    let refused = lumen(&["mend", &tube, "-o", &out]);
+    let error = String::from_utf8_lossy(&refused.stderr);
+    assert!(refused.status.code() == Some(2) && error.contains("nothing is asked for"), "{error}");
+}
+
+#[test]
+fn the_unit_is_found_by_the_size_where_only_one_would_do() {
+    let folder = Folder::new("unit");
+    let (file, out, report) = (folder.file("box.obj"), folder.file("out.ply"), folder.file("report.json"));
+    // A box of 3 by 3 by 24 cm, in metres.
+    let mut text = String::new();
+    for i in 0..8 {
+        text +=
+            &format!("v {} {} {}\n", 0.03 * f64::from(i & 1), 0.03 * f64::from(i >> 1 & 1), 0.24 * f64::from(i >> 2));
+    }
+    text += "f 1 3 4 2\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\nf 5 6 8 7\n";
+    std::fs::write(&file, text).unwrap();
+    let found: Value = serde_json::from_str(&succeed(&["inspect", &file, "--unit", "auto", "--json"])).unwrap();
+    assert_eq!((&found["unit"], &found["unit_by_size"]), (&"m".into(), &true.into()));
+    succeed(&["optimise", &file, "-o", &out, "--unit", "auto", "--reduction", "0", "--report", &report]);
+    assert_eq!(json(&report)["unit"], serde_json::json!({ "unit": "m", "by_size": true }));
+    // What has a usual size stays in mm.
+    let found: Value = serde_json::from_str(&succeed(&["inspect", &out, "--unit", "auto", "--json"])).unwrap();
+    assert_eq!((&found["unit"], &found["unit_by_size"]), (&"mm".into(), &false.into()));
+}

@@ -6,6 +6,7 @@ mod cli;
 mod figures;
 mod privacy;
 mod program;
+mod report;
 #[cfg(feature = "scans")]
 mod scans;
 mod settings;

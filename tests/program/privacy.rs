@@ -24,6 +24,25 @@ fn named(folder: &Folder, ending: &str) -> String {
     path
 }
 
+/// What docs/privacy.md says of the exceptions: the names of arrays are shown, and of a word that cannot be read the first
+/// twenty characters.
+#[test]
+fn what_is_quoted_of_a_file_is_what_the_documents_say() {
+    let folder = Folder::new("privacy-quoted");
+    let named = folder.file("named.ply");
+    let head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+        property float DOE^JANE\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n";
+    let body = "0 0 0 1\n30 0 0 2\n0 30 0 3\n0 0 30 4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    std::fs::write(&named, [head, body].concat()).unwrap();
+    assert!(succeed(&["inspect", &named]).contains("array DOE^JANE"));
+    let broken = folder.file("broken.obj");
+    std::fs::write(&broken, "v 0 0 0\nv 1 0 0\nv 0 DOE^JANE^1950-01-02^PID4711 0\nf 1 2 3\n").unwrap();
+    let output = lumen(&["inspect", &broken]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && error.contains("\"DOE^JANE^1950-01-02^...\""), "{error}");
+    assert!(!error.contains("PID4711"), "{error}");
+}
+
 #[test]
 fn words_of_a_header_are_in_no_output() {
     let folder = Folder::new("privacy");

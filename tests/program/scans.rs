@@ -8,7 +8,7 @@ use crate::program::{Folder, json, lumen, succeed};
 /// MetaImage of bytes: `inside` where it is, else 0; or as a scan that falls by 20 a mm and is 100 at the wall.
 fn ball(inside: Option<u8>) -> Vec<u8> {
     let mut bytes = b"ObjectType = Image\nNDims = 3\nBinaryData = True\nTransformMatrix = -1 0 0 0 1 0 0 0 1\n\
-        Offset = 20 -35 85\nElementSpacing = 0.5 0.5 1\nDimSize = 61 61 31\nElementType = MET_UCHAR\n\
+        AnatomicalOrientation = LAI\nOffset = 20 -35 85\nElementSpacing = 0.5 0.5 1\nDimSize = 61 61 31\nElementType = MET_UCHAR\n\
         ElementDataFile = LOCAL\n"
         .to_vec();
     for k in 0..31 {
@@ -68,6 +68,39 @@ fn a_scan_is_cut_at_a_threshold_within_a_box() {
 }
 
 #[test]
+fn what_is_strange_about_a_scan_is_said_once() {
+    let folder = Folder::new("scan-warnings");
+    let (scan, out) = (folder.file("scan.nrrd"), folder.file("out.ply"));
+    let head = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 61 61 31\nspacings: 0.5 0.5 1\nencoding: raw\n\n";
+    let ball = ball(None);
+    std::fs::write(&scan, [head.as_bytes(), &ball[ball.len() - 61 * 61 * 31..]].concat()).unwrap();
+    for arguments in [
+        &["inspect", &scan][..],
+        &["inspect", &scan, "--threshold", "100"],
+        &["surface", &scan, "--threshold", "100", "-o", &out],
+        &["optimise", &scan, "--threshold", "100", "-o", &out],
+    ] {
+        let output = lumen(arguments);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{arguments:?}: {error}");
+        let said =
+            error.lines().filter(|line| line.starts_with("lumen: warning: ") && line.contains("the axes are unknown"));
+        assert_eq!(said.count(), 1, "{arguments:?}: {error}");
+    }
+    // What the scan does not say is asserted nowhere, but taken from whoever knows it.
+    assert!(!std::fs::read(&out).unwrap().windows(6).any(|word| word == b"SPACE="));
+    for file in [&scan, &out] {
+        let facts: Value = serde_json::from_str(&succeed(&["inspect", file, "--json"])).unwrap();
+        assert_eq!(facts["axes"], "unknown", "{file}");
+    }
+    let turned = ["optimise", &scan, "--threshold", "100", "-o", &out, "--axes", "ras"];
+    assert_eq!(lumen(&turned).status.code(), Some(1));
+    succeed(&[&turned[..], &["--axes-in", "lps"]].concat());
+    let facts: Value = serde_json::from_str(&succeed(&["inspect", &out, "--json"])).unwrap();
+    assert_eq!(facts["axes"], "ras");
+}
+
+#[test]
 fn what_makes_no_sense_is_refused() {
     let folder = Folder::new("scan-refused");
     let (scan, out) = (folder.file("scan.mha"), folder.file("out.ply"));
@@ -84,6 +117,8 @@ fn what_makes_no_sense_is_refused() {
     refused(&["surface", &scan, "-o", &out, "--threshold", "9", "--box", "5,1,0,9,0,9"], 2, "six voxel numbers");
     refused(&["optimise", "sample:aorta", "-o", &out, "--label", "1"], 2, "is a surface");
     refused(&["optimise", &scan, "-o", &out, "--threshold", "100", "--unit", "cm"], 1, "--unit makes no sense");
+    refused(&["inspect", &scan, "--unit", "cm"], 1, "--unit makes no sense");
+    refused(&["inspect", &scan, "--box", "0,9,0,9,0,9"], 2, "say with --threshold or --label");
     refused(&["surface", &scan, "-o", &scan], 2, "does not end in");
     assert!(!std::path::Path::new(&out).exists());
 }

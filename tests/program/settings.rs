@@ -1,5 +1,6 @@
 //! The settings file: what is saved is what was used, and read it makes the same.
 
+use lumen::sharing::{SharedSettings, write_settings};
 use serde_json::json;
 
 use crate::program::{Folder, json, lumen, succeed};
@@ -50,6 +51,17 @@ fn settings_that_cannot_be_used_are_refused_before_any_work() {
         assert_eq!(output.status.code(), Some(1), "{error}");
         assert!(error.contains(sentence) && error.lines().count() == 1, "{error}");
     }
-    assert_eq!(lumen(&["optimise", "sample:aorta", "-o", &out, "--save-settings", &out]).status.code(), Some(2));
+    std::fs::write(&settings, write_settings(&SharedSettings::default())).unwrap();
+    for (option, path, sentence) in [
+        ("--save-settings", &out, "would both be written to"),
+        ("--report", &folder.file("./out.stl"), "would both be written to"),
+        ("--report", &settings, "is to be read"),
+        ("--save-settings", &settings, "is to be read"),
+    ] {
+        let output = lumen(&["optimise", "sample:aorta", "-o", &out, "--settings", &settings, option, path]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{option} {path}: {error}");
+        assert!(error.contains(sentence), "{option} {path}: {error}");
+    }
     assert!(!std::path::Path::new(&out).exists());
 }

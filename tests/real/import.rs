@@ -3,10 +3,11 @@
 //! The data are not part of the repository: they are looked for where `LUMEN_DATA` says, else in `../shared/data`
 //! beside the checkout.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use libtest_mimic::{Failed, Trial};
-use lumen::io::{Format, ImportOptions, ImportReport, Imported, ReadError, read, write};
+use lumen::io::{Format, ImportOptions, ImportReport, Imported, ReadError, Unit, read, write};
 use lumen::mesh::{Topology, Vec3};
 
 pub(crate) fn trials(data: &Path) -> Vec<Trial> {
@@ -26,7 +27,69 @@ pub(crate) fn trials(data: &Path) -> Vec<Trial> {
         }));
     }
     assert!(trials.len() > 60, "INDEX.md is read whole");
+    let is_encoding = |row: &Row| {
+        row.file.starts_with("formats/") && row.facts.is_some_and(|facts| facts.triangles == ENCODED_TRIANGLES)
+    };
+    let encodings: Vec<String> = index.lines().filter_map(Row::parse).filter(is_encoding).map(|row| row.file).collect();
+    assert_eq!(encodings.len(), 27, "29 less the two that hold it twice");
+    let data = data.to_path_buf();
+    trials.push(Trial::test("import: one surface in all encodings", move || one_surface(&data, &encodings)));
     trials
+}
+
+/// The surface that `formats/` holds in many encodings, and how many triangles it has.
+const ENCODED: &str = "real/aorta-surface-open-ends.stl";
+const ENCODED_TRIANGLES: usize = 11_887;
+/// VTK writes legacy text with six digits: of coordinates from 100 to 1000 mm half a thousandth is lost.
+const SIX_DIGITS: f32 = 6e-4;
+
+type Corners = [Vec3; 3];
+
+/// Each file has the triangles of the surface, corner for corner: to the bit, but for text of six digits.
+fn one_surface(data: &Path, files: &[String]) -> Result<(), Failed> {
+    let mut near: BTreeMap<[i32; 3], Vec<Corners>> = BTreeMap::new();
+    for triangle in corners(&data.join(ENCODED))? {
+        near.entry(cell(&triangle)).or_default().push(triangle);
+    }
+    for file in files {
+        let apart = if file.contains("legacy_ascii") { SIX_DIGITS } else { 0.0 };
+        let triangles = corners(&data.join(file))?;
+        let found = |cell: [i32; 3], triangle: &Corners| {
+            near.get(&cell).is_some_and(|others| others.iter().any(|other| are_same(triangle, other, apart)))
+        };
+        for triangle in &triangles {
+            let [x, y, z] = cell(triangle);
+            let mut around = (0..27).map(|i| [x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]);
+            if !found([x, y, z], triangle) && !around.any(|cell| found(cell, triangle)) {
+                return Err(format!("{file}: {triangle:?} is none of the surface").into());
+            }
+        }
+        // Two that six digits leave no area are left out.
+        let least = if apart > 0.0 { ENCODED_TRIANGLES - 2 } else { ENCODED_TRIANGLES };
+        assert_eq!(triangles.len(), least, "{file}");
+    }
+    Ok(())
+}
+
+/// The triangles of a file in its own unit and axes.
+fn corners(path: &Path) -> Result<Vec<Corners>, Failed> {
+    let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let options = ImportOptions { unit: Some(Unit::Millimetre) };
+    let imported = read(&bytes, &path.to_string_lossy(), &options).map_err(|error| error.to_string())?;
+    // y is up in GLB, z in Lumen.
+    let is_turned = imported.report.format == "GLB";
+    let placed = |p: Vec3| if is_turned { Vec3::new(p.x, p.z, -p.y) } else { p };
+    Ok((0..imported.mesh.triangles.len()).map(|t| imported.mesh.corners(t).map(placed)).collect())
+}
+
+/// The place of a triangle's centre in a grid of a quarter of a mm.
+fn cell(triangle: &Corners) -> [i32; 3] {
+    (triangle.iter().sum::<Vec3>() / 3.0 * 4.0).floor().to_array().map(|x| x as i32)
+}
+
+/// Whether corners lie no farther apart along any axis than that, whichever is the first.
+fn are_same(a: &Corners, b: &Corners, apart: f32) -> bool {
+    (0..3).any(|first| (0..3).all(|i| (a[i] - b[(first + i) % 3]).abs().max_element() <= apart))
 }
 
 /// What INDEX.md says about a surface.
@@ -129,8 +192,8 @@ fn deliberate(file: &str) -> Option<Facts> {
 fn refusal(file: &str) -> Option<&'static str> {
     Some(match file {
         "reject/carotid.vtk" => {
-            "This is an image volume (VTK structured points), and Lumen opens surfaces: segment it and save the surface \
-             first."
+            "This is no surface but an image volume (VTK structured points) that is broken or of a kind that Lumen does \
+             not read: segment it and save the surface."
         }
         "reject/centerline_curves.vtk" => {
             "The VTK ascii file holds no surface, only 145 lines and 0 points: Lumen does not open centrelines."

@@ -20,6 +20,7 @@ mod arrays;
 mod guarantees;
 mod import;
 mod measures;
+mod mending;
 mod pipeline;
 mod route;
 #[cfg(feature = "scans")]
@@ -40,6 +41,7 @@ fn main() {
                 guarantees::trials,
                 import::trials,
                 measures::trials,
+                mending::trials,
                 pipeline::trials,
                 spare_thin::trials,
                 route::trials,

@@ -64,12 +64,12 @@ fn check(path: &Path, ends: [usize; 2], length: [f64; 2], wire: f64) -> Result<(
 fn check_level(mesh: &TriMesh, ends: [usize; 2], length: [f64; 2], wire: f64) -> Result<(), Failed> {
     let tree = Tree::new(mesh)?;
     let entries = tree.entries();
-    let targets = entries.first().map(|entry| tree.targets(Vec3::from(entry.at), 0.0)).unwrap_or_default();
+    let targets = entries.first().map(|(_, entry)| tree.targets(Vec3::from(entry.at), 0.0)).unwrap_or_default();
     let found = format!("{} ends of {} triangles", entries.len(), mesh.triangles.len());
     if !(ends[0]..=ends[1]).contains(&entries.len()) {
         return Err(found.into());
     }
-    for entry in &entries {
+    for (_, entry) in &entries {
         let (at, direction) = (Vec3::from(entry.at), Vec3::from(entry.direction));
         let located = tree.locate(at.as_dvec3(), None).ok_or("a tree has branches")?;
         let onward = at + direction * (0.5 * located.radius_mm as f32);
@@ -77,7 +77,7 @@ fn check_level(mesh: &TriMesh, ends: [usize; 2], length: [f64; 2], wire: f64) ->
             return Err(format!("{found}: {entry:?} does not point into the lumen").into());
         }
     }
-    let (Some(entry), Some(target)) = (entries.first(), targets.first()) else { return Err(found.into()) };
+    let (Some((_, entry)), Some(target)) = (entries.first(), targets.first()) else { return Err(found.into()) };
     let route = tree.route(Vec3::from(entry.at), target.at)?;
     if !(length[0]..=length[1]).contains(&route.length_mm) {
         return Err(format!("{found}: a route of {} mm", route.length_mm).into());

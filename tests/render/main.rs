@@ -4,17 +4,20 @@
 #![cfg(feature = "gui")]
 
 mod device;
+mod occlusion;
 mod shapes;
+mod slices;
 mod stage;
 mod trial;
 
 use std::collections::BTreeSet;
 use std::f32::consts::PI;
 
-use glam::{Vec2, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use lumen::mesh::{Bounds, TriMesh};
 use lumen::render::{
-    Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, Style, SurfaceError, ViewTarget, viridis,
+    Camera, ClipPlane, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, Style, SurfaceError, ViewTarget,
+    diverging, viridis,
 };
 use shapes::{arch, sphere, square, together};
 use stage::{in_front_of, plain, shown, stage};
@@ -220,6 +223,66 @@ fn a_colour_map_shows_its_published_colours() {
     surface.set_scalars(&stage().device, &stage().queue, None).unwrap();
     let picture = stage().picture([101, 101], &camera, &[shown(&surface, Look::Shaded)], &style);
     assert_eq!(picture.pixel(50, 50).unwrap(), without, "no scalars, no map");
+}
+
+#[test]
+fn raking_light_parts_what_stands_ten_degrees_to_either_side() {
+    let seen = |degrees: f32, raking: bool| {
+        let turn = Quat::from_rotation_z(degrees.to_radians());
+        let mut mesh = square(20.0, 0.0);
+        mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
+        let surface = stage().surface(&mesh);
+        let camera = in_front_of(&square(20.0, 0.0), 1.0);
+        let style = Style { raking, ..Style::LIGHT };
+        Colour(stage().picture([51, 51], &camera, &[shown(&surface, Look::Shaded)], &style).pixel(25, 25).unwrap())
+    };
+    let parted = |raking| lumen::render::contrast(seen(10.0, raking), seen(-10.0, raking));
+    let (even, from_the_side) = (parted(false), parted(true));
+    assert!(even < 1.5 && from_the_side > 2.0 * even, "{even} {from_the_side}");
+}
+
+#[test]
+fn a_map_that_goes_both_ways_is_white_in_the_middle() {
+    let mesh = square(20.0, 0.0);
+    let camera = in_front_of(&mesh, 1.0);
+    let mut surface = stage().surface(&mesh);
+    let style = Style { map: Some(ColourMap { range: (-0.5, 0.5) }), diverging: true, ..plain(BLACK) };
+    for (scalar, t) in [(-0.5, 0.0), (-0.2, 0.3), (0.0, 0.5), (0.4, 0.9), (3.0, 1.0)] {
+        surface.set_scalars(&stage().device, &stage().queue, Some(&[scalar; 4])).unwrap();
+        let picture = stage().picture([101, 101], &camera, &[shown(&surface, Look::Shaded)], &style);
+        let found = picture.pixel(50, 50).unwrap();
+        // The shader's table has 256 colours, between eleven.
+        assert!(is_near(found, diverging(t), 4), "{scalar}: {found:?}, not {:?}", diverging(t));
+    }
+}
+
+#[test]
+fn a_clip_plane_leaves_out_what_lies_before_it_in_every_look() {
+    let mut mesh = sphere(10.0, 48);
+    // Turned, so that no triangle is seen exactly edge-on: where such a one is is a matter of rounding.
+    let turn = Quat::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), 0.4);
+    mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
+    let (camera, surface) = (in_front_of(&mesh, 1.0), stage().surface(&mesh));
+    for look in [Look::Shaded, Look::Flat, Look::Wireframe, Look::SeeThrough] {
+        let drawn = |clip: Option<ClipPlane>| {
+            let style = Style { clip, ..plain(WHITE) };
+            drawn_pixels(&stage().picture([201, 201], &camera, &[shown(&surface, look)], &style), WHITE)
+        };
+        let whole = drawn(None);
+        // A plane that is seen edge-on: nothing is drawn above it, and below it what was drawn before.
+        let height = pixel_of(&camera, Vec3::ZERO, [201, 201]).y;
+        let above = drawn(Some(ClipPlane { normal: Vec3::Z, offset: 0.0 }));
+        let higher: Vec<_> = above.iter().filter(|(_, y)| *y as f32 <= height - 3.0).collect();
+        assert!(higher.is_empty(), "{look:?}: {} pixels, the first at {:?}", higher.len(), higher.first());
+        let is_below = |&&(_, y): &&(u32, u32)| y as f32 > height + 3.0;
+        let below = |of: &BTreeSet<(u32, u32)>| of.iter().filter(is_below).count();
+        assert!(below(&whole) > 100 && below(&above).abs_diff(below(&whole)) * 20 < below(&whole), "{look:?}");
+        // From the front half on the inside of the back is seen, as wide as the sphere is.
+        let front = drawn(Some(ClipPlane { normal: Vec3::NEG_Y, offset: 0.0 }));
+        assert!(!front.is_empty() && front.len() <= whole.len() + whole.len() / 5, "{look:?}");
+        assert_eq!(drawn(Some(ClipPlane { normal: Vec3::X, offset: -11.0 })).len(), 0, "{look:?}: all of it");
+        assert_eq!(drawn(Some(ClipPlane { normal: Vec3::X, offset: 11.0 })), whole, "{look:?}: none of it");
+    }
 }
 
 #[test]

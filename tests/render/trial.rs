@@ -38,6 +38,7 @@ fn camera(mesh: &TriMesh) -> Camera {
         distance: 765.0,
         fov_y: 2.0 * (30.0_f32 / 765.0).atan(),
         bounds: Bounds::of(&mesh.positions),
+        ..Camera::default()
     }
 }
 

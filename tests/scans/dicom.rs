@@ -192,6 +192,27 @@ fn values_are_hounsfield_units_and_nothing_names_the_patient() {
 }
 
 #[test]
+fn what_is_said_of_a_broken_series_does_not_name_the_patient() {
+    let mut refused = 0;
+    for (what, files) in all() {
+        let longest = files.iter().map(|(_, bytes)| bytes.len()).max().unwrap();
+        for length in (132..longest).step_by(7) {
+            let cut: Files =
+                files.iter().map(|(name, bytes)| (*name, bytes[..length.min(bytes.len())].to_vec())).collect();
+            let said = match open(&cut) {
+                Ok(scan) => scan.warnings.join(" "),
+                Err(error) => {
+                    refused += 1;
+                    format!("{error} {error:?}")
+                }
+            };
+            assert!(!said.contains("Roentgen") && !said.contains("Bertha"), "{what}, {length} bytes: {said}");
+        }
+    }
+    assert!(refused > 100, "{refused} broken series");
+}
+
+#[test]
 fn baseline_pictures_are_read() {
     let slices = (0..2).map(|k| {
         let mut slice = File::slice(BASELINE, k)
@@ -261,6 +282,32 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
             "1 slices lie at the place of another: of each place the first is taken.",
         ]
     );
+}
+
+#[test]
+fn files_that_cannot_be_read_are_left_out_and_counted() {
+    let whole = series(EXPLICIT);
+    let warnings = |extra: Vec<(&'static str, Vec<u8>)>| {
+        let mut files = whole.clone();
+        files.splice(1..1, extra);
+        let scan = open(&files).unwrap();
+        assert_is_it(&scan, "beside what cannot be read");
+        scan.warnings
+    };
+    let cut = File::slice(EXPLICIT, 2).bytes()[..200].to_vec();
+    let short_of_pixels = File::slice(EXPLICIT, 4).with(0x7FE0, 0x0010, vec![0; 58]).bytes();
+    let nowhere = File::slice(EXPLICIT, 5).with(0x0020, 0x0032, Vec::new()).bytes();
+    let few = "The DICOM file is broken: a slice has fewer pixels than rows times columns.";
+    assert_eq!(
+        warnings(vec![("x", short_of_pixels.clone())]),
+        [format!("One slice cannot be read and is left out. {few}")]
+    );
+    let several = warnings(vec![("x", cut.clone()), ("y", short_of_pixels), ("z", nowhere)]);
+    assert!(
+        several.len() == 1 && several[0].starts_with("3 slices cannot be read and are left out. The"),
+        "{several:?}"
+    );
+    assert!(open(&[("x", cut)]).is_err(), "nothing is left");
 }
 
 #[test]

@@ -1,17 +1,20 @@
 //! Every way to write a volume is read as the same volume, and what cannot be read is refused in a sentence.
 
-use lumen::io::volume::{Part, data_name, is_volume, read};
+use lumen::io::Axes;
+use lumen::io::volume::{Head, Part, Scan, ScanError, begin, data_name, is_volume, read};
 use lumen::task::Task;
 use lumen::volume::{Label, Selection, Surveying, VolumeError};
 
 use crate::open;
-use crate::samples::{all, assert_is_it, gzip, little, metaimage, nrrd, vti};
+use crate::samples::{Nifti, all, assert_is_it, gzip, little, metaimage, nrrd, vti};
 
 #[test]
 fn every_way_gives_the_same_volume_in_the_same_place() {
     for (what, files) in all() {
         let scan = open(&files).unwrap_or_else(|error| panic!("{what}: {error}"));
         assert_is_it(&scan, what);
+        let is_silent = what.starts_with("vti");
+        assert_eq!(scan.axes, if is_silent { Axes::Unknown } else { Axes::Lps }, "{what}");
         assert!(files.iter().any(|(_, bytes)| is_volume(bytes)), "{what}");
     }
 }
@@ -31,9 +34,60 @@ fn headers_name_the_file_of_their_numbers() {
 fn an_unknown_space_is_told() {
     let header = nrrd("raw", "\n").replace("space: left-posterior-superior\n", "");
     let scan = open(&[("a.nrrd", [header.into_bytes(), little()].concat())]).unwrap();
-    assert_eq!(scan.warnings.len(), 1);
+    assert_eq!((scan.axes, scan.warnings.len()), (Axes::Unknown, 1));
     let scan = open(&[("a.vti", vti("", &format!("format=\"ascii\">{}", crate::samples::ascii()), b""))]).unwrap();
-    assert_eq!(scan.warnings, ["VTI does not say which way the patient lies: its axes are taken as LPS."]);
+    assert_eq!(scan.warnings, ["VTI does not say which way the patient lies: the axes are unknown."]);
+    for header in [
+        metaimage("", "LOCAL").replace("AnatomicalOrientation = RAI\n", ""),
+        metaimage("", "LOCAL").replace("RAI", "???"),
+    ] {
+        let scan = open(&[("a.mha", [header.into_bytes(), little()].concat())]).unwrap();
+        assert_eq!((scan.axes, scan.warnings.len()), (Axes::Unknown, 1));
+        assert_is_it(&scan, "its numbers are as they stand");
+    }
+    // By neither matrix nor quaternion: the place of a voxel is its index times the spacing (method 1 of NIfTI-1), and nothing
+    // says that it is RAS.
+    let mut header = Nifti::first(false, true, b"n+1\0", 352.0);
+    header[254] = 0;
+    let scan = open(&[("a.nii", [header, little()].concat())]).unwrap();
+    assert_eq!((scan.axes, scan.warnings.len()), (Axes::Unknown, 1));
+    assert_eq!(scan.grid.geometry().at(1.0, 1.0, 1.0).to_array(), [0.5, 0.75, 2.0]);
+}
+
+#[test]
+fn a_space_of_left_anterior_superior_is_turned() {
+    let header = nrrd("raw", "\n")
+        .replace("left-posterior-superior", "left-anterior-superior")
+        .replace("(0.3,0.4,0) (-0.6,0.45,0)", "(0.3,-0.4,0) (-0.6,-0.45,0)")
+        .replace("(-10,20,300)", "(-10,-20,300)");
+    let scan = open(&[("a.nrrd", [header.into_bytes(), little()].concat())]).unwrap();
+    assert_eq!((scan.axes, scan.warnings.len()), (Axes::Lps, 0));
+    assert_is_it(&scan, "nrrd in LAS");
+}
+
+#[test]
+fn lengths_in_other_units_are_made_millimetres() {
+    let grid = |name: &str, header: String| {
+        let scan = open(&[(name, [header.into_bytes(), little()].concat())]).unwrap();
+        let geometry = scan.grid.geometry();
+        ((geometry.spacing * 1e6).round() / 1e6, geometry.origin, scan.warnings)
+    };
+    // Both have steps of 0.5, 0.75 and 2 from (-10, 20, 300).
+    let (spacing, origin, none) = grid("a.nrrd", nrrd("raw", "\n"));
+    for (unit, mm) in [("mm", 1.0), ("cm", 10.0), ("um", 1e-3)] {
+        let line = format!("space units: \"{unit}\" \"{unit}\" \"{unit}\"\n\n");
+        assert_eq!(grid("a.nrrd", nrrd("raw", &line)), (spacing * mm, origin * mm, none.clone()), "{unit}");
+        let line = format!("DistanceUnits = {unit}\n");
+        let (spacing_mha, origin_mha, _) = grid("a.mha", metaimage("", "LOCAL"));
+        assert_eq!(grid("a.mha", metaimage(&line, "LOCAL")), (spacing_mha * mm, origin_mha * mm, Vec::new()), "{unit}");
+    }
+    // In metres its slices would be 2 m apart.
+    let header = nrrd("raw", "space units: \"m\" \"m\" \"m\"\n\n");
+    let refused = open(&[("a.nrrd", [header.into_bytes(), little()].concat())]).unwrap_err().to_string();
+    assert!(refused.contains("2000 mm"), "{refused}");
+    let (same, _, warnings) = grid("a.nrrd", nrrd("raw", "space units: \"ell\" \"ell\" \"ell\"\n\n"));
+    assert_eq!(same, spacing);
+    assert!(warnings.iter().any(|text| text.contains("is not known: it is taken as mm")), "{warnings:?}");
 }
 
 #[test]
@@ -79,7 +133,7 @@ fn what_cannot_be_read_is_refused_in_a_sentence() {
     );
     let packed = nrrd("gzip", "\n").replace("6 5 4", "6000 500 40").into_bytes();
     let claimed = refused("a.nrrd", [packed, gzip(&little())].concat());
-    assert!(claimed.contains("would unfold to 240000000 bytes"), "{claimed}");
+    assert!(claimed.contains("announces 240000000 bytes, more than its"), "{claimed}");
     assert!(read(&[] as &[Part]).is_err());
 }
 
@@ -96,6 +150,12 @@ fn a_mask_is_told_from_a_scan_and_its_labels_are_counted() {
     assert_eq!(Selection::choose(&mask, None, None), Ok(Selection::AnyLabel));
     let absent = Selection::choose(&mask, None, Some(2)).unwrap_err();
     assert_eq!(absent.to_string(), "There is no label 2 in the volume; it has 1, 3.");
+    // A whole body's labels are too many to be told from a scan, and each can be chosen all the same.
+    let body: Vec<String> = (0..117).map(|label| label.to_string()).collect();
+    let body = survey(&body.join(" "), "13 9 1");
+    assert!(!body.is_mask());
+    assert_eq!(Selection::choose(&body, None, Some(52)), Ok(Selection::Label(52)));
+    assert!(Selection::choose(&body, None, Some(117)).is_err());
     let scan = survey("-1000 40 300 0 60 0 0 200", "2 2 2");
     assert!(!scan.is_mask());
     assert_eq!(
@@ -107,4 +167,44 @@ fn a_mask_is_told_from_a_scan_and_its_labels_are_counted() {
     assert_eq!(above, Err(VolumeError::OutsideRange { threshold: 301.0, low: -1000.0, high: 300.0 }));
     assert!(Selection::choose(&scan, Some(f64::NAN), None).is_err());
     assert_eq!(Selection::choose(&scan, Some(180.0), None), Ok(Selection::Threshold(180.0)));
+}
+
+/// Reads a volume of which so many bytes of each file are known at first, in pieces of seven; `None` where it has to be read
+/// whole.
+fn in_pieces(files: &[(&str, Vec<u8>)], known: usize) -> Result<Option<Scan>, ScanError> {
+    let known: Vec<_> =
+        files.iter().map(|(name, bytes)| (name, &bytes[..known.min(bytes.len())], bytes.len())).collect();
+    let heads: Vec<Head> =
+        known.iter().map(|&(name, bytes, length)| Head { name, bytes, length: length as u64 }).collect();
+    let Some(mut stream) = begin(&heads)? else { return Ok(None) };
+    for piece in files[stream.file()].1[stream.start() as usize..].chunks(7) {
+        stream.push(piece)?;
+    }
+    stream.finish().map(Some)
+}
+
+#[test]
+fn a_volume_is_read_in_pieces_as_it_is_whole() {
+    let mut streamed = 0;
+    for (what, files) in all() {
+        if let Some(scan) = in_pieces(&files, 600).unwrap() {
+            assert_is_it(&scan, what);
+            streamed += 1;
+        }
+    }
+    assert_eq!(streamed, 11, "all of NIfTI, NRRD and MetaImage but text");
+    // A header that goes on beyond what is known.
+    let (_, nrrd) = all().into_iter().find(|(what, _)| *what == "nrrd").unwrap();
+    assert!(in_pieces(&nrrd, 100).unwrap_or(None).is_none());
+}
+
+#[test]
+fn what_ends_early_or_is_damaged_is_refused_in_pieces_too() {
+    for (what, mut files) in
+        all().into_iter().filter(|(what, _)| ["nii", "nii.gz", "mha of zlib", "nrrd"].contains(what))
+    {
+        let bytes = &mut files[0].1;
+        bytes.truncate(bytes.len() - 20);
+        assert!(in_pieces(&files, 600).is_err(), "{what}");
+    }
 }

@@ -72,7 +72,7 @@ pub(crate) fn assert_is_it(scan: &Scan, what: &str) {
 /// A header of MetaImage up to the place of its numbers.
 pub(crate) fn metaimage(extra: &str, data: &str) -> String {
     format!(
-        "ObjectType = Image\nNDims = 3\nBinaryData = True\n{extra}TransformMatrix = 0.6 0.8 0 -0.8 0.6 0 0 0 1\n\
+        "ObjectType = Image\nNDims = 3\nBinaryData = True\nAnatomicalOrientation = RAI\n{extra}TransformMatrix = 0.6 0.8 0 -0.8 0.6 0 0 0 1\n\
          Offset = -10 20 300\nElementSpacing = 0.5 0.75 2\nDimSize = 6 5 4\nElementType = MET_SHORT\n\
          ElementDataFile = {data}\n"
     )
@@ -244,4 +244,17 @@ pub(crate) fn all() -> Vec<(&'static str, crate::Files)> {
     ));
     ways.extend(crate::dicom::all());
     ways
+}
+
+/// Writes the samples of one file into the folder that `LUMEN_SEEDS` names: `cargo xtask fuzz-files` begins with them.
+#[test]
+fn seeds_are_written_where_they_are_asked_for() {
+    let Some(folder) = std::env::var_os("LUMEN_SEEDS") else { return };
+    let folder = std::path::Path::new(&folder).join("scan");
+    std::fs::create_dir_all(&folder).unwrap();
+    for (i, (_, files)) in all().into_iter().enumerate() {
+        if let [(_, bytes)] = &files[..] {
+            std::fs::write(folder.join(format!("seed-{i:02}")), bytes).unwrap();
+        }
+    }
 }

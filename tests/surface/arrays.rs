@@ -136,3 +136,33 @@ fn another_rate_carries_to_another_level_and_slices_change_nothing() {
     });
     assert_eq!(alone.level_arrays(), whole.level_arrays());
 }
+
+#[test]
+fn a_border_between_labels_stays_where_it_is_where_that_is_asked_for() {
+    // A square of 40 by 40 cells of 1 mm, of which those beyond x = 17 have another label.
+    let at = |i: u32, j: u32| i + 41 * j;
+    let positions = (0..=40).flat_map(|j| (0..=40).map(move |i| Vec3::new(i as f32, j as f32, 0.0))).collect();
+    let cells = || (0..40).flat_map(|j| (0..40).map(move |i| (i, j)));
+    let cut = |(i, j)| [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]];
+    let mesh = Arc::new(TriMesh { positions, triangles: cells().flat_map(cut).collect() });
+    let labels = cells().flat_map(|(i, _)| [f64::from(u8::from(i >= 17)); 2]);
+    let array = column("RegionId", On::Triangle, Scalar::I32, labels);
+    for method in Method::ALL {
+        let across = |keep_labels: bool| {
+            let plain = settings(method, 900, Preset::None);
+            let decimation = Decimation { keep_labels, ..plain.decimation };
+            let mut pipeline = Pipeline::new(mesh.clone(), Settings { decimation, ..plain });
+            pipeline = pipeline.with_arrays(vec![array.clone()]).without_measures();
+            pipeline.finish().unwrap();
+            let level = &pipeline.reduced().unwrap().mesh;
+            assert!((318..=320).contains(&level.triangles.len()), "{method:?}: {}", level.triangles.len());
+            let is_across = |t: usize| {
+                let sides = level.corners(t).map(|p| p.x - 17.0);
+                sides.iter().any(|&x| x > 1e-4) && sides.iter().any(|&x| x < -1e-4)
+            };
+            (0..level.triangles.len()).filter(|&t| is_across(t)).count()
+        };
+        assert_eq!(across(true), 0, "{method:?}");
+        assert!(across(false) > 0, "{method:?}");
+    }
+}

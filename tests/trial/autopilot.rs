@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use lumen::io::import_mesh;
 use lumen::mesh::TriMesh;
-use lumen::phantom::{Sample, generate};
+use lumen::phantom::{Sample, generate, vessels};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::trial::audit::Audit;
@@ -146,6 +146,33 @@ fn what_is_done_by_hand_at_any_step_replays_to_the_same_end() {
     let [a, b] = [&trial, &replayed].map(|trial| trial.simulation().nodes().collect::<Vec<_>>());
     assert_eq!(a, b);
     assert!(trial.simulation().inserted() > 20.0);
+}
+
+/// A wire without a bend goes straight on from the one iliac artery into the aorta, whatever it was meant to do.
+#[test]
+fn a_failure_names_the_fork_that_was_missed() {
+    let mesh = &levels(Sample::Aorta, 30_000, &[900])[0];
+    let vessels = vessels(Sample::Aorta);
+    let named = |name: &str| vessels.iter().find(|vessel| vessel.name == name).unwrap();
+    let [aorta, left] = [named("abdominal aorta"), named("left common iliac artery")];
+    let far = left.stations[left.stations.len() - 5].position;
+    let mut setup = Setup { target: Some(far.as_vec3().to_array()), ..setup(Sample::Aorta) };
+    setup.wire.bend_degrees = 0.0;
+    let course = Arc::new(Course::new(mesh, Some(Sample::Aorta), &mut setup).unwrap());
+    let mut trial = Trial::new(course.clone(), setup).unwrap();
+    trial.replay(vec![(0, Input { feed: 50.0, roll: 0.0 })], 1250);
+    trial.finish();
+    assert!(trial.summary().wrong_branches > 0, "{:?}", trial.summary());
+    // Names as the lists of entries and targets have them.
+    let name = |at: DVec3| &course.tree.branches()[course.tree.locate(at, None).unwrap().branch as usize].name;
+    let before = aorta.stations.iter().rev().find(|station| station.position.distance(far) > 80.0).unwrap();
+    let reason = trial.summary().reason;
+    let expected = format!("going into {} instead of {}", name(before.position), name(far));
+    assert!(reason.contains(": it missed the fork ") && reason.ends_with(&expected), "{reason}, not {expected}");
+    // The arteries part where the centreline of the one begins; the aorta is 16 mm wide there at least.
+    let fork = glam::Vec3::from(trial.summary().missed_fork_at.expect("a place")).as_dvec3();
+    let away = fork.distance(left.stations[0].position);
+    assert!(away < 25.0 && fork.distance(far) > 30.0, "{fork} is {away:.1} mm from the fork");
 }
 
 #[test]

@@ -1,19 +1,21 @@
-//! Files: opened through the browser's own dialog, saved as a download. Dropped files come through egui.
+//! Files: opened through the browser's own dialog, saved as a download. Dropped files come through egui, what is in dropped
+//! folders through `www/drop.js`.
 
 use std::cell::RefCell;
 
 use js_sys::Array;
+use lumen::language::decimal;
+use lumen::say;
+use lumen_worker::bytes;
 use wasm_bindgen::prelude::*;
-use wasm_bindgen_futures::{JsFuture, spawn_local};
+use wasm_bindgen_futures::JsFuture;
 use web_sys::{Blob, BlobPropertyBag, Document, File, HtmlAnchorElement, HtmlInputElement, Url, Window};
-
-use crate::bytes;
-
-/// A file the user has chosen: its name and its bytes, or one sentence on why it could not be read.
-pub(crate) type Chosen = (String, Result<Vec<u8>, String>);
 
 /// The largest file that is read, in bytes: with its mesh it has to fit into the 4 GB a page's memory can have.
 const LARGEST: f64 = 1.5e9;
+
+/// Bytes of a file that say what it is.
+const HEAD: usize = 4096;
 
 /// Bytes of a file that are copied at a time.
 const PIECE: usize = 4 << 20;
@@ -29,26 +31,31 @@ struct Dialog {
     _changed: Closure<dyn Fn()>,
 }
 
-/// Lets the user choose a file; call it while a click or a key press is being handled.
+/// Lets the user choose files; call it while a click or a key press is being handled.
 ///
-/// `accept` lists extensions (".stl,.ply"). `chosen` is called once, later, unless the user thinks better of it.
+/// `accept` lists extensions (".stl,.ply"). `chosen` is called once, later, with one or more, unless the user thinks better of
+/// it.
 ///
 /// # Errors
 ///
 /// What the browser answers when it makes no dialog.
-pub(crate) fn open(accept: &str, chosen: impl FnOnce(Chosen) + 'static) -> Result<(), JsValue> {
+pub(crate) fn open(accept: &str, chosen: impl FnOnce(Vec<File>) + 'static) -> Result<(), JsValue> {
     let document = page()?.1;
     let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
     input.set_type("file");
     input.set_accept(accept);
+    input.set_multiple(true);
     input.set_hidden(true);
     let chosen = RefCell::new(Some(chosen));
     let changed = Closure::<dyn Fn()>::new({
         let input = input.clone();
         move || {
-            let file = input.files().and_then(|files| files.get(0));
-            if let (Some(file), Some(chosen)) = (file, chosen.take()) {
-                spawn_local(async move { chosen((file.name(), read(&file).await)) });
+            let list = input.files();
+            let files: Vec<File> = list.iter().flat_map(|all| (0..all.length()).filter_map(|at| all.get(at))).collect();
+            if !files.is_empty()
+                && let Some(chosen) = chosen.take()
+            {
+                chosen(files);
             }
         }
     });
@@ -63,21 +70,43 @@ pub(crate) fn open(accept: &str, chosen: impl FnOnce(Chosen) + 'static) -> Resul
     Ok(())
 }
 
-/// The bytes of a file, or one sentence on why not.
+/// The folders and files that were dropped last, as the files in them; `None` where there was no folder.
 ///
-/// They are read in pieces, so that the copy of a large file does not hold up a frame.
+/// # Errors
+///
+/// One plain sentence: a folder cannot be read.
+pub(crate) async fn dropped_folders() -> Result<Option<Vec<File>>, String> {
+    let lost = |_| say!("scan-folder-lost");
+    let files = folders().await.map_err(lost)?;
+    Ok(files.dyn_ref::<Array>().map(|files| files.iter().filter_map(|file| file.dyn_into().ok()).collect()))
+}
+
+#[wasm_bindgen]
+extern "C" {
+    // www/drop.js
+    #[wasm_bindgen(js_namespace = lumenDrop, catch)]
+    async fn folders() -> Result<JsValue, JsValue>;
+}
+
+/// The bytes of a surface's file, or one sentence on why not.
 pub(crate) async fn read(file: &File) -> Result<Vec<u8>, String> {
-    let name = file.name();
     if file.size() > LARGEST {
-        return Err(format!(
-            "{name} has {:.1} GB; in the browser Lumen opens files of up to {:.1} GB.",
-            file.size() / 1e9,
-            LARGEST / 1e9
-        ));
+        let (gb, limit) = (decimal(file.size() / 1e9, 1), decimal(LARGEST / 1e9, 1));
+        return Err(say!("scan-file-large", name = file.name(), gb = gb, limit = limit));
     }
-    let lost = |_| format!("The browser could not read {name}; it may have been moved or changed since it was chosen.");
-    let length = file.size() as usize;
-    let full = |_| format!("{name} has {:.0} MB, for which this browser has no memory left.", file.size() / 1e6);
+    read_up_to(file, file.size() as usize).await
+}
+
+/// The first bytes of a file, which say what it is, or one sentence on why not.
+pub(crate) async fn head(file: &File) -> Result<Vec<u8>, String> {
+    read_up_to(file, HEAD.min(file.size() as usize)).await
+}
+
+/// The first `length` bytes of a file. They are read in pieces, so that the copy of a large file does not hold up a frame.
+async fn read_up_to(file: &File, length: usize) -> Result<Vec<u8>, String> {
+    let name = file.name();
+    let lost = |_| say!("scan-file-lost", name = &name);
+    let full = |_| say!("scan-file-memory", name = &name, mb = decimal(file.size() / 1e6, 0));
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(length).map_err(|_| full(JsValue::NULL))?;
     while bytes.len() < length {

@@ -13,6 +13,7 @@ use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup};
 use eframe::wgpu::Backends;
 use lumen::app::{LastingApp, LumenApp, OnEnd, Restarts};
 use lumen::render::{Fault, device_descriptor};
+use lumen::say;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Document, Element, HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, Window, console};
@@ -22,6 +23,9 @@ use crate::platform::Browser;
 /// How long to wait before graphics are first started again, in milliseconds: a browser whose process for them has died
 /// needs a moment.
 const PAUSE_MS: i32 = 250;
+
+/// By what the page's field for what is typed is found.
+pub(crate) const TYPED: &str = "typed";
 
 /// A canvas, and what hears of its lost context.
 type Watched = (HtmlCanvasElement, Closure<dyn Fn()>);
@@ -129,7 +133,8 @@ impl Stage {
         self.runner.start(canvas, options, create).await?;
         // What eframe puts into the page to be typed into has no name.
         if let Some(field) = self.document.query_selector("input[type=text]:not([aria-label])")? {
-            field.set_attribute("aria-label", "What is typed")?;
+            field.set_id(TYPED);
+            field.set_attribute("aria-label", &say!("scan-typed"))?;
         }
         self.with_webgpu.set(!is_webgl);
         Ok(())

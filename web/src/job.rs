@@ -1,26 +1,68 @@
-//! The Worker's end of the line: hears commands, works on them in slices, and sends events.
-//!
-//! Between two slices the Worker goes back to the browser, so that a command is heard within a slice's time. A message
-//! to itself brings it back at once; a timer would make it wait for 4 ms each time, and is for an engine that keeps
-//! pace with the clock and has time to spare.
+//! The engines that have a Worker of their own, and how those of this program begin.
 
-use std::cell::{Cell, RefCell};
 use std::rc::Rc;
-use std::time::Duration;
 
-use lumen::engine::trial::{Exchange, is_frame};
-use lumen::engine::{Engine, Machine, TrialEngine};
+use lumen::engine::scan::{ScanCommand, ScanEvent};
+use lumen::engine::trial::{Exchange, TrialCommand, TrialEvent, is_frame};
+use lumen::engine::{Command, Engine, Event, TrialEngine};
 use lumen::transfer::Message;
+use lumen_worker::serve::{Beside, run, scope};
 use wasm_bindgen::prelude::*;
-use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent, MessagePort};
 
 use crate::hid::served::Hands;
-use crate::worker::{Received, pack};
 
-/// The job of the Worker that runs the pipeline.
-pub(crate) const PIPELINE: &str = "pipeline";
-/// The job of the Worker that runs the trial.
-pub(crate) const TRIAL: &str = "trial";
+/// An engine behind a line.
+pub(crate) trait Job {
+    /// The name of its Worker's job.
+    const NAME: &str;
+    /// The program that does it, where it is not this one.
+    const PROGRAM: Option<&str> = None;
+    /// What it is asked.
+    type Command: Message + 'static;
+    /// What it tells.
+    type Event: Message + 'static;
+
+    /// Whether a message with this line is useless once there is another such.
+    fn is_passing_line(_: &str) -> bool {
+        false
+    }
+}
+
+/// The pipeline's.
+pub(crate) enum Pipeline {}
+
+impl Job for Pipeline {
+    const NAME: &str = "pipeline";
+    type Command = Command;
+    type Event = Event;
+}
+
+/// The trial's.
+pub(crate) enum Trial {}
+
+impl Job for Trial {
+    const NAME: &str = "trial";
+    type Command = TrialCommand;
+    type Event = TrialEvent;
+
+    fn is_passing_line(line: &str) -> bool {
+        is_frame(line)
+    }
+}
+
+/// That of scans, in `web/scan`.
+pub(crate) enum Scan {}
+
+impl Job for Scan {
+    const NAME: &str = "scan";
+    const PROGRAM: Option<&str> = Some("lumen-scan");
+    type Command = ScanCommand;
+    type Event = ScanEvent;
+
+    fn is_passing_line(line: &str) -> bool {
+        line.starts_with("{\"Progress\"")
+    }
+}
 
 /// Begins the Worker's job; called once by `www/worker.js`, before the first message is handed on.
 ///
@@ -30,155 +72,16 @@ pub(crate) const TRIAL: &str = "trial";
 #[wasm_bindgen]
 #[allow(unreachable_pub, reason = "wasm-bindgen exports only what is public")]
 pub fn worker_main(job: &str) -> Result<(), JsValue> {
-    crate::page::report_panics();
+    lumen_worker::panics::report();
     match job {
-        PIPELINE => run(|_| Ok((Engine::new(), None))),
-        TRIAL => run(|again| {
+        Pipeline::NAME => run(|_| Ok((Engine::new(), None))),
+        Trial::NAME => run(|again| {
             let (exchange, again) = (Exchange::default(), Rc::clone(again));
             // A Worker that cannot be brought back has no engine that could be held.
             let hands = Hands::new(scope()?, exchange.clone(), move || drop(again.soon()));
-            Ok((TrialEngine::with_hand(exchange), Some(hands)))
+            let beside: Beside = Box::new(move |data| data.as_string().map(|line| hands.hear(&line)));
+            Ok((TrialEngine::with_hand(exchange), Some(beside)))
         }),
         _ => Err(format!("there is no job named {job}").into()),
-    }
-}
-
-/// An engine whose commands and events can be sent.
-pub(crate) trait Sent: Machine<Command: Message, Event: Message> {
-    /// The name of its job.
-    const JOB: &str;
-
-    /// Whether a message with this line is useless once there is another such.
-    fn is_passing_line(_: &str) -> bool {
-        false
-    }
-}
-
-impl Sent for Engine {
-    const JOB: &str = PIPELINE;
-}
-
-impl Sent for TrialEngine {
-    const JOB: &str = TRIAL;
-
-    fn is_passing_line(line: &str) -> bool {
-        is_frame(line)
-    }
-}
-
-/// What the Worker holds.
-struct Worker<M> {
-    machine: RefCell<M>,
-    scope: DedicatedWorkerGlobalScope,
-    again: Rc<Again>,
-    /// What serves a haptic device beside the engine.
-    hands: Option<Hands>,
-}
-
-fn scope() -> Result<DedicatedWorkerGlobalScope, JsValue> {
-    js_sys::global().dyn_into().map_err(|_| "this is no Worker".into())
-}
-
-/// Runs what `make` makes, which is told what brings the Worker back.
-fn run<M: Sent>(make: impl FnOnce(&Rc<Again>) -> Result<(M, Option<Hands>), JsValue>) -> Result<(), JsValue> {
-    let scope = scope()?;
-    let again = Rc::new(Again::new(&scope)?);
-    let (machine, hands) = make(&again)?;
-    let worker = Rc::new(Worker { machine: RefCell::new(machine), again, scope, hands });
-
-    let hear = Closure::<dyn Fn(MessageEvent) -> Result<(), JsValue>>::new({
-        let worker = Rc::clone(&worker);
-        move |event: MessageEvent| {
-            if let Some((hands, line)) = worker.hands.as_ref().zip(event.data().as_string()) {
-                return hands.hear(&line);
-            }
-            let message = Received::unpack(&event.data()).ok_or("a message that is none")?;
-            let command = message.read().map_err(|error| error.to_string())?;
-            worker.machine.borrow_mut().handle(command);
-            // The answer to a cancel does not wait for the next slice.
-            worker.tell()?;
-            worker.again.soon()
-        }
-    });
-    let work = Closure::<dyn Fn() -> Result<(), JsValue>>::new({
-        let worker = Rc::clone(&worker);
-        move || worker.work()
-    });
-    worker.again.begin(work.as_ref().unchecked_ref());
-    worker.scope.set_onmessage(Some(hear.as_ref().unchecked_ref()));
-    // Both live as long as the Worker.
-    work.forget();
-    hear.forget();
-    Ok(())
-}
-
-impl<M: Sent> Worker<M> {
-    /// Works for a slice.
-    fn work(&self) -> Result<(), JsValue> {
-        self.again.comes();
-        let now_s = self.scope.performance().map_or(0.0, |clock| clock.now() / 1000.0);
-        let rest = self.machine.borrow_mut().advance(now_s);
-        self.tell()?;
-        match rest {
-            None => Ok(()),
-            Some(Duration::ZERO) => self.again.soon(),
-            Some(rest) => self.again.after(rest),
-        }
-    }
-
-    /// Sends what the engine has to say to the page.
-    fn tell(&self) -> Result<(), JsValue> {
-        let mut machine = self.machine.borrow_mut();
-        while let Some(event) = machine.poll() {
-            let (values, transfer) = pack(&event)?;
-            self.scope.post_message_with_transfer(&values, &transfer)?;
-        }
-        Ok(())
-    }
-}
-
-/// What brings the Worker back: a message to itself or a timer, at most one of each.
-struct Again {
-    from: MessagePort,
-    to: MessagePort,
-    scope: DedicatedWorkerGlobalScope,
-    work: RefCell<js_sys::Function>,
-    is_sent: Cell<bool>,
-    timer: Cell<Option<i32>>,
-}
-
-impl Again {
-    fn new(scope: &DedicatedWorkerGlobalScope) -> Result<Self, JsValue> {
-        let channel = MessageChannel::new()?;
-        let (from, to, scope) = (channel.port1(), channel.port2(), scope.clone());
-        Ok(Self { from, to, scope, work: RefCell::default(), is_sent: Cell::new(false), timer: Cell::new(None) })
-    }
-
-    /// Calls `work` from now on.
-    fn begin(&self, work: &js_sys::Function) {
-        self.to.set_onmessage(Some(work));
-        *self.work.borrow_mut() = work.clone();
-    }
-
-    /// The Worker is back.
-    fn comes(&self) {
-        self.is_sent.set(false);
-        if let Some(timer) = self.timer.take() {
-            self.scope.clear_timeout_with_handle(timer);
-        }
-    }
-
-    fn soon(&self) -> Result<(), JsValue> {
-        if self.is_sent.replace(true) { Ok(()) } else { self.from.post_message(&JsValue::NULL) }
-    }
-
-    fn after(&self, rest: Duration) -> Result<(), JsValue> {
-        let ms = rest.as_secs_f64() * 1000.0;
-        let work = self.work.borrow();
-        let timer = self.scope.set_timeout_with_callback_and_timeout_and_arguments_0(&work, ms as i32)?;
-        if let Some(older) = self.timer.replace(Some(timer)) {
-            self.scope.clear_timeout_with_handle(older);
-        }
-        Ok(())
     }
 }

@@ -5,14 +5,13 @@
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
 //! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads, and [`store`], what
 //!   outlives the page.
-//! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker.
-//! - [`worker`] and [`job`]: the two ends of the line between the page and a Worker; [`link`]: that line as the app's
-//!   line to the engine; [`bytes`]: copies that may fail.
+//! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker; [`sound`]: a tone in place of a force.
+//! - [`texts`]: the messages of other languages than English.
+//! - [`worker`]: the page's end of the line to a Worker, whose other end is the crate `lumen-worker`'s; [`job`]: which engines
+//!   have one; [`link`]: that line as the app's line to the engine; [`scans`]: that of scans, another program's.
 //!
 //! The page itself is in `www/`; `cargo xtask build` puts both together.
 
-#[cfg(target_arch = "wasm32")]
-mod bytes;
 #[cfg(target_arch = "wasm32")]
 mod files;
 #[cfg(target_arch = "wasm32")]
@@ -30,7 +29,13 @@ mod page;
 #[cfg(target_arch = "wasm32")]
 mod platform;
 #[cfg(target_arch = "wasm32")]
+mod scans;
+#[cfg(target_arch = "wasm32")]
+mod sound;
+#[cfg(target_arch = "wasm32")]
 mod store;
+#[cfg(target_arch = "wasm32")]
+mod texts;
 mod twins;
 #[cfg(target_arch = "wasm32")]
 mod worker;

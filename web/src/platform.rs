@@ -5,29 +5,49 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use lumen::app::{Devices as AppDevices, Gamepad, Listing, Offer, Platform, PlatformEvent, Store, Waker};
+use lumen::app::{
+    Devices as AppDevices, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, Store, Tone, Waker,
+};
+use lumen::engine::Link;
+use lumen::engine::scan::ScanLink;
 use lumen::engine::trial::TrialLink;
-use lumen::engine::{Engine, Link, TrialEngine};
 use lumen::haptics::service::{DeviceCommand, DeviceStatus};
-use lumen::io::Format;
+use lumen::io::{Format, may_be_volume};
+use lumen::language::{Language, decimal};
+use lumen::say;
+use lumen_worker::speech;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
+use web_sys::File;
 
-use crate::files;
+use crate::graphics::TYPED;
 use crate::hid::page::Devices;
+use crate::job::{Pipeline, Trial};
 use crate::link::WorkerLink;
-use crate::store;
-
-/// What a trial's log and a file of settings end in.
-const OTHERS: [&str; 2] = ["csv", "json"];
+use crate::scans::{self, ScanLine};
+use crate::texts::AllTexts;
+use crate::{files, store};
 
 /// The browser as a platform.
 pub(crate) struct Browser {
-    link: WorkerLink<Engine>,
-    trial: WorkerLink<TrialEngine>,
+    link: WorkerLink<Pipeline>,
+    trial: WorkerLink<Trial>,
+    scans: ScanLine,
     devices: Devices,
-    inbox: Rc<RefCell<VecDeque<PlatformEvent>>>,
+    texts: AllTexts,
+    /// Whether those of all languages have been asked for.
+    has_asked_for_texts: bool,
+    inbox: Inbox,
     waker: Waker,
+}
+
+type Inbox = Rc<RefCell<VecDeque<News>>>;
+
+/// What has happened.
+enum News {
+    Event(PlatformEvent),
+    /// The files of a scan were chosen or dropped.
+    Scan(Vec<File>),
 }
 
 impl Browser {
@@ -38,7 +58,17 @@ impl Browser {
         let devices = Devices::new(waker.clone());
         let link = WorkerLink::new(waker.clone());
         let trial = WorkerLink::idle(waker.clone()).with_devices(devices.clone());
-        let browser = Self { link, trial, devices, inbox: Rc::default(), waker };
+        let scans = ScanLine::new(waker.clone());
+        let browser = Self {
+            link,
+            trial,
+            scans,
+            devices,
+            texts: AllTexts::default(),
+            has_asked_for_texts: false,
+            inbox: Inbox::default(),
+            waker,
+        };
         hear_links(browser.news());
         browser
     }
@@ -47,20 +77,62 @@ impl Browser {
     fn news(&self) -> impl Fn(PlatformEvent) + Clone + 'static {
         let (inbox, waker) = (Rc::clone(&self.inbox), self.waker.clone());
         move |event| {
-            inbox.borrow_mut().push_back(event);
+            inbox.borrow_mut().push_back(News::Event(event));
             waker.wake();
         }
     }
 }
 
-/// Tells of the link that the page was opened by, and of each that is put into its address later.
+/// Opens the files that `gather` finds.
+fn take(inbox: &Inbox, waker: &Waker, gather: impl Future<Output = Result<Gathered, String>> + 'static) {
+    let (inbox, waker) = (Rc::clone(inbox), waker.clone());
+    spawn_local(async move {
+        let news = match gather.await {
+            Ok(gathered) => gathered.news().await,
+            Err(message) => Err(message),
+        };
+        let failed = |message| News::Event(PlatformEvent::Failed { message });
+        inbox.borrow_mut().push_back(news.unwrap_or_else(failed));
+        waker.wake();
+    });
+}
+
+/// Files that were chosen or dropped together.
+struct Gathered {
+    files: Vec<File>,
+    /// Whether they were in a folder, which is opened as a scan whatever is in it.
+    is_folder: bool,
+}
+
+impl Gathered {
+    /// The scan in them, or the bytes of the first.
+    async fn news(self) -> Result<News, String> {
+        let Some(first) = self.files.first() else { return Err(say!("scan-folder-empty")) };
+        let mut is_scan = self.is_folder;
+        for file in &self.files {
+            if is_scan {
+                break;
+            }
+            is_scan = may_be_volume(&files::head(file).await?);
+        }
+        if is_scan {
+            return Ok(News::Scan(self.files));
+        }
+        Ok(News::Event(PlatformEvent::Chosen { name: first.name(), bytes: files::read(first).await? }))
+    }
+}
+
+/// Tells of the link that the page was opened by, and of each that is put into its address later. What was told is taken
+/// out of the address: a reload brings back what was made of it since, and the same link can be followed again.
 fn hear_links(tell: impl Fn(PlatformEvent) + 'static) {
     let Some(window) = web_sys::window() else { return };
-    let location = window.location();
+    let page = window.clone();
     let look = Closure::<dyn Fn()>::new(move || {
-        let fragment = location.hash().unwrap_or_default();
+        let fragment = page.location().hash().unwrap_or_default();
         if fragment.len() > 1 {
             tell(PlatformEvent::Linked { fragment });
+            // Where that is refused, a reload follows the link once more.
+            let _ = without_fragment(&page);
         }
     });
     let look_now: &js_sys::Function = look.as_ref().unchecked_ref();
@@ -69,6 +141,13 @@ fn hear_links(tell: impl Fn(PlatformEvent) + 'static) {
     let _ = window.add_event_listener_with_callback("hashchange", look_now);
     // It lives as long as the page.
     look.forget();
+}
+
+/// Takes the fragment out of the page's address.
+fn without_fragment(page: &web_sys::Window) -> Result<(), JsValue> {
+    let location = page.location();
+    let address = location.pathname()? + &location.search()?;
+    page.history()?.replace_state_with_url(&JsValue::NULL, "", Some(&address))
 }
 
 /// Draws again when a gamepad is plugged in: until then it is not asked.
@@ -81,26 +160,53 @@ fn wake_at_gamepad(waker: Waker) {
     wake.forget();
 }
 
-fn chosen((name, bytes): files::Chosen) -> PlatformEvent {
-    match bytes {
-        Ok(bytes) => PlatformEvent::Chosen { name, bytes },
-        Err(message) => PlatformEvent::Failed { message },
-    }
-}
-
 /// Makes a download, or says why not.
 fn save(name: &str, bytes: &[u8]) -> Result<(), String> {
-    files::save(name, bytes).map_err(|_| {
-        format!("{name} was not saved: the browser has no memory left for {:.1} MB.", bytes.len() as f64 / 1e6)
-    })
+    files::save(name, bytes).map_err(|_| say!("scan-not-saved", name = name, mb = decimal(bytes.len() as f64 / 1e6, 1)))
+}
+
+/// What the page is told of its user and machine; where it cannot be asked, no.
+fn matches_media(query: &str) -> bool {
+    let query = web_sys::window().and_then(|window| window.match_media(query).ok().flatten());
+    query.is_some_and(|query| query.matches())
 }
 
 impl Platform for Browser {
+    fn memory_limit(&self) -> Option<u64> {
+        // Of a program with addresses of 32 bits.
+        Some(1 << 32)
+    }
+
     fn prefers_less_motion(&self) -> bool {
-        let window = web_sys::window();
-        // Where it cannot be asked, nobody has asked for less.
-        let query = window.and_then(|window| window.match_media("(prefers-reduced-motion: reduce)").ok().flatten());
-        query.is_some_and(|query| query.matches())
+        matches_media("(prefers-reduced-motion: reduce)")
+    }
+
+    fn locale(&self) -> Option<String> {
+        web_sys::window()?.navigator().language()
+    }
+
+    fn fetch_texts(&mut self, language: Language) {
+        let tell = self.news();
+        self.texts.want(language, Box::new(move |texts| tell(PlatformEvent::Texts { language, texts })));
+    }
+
+    fn speak(&mut self, language: Language, texts: &str) {
+        // Each line keeps one for the Workers to come.
+        self.link.speak(speech::value(language, texts));
+        self.trial.speak(speech::value(language, texts));
+        self.scans.speak(speech::value(language, texts));
+        self.devices.change();
+    }
+
+    fn show_language(&mut self, tag: &'static str) {
+        let Some(document) = web_sys::window().and_then(|window| window.document()) else { return };
+        // Without a page there is nobody to read its language, and without graphics there is no field yet.
+        let _ = document.document_element().map(|page| page.set_attribute("lang", tag));
+        let _ = document.get_element_by_id(TYPED).map(|field| field.set_attribute("aria-label", &say!("scan-typed")));
+    }
+
+    fn has_finger(&self) -> bool {
+        matches_media("(pointer: coarse)")
     }
 
     fn has_attention(&self) -> bool {
@@ -117,12 +223,32 @@ impl Platform for Browser {
         &mut self.trial
     }
 
+    fn scans(&mut self) -> Option<&mut ScanLink> {
+        Some(&mut self.scans)
+    }
+
     fn enter(&mut self, ctx: &egui::Context) {
         self.waker.enter(ctx);
     }
 
     fn gamepad(&self) -> Option<Gamepad> {
         crate::gamepad::read()
+    }
+
+    fn was_left(&self) -> bool {
+        self.devices.was_left()
+    }
+
+    fn rumble(&mut self, strength: f64) {
+        crate::gamepad::shake(strength);
+    }
+
+    fn has_sound(&self) -> bool {
+        crate::sound::is_there()
+    }
+
+    fn sound(&mut self, tone: Tone) {
+        crate::sound::play(tone);
     }
 
     fn devices(&mut self) -> Option<&mut dyn AppDevices> {
@@ -139,28 +265,28 @@ impl Platform for Browser {
     }
 
     fn choose_file(&mut self, _: &egui::Context) {
-        let news = self.news();
-        let tell = news.clone();
-        let accept: Vec<String> = Format::OPENED.into_iter().chain(OTHERS).map(|end| format!(".{end}")).collect();
-        if files::open(&accept.join(","), move |file| tell(chosen(file))).is_err() {
-            news(PlatformEvent::Failed { message: "The browser opened no file dialog.".to_owned() });
+        let endings = Format::OPENED.into_iter().chain(scans::ENDINGS).chain(OTHER_ENDINGS);
+        let accept: Vec<String> = endings.map(|ending| format!(".{ending}")).collect();
+        let (inbox, waker) = (Rc::clone(&self.inbox), self.waker.clone());
+        let take = move |files| take(&inbox, &waker, async move { Ok(Gathered { files, is_folder: false }) });
+        if files::open(&accept.join(","), take).is_err() {
+            self.news()(PlatformEvent::Failed { message: say!("scan-no-dialog") });
         }
     }
 
-    fn read_dropped(&mut self, file: egui::DroppedFileHandle, _: &egui::Context) {
-        let news = self.news();
-        spawn_local(async move {
-            let event = match file.web_file() {
-                Some(file) => chosen((file.name(), files::read(file).await)),
-                None => PlatformEvent::Failed { message: "What was dropped is no file.".to_owned() },
+    fn read_dropped(&mut self, dropped: Vec<egui::DroppedFileHandle>, _: &egui::Context) {
+        take(&self.inbox, &self.waker, async move {
+            let (files, is_folder) = match files::dropped_folders().await? {
+                Some(files) => (files, true),
+                None => (dropped.iter().filter_map(|file| file.web_file().cloned()).collect(), false),
             };
-            news(event);
+            Ok(Gathered { files, is_folder })
         });
     }
 
     fn offer_file(&mut self, name: &str, bytes: Vec<u8>, _: &egui::Context) {
         let event = match save(name, &bytes) {
-            Ok(()) => PlatformEvent::Saved { message: format!("{name} was saved.") },
+            Ok(()) => PlatformEvent::Saved { message: say!("scan-saved", name = name) },
             Err(message) => PlatformEvent::Failed { message },
         };
         self.news()(event);
@@ -169,14 +295,23 @@ impl Platform for Browser {
     fn offer_pair(&mut self, [first, second]: [Offer; 2], _: &egui::Context) {
         let saved = save(&first.name, &first.bytes).and_then(|()| save(&second.name, &second.bytes));
         let event = match saved {
-            Ok(()) => PlatformEvent::Saved { message: format!("{} and {} were saved.", first.name, second.name) },
+            Ok(()) => {
+                PlatformEvent::Saved { message: say!("scan-both-saved", first = &first.name, second = &second.name) }
+            }
             Err(message) => PlatformEvent::Failed { message },
         };
         self.news()(event);
     }
 
     fn poll(&mut self) -> Option<PlatformEvent> {
-        self.inbox.borrow_mut().pop_front()
+        if self.scans.has_picture() && !std::mem::replace(&mut self.has_asked_for_texts, true) {
+            self.texts.fetch_all();
+        }
+        let news = self.inbox.borrow_mut().pop_front()?;
+        Some(match news {
+            News::Event(event) => event,
+            News::Scan(files) => PlatformEvent::Scan { files: self.scans.hand_over(&files) },
+        })
     }
 }
 

@@ -3,11 +3,12 @@
 
 use js_sys::{Array, Uint8Array};
 use lumen::app::PlatformEvent;
+use lumen::language::decimal;
+use lumen::say;
+use lumen_worker::bytes;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::Storage;
-
-use crate::bytes;
 
 #[wasm_bindgen]
 extern "C" {
@@ -23,7 +24,10 @@ extern "C" {
 /// nothing has none.
 fn storage() -> Option<(Storage, String)> {
     let window = web_sys::window()?;
-    Some((window.local_storage().ok()??, format!("lumen {}", window.location().pathname().ok()?)))
+    let path = window.location().pathname().ok()?;
+    // With the name of the page and without it is one page.
+    let folder = &path[..=path.rfind('/')?];
+    Some((window.local_storage().ok()??, format!("lumen {folder}")))
 }
 
 /// The text that was kept.
@@ -44,7 +48,7 @@ pub(crate) fn set_text(text: Option<&str>) {
 
 /// Keeps a surface; `tell` hears where that fails.
 pub(crate) fn keep_surface(name: &str, bytes: &[u8], tell: impl Fn(PlatformEvent) + 'static) {
-    let failed = format!("{name} is not kept: this browser has no room for {:.1} MB.", bytes.len() as f64 / 1e6);
+    let failed = say!("scan-not-kept", name = name, mb = decimal(bytes.len() as f64 / 1e6, 1));
     let Ok(copy) = bytes::copied(bytes) else { return tell(PlatformEvent::Failed { message: failed }) };
     let name = name.to_owned();
     spawn_local(async move {
@@ -71,11 +75,13 @@ async fn restored() -> Option<(String, Vec<u8>)> {
 
 /// Forgets the surface that is kept; `tell` hears where that fails.
 pub(crate) fn forget_surface(tell: impl Fn(PlatformEvent) + 'static) {
+    // A browser that is told to keep nothing has kept nothing.
+    if storage().is_none() {
+        return;
+    }
     spawn_local(async move {
         if forget_bytes().await.is_err() {
-            let message =
-                "The browser could not be asked to forget the surface: clear this page's data in its settings.";
-            tell(PlatformEvent::Failed { message: message.to_owned() });
+            tell(PlatformEvent::Failed { message: say!("scan-not-forgotten") });
         }
     });
 }

@@ -1,8 +1,8 @@
-//! Work in a dedicated Worker: the page's end of the line and the Worker's.
+//! Work in a dedicated Worker: the page's end of the line. The Worker's is `lumen_worker::serve`, and what a message is
+//! `lumen_worker::message`.
 //!
-//! A Worker runs an instance of its own of the module the page has already compiled (`www/worker.js`). There is no
-//! shared memory. A message is a line of JSON and any number of byte buffers: each buffer is copied once out of the
-//! sender's memory, transferred, and copied once into the receiver's.
+//! A Worker runs an instance of its own of the module the page has already compiled, or of another program, which it fetches
+//! itself (`www/worker.js`).
 //!
 //! A Worker that dies (a panic, out of memory) says so to the page as an error event; [`WorkerLine::poll`] hands it on
 //! and [`WorkerLine::restart`] starts another.
@@ -11,70 +11,15 @@ use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use js_sys::{Array, Object, Reflect, Uint8Array};
-use lumen::transfer::{self, Buffers, Message, TransferError};
+use js_sys::{Object, Reflect};
+use lumen::say;
+use lumen::transfer::Message;
+use lumen_worker::message::{Received, pack};
 use wasm_bindgen::prelude::*;
 use web_sys::{ErrorEvent, MessageEvent, Worker, WorkerOptions, WorkerType};
 
-use crate::bytes;
 use crate::hid::page::Devices;
-
-/// A message as a script value, and the list of what is to be transferred rather than copied again.
-///
-/// # Errors
-///
-/// When the browser has no memory left for the copies.
-pub(crate) fn pack(message: &impl Message) -> Result<(Array, Array), JsValue> {
-    let (line, buffers) = transfer::encode(message, |array| Ok::<_, JsValue>(bytes::copied(array)?.buffer()))?;
-    let values = Array::of1(&JsValue::from_str(&line));
-    let transfer = Array::new();
-    for buffer in buffers {
-        values.push(&buffer);
-        transfer.push(&buffer);
-    }
-    Ok((values, transfer))
-}
-
-/// A message that has arrived; its buffers are still outside this instance's memory.
-#[derive(Debug)]
-pub(crate) struct Received {
-    /// What it is, as a line of JSON.
-    line: String,
-    buffers: Outside,
-}
-
-/// Buffers outside this instance's memory.
-#[derive(Debug)]
-struct Outside(Vec<Uint8Array>);
-
-impl Received {
-    /// The reverse of [`pack`]; `None` for anything else.
-    pub(crate) fn unpack(value: &JsValue) -> Option<Self> {
-        let values: &Array = value.dyn_ref()?;
-        let line = values.get(0).as_string()?;
-        let buffers = values.iter().skip(1).map(|buffer| bytes::view(&buffer).ok()).collect::<Option<_>>()?;
-        Some(Self { line, buffers: Outside(buffers) })
-    }
-
-    /// The message.
-    ///
-    /// # Errors
-    ///
-    /// When it is none such, or there is no memory left for it.
-    pub(crate) fn read<M: Message>(self) -> Result<M, TransferError> {
-        transfer::decode(&self.line, self.buffers)
-    }
-}
-
-impl Buffers for Outside {
-    fn len(&self, index: usize) -> Option<usize> {
-        self.0.get(index).map(|buffer| buffer.length() as usize)
-    }
-
-    fn copy(&self, index: usize, target: &mut [u8]) {
-        self.0[index].copy_to(target);
-    }
-}
+use crate::job::{Job, Pipeline};
 
 /// What the page hears from a Worker.
 #[derive(Debug)]
@@ -88,28 +33,39 @@ pub(crate) enum Heard {
 /// The page's end of the line to one Worker. Dropped, it ends the Worker.
 pub(crate) struct WorkerLine {
     job: &'static str,
+    program: Option<&'static str>,
     inbox: Inbox,
     worker: Worker,
-    _listeners: Listeners,
+    listeners: Listeners,
 }
 
 impl WorkerLine {
-    /// Starts a Worker on `job`; `wake` is called whenever [`poll`](Self::poll) has something new. Of messages that
-    /// are `passing`, by their lines, only the newest waits: a hidden page listens to none. What is a text alone is between
+    /// Starts a Worker on a job; `wake` is called whenever [`poll`](Self::poll) has something new. Of messages that
+    /// are passing, by their lines, only the newest waits: a hidden page listens to none. What is a text alone is between
     /// the Worker and `devices`.
     ///
     /// # Errors
     ///
     /// What the browser answers when it makes no Worker. One that fails later is heard of through `poll`.
-    pub(crate) fn start(
-        job: &'static str,
-        passing: fn(&str) -> bool,
-        devices: Option<Devices>,
-        wake: impl Fn() + 'static,
-    ) -> Result<Self, JsValue> {
-        let inbox = Inbox { queue: Rc::default(), passing, devices, wake: Rc::new(wake) };
-        let (worker, listeners) = spawn(job, &inbox)?;
-        Ok(Self { job, inbox, worker, _listeners: listeners })
+    pub(crate) fn start<J: Job>(devices: Option<Devices>, wake: impl Fn() + 'static) -> Result<Self, JsValue> {
+        let inbox = Inbox { queue: Rc::default(), passing: J::is_passing_line, devices, wake: Rc::new(wake) };
+        let (job, program) = (J::NAME, J::PROGRAM);
+        let (worker, listeners) = spawn(job, program, &inbox)?;
+        Ok(Self { job, program, inbox, worker, listeners })
+    }
+
+    /// Whether its program, where it is not the page's, is there and runs.
+    pub(crate) fn is_ready(&self) -> bool {
+        self.listeners.is_ready.get()
+    }
+
+    /// Sends a script's value that is no message, to what stands beside the engine.
+    ///
+    /// # Errors
+    ///
+    /// What the browser answers when it cannot be copied.
+    pub(crate) fn send_beside(&self, value: &JsValue) -> Result<(), JsValue> {
+        self.worker.post_message(value)
     }
 
     /// Sends a message.
@@ -136,7 +92,7 @@ impl WorkerLine {
         self.worker.terminate();
         self.inbox.queue.borrow_mut().clear();
         self.inbox.tell_devices(None);
-        (self.worker, self._listeners) = spawn(self.job, &self.inbox)?;
+        (self.worker, self.listeners) = spawn(self.job, self.program, &self.inbox)?;
         Ok(())
     }
 }
@@ -165,7 +121,7 @@ impl Inbox {
     }
 
     fn put(&self, heard: Heard) {
-        let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(&message.line));
+        let is_passing = |heard: &Heard| matches!(heard, Heard::Message(message) if (self.passing)(message.line()));
         {
             let mut queue = self.queue.borrow_mut();
             // What does not pass may have come between.
@@ -181,28 +137,32 @@ impl Inbox {
 
 /// The closures a Worker calls; they live as long as it does.
 struct Listeners {
+    /// Set once the program has begun.
+    is_ready: Rc<Cell<bool>>,
     _message: Closure<dyn Fn(MessageEvent)>,
     _error: Closure<dyn Fn(web_sys::Event)>,
 }
 
-fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
+fn spawn(job: &str, program: Option<&str>, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
     let options = WorkerOptions::new();
     options.set_type(WorkerType::Module);
     options.set_name(job);
-    let worker = Worker::new_with_options(&script_address()?, &options)?;
+    let worker = Worker::new_with_options(&format!("{}#{job}", beside_page("worker.js")?), &options)?;
 
     // A death is told once: a panic arrives as its own report and then as the trap that ends it.
-    let dead = Rc::new(Cell::new(false));
+    let (dead, is_ready) = (Rc::new(Cell::new(false)), Rc::new(Cell::new(false)));
     let message = Closure::<dyn Fn(MessageEvent)>::new({
         let inbox = inbox.clone();
-        let dead = Rc::clone(&dead);
+        let (dead, is_ready) = (Rc::clone(&dead), Rc::clone(&is_ready));
         move |event: MessageEvent| {
-            if let Some((devices, line)) = inbox.devices.as_ref().zip(event.data().as_string()) {
+            if event.data().is_null() {
+                is_ready.set(true);
+            } else if let Some((devices, line)) = inbox.devices.as_ref().zip(event.data().as_string()) {
                 devices.hear(&line);
             } else if !dead.get() {
                 inbox.put(match Received::unpack(&event.data()) {
                     Some(message) => Heard::Message(message),
-                    None => Heard::Died("The message could not be read.".to_owned()),
+                    None => Heard::Died(say!("scan-message-unread")),
                 });
             }
         }
@@ -213,8 +173,8 @@ fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
             event.prevent_default();
             if !dead.replace(true) {
                 inbox.tell_devices(None);
-                let why = event.dyn_ref::<ErrorEvent>().map(ErrorEvent::message);
-                inbox.put(Heard::Died(why.unwrap_or_else(|| "The Worker's script could not be loaded.".to_owned())));
+                let why = event.dyn_ref::<ErrorEvent>().map(|event| told(&event.message()));
+                inbox.put(Heard::Died(why.unwrap_or_else(|| say!("scan-script-unloaded"))));
             }
         }
     });
@@ -222,22 +182,31 @@ fn spawn(job: &str, inbox: &Inbox) -> Result<(Worker, Listeners), JsValue> {
     worker.set_onerror(Some(error.as_ref().unchecked_ref()));
 
     let first = Object::new();
-    Reflect::set(&first, &"module".into(), &wasm_bindgen::module())?;
+    match program {
+        Some(program) => Reflect::set(&first, &"program".into(), &program.into())?,
+        None => Reflect::set(&first, &"module".into(), &wasm_bindgen::module())?,
+    };
     Reflect::set(&first, &"job".into(), &job.into())?;
     worker.post_message(&first)?;
-    if job == crate::job::PIPELINE {
+    if job == Pipeline::NAME {
         // Where the page's program stops, the page can still ask this one for the result.
         Reflect::set(&js_sys::global(), &"lumenEngine".into(), &worker)?;
     }
     inbox.tell_devices(Some(&worker));
-    Ok((worker, Listeners { _message: message, _error: error }))
+    Ok((worker, Listeners { is_ready, _message: message, _error: error }))
 }
 
-/// The address of `worker.js` beside the page, with the version the page was stamped with, whatever path it is under.
-fn script_address() -> Result<String, JsValue> {
+/// What an error event says, without what the browser puts before it ("Uncaught RangeError: ").
+fn told(message: &str) -> String {
+    let rest = message.strip_prefix("Uncaught ").and_then(|rest| rest.split_once(": "));
+    rest.map_or(message, |(_, rest)| rest).to_owned()
+}
+
+/// The address of a file beside the page, with the version the page was stamped with, whatever path it is under.
+pub(crate) fn beside_page(name: &str) -> Result<String, JsValue> {
     let document = web_sys::window().and_then(|window| window.document()).ok_or("there is no page")?;
     let base = document.base_uri()?.ok_or("the page has no address")?;
     let version = document.query_selector("meta[name=lumen-version]")?.and_then(|meta| meta.get_attribute("content"));
-    let script = version.map_or("worker.js".to_owned(), |version| format!("worker.js?v={version}"));
-    Ok(web_sys::Url::new_with_base(&script, &base)?.href())
+    let name = version.map_or(name.to_owned(), |version| format!("{name}?v={version}"));
+    Ok(web_sys::Url::new_with_base(&name, &base)?.href())
 }

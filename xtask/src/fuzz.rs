@@ -26,7 +26,7 @@ pub(crate) fn surfaces(count: u32, seed: u32) -> Result<()> {
 }
 
 /// The targets in `fuzz/fuzz_targets`.
-const READERS: [&str; 6] = ["stl", "ply", "obj", "vtp", "vtk", "gltf"];
+const READERS: [&str; 7] = ["stl", "ply", "obj", "vtp", "vtk", "gltf", "scan"];
 /// The longest file that is made up, in bytes.
 const LONGEST: u32 = 1 << 14;
 /// What a file may take: 64 MB and twenty times its length. libFuzzer counts whole MB, and an allocation at a time.
@@ -49,9 +49,10 @@ pub(crate) fn files(only: &[String], minutes: u64) -> Result<()> {
     let program = cargo_fuzz.to_string_lossy();
     let shared = ["--sanitizer", "none", "--target-dir"];
     step("Build the fuzz targets", || {
-        run(cargo()
-            .args(["test", "--quiet", "--no-default-features", "--test", "formats", "--", "samples::seeds"])
-            .env("LUMEN_SEEDS", &corpus))?;
+        let seeds = ["test", "--quiet", "--no-default-features", "--features=scans"];
+        for samples in ["formats", "scans"] {
+            run(cargo().args(seeds).args(["--test", samples, "--", "samples::seeds"]).env("LUMEN_SEEDS", &corpus))?;
+        }
         run(nightly(&[&*program, "build"]).args(shared).arg(&folder))
     })?;
     for reader in READERS.into_iter().filter(|reader| only.is_empty() || only.iter().any(|name| name == reader)) {

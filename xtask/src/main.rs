@@ -11,6 +11,7 @@ mod document;
 mod estimate;
 mod firmware;
 mod fuzz;
+mod glue;
 mod package;
 mod page;
 mod peers;

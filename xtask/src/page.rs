@@ -79,6 +79,7 @@ mod tests {
         let module = dist.join("lumen-web_bg.wasm");
         std::fs::write(&module, "12345").unwrap();
         std::fs::write(dist.join("lumen-web.js"), "glue").unwrap();
+        std::fs::write(dist.join("lumen-scan.js"), "glue").unwrap();
         stamp(&dist, &module).unwrap();
 
         let text = |name: &str| std::fs::read_to_string(dist.join(name)).unwrap();
@@ -97,8 +98,8 @@ mod tests {
         for (name, hash) in files {
             assert_eq!(*hash, sha256(&std::fs::read(dist.join(name)).unwrap()), "{name}");
         }
-        for name in ["index.html", "boot.js", "store.js", "worker.js", "style.css", "lumen-web.js", "lumen-web_bg.wasm"]
-        {
+        let page = ["index.html", "boot.js", "drop.js", "store.js", "worker.js", "style.css"];
+        for name in page.into_iter().chain(["lumen-web.js", "lumen-web_bg.wasm", "lumen-scan.js"]) {
             assert!(files.contains_key(name), "{name}");
         }
         assert!(!files.contains_key("service-worker.js"));

@@ -55,7 +55,7 @@ pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
         estimate.end();
         let browser = match dist.map(std::thread::ScopedJoinHandle::join) {
             None => Ok(()),
-            Some(Ok(Ok(dist))) => browser(&dist, &mut estimate).map(&mut add),
+            Some(Ok(Ok(dist))) => browser(&dist, long, &mut estimate).map(&mut add),
             Some(Ok(Err(error))) => Err(error),
             Some(Err(_)) => Err(anyhow!("the build of the browser app panicked")),
         };
@@ -118,7 +118,7 @@ fn cargo_counts(line: &str, counts: &mut Counts) {
     }
 }
 
-fn browser(dist: &Path, estimate: &mut Estimate) -> Result<(Counts, bool)> {
+fn browser(dist: &Path, long: bool, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     let npm = tools::npm()?;
     let chromium = tools::chromium()?;
     let mut files: Vec<_> = std::fs::read_dir(root().join("tests/browser"))?
@@ -126,9 +126,9 @@ fn browser(dist: &Path, estimate: &mut Estimate) -> Result<(Counts, bool)> {
         .filter(|path| path.to_string_lossy().ends_with(".test.mjs"))
         .collect();
     files.sort();
-    // In the profile and with the features of the native tests, so that it is there once they have run.
+    // As a test's, so that it has the features of the native tests and is there once they have run.
     step("Compile the command line the browser is compared with", || {
-        crate::step::run(cargo().args(["build", "--quiet", "--workspace", "--bin=lumen"]))
+        crate::step::run(cargo().args(["test", "--quiet", "--workspace", "--no-run", "--test=program"]))
     })?;
     let mut command = Command::new("node");
     command
@@ -142,6 +142,9 @@ fn browser(dist: &Path, estimate: &mut Estimate) -> Result<(Counts, bool)> {
             "LUMEN_PROGRAM",
             crate::step::target().join("debug").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
         );
+    if long {
+        command.env("LUMEN_LONG", "1");
+    }
     estimate.begin("browser tests");
     step("Run the browser tests", || count(&mut command, node_counts, |_| None, estimate))
 }

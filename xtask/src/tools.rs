@@ -43,7 +43,7 @@ pub(crate) fn locked(file: &str, package: &str) -> Result<String> {
 
 /// The folder with `node_modules`, as `xtask/npm` asks.
 pub(crate) fn npm() -> Result<PathBuf> {
-    npm_packages("xtask/npm", "npm", "Install wasm-opt, playwright-core and axe-core from npm")
+    npm_packages("xtask/npm", "npm", "Install wasm-opt, terser, playwright-core and axe-core from npm")
 }
 
 /// The folder of the target directory with `node_modules`, as the package.json in `asked` says.

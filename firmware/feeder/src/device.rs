@@ -8,9 +8,7 @@ use crate::axis::Axis;
 use crate::effects::{Effects, Motion, Refusal};
 use crate::feeder::id;
 use crate::quadrature::Steps;
-
-/// USB's number of Lumen's vendor, pid.codes', and of its prototypes.
-pub const USB_IDS: [u16; 2] = [0x1209, 0x0001];
+use crate::turn::{Line, Turn};
 
 /// Counts of an encoder of 1000 lines on a friction wheel of 20 mm for 50 mm of wire: 4000 x 50 / (20 pi).
 pub const FEED_HALF_WAY: i32 = 3183;
@@ -40,6 +38,7 @@ pub struct Device {
     seen: Seen,
     /// Whether an encoder was too fast to be followed since the middle was last set.
     is_lost: bool,
+    turn: Turn,
 }
 
 impl Default for Device {
@@ -57,12 +56,14 @@ impl Device {
             axes: [Axis::new(FEED_HALF_WAY), Axis::new(ROLL_HALF_WAY)],
             seen: Seen { steps: [none; 2], is_clutched: false, is_centred: false, has_power: false, is_faulty: false },
             is_lost: false,
+            turn: Turn::new(),
         }
     }
 
     /// Lets a ms pass. Returns the force on feed and roll as parts of the greatest, -1 to 1.
     pub fn advance(&mut self, seen: &Seen) -> [f32; 2] {
         self.seen = *seen;
+        self.turn.advance();
         for (axis, steps) in self.axes.iter_mut().zip(&seen.steps) {
             axis.advance(steps.counts);
             self.is_lost |= steps.missed > 0;
@@ -82,6 +83,24 @@ impl Device {
     /// The USB was reset, put to sleep or unplugged: no force, and nothing that was told counts any more.
     pub fn let_go(&mut self) {
         self.effects.forget();
+        self.turn = Turn::new();
+    }
+
+    /// A report has come by `line`: whether it is this line's turn, and the report is to be taken. Where the other had it, what
+    /// that has told is forgotten.
+    pub fn hears(&mut self, line: Line) -> bool {
+        let heard = self.turn.take(line);
+        if heard.is_another() {
+            self.effects.forget();
+        }
+        heard.is_taken()
+    }
+
+    /// The host at the end of `line` has left: no force, where it was its own.
+    pub fn leaves(&mut self, line: Line) {
+        if self.turn.is_of(line) {
+            self.let_go();
+        }
     }
 
     /// Takes an output report, without its id.
@@ -199,6 +218,27 @@ mod tests {
         device.advance(&Seen { is_centred: true, is_clutched: true, ..WELL });
         assert_eq!(device.playing()[1] & 0b100, 0b100);
         assert_eq!(device.state(), [1, 3, 0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn one_host_is_heard_at_a_time_and_what_it_told_is_not_the_other_s() {
+        let mut device = pushing();
+        assert!(device.hears(Line::Hid));
+        assert!(!device.hears(Line::Serial), "the other talks");
+        device.leaves(Line::Serial);
+        assert!(device.advance(&WELL)[0] > 0.4, "it is not the one that left");
+        for ms in 1..crate::feeder::WATCHDOG_MS {
+            assert!(!device.hears(Line::Serial), "{ms} ms");
+            device.advance(&WELL);
+        }
+        assert!(device.hears(Line::Serial), "the other is silent");
+        assert!(device.take(id::OPERATION, &[1, 1, 1]).is_err(), "its effects are not this one's");
+        assert!(!device.hears(Line::Hid));
+        let mut device = pushing();
+        assert!(device.hears(Line::Serial));
+        device.leaves(Line::Serial);
+        assert_eq!(device.advance(&WELL), [0.0; 2]);
+        assert!(device.hears(Line::Hid), "at once");
     }
 
     #[test]

@@ -13,6 +13,8 @@ pub enum Action {
     Figure7,
     /// Arrange the pictures so.
     Arrange(Arrangement),
+    /// Colour the others by their distance from the first, or no longer.
+    Difference,
     /// Compare this no more.
     Remove(u64),
     /// Try again one that was stopped or failed.

@@ -1,5 +1,6 @@
 //! How the pictures of a setting stand.
 
+use crate::language::Key;
 use crate::render::Look;
 
 /// How the pictures of a setting are arranged.
@@ -21,22 +22,22 @@ impl Arrangement {
     pub const ALL: [Self; 4] = [Self::Shaded, Self::Wireframe, Self::Both, Self::Stacked];
 
     /// What it is called.
-    pub fn label(self) -> &'static str {
+    pub fn label(self) -> Key {
         match self {
-            Self::Shaded => "Shaded",
-            Self::Wireframe => "Wireframe",
-            Self::Both => "Both",
-            Self::Stacked => "Stacked",
+            Self::Shaded => Key("compare-shaded"),
+            Self::Wireframe => Key("compare-wireframe"),
+            Self::Both => Key("compare-both"),
+            Self::Stacked => Key("compare-stacked"),
         }
     }
 
     /// What it shows.
-    pub(super) fn help(self) -> &'static str {
+    pub(super) fn help(self) -> Key {
         match self {
-            Self::Shaded => "The surfaces",
-            Self::Wireframe => "Their edges",
-            Self::Both => "Edges over the surface",
-            Self::Stacked => "The surface above its edges",
+            Self::Shaded => Key("compare-shaded-help"),
+            Self::Wireframe => Key("compare-wireframe-help"),
+            Self::Both => Key("compare-both-help"),
+            Self::Stacked => Key("compare-stacked-help"),
         }
     }
 

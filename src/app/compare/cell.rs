@@ -1,15 +1,19 @@
 //! One setting drawn: its picture or pictures, and below them what it is and what came of it. The same in the window
 //! and in a figure.
 
-use egui::{Align, Color32, Layout, Rect, RichText, Ui, UiBuilder, pos2, vec2};
+use egui::{Align, Color32, Layout, Rect, RichText, Role, Ui, UiBuilder, pos2, vec2};
 
 use super::arrangement::Arrangement;
 use super::comparison::{Made, Outcome};
-use super::scene::{CompareScene, Shot};
+use super::scene::{CompareScene, Scalars, Shot};
 use super::words::{self, Number};
+use crate::app::assist::name;
+use crate::app::halo;
 use crate::app::overlay;
 use crate::io::Axes;
+use crate::language::Key;
 use crate::render::{Camera, Style, SurfaceError};
+use crate::say;
 
 /// How all cells of a grid are drawn.
 #[derive(Clone, Copy)]
@@ -19,6 +23,8 @@ pub(super) struct Manner<'a> {
     /// Each triangle with its own normal.
     pub(super) flat: bool,
     pub(super) style: Style,
+    /// What the style's colour map shows.
+    pub(super) scalars: Option<&'a Scalars>,
     /// Which way the patient lies, as far as that is known.
     pub(super) axes: Axes,
 }
@@ -64,12 +70,26 @@ pub(super) fn pictures(
         let pixels = rect.size() * ui.ctx().pixels_per_point();
         let size = [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32];
         let shot = Shot { camera: *manner.camera, size, looks, style: manner.style };
-        let texture = scene.draw(index * PICTURES + k, &made.mesh, &shot)?;
+        let texture = scene.draw(index * PICTURES + k, &made.mesh, manner.scalars, &shot)?;
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
         overlay::scale_and_axes(ui, rect, manner.camera, manner.axes);
     }
     Ok(())
+}
+
+/// Words over the pictures in `rect`, in their upper left corner.
+pub(super) fn note(ui: &mut Ui, rect: Rect, text: &str) {
+    /// What the letters of the axes take.
+    const AXES: f32 = 88.0;
+    let size = vec2((rect.width() - AXES).max(AXES), LINE);
+    let rect = Rect::from_min_size(rect.min + vec2(MARGIN, MARGIN), size);
+    let words = egui::Label::new(RichText::new(text).small()).truncate().selectable(false);
+    place(ui, rect, Layout::top_down(Align::LEFT), |ui| {
+        let (at, galley, response) = words.layout_in_ui(ui);
+        halo::galley(ui.painter(), at, galley, ui.visuals().text_color());
+        name(&response, Role::Label, text);
+    });
 }
 
 /// The words below the pictures: a title and the numbers, or why there are none. `room` is kept free at the right of the
@@ -81,11 +101,11 @@ pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, r
     let above = Rect::from_min_max(inner.min, pos2(inner.right() - room, top));
     let text = egui::Label::new(RichText::new(title).strong());
     let text = if rect.width() >= NARROW { text.truncate() } else { text.wrap() };
-    place(ui, above, Layout::top_down(Align::LEFT), |ui| ui.add(text)).on_hover_text(title);
+    place(ui, above, Layout::top_down(Align::LEFT), |ui| ui.add(text)).on_hover_text(title.to_owned());
     let report = match outcome {
         Outcome::Done(made) => &made.report,
         Outcome::Waiting | Outcome::Failed(_) => {
-            let text = if let Outcome::Failed(reason) = outcome { reason } else { "Waiting for the engine" };
+            let text = if let Outcome::Failed(reason) = outcome { reason.clone() } else { say!("compare-waiting") };
             let rest = Rect::from_min_max(pos2(inner.left(), top), inner.max);
             let text = egui::Label::new(RichText::new(text).small().weak()).wrap();
             place(ui, rest, Layout::top_down(Align::LEFT), |ui| ui.add(text));
@@ -94,7 +114,7 @@ pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, r
     };
     let numbers = words::numbers(report);
     let (counts, deviations) = numbers.split_at(3);
-    let head = Number { what: "Deviation", how_much: "mean / max, mm".to_owned(), help: "" };
+    let head = Number { what: Key("compare-deviation"), how_much: say!("compare-deviation-unit"), help: None };
     let column = |ui: &mut Ui, left: f32, width: f32, top: f32, numbers: &mut dyn Iterator<Item = &Number>| {
         for (i, number) in numbers.enumerate() {
             row(ui, line(top + LINE * i as f32, left, width), number);
@@ -113,14 +133,14 @@ pub(super) fn caption(ui: &mut Ui, rect: Rect, title: &str, outcome: &Outcome, r
 /// What a number is on the left, how much on the right.
 fn row(ui: &mut Ui, rect: Rect, number: &Number) {
     let response = place(ui, rect, Layout::left_to_right(Align::Center), |ui| {
-        ui.label(RichText::new(number.what).small().weak());
+        ui.label(RichText::new(number.what.say()).small().weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add(egui::Label::new(RichText::new(&number.how_much).small()).truncate())
         })
         .inner
     });
-    if !number.help.is_empty() {
-        response.on_hover_text(number.help);
+    if let Some(help) = number.help {
+        response.on_hover_text(help.say());
     }
 }
 

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::action::Action;
 use super::arrangement::Arrangement;
-use crate::engine::Compared;
+use super::difference::{Difference, Differences, Pair};
+use crate::engine::{Compared, Differed};
 use crate::mesh::TriMesh;
 use crate::pipeline::paper;
 use crate::pipeline::report::Report;
@@ -44,6 +45,16 @@ pub struct Cell {
     pub outcome: Outcome,
 }
 
+impl Cell {
+    /// The surface, if it is there.
+    fn mesh(&self) -> Option<&Arc<TriMesh>> {
+        match &self.outcome {
+            Outcome::Done(made) => Some(&made.mesh),
+            Outcome::Waiting | Outcome::Failed(_) => None,
+        }
+    }
+}
+
 /// The surface that is compared: the document and its pieces.
 type Subject = (u64, Keep);
 
@@ -53,6 +64,9 @@ pub struct Comparison {
     cells: Vec<Cell>,
     /// How their pictures are arranged.
     pub arrangement: Arrangement,
+    /// Whether the others are coloured by their distance from the first.
+    pub shows_difference: bool,
+    differences: Differences,
     is_open: bool,
     /// The number of the newest cell.
     newest: u64,
@@ -74,6 +88,9 @@ impl Comparison {
 
     /// Shows the view or leaves it.
     pub fn set_open(&mut self, is_open: bool) {
+        if is_open && !self.is_open {
+            self.differences.set_stopped(false);
+        }
         self.is_open = is_open;
     }
 
@@ -90,6 +107,10 @@ impl Comparison {
                 self.arrangement = Arrangement::Stacked;
             }
             Action::Arrange(arrangement) => self.arrangement = arrangement,
+            Action::Difference => {
+                self.shows_difference = !self.shows_difference;
+                self.differences.set_stopped(false);
+            }
             Action::Remove(id) => self.remove(id),
             Action::Retry(id) => self.retry(id),
             Action::Close => self.set_open(false),
@@ -109,6 +130,7 @@ impl Comparison {
 
     fn push(&mut self, settings: Settings) {
         self.newest += 1;
+        self.differences.set_stopped(false);
         self.cells.push(Cell { id: self.newest, settings, outcome: Outcome::Waiting });
     }
 
@@ -133,12 +155,13 @@ impl Comparison {
     pub fn retry(&mut self, id: u64) {
         if let Some(cell) = self.cells.iter_mut().find(|cell| cell.id == id) {
             cell.outcome = Outcome::Waiting;
+            self.differences.set_stopped(false);
         }
     }
 
     /// Whether the engine owes an answer.
     pub fn is_busy(&self) -> bool {
-        self.request.1.iter().any(Option::is_some)
+        self.request.1.iter().any(Option::is_some) || self.differences.is_busy()
     }
 
     /// Whether there is something that the engine has to be asked, or was.
@@ -149,6 +172,7 @@ impl Comparison {
     /// Gives up what has no result yet, for this reason.
     pub(in crate::app) fn stop(&mut self, reason: &str) {
         self.forget_request();
+        self.differences.set_stopped(true);
         for cell in self.cells.iter_mut().filter(|cell| cell.outcome == Outcome::Waiting) {
             cell.outcome = Outcome::Failed(reason.to_owned());
         }
@@ -157,6 +181,7 @@ impl Comparison {
     /// The engine knows nothing of what it was asked for: it will be asked again.
     pub(in crate::app) fn forget_request(&mut self) {
         self.request.1.clear();
+        self.differences.forget_request();
     }
 
     /// What the engine has to be asked now, if it is another thing than it was asked for last; `subject` is the surface
@@ -164,6 +189,7 @@ impl Comparison {
     pub(in crate::app) fn request(&mut self, subject: Subject, id: u64) -> Option<Vec<Settings>> {
         if self.subject.replace(subject) != Some(subject) {
             self.forget_request();
+            self.differences.set_stopped(false);
             for cell in &mut self.cells {
                 cell.settings.keep = subject.1;
                 cell.outcome = Outcome::Waiting;
@@ -187,6 +213,55 @@ impl Comparison {
     /// Hears that one of the settings cannot be worked on.
     pub(in crate::app) fn receive_failure(&mut self, id: u64, index: u32, message: &str) {
         self.answer(id, index, Outcome::Failed(message.to_owned()));
+    }
+
+    /// The surfaces of which the engine has to be asked now how far they are apart, if it is to be.
+    pub(in crate::app) fn request_difference(&mut self, id: u64) -> Option<Pair> {
+        if !self.is_open {
+            self.differences.forget_request();
+            return None;
+        }
+        let mut meshes = self.cells.iter().map(Cell::mesh);
+        let pairs: Vec<Pair> = match meshes.next().flatten() {
+            Some(first) => meshes.flatten().map(|other| [first.clone(), other.clone()]).collect(),
+            None => Vec::new(),
+        };
+        self.differences.next(&pairs, id)
+    }
+
+    /// Takes how far two surfaces are apart; an answer to an older question is passed over.
+    pub(in crate::app) fn receive_difference(&mut self, differed: Differed) {
+        self.differences.receive(differed);
+    }
+
+    /// How far the surface of `cell` is from the first, if that is known.
+    pub fn difference(&self, cell: &Cell) -> Option<&Difference> {
+        self.differences.of(self.cells.first()?.mesh()?, cell.mesh()?)
+    }
+
+    /// The largest difference, once all are known.
+    pub fn largest_difference(&self) -> Option<&Difference> {
+        let is_known = |cell: &Cell| match cell.outcome {
+            Outcome::Waiting => false,
+            Outcome::Failed(_) => true,
+            Outcome::Done(_) => self.difference(cell).is_some(),
+        };
+        if !self.cells.iter().skip(1).all(is_known) {
+            return None;
+        }
+        self.known().max_by(|a, b| a.most_mm().total_cmp(&b.most_mm()))
+    }
+
+    /// The distance that has the last colour, in mm: 95 % of the samples of every surface are within it. `None` until one
+    /// is known.
+    pub fn colours_up_to_mm(&self) -> Option<f32> {
+        let all = self.known().filter_map(|found| found.deviation);
+        all.map(|deviation| deviation.p95).max_by(f64::total_cmp).map(|most| (most as f32).max(1e-3))
+    }
+
+    /// What is known of the cells that there are.
+    fn known(&self) -> impl Iterator<Item = &Difference> {
+        self.cells.iter().skip(1).filter_map(|cell| self.difference(cell))
     }
 
     fn answer(&mut self, id: u64, index: u32, outcome: Outcome) {

@@ -7,11 +7,11 @@ use super::cell::{self, Manner};
 use super::comparison::{Made, Outcome};
 use super::scene::CompareScene;
 use super::words;
-use crate::app::overlay::NOT_CLINICAL;
 use crate::app::theme;
 use crate::io::Axes;
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::render::{Camera, Picture, PictureError, Style, SurfaceError};
+use crate::say;
 
 /// Width of a figure in points: what it has room for does not depend on its width in pixels.
 const WIDTH: f32 = 960.0;
@@ -39,13 +39,11 @@ pub struct Figure<'a> {
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
     /// Nothing to draw with.
-    #[error(
-        "there is no graphics device to draw with, not even in software: a Vulkan or OpenGL driver is missing, such as \
-         Debian's mesa-vulkan-drivers"
-    )]
+    #[error("{}", say!("compare-error-device"))]
     Device(#[from] egui_wgpu::WgpuError),
     /// The picture is larger than the device allows.
-    #[error("the picture would be {width} x {height} pixels; this graphics device draws at most {limit} each way")]
+    #[error("{}", say!("compare-error-too-large", width = .width.to_string(), height = .height.to_string(),
+        limit = .limit.to_string()))]
     TooLarge {
         /// Pixels.
         width: u32,
@@ -79,6 +77,11 @@ impl Studio {
         let options = egui_wgpu::RendererOptions::PREDICTABLE;
         let state = egui_wgpu::RenderState::create(&configuration, &instance, None, options);
         Ok(Self { state: pollster::block_on(state)? })
+    }
+
+    /// The device, and what is submitted to it.
+    pub(in crate::app) fn device(&self) -> (&wgpu::Device, &wgpu::Queue) {
+        (&self.state.device, &self.state.queue)
     }
 
     /// Draws a figure `width` pixels wide; its height follows from the surface's form. Where the device allows, it is
@@ -220,7 +223,7 @@ impl Plan {
             bounds = bounds.joined(&made.mesh.bounds());
         }
         let mut camera = Camera::default();
-        camera.standard_view(crate::app::views::first_view(bounds.size()));
+        crate::app::views::stand(&mut camera, crate::app::views::first_view(bounds.size()), figure.axes);
         let width = (WIDTH - 2.0 * MARGIN - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32;
         // As high as the surface is beside its width, within what a page has room for.
         let axes = camera.axes();
@@ -246,13 +249,9 @@ fn show(ui: &mut Ui, scene: &mut CompareScene, figure: &Figure<'_>, plan: &Plan)
             ui.label(RichText::new(format!("{}  ·  {shared}", figure.name)).weak());
         });
         part(ui, page.split_top_bottom_at_y(page.bottom() - FOOT + GAP).1, |ui| {
-            let samples = REPORT_SAMPLES / 1000;
-            ui.label(RichText::new(format!(
-                "Deviation: distance between two surfaces, measured both ways over {samples},000 samples of each; smoothed: \
-                 the surface before reduction, original: before smoothing. Volume: change from the original, open ends capped."
-            )).small().weak());
+            ui.label(RichText::new(say!("compare-figure-legend", samples = REPORT_SAMPLES)).small().weak());
             ui.with_layout(Layout::left_to_right(Align::Min), |ui| {
-                ui.label(RichText::new(format!("{NOT_CLINICAL}.")).small().strong());
+                ui.label(RichText::new(say!("report-not-clinical")).small().strong());
                 ui.label(RichText::new(format!("Lumen {}", env!("CARGO_PKG_VERSION"))).small().weak());
             });
         });
@@ -283,7 +282,8 @@ fn panel(
         arrangement: figure.arrangement,
         camera: &plan.camera,
         flat: false,
-        style: Style::LIGHT,
+        style: Style { occlusion: true, ..Style::LIGHT },
+        scalars: None,
         axes: figure.axes,
     };
     cell::pictures(ui, scene, index, above, made, &manner)?;

@@ -1,6 +1,7 @@
 //! The compare view: up to six settings of one surface under one camera, each with its numbers.
 //!
 //! - [`Comparison`]: which settings are compared and what the engine made of them; [`Action`]: what is asked of it.
+//! - `difference`: how far the others are from the first.
 //! - `words`: a setting in words, a result in numbers; `cell`: one setting drawn, as `arrangement` says; `scene`: what
 //!   stands in GPU memory.
 //! - `view`: the grid in the window; `figure`: the same cells off screen, as the paper's figures.
@@ -9,6 +10,7 @@ mod action;
 mod arrangement;
 mod cell;
 mod comparison;
+mod difference;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod figure;
 mod scene;
@@ -18,5 +20,6 @@ mod words;
 pub use self::action::Action;
 pub use self::arrangement::Arrangement;
 pub use self::comparison::{Cell, Comparison, MOST, Made, Outcome};
+pub use self::difference::Difference;
 pub(super) use self::scene::{CompareScene, Shot};
 pub(super) use self::view::CompareView;

@@ -28,19 +28,31 @@ pub(in crate::app) struct CompareScene {
     queue: wgpu::Queue,
     window: WindowRenderer,
     renderer: Renderer,
-    surfaces: Vec<(Arc<TriMesh>, GpuSurface)>,
+    surfaces: Vec<Surface>,
     pictures: Vec<WindowTarget<Drawn>>,
+}
+
+/// A number for each vertex of a surface.
+pub(in crate::app) type Scalars = Arc<Vec<f32>>;
+
+/// A surface in memory, and the numbers that it has there.
+struct Surface {
+    mesh: Arc<TriMesh>,
+    scalars: Option<Scalars>,
+    on_gpu: GpuSurface,
 }
 
 /// What a picture was drawn from.
 struct Drawn {
     mesh: Arc<TriMesh>,
+    scalars: Option<Scalars>,
     shot: Shot,
 }
 
 impl PartialEq for Drawn {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.mesh, &other.mesh) && self.shot == other.shot
+        let of = |drawn: &Self| drawn.scalars.as_ref().map(Arc::as_ptr);
+        Arc::ptr_eq(&self.mesh, &other.mesh) && of(self) == of(other) && self.shot == other.shot
     }
 }
 
@@ -55,13 +67,14 @@ impl CompareScene {
     /// Forgets all surfaces but these.
     pub(in crate::app) fn keep_only<'a>(&mut self, meshes: &(impl Iterator<Item = &'a Arc<TriMesh>> + Clone)) {
         let is_kept = |mesh: &Arc<TriMesh>| meshes.clone().any(|kept| Arc::ptr_eq(kept, mesh));
-        self.surfaces.retain(|(mesh, _)| is_kept(mesh));
+        self.surfaces.retain(|surface| is_kept(&surface.mesh));
         for picture in &mut self.pictures {
             picture.forget_if(|drawn| !is_kept(&drawn.mesh));
         }
     }
 
-    /// Draws picture `index` of `mesh`, if it would look other than it does, and gives the texture that it is in.
+    /// Draws picture `index` of `mesh`, if it would look other than it does, and gives the texture that it is in. The
+    /// colour map of a shot shows `scalars`.
     ///
     /// # Errors
     /// When the surface does not fit into the memory that the device allows.
@@ -69,16 +82,17 @@ impl CompareScene {
         &mut self,
         index: usize,
         mesh: &Arc<TriMesh>,
+        scalars: Option<&Scalars>,
         shot: &Shot,
     ) -> Result<TextureId, SurfaceError> {
         while self.pictures.len() <= index {
             self.pictures.push(WindowTarget::new(&self.device, &self.window));
         }
-        let surface = self.surface(mesh)?;
+        let surface = self.surface(mesh, scalars)?;
         let picture = &mut self.pictures[index];
-        let drawn = Drawn { mesh: mesh.clone(), shot: shot.clone() };
+        let drawn = Drawn { mesh: mesh.clone(), scalars: scalars.cloned(), shot: shot.clone() };
         let Some(target) = picture.stale(&self.device, shot.size, drawn) else { return Ok(picture.id()) };
-        let surface = &self.surfaces[surface].1;
+        let surface = &self.surfaces[surface].on_gpu;
         let drawables: Vec<_> = shot.looks.iter().map(|&look| Drawable { surface, look, tint: None }).collect();
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("cell") });
         self.renderer.draw(&self.device, &mut encoder, target, &shot.camera, &drawables, &shot.style);
@@ -86,14 +100,24 @@ impl CompareScene {
         Ok(picture.id())
     }
 
-    /// The place of `mesh` among the surfaces; it is uploaded the first time.
-    fn surface(&mut self, mesh: &Arc<TriMesh>) -> Result<usize, SurfaceError> {
-        if let Some(at) = self.surfaces.iter().position(|(known, _)| Arc::ptr_eq(known, mesh)) {
-            return Ok(at);
+    /// The place of `mesh` among the surfaces; it is uploaded the first time, and `scalars` where it has others.
+    fn surface(&mut self, mesh: &Arc<TriMesh>, scalars: Option<&Scalars>) -> Result<usize, SurfaceError> {
+        let known = self.surfaces.iter().position(|known| Arc::ptr_eq(&known.mesh, mesh));
+        let at = match known {
+            Some(at) => at,
+            None => {
+                let mut on_gpu = GpuSurface::new(&self.device, &self.queue, &[])?;
+                upload(&self.device, &self.queue, &mut on_gpu, mesh)?;
+                self.surfaces.push(Surface { mesh: mesh.clone(), scalars: None, on_gpu });
+                self.surfaces.len() - 1
+            }
+        };
+        let surface = &mut self.surfaces[at];
+        if let Some(scalars) = scalars.filter(|new| !surface.scalars.as_ref().is_some_and(|old| Arc::ptr_eq(old, new)))
+        {
+            surface.on_gpu.set_scalars(&self.device, &self.queue, Some(scalars.as_slice()))?;
+            surface.scalars = Some(scalars.clone());
         }
-        let mut surface = GpuSurface::new(&self.device, &self.queue, &[])?;
-        upload(&self.device, &self.queue, &mut surface, mesh)?;
-        self.surfaces.push((mesh.clone(), surface));
-        Ok(self.surfaces.len() - 1)
+        Ok(at)
     }
 }

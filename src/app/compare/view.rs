@@ -1,22 +1,26 @@
 //! The compare view in the window: a bar with what can be done, the grid, and a line on what all cells share.
 
 use egui::{ComboBox, Frame, Margin, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui};
-use egui::{UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{UiBuilder, Vec2, WidgetInfo, vec2};
 
 use super::action::Action as OfComparison;
 use super::arrangement::Arrangement;
 use super::cell::{self, Manner};
-use super::comparison::{Cell, Comparison, MOST, Outcome};
+use super::comparison::{Cell, Comparison, MOST, Made, Outcome};
+use super::difference::Difference;
 use super::scene::CompareScene;
 use super::words;
 use crate::app::action::Action;
-use crate::app::assist::name;
+use crate::app::assist::{heading, name};
 use crate::app::document::Document;
+use crate::app::halo;
 use crate::app::icon::{self, Icon};
-use crate::app::overlay::NOT_CLINICAL;
 use crate::app::theme;
 use crate::app::views::{NO_MEMORY, Views};
+use crate::language::decimal;
 use crate::pipeline::settings::Settings;
+use crate::render::{Camera, ColourMap, Style, viridis};
+use crate::say;
 
 /// A picture is at least this high, in points; a grid that does not fit scrolls.
 const LEAST_PICTURE: f32 = 132.0;
@@ -32,17 +36,54 @@ pub(in crate::app) struct CompareView {
     is_refused: bool,
     /// Whether the pointer was over a picture, where the wheel zooms; elsewhere it scrolls.
     over_picture: bool,
+    /// Whether every cell shows the result of the first: the eye sees what moves where one takes the other's place.
+    shows_first: bool,
+    /// The camera, as long as the view is shown.
+    look: Look,
+}
+
+/// Where the view looks: it opens on where the surfaces differ most, unless the user looks somewhere else meanwhile.
+#[derive(Default)]
+struct Look {
+    /// From where it looked at the end of the last frame.
+    last: Option<Camera>,
+    was_moved: bool,
+    has_gone: bool,
+    /// From where it looked before it went there by itself, and from where then.
+    went: Option<[Camera; 2]>,
+}
+
+impl Look {
+    /// Goes once, when all differences are known.
+    fn follow(&mut self, comparison: &Comparison, camera: &mut Camera) {
+        if let Some(largest) = comparison.largest_difference().filter(|_| !self.has_gone) {
+            self.has_gone = true;
+            if let Some((at, height_mm)) = largest.patch().filter(|_| !self.was_moved) {
+                let before = *camera;
+                camera.focus(at, height_mm);
+                self.went = Some([before, *camera]);
+            }
+        }
+        self.last = Some(*camera);
+    }
 }
 
 impl CompareView {
     /// A view on the window's device; without one (in some tests) it says so.
     pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
-        Self { device: device.cloned(), scene: None, is_refused: false, over_picture: false }
+        let look = Look::default();
+        Self { device: device.cloned(), scene: None, is_refused: false, over_picture: false, shows_first: false, look }
     }
 
-    /// Lets go of GPU memory, for while the view is not shown.
-    pub(in crate::app) fn let_go(&mut self) {
+    /// Lets go of GPU memory, for while the view is not shown; and of the camera, which looks from where it did before it
+    /// went somewhere by itself.
+    pub(in crate::app) fn let_go(&mut self, views: &mut Views) {
         (self.scene, self.is_refused) = (None, false);
+        if let Some([before, at]) = std::mem::take(&mut self.look).went
+            && views.camera == at
+        {
+            views.camera = before;
+        }
     }
 
     /// Gives up what stands on the device, whose memory is full, until the view is shown anew.
@@ -61,6 +102,8 @@ impl CompareView {
         is_narrow: bool,
     ) -> Vec<Action> {
         let mut asked = Vec::new();
+        // Who has chosen a place looks there, whatever else is to be seen.
+        self.look.was_moved |= self.look.last.map_or(!views.is_fitted(), |last| last != views.camera);
         if let (None, false, Some(device)) = (&self.scene, self.is_refused, &self.device) {
             self.scene = Some(CompareScene::new(device));
         }
@@ -73,23 +116,38 @@ impl CompareView {
         }
         let fill = ui.visuals().panel_fill;
         ui.spacing_mut().item_spacing.y = 1.0;
+        let all: Vec<_> = comparison.cells().iter().map(|cell| &cell.settings).collect();
         Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 6)).show(ui, |ui| {
             ui.set_min_width(ui.available_width());
-            bar(ui, comparison, settings, is_narrow, &mut asked);
+            let (title, figure) = words::heading(&all);
+            heading(ui, &title);
+            if !figure.is_empty() {
+                ui.label(RichText::new(figure).small().weak());
+            }
+            let is_held = bar(ui, comparison, settings, is_narrow, self.shows_first, &mut asked);
+            let by_key = ui.input(|input| input.key_down(egui::Key::X)) && !ui.ctx().text_edit_focused();
+            self.shows_first = is_held || by_key;
+            if comparison.shows_difference && comparison.cells().len() > 1 {
+                legend(ui, comparison);
+            }
         });
-        let all: Vec<_> = comparison.cells().iter().map(|cell| &cell.settings).collect();
         let (shared, titles) = words::titles(&all);
         let foot = if is_narrow { 44.0 } else { 28.0 };
         let area = ui.available_rect_before_wrap();
         let (grid, foot) = area.split_top_bottom_at_y(area.bottom() - foot);
         ui.painter().rect_filled(foot, 0.0, fill);
-        let name = document.map_or("", |document| document.name.as_str());
+        let name = document.map_or_else(Default::default, Document::title);
         ui.scope_builder(UiBuilder::new().max_rect(foot.shrink2(vec2(12.0, 4.0))), |ui| {
-            footer(ui, name, &shared, slow(comparison), is_narrow);
+            footer(ui, &name, &shared, &slow(comparison), is_narrow);
         });
         ui.scope_builder(UiBuilder::new().max_rect(grid), |ui| {
             asked.extend(self.grid(ui, comparison, &titles, views, settings, document, is_narrow));
         });
+        let before = views.camera;
+        self.look.follow(comparison, &mut views.camera);
+        if views.camera != before {
+            ui.ctx().request_repaint();
+        }
         asked
     }
 
@@ -109,10 +167,14 @@ impl CompareView {
         if count == 0 {
             ui.painter().rect_filled(area, 0.0, ui.visuals().panel_fill);
             ui.scope_builder(UiBuilder::new().max_rect(area.shrink(24.0)), |ui| {
-                ui.label("Nothing is compared yet: add the current settings, or take those of a figure of the paper.");
+                ui.label(say!("compare-nothing"));
             });
             return None;
         }
+        let first = comparison.cells().first().filter(|_| self.shows_first).and_then(|cell| match &cell.outcome {
+            Outcome::Done(made) => Some(&**made),
+            Outcome::Waiting | Outcome::Failed(_) => None,
+        });
         let columns = columns(count, is_narrow);
         let rows = count.div_ceil(columns);
         let width = area.width() / columns as f32;
@@ -130,16 +192,37 @@ impl CompareView {
                 let corner = whole.min + vec2(width * (i % columns) as f32, height * (i / columns) as f32);
                 let rect = Rect::from_min_size(corner, vec2(width, height)).shrink(0.5);
                 let camera = views.camera;
+                let is_coloured = comparison.shows_difference && first.is_none();
+                let difference = comparison.difference(cell).filter(|_| is_coloured && i > 0);
+                let scalars = difference.map(|found| &found.by_vertex).filter(|values| !values.is_empty());
+                let most = scalars.and(comparison.colours_up_to_mm());
+                let map = most.map(|most| ColourMap { range: (0.0, most) });
+                let note = if is_coloured && i == 0 {
+                    say!("compare-reference")
+                } else {
+                    difference.map_or(String::new(), words::difference)
+                };
                 let manner = Manner {
                     arrangement: comparison.arrangement,
                     camera: &camera,
                     flat: views.options.flat,
-                    style: theme::style(ui.visuals()),
+                    style: Style {
+                        raking: views.options.raking,
+                        occlusion: views.options.occlusion,
+                        map,
+                        ..theme::style(ui.visuals())
+                    },
+                    scalars,
                     axes: document.map(|document| document.import.axes).unwrap_or_default(),
                 };
-                let shown = ui.push_id(cell.id, |ui| self.cell(ui, i, rect, cell, title, &manner, settings)).inner;
+                let shown =
+                    ui.push_id(cell.id, |ui| self.cell(ui, i, rect, cell, title, &manner, settings, first)).inner;
+                if !note.is_empty() {
+                    cell::note(ui, shown.picture.rect, &note);
+                }
                 let rows = comparison.arrangement.rows();
                 views.steer(ui, &shown.picture, rows, document, settings.keep);
+                self.look.was_moved |= views.camera != camera;
                 views.take_shape(shown.picture.rect, rows, document, settings.keep);
                 over_picture |= shown.picture.contains_pointer();
                 asked = asked.take().or(shown.asked);
@@ -159,8 +242,9 @@ impl CompareView {
         title: &str,
         manner: &Manner<'_>,
         settings: &Settings,
+        first: Option<&Made>,
     ) -> Shown {
-        const ROOM: f32 = 28.0;
+        let side = theme::row(ui.ctx(), 20.0);
         let is_current = cell.settings == *settings;
         let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - cell::caption_height(rect.width()));
         let picture = ui.interact(above, ui.scope_id().with("picture"), Sense::click_and_drag());
@@ -169,34 +253,53 @@ impl CompareView {
         let (mut asked, mut failure) = (None, None);
         match (&cell.outcome, &mut self.scene) {
             (Outcome::Done(made), Some(scene)) => {
+                let made = first.unwrap_or(made);
                 if let Err(error) = cell::pictures(ui, scene, index, above, made, manner) {
-                    failure = Some(format!("The surface cannot be drawn: {error}."));
+                    failure = Some(say!("compare-not-drawn", why = error.to_string()));
                 }
             }
-            (Outcome::Done(_), None) if self.is_refused => failure = Some(NO_MEMORY.to_owned()),
-            (Outcome::Done(_), None) => failure = Some("There is no graphics device to draw with.".to_owned()),
+            (Outcome::Done(_), None) if self.is_refused => failure = Some(NO_MEMORY.say()),
+            (Outcome::Done(_), None) => failure = Some(say!("compare-no-device")),
             (Outcome::Waiting | Outcome::Failed(_), _) => {
                 ui.painter().rect_filled(above, 0.0, ui.visuals().faint_bg_color);
             }
+        }
+        if first.is_some() {
+            let (font, colour) = (egui::TextStyle::Small.resolve(ui.style()), ui.visuals().text_color());
+            let at = above.left_top() + vec2(10.0, 8.0);
+            halo::text(
+                &ui.painter_at(above),
+                at,
+                egui::Align2::LEFT_TOP,
+                &say!("compare-first-settings"),
+                font,
+                colour,
+            );
         }
         if matches!(cell.outcome, Outcome::Waiting) {
             ui.place(Rect::from_center_size(above.center(), vec2(24.0, 24.0)), egui::Spinner::new());
         }
         if matches!(cell.outcome, Outcome::Failed(_)) {
-            let button = egui::Button::new("Try again");
-            if ui.place(Rect::from_center_size(above.center(), vec2(96.0, 28.0)), button).clicked() {
+            let button = egui::Button::new(say!("compare-try-again"));
+            if ui
+                .place(Rect::from_center_size(above.center(), vec2(96.0, theme::row(ui.ctx(), 28.0))), button)
+                .clicked()
+            {
                 asked = Some(Action::Comparison(OfComparison::Retry(cell.id)));
             }
         }
         if let Some(failure) = failure {
             let font = egui::TextStyle::Small.resolve(ui.style());
             let colour = ui.visuals().text_color();
-            ui.painter_at(above).text(above.center(), egui::Align2::CENTER_CENTER, failure, font, colour);
+            let middle = above.center();
+            halo::text(&ui.painter_at(above), middle, egui::Align2::CENTER_CENTER, &failure, font, colour);
         }
-        cell::caption(ui, below, title, &cell.outcome, ROOM);
-        let corner = Rect::from_min_size(pos2(below.right() - 26.0, below.top() + 6.0), vec2(20.0, 20.0));
+        cell::caption(ui, below, title, &cell.outcome, side + 8.0);
+        // Beside the lines of the cell, where a small one has room for that.
+        let corner = below.right_top() + vec2(-1.0, 1.0) * (side / 2.0).max(16.0);
+        let corner = Rect::from_center_size(corner, Vec2::splat(side));
         let close = ui.scope_builder(UiBuilder::new().max_rect(corner), |ui| {
-            icon::button(ui, Icon::Close, true, &format!("Remove {title}"), "Compare this no more")
+            icon::button(ui, Icon::Close, true, &say!("compare-remove", title = title), &say!("compare-remove-help"))
         });
         frame(ui, rect, &picture, words.hovered(), is_current);
         if close.inner.clicked() {
@@ -239,48 +342,105 @@ fn columns(count: usize, is_narrow: bool) -> usize {
     }
 }
 
-/// What can be done.
-fn bar(ui: &mut Ui, comparison: &Comparison, settings: &Settings, is_narrow: bool, asked: &mut Vec<Action>) {
+/// What can be done; whether the button that shows the first settings everywhere is held.
+fn bar(
+    ui: &mut Ui,
+    comparison: &Comparison,
+    settings: &Settings,
+    is_narrow: bool,
+    shows_first: bool,
+    asked: &mut Vec<Action>,
+) -> bool {
+    let (mut is_held, mut differing) = (false, None);
     let mut ask = |what| asked.push(Action::Comparison(what));
     ui.horizontal_wrapped(|ui| {
         let can_add = comparison.can_add(settings);
-        let add = ui.add_enabled(can_add, egui::Button::new(if is_narrow { "Add" } else { "Add current" }));
-        name(&add, Role::Button, "Add current settings");
-        let why_not = if comparison.cells().len() >= MOST {
-            "Six are compared at most: remove one first"
-        } else {
-            "The current settings are compared already"
-        };
-        if add.on_hover_text("Compare the current settings too").on_disabled_hover_text(why_not).clicked() {
+        let add = if is_narrow { say!("compare-add-short") } else { say!("compare-add") };
+        let add = ui.add_enabled(can_add, egui::Button::new(add));
+        name(&add, Role::Button, &say!("compare-add-long"));
+        let why_not =
+            if comparison.cells().len() >= MOST { say!("compare-full") } else { say!("compare-there-already") };
+        if add.on_hover_text(say!("compare-add-help")).on_disabled_hover_text(why_not).clicked() {
             ask(OfComparison::Add);
         }
-        if ui.button("Figure 6").on_hover_text("The six smoothing settings of the paper's Figure 6").clicked() {
+        if ui.button(say!("compare-figure-6")).on_hover_text(say!("compare-figure-6-help")).clicked() {
             ask(OfComparison::Figure6);
         }
-        if ui.button("Figure 7").on_hover_text("The three reduction rates of the paper's Figure 7").clicked() {
+        if ui.button(say!("compare-figure-7")).on_hover_text(say!("compare-figure-7-help")).clicked() {
             ask(OfComparison::Figure7);
         }
         let mut chosen = comparison.arrangement;
-        let list = ComboBox::from_id_salt("arrangement").width(96.0).selected_text(comparison.arrangement.label());
+        let list =
+            ComboBox::from_id_salt("arrangement").width(96.0).selected_text(comparison.arrangement.label().say());
         let response = list.show_ui(ui, |ui| {
             for choice in Arrangement::ALL {
-                ui.selectable_value(&mut chosen, choice, choice.label()).on_hover_text(choice.help());
+                ui.selectable_value(&mut chosen, choice, choice.label().say()).on_hover_text(choice.help().say());
             }
         });
-        name(&response.response, Role::ComboBox, "Show as");
+        name(&response.response, Role::ComboBox, &say!("compare-show-as"));
         if chosen != comparison.arrangement {
             ask(OfComparison::Arrange(chosen));
         }
-        if ui.button("Done").on_hover_text("Back to the two views (C)").clicked() {
+        let flicker = egui::Button::new(say!("compare-first")).sense(Sense::click_and_drag()).selected(shows_first);
+        let flicker = ui.add_enabled(comparison.cells().len() > 1, flicker);
+        is_held = flicker.on_hover_text(say!("compare-first-help")).is_pointer_button_down_on();
+        differing = difference(ui, comparison);
+        if ui.button(say!("compare-done")).on_hover_text(say!("compare-done-help")).clicked() {
             ask(OfComparison::Close);
         }
+    });
+    asked.extend(differing);
+    is_held
+}
+
+/// Colours for the difference from the first, and the ways to where it is largest and back.
+fn difference(ui: &mut Ui, comparison: &Comparison) -> Option<Action> {
+    let mut asked = None;
+    let toggle = egui::Button::new(say!("compare-difference")).selected(comparison.shows_difference);
+    let toggle = ui.add_enabled(comparison.cells().len() > 1, toggle);
+    if toggle.on_hover_text(say!("compare-difference-help")).clicked() {
+        asked = Some(Action::Comparison(OfComparison::Difference));
+    }
+    let patch = comparison.largest_difference().and_then(Difference::patch);
+    let go = ui.add_enabled(patch.is_some(), egui::Button::new(say!("compare-most")));
+    let go = go.on_hover_text(say!("compare-most-help"));
+    if let Some((at, height_mm)) = patch.filter(|_| go.clicked()) {
+        asked = Some(Action::LookAt { at_mm: at.into(), height_mm });
+    }
+    if ui.button(say!("compare-whole")).on_hover_text(say!("compare-whole-help")).clicked() {
+        asked = Some(Action::Fit);
+    }
+    asked
+}
+
+/// What the colours of the difference say.
+fn legend(ui: &mut Ui, comparison: &Comparison) {
+    const STEPS: usize = 48;
+    ui.horizontal_wrapped(|ui| {
+        let small = |text: String| RichText::new(text).small();
+        let Some(most) = comparison.colours_up_to_mm() else {
+            let is_coming = comparison.is_busy();
+            let text = if is_coming { say!("compare-distance-coming") } else { say!("compare-distance-unknown") };
+            ui.label(small(text));
+            return;
+        };
+        ui.label(small(say!("compare-distance-from")));
+        let (bar, _) = ui.allocate_exact_size(vec2(96.0, 10.0), Sense::hover());
+        let width = bar.width() / STEPS as f32;
+        for i in 0..STEPS {
+            let [r, g, b] = viridis(i as f32 / STEPS as f32).0;
+            let corner = bar.left_top() + vec2(width * i as f32, 0.0);
+            let piece = Rect::from_min_size(corner, vec2(width + 0.5, bar.height()));
+            ui.painter().rect_filled(piece, 0.0, egui::Color32::from_rgb(r, g, b));
+        }
+        ui.label(small(say!("compare-distance-to", most = decimal(most, 3))));
     });
 }
 
 /// A word on cells that are slow to draw, if there are any.
-fn slow(comparison: &Comparison) -> &'static str {
+fn slow(comparison: &Comparison) -> String {
     let is_large = |cell: &Cell| matches!(&cell.outcome, Outcome::Done(made) if made.mesh.triangles.len() > MANY);
-    if comparison.cells().iter().any(is_large) { "more than 300,000 triangles a cell: turning may be slow" } else { "" }
+    if comparison.cells().iter().any(is_large) { say!("compare-slow", count = MANY) } else { String::new() }
 }
 
 /// What all cells share, and what stands in every picture.
@@ -294,12 +454,12 @@ fn footer(ui: &mut Ui, document: &str, shared: &str, slow: &str, is_narrow: bool
     ui.with_layout(layout, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         if is_narrow {
-            ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(&text);
-            ui.label(RichText::new(NOT_CLINICAL).small().weak());
+            ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
+            ui.label(RichText::new(say!("about-not-clinical")).small().weak());
         } else {
-            ui.label(RichText::new(NOT_CLINICAL).small().weak());
+            ui.label(RichText::new(say!("about-not-clinical")).small().weak());
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(&text);
+                ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
             });
         }
     });

@@ -1,8 +1,11 @@
 //! A setting in words and a result in numbers, for people.
 
-use crate::digits::grouped;
+use super::difference::Difference;
+use crate::language::{Key, decimal, exact, grouped, signed};
+use crate::pipeline::paper;
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Method, Settings, Target};
+use crate::say;
 
 /// Parts of a setting.
 const PARTS: usize = 8;
@@ -11,39 +14,46 @@ const PARTS: usize = 8;
 fn parts(settings: &Settings) -> [String; PARTS] {
     let smoothing = &settings.smoothing;
     let [band, iterations, window] = if smoothing.iterations == 0 {
-        ["not smoothed".to_owned(), String::new(), String::new()]
+        [say!("compare-not-smoothed"), String::new(), String::new()]
     } else {
         [
-            format!("pass band {}", smoothing.pass_band),
-            format!("{} iterations", smoothing.iterations),
-            format!("{} window", smoothing.window.name()),
+            say!("compare-pass-band", value = smoothing.pass_band),
+            say!("compare-iterations", count = smoothing.iterations),
+            say!("compare-window", name = smoothing.window.name()),
         ]
     };
     let target = match settings.target {
-        Target::Reduction(0) => "not reduced".to_owned(),
-        Target::Reduction(per_mille) => format!("reduction {} %", f64::from(per_mille) / 10.0),
-        Target::Triangles(count) => format!("{} triangles wanted", grouped(count as usize)),
-        Target::Deviation(micrometres) => format!("deviation up to {} mm", f64::from(micrometres) / 1000.0),
+        Target::Reduction(0) => say!("compare-not-reduced"),
+        Target::Reduction(per_mille) => say!("compare-reduction", percent = f64::from(per_mille) / 10.0),
+        Target::Triangles(count) => say!("compare-triangles-wanted", count = count),
+        Target::Deviation(micrometres) => {
+            say!("compare-deviation-up-to", most = exact(f64::from(micrometres) / 1000.0))
+        }
     };
     let holds_volume = smoothing.preserve_volume && smoothing.iterations > 0;
     let suits = match (smoothing.adapt, smoothing.guard) {
-        _ if smoothing.iterations == 0 => "",
-        (true, true) => "suits this surface",
-        (true, false) => "adapted to calibre",
-        (false, true) => "no crossing",
-        (false, false) => "",
+        _ if smoothing.iterations == 0 => None,
+        (true, true) => Some(say!("compare-suits")),
+        (true, false) => Some(say!("compare-adapted")),
+        (false, true) => Some(say!("compare-no-crossing")),
+        (false, false) => None,
     };
-    let volume = [(holds_volume, "volume preserved"), (!suits.is_empty(), suits)];
-    let volume = volume.into_iter().filter(|(is_on, _)| *is_on).map(|(_, name)| name).collect::<Vec<_>>().join(", ");
+    let volume = holds_volume.then(|| say!("compare-volume-preserved"));
+    let volume = volume.into_iter().chain(suits).collect::<Vec<_>>().join(", ");
     let decimation = &settings.decimation;
-    let method = format!("{} method", decimation.method.name());
+    let method = say!("compare-method", name = decimation.method.name());
     // The method of least error has no use for it.
     let angle = match decimation.method {
-        Method::Schroeder => format!("feature angle {}°", decimation.feature_angle),
+        Method::Schroeder => say!("compare-feature-angle", degrees = decimation.feature_angle),
         Method::Quadric => String::new(),
     };
-    let spared = if decimation.spare_thin { "thin vessels spared" } else { "" };
-    [band, iterations, window, volume, method, angle, spared.to_owned(), target]
+    let spared = match (decimation.spare_thin, decimation.keep_labels) {
+        (true, true) => say!("compare-thin-spared-labels-kept"),
+        (true, false) => say!("compare-thin-spared"),
+        (false, true) => say!("compare-labels-kept"),
+        (false, false) => String::new(),
+    };
+    [band, iterations, window, volume, method, angle, spared, target]
 }
 
 /// What all settings share, and for each what sets it apart: its title. Where nothing does, the title says the most.
@@ -60,6 +70,30 @@ pub(super) fn titles(all: &[&Settings]) -> (String, Vec<String>) {
     (shared, parts.iter().map(|parts| join(parts, true)).collect())
 }
 
+/// What is compared, in plain words, and the figure of the paper that it is.
+pub(super) fn heading(all: &[&Settings]) -> (String, String) {
+    let is = |figure: &[Settings]| figure.iter().eq(all.iter().copied());
+    let plain = || (say!("compare-heading"), String::new());
+    let Some(first) = all.first() else { return plain() };
+    if is(&paper::figure_6(first.keep)) {
+        (say!("compare-heading-smoothing"), say!("compare-paper-figure-6"))
+    } else if is(&paper::figure_7(first.keep)) {
+        (say!("compare-heading-triangles"), say!("compare-paper-figure-7"))
+    } else if is(&paper::rates_of_figure_7(first)) {
+        (say!("compare-heading-triangles"), say!("compare-paper-rates"))
+    } else {
+        plain()
+    }
+}
+
+/// How far a surface is from the first.
+pub(super) fn difference(found: &Difference) -> String {
+    match found.deviation {
+        Some(found) => say!("compare-from-a", mean = decimal(found.mean, 3), most = decimal(found.max, 3)),
+        None => say!("compare-no-area"),
+    }
+}
+
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
@@ -67,48 +101,50 @@ fn capital(text: &str) -> String {
 
 /// A number of a result: what it is, how much, and what it means.
 pub(super) struct Number {
-    pub(super) what: &'static str,
+    pub(super) what: Key,
     pub(super) how_much: String,
-    pub(super) help: &'static str,
+    pub(super) help: Option<Key>,
 }
 
 /// The numbers of a result. A dash stands where there is none.
 pub(super) fn numbers(report: &Report) -> [Number; 5] {
     let dash = || "–".to_owned();
     let deviation = |found: Option<crate::pipeline::deviation::Deviation>| {
-        found.map_or_else(dash, |d| format!("{:.3} / {:.3}", d.mean, d.max))
+        found.map_or_else(dash, |d| format!("{} / {}", decimal(d.mean, 3), decimal(d.max, 3)))
     };
-    let percent = |change: Option<f64>| change.map_or_else(dash, |change| format!("{change:+.2} %"));
+    let percent = |change: Option<f64>| change.map_or_else(dash, |change| format!("{} %", signed(change, 2)));
+    let number = |what, how_much, help| Number { what, how_much, help: Some(help) };
     [
-        Number { what: "Triangles", how_much: grouped(report.output.triangles), help: "After the reduction" },
-        Number {
-            what: "Removed",
-            how_much: format!("{:.2} %", report.reduction_percent),
-            help: "The part of the kept triangles that is gone",
-        },
-        Number {
-            what: "Volume",
-            how_much: percent(report.volume_change_percent),
-            help: "Change from the kept pieces as opened, open ends capped",
-        },
-        Number {
-            what: "From smoothed",
-            how_much: deviation(report.deviation_mm),
-            help: "Deviation from the smoothed surface in mm, mean and maximum, measured both ways",
-        },
-        Number {
-            what: "From original",
-            how_much: deviation(report.deviation_from_original_mm),
-            help: "Deviation from the kept pieces as opened in mm, mean and maximum, measured both ways",
-        },
+        number(Key("compare-triangles"), grouped(report.output.triangles), Key("compare-triangles-help")),
+        number(
+            Key("compare-removed"),
+            format!("{} %", decimal(report.reduction_percent, 2)),
+            Key("compare-removed-help"),
+        ),
+        number(Key("compare-volume"), percent(report.volume_change_percent), Key("compare-volume-help")),
+        number(Key("compare-from-smoothed"), deviation(report.deviation_mm), Key("compare-from-smoothed-help")),
+        number(
+            Key("compare-from-original"),
+            deviation(report.deviation_from_original_mm),
+            Key("compare-from-original-help"),
+        ),
     ]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::paper;
     use crate::pipeline::settings::Keep;
+
+    #[test]
+    fn the_papers_figures_have_a_plain_heading() {
+        let of = |settings: &[Settings]| heading(&settings.iter().collect::<Vec<_>>());
+        assert_eq!(of(&paper::figure_6(Keep::All)).1, "Figure 6 of the paper");
+        assert_eq!(of(&paper::figure_7(Keep::Largest)).1, "Figure 7 of the paper");
+        let rates = paper::rates_of_figure_7(&Settings::default());
+        assert!(of(&rates).1.starts_with("Rates of Figure 7") && of(&rates).0 == of(&paper::figure_7(Keep::All)).0);
+        assert!(of(&rates[1..]).1.is_empty() && of(&[]).1.is_empty());
+    }
 
     #[test]
     fn titles_say_what_sets_a_setting_apart() {

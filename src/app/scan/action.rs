@@ -1,5 +1,6 @@
 //! What can be asked of a scan.
 
+use super::SliceOptions;
 use crate::volume::{Axis, Region, Selection};
 
 /// What can be asked of a scan.
@@ -11,6 +12,12 @@ pub enum Action {
     Bound(Region),
     /// Show this slice.
     Slice(Axis, usize),
+    /// Show slices with these values black and white.
+    Window([f64; 2]),
+    /// Keep the scan for its slices once there is a surface of it, or no longer.
+    Keep(bool),
+    /// Show these slices behind the surface.
+    Slices(SliceOptions),
     /// Make the surface, and open it.
     Make,
     /// Stop what is being made.

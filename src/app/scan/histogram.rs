@@ -3,6 +3,7 @@
 use egui::{Rect, Role, Sense, Stroke, Ui, pos2, vec2};
 
 use crate::app::assist::describe;
+use crate::say;
 use crate::volume::Survey;
 
 /// Height of the picture in points.
@@ -11,7 +12,7 @@ const HEIGHT: f32 = 56.0;
 /// Shows the histogram, its bars by the logarithm of how many values there are: air would hide the vessels otherwise.
 pub(super) fn show(ui: &mut Ui, survey: &Survey, threshold: f64) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    describe(&response, Role::Image, "Histogram, with the threshold", threshold);
+    describe(&response, Role::Image, &say!("scan-histogram"), threshold);
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
     let most = survey.histogram.iter().max().map_or(1.0, |&most| libm::log1p(most as f64)).max(1e-9);

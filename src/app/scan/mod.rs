@@ -1,19 +1,27 @@
-//! A scan or a mask, before there is a surface: what of it is the vessel, with a preview and a slice.
+//! A scan or a mask: what of it is the vessel, with a preview and a slice; and its slices behind the surface made of it.
 //!
 //! - `state`: what is chosen, what has come and what is on its way; `action`: what can be asked.
 //! - `panel` with `histogram`: the controls; `view`: the preview and the slice.
+//! - `slices`: the scan that is kept for its slices; `slices_panel`: the controls; `outline`: the surface's in a slice.
 //!
 //! The surface that is made is opened like any other ([`Source::Made`](crate::engine::Source)).
 
 mod action;
 mod histogram;
+mod outline;
 mod panel;
+mod slices;
+mod slices_panel;
 mod state;
 #[cfg(test)]
 mod tests;
 mod view;
 
 pub use self::action::Action;
-pub(super) use self::panel::show as panel;
+pub(super) use self::outline::Outlines;
+pub(super) use self::panel::{show as panel, status};
+pub(super) use self::slices::SlicePicture;
+pub use self::slices::{KeptScan, SliceOptions};
+pub(super) use self::slices_panel::show as slices_panel;
 pub use self::state::{OpenScan, Picture, Scans, Told};
 pub(super) use self::view::ScanView;

@@ -3,21 +3,23 @@
 use egui::{ComboBox, DragValue, RichText, Role, Stroke, Ui, Vec2};
 
 use super::state::OpenScan;
-use super::{Action, histogram};
+use super::{Action, histogram, slices_panel};
 use crate::app::assist::{describe, name};
-use crate::app::control::{self, Setting};
+use crate::app::control::{self, Setting, reads_comma};
 use crate::app::row::{number, remark, row, step, warning};
-use crate::digits::grouped;
+use crate::app::swipe::Way;
 use crate::engine::scan::ScanWork;
+use crate::language::{Key, decimal, grouped, inner};
+use crate::say;
 use crate::volume::{Axis, PRESETS, Region, Selection};
 
 /// The axes of a grid as a user knows them.
-const AXES: [(Axis, &str); 3] = [(Axis::I, "Columns"), (Axis::J, "Rows"), (Axis::K, "Slices")];
+const AXES: [(Axis, Key); 3] =
+    [(Axis::I, Key("scan-columns")), (Axis::J, Key("scan-rows")), (Axis::K, Key("scan-slices"))];
 
 /// Shows the panel of a scan.
 pub(in crate::app) fn show(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
-    let what = "The surface is made where values reach the threshold, or of a label; then it is smoothed and reduced.";
-    step(ui, 1, "Scan", what);
+    step(ui, 1, &say!("scan-title"), &say!("scan-what"));
     facts(ui, scan);
     ui.separator();
     if scan.opened.survey.is_mask() {
@@ -29,6 +31,11 @@ pub(in crate::app) fn show(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>
     bounds(ui, scan, asked);
     ui.separator();
     slice(ui, scan, asked);
+    let mut window = scan.window;
+    slices_panel::window(ui, scan.is_ct(), &scan.opened.survey, &mut window);
+    if window != scan.window {
+        asked.push(Action::Window(window));
+    }
     ui.separator();
     made(ui, scan, asked);
 }
@@ -37,16 +44,13 @@ fn facts(ui: &mut Ui, scan: &OpenScan) {
     let opened = &scan.opened;
     let [i, j, k] = opened.dimensions;
     let [x, y, z] = opened.spacing_mm;
-    number(ui, "Format", &opened.format, "");
-    number(ui, "Voxels", &format!("{i} x {j} x {k}"), "Columns, rows and slices");
-    number(ui, "Spacing", &format!("{x:.3} x {y:.3} x {z:.3} mm"), "Between columns, rows and slices");
+    number(ui, &say!("scan-format"), &opened.format, "");
+    number(ui, &say!("scan-voxels"), &format!("{i} x {j} x {k}"), &say!("scan-voxels-help"));
+    let spacing = format!("{} x {} x {} mm", decimal(x, 3), decimal(y, 3), decimal(z, 3));
+    number(ui, &say!("scan-spacing"), &spacing, &say!("scan-spacing-help"));
     let [low, high] = opened.survey.range;
-    number(
-        ui,
-        "Values",
-        &format!("{} to {}{}", grouped(format!("{low:.0}")), grouped(format!("{high:.0}")), scan.unit()),
-        "",
-    );
+    let [low, high] = [low, high].map(|value| grouped(format!("{value:.0}")));
+    number(ui, &say!("scan-values"), &say!("scan-values-range", low = low, high = high, unit = scan.unit()), "");
     for text in &opened.warnings {
         warning(ui, text);
     }
@@ -58,8 +62,8 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     histogram::show(ui, &scan.opened.survey, value);
     let decimals = if high - low > 20.0 { 0 } else { 3 };
     let setting = Setting {
-        name: "Threshold",
-        help: "What has this value and more is the vessel; contrast-filled vessels in CT have 150 to 500 HU.",
+        name: &say!("scan-threshold"),
+        help: &say!("scan-threshold-help"),
         unit: scan.unit(),
         range: low..=high,
         default: PRESETS[1].value.clamp(low, high),
@@ -72,7 +76,7 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     if scan.is_ct() {
         ui.horizontal_wrapped(|ui| {
             for preset in PRESETS {
-                let button = ui.button(format!("{} HU", preset.value)).on_hover_text(preset.name);
+                let button = ui.button(format!("{} HU", preset.value)).on_hover_text(preset.name.say());
                 if button.clicked() {
                     asked.push(Action::Select(Selection::Threshold(preset.value)));
                 }
@@ -83,11 +87,11 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
 
 fn labels(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let text = |selection| match selection {
-        Selection::Label(label) => format!("Label {label}"),
-        Selection::AnyLabel | Selection::Threshold(_) => "All labels".to_owned(),
+        Selection::Label(label) => say!("scan-label", label = label.to_string()),
+        Selection::AnyLabel | Selection::Threshold(_) => say!("scan-all-labels"),
     };
     let known = scan.opened.survey.labels.iter().map(|label| Selection::Label(label.value));
-    row(ui, "Vessel", "Which label of the mask is the vessel", |ui| {
+    row(ui, &say!("scan-vessel"), &say!("scan-vessel-help"), |ui| {
         let list = ComboBox::from_id_salt("label").selected_text(text(scan.selection)).show_ui(ui, |ui| {
             for selection in std::iter::once(Selection::AnyLabel).chain(known) {
                 if ui.selectable_label(selection == scan.selection, text(selection)).clicked() {
@@ -95,29 +99,30 @@ fn labels(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
                 }
             }
         });
-        name(&list.response, Role::ComboBox, "Label of the vessel");
+        name(&list.response, Role::ComboBox, &say!("scan-vessel-label"));
     });
 }
 
 fn bounds(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let mut region = scan.region;
-    ui.label("Box").on_hover_text("Only these voxels are looked at: what lies outside, such as bone, is left out");
+    ui.label(say!("scan-box")).on_hover_text(say!("scan-box-help"));
     for (axis, title) in AXES {
         let (at, last) = (axis.index(), scan.opened.dimensions[axis.index()].saturating_sub(1));
-        row(ui, title, "The first and the last, from 0", |ui| {
+        let (title, help) = (title.say(), say!("scan-box-ends"));
+        row(ui, &title, &help, |ui| {
             let high =
                 DragValue::new(&mut region.last[at]).range(region.first[at] + 1..=last.max(region.first[at] + 1));
             describe(
-                &ui.add(high),
+                &ui.add(reads_comma(high, true)),
                 Role::SpinButton,
-                &format!("Last of {}", title.to_lowercase()),
+                &say!("scan-last-of", axis = inner(&title)),
                 scan.region.last[at] as f64,
             );
             let low = DragValue::new(&mut region.first[at]).range(0..=region.last[at].saturating_sub(1));
             describe(
-                &ui.add(low),
+                &ui.add(reads_comma(low, true)),
                 Role::SpinButton,
-                &format!("First of {}", title.to_lowercase()),
+                &say!("scan-first-of", axis = inner(&title)),
                 scan.region.first[at] as f64,
             );
         });
@@ -126,16 +131,16 @@ fn bounds(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
         asked.push(Action::Bound(region));
     }
     let whole = Region { first: [0; 3], last: scan.opened.dimensions.map(|along| along.saturating_sub(1)) };
-    if ui.add_enabled(scan.region != whole, egui::Button::new("Whole scan")).clicked() {
+    if ui.add_enabled(scan.region != whole, egui::Button::new(say!("scan-whole"))).clicked() {
         asked.push(Action::Bound(whole));
     }
 }
 
 fn slice(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let (chosen, index) = scan.slice;
-    row(ui, "Slice across", "Which way the slice that is shown lies", |ui| {
+    row(ui, &say!("scan-across"), &say!("scan-across-help"), |ui| {
         for (axis, title) in AXES.into_iter().rev() {
-            if ui.selectable_label(axis == chosen, title).clicked() && axis != chosen {
+            if ui.selectable_label(axis == chosen, title.say()).clicked() && axis != chosen {
                 asked.push(Action::Slice(axis, scan.opened.dimensions[axis.index()] / 2));
             }
         }
@@ -144,57 +149,77 @@ fn slice(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     let mut shown = index;
     ui.spacing_mut().slider_width = ui.available_width() - 64.0;
     let slider = ui.add(egui::Slider::new(&mut shown, 0..=last));
-    describe(&slider, Role::Slider, "Slice", index as f64);
-    if shown != index {
+    describe(&slider, Role::Slider, &say!("scan-slice"), index as f64);
+    if !Way::of(ui).scroll(ui, &slider) && shown != index {
         asked.push(Action::Slice(chosen, shown));
     }
 }
 
 fn made(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     if let Some((mesh, step, _)) = &scan.preview {
-        number(
-            ui,
-            "Preview",
-            &format!("{} triangles", grouped(mesh.triangles.len())),
-            "The surface at reduced resolution",
-        );
+        let count = say!("scan-triangles", count = mesh.triangles.len());
+        number(ui, &say!("scan-preview"), &count, &say!("scan-preview-help"));
         if *step > 1 {
-            remark(
-                ui,
-                &format!(
-                    "The preview is made of every {step}th voxel, the largest value of each block: thin vessels look wider than they are."
-                ),
-            );
+            remark(ui, &say!("scan-preview-coarse", block = format!("{step} x {step} x {step}")));
         }
     }
     if let Some(problem) = &scan.problem {
         warning(ui, problem);
     }
     if let Some((work, fraction)) = scan.progress {
-        let what = match work {
-            ScanWork::Surveying => "Counting values",
-            ScanWork::Preview => "Preview",
-            ScanWork::Surface => "Making the surface",
-        };
-        remark(ui, what);
-        control::progress(ui, fraction, ui.available_width(), what);
+        let what = label(work).say();
+        remark(ui, &what);
+        control::progress(ui, fraction, ui.available_width(), &what);
     }
+    slices_panel::keep(ui, scan.opened.bytes, scan.keeps, asked);
     ui.horizontal(|ui| {
         if scan.is_making() {
-            if ui.button("Cancel").clicked() {
+            if ui.button(say!("scan-cancel")).clicked() {
                 asked.push(Action::Cancel);
             }
         } else {
-            let can = scan.problem.is_none();
-            let make = egui::Button::new(RichText::new("Make the surface").strong())
+            let make = egui::Button::new(RichText::new(say!("scan-make")).strong())
                 .stroke(Stroke::new(1.0, ui.visuals().hyperlink_color))
                 .min_size(Vec2::new(0.0, 28.0));
-            if ui.add_enabled(can, make).on_hover_text("At full resolution, and open it").clicked() {
+            // What the preview is too coarse for may have a surface all the same.
+            if ui.add(make).on_hover_text(say!("scan-make-help")).clicked() {
                 asked.push(Action::Make);
             }
         }
-        if ui.button("Close the scan").clicked() {
+        if ui.button(say!("scan-close")).clicked() {
             asked.push(Action::Close);
         }
     });
+}
+
+/// What the engine does, for a user.
+fn label(work: ScanWork) -> Key {
+    match work {
+        ScanWork::Fetching => Key("scan-fetching"),
+        ScanWork::Reading => Key("scan-reading"),
+        ScanWork::Surveying => Key("scan-surveying"),
+        ScanWork::Preview => Key("scan-preview"),
+        ScanWork::Surface => Key("scan-making"),
+    }
+}
+
+/// Shows in the bar below how far the scan is that is on its way in.
+pub(in crate::app) fn status(
+    ui: &mut Ui,
+    (file, work, fraction): (&str, ScanWork, f32),
+    is_narrow: bool,
+    asked: &mut Vec<Action>,
+) {
+    if work == ScanWork::Fetching {
+        ui.add(egui::Label::new(label(work).say()).truncate());
+    } else {
+        control::progress(ui, fraction, if is_narrow { 96.0 } else { 160.0 }, &say!("scan-progress"));
+        ui.label(format!("{} {:.0} %", label(work).say(), fraction * 100.0));
+    }
+    if !is_narrow {
+        ui.add(egui::Label::new(RichText::new(file).weak()).truncate());
+    }
+    if ui.button(say!("scan-cancel")).on_hover_text(say!("scan-cancel-help")).clicked() {
+        asked.push(Action::Cancel);
+    }
 }

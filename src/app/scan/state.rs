@@ -2,24 +2,34 @@
 
 use std::sync::Arc;
 
-use super::Action;
+use super::{Action, KeptScan};
 use crate::engine::Source;
 use crate::engine::scan::{NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanLink, ScanWork};
 use crate::mesh::{Bounds, TriMesh};
-use crate::volume::{Axis, PRESETS, Region, Selection};
+use crate::say;
+use crate::volume::{Axis, PRESETS, Region, Selection, WINDOWS};
 
-/// A volume with values down to this is taken for CT, whose files mostly do not say so: air has -1000 HU.
-const AIR_HU: f64 = -500.0;
-/// The values that a slice of CT is shown with: from fat to bone.
-const WINDOW_HU: [f64; 2] = [-150.0, 550.0];
+/// A scan that takes no more bytes than this is kept for its slices unless that is turned off.
+const KEPT: u64 = 256_000_000;
 
 /// The scan that is open, and the one that is on its way in.
 #[derive(Debug, Default)]
 pub struct Scans {
     /// The number of the newest command.
     number: u64,
-    opening: Option<(u64, String)>,
+    opening: Option<Opening>,
     open: Option<Box<OpenScan>>,
+    /// The one that the surface which is open was made of.
+    kept: Option<Box<KeptScan>>,
+}
+
+/// A scan that is on its way in.
+#[derive(Debug)]
+struct Opening {
+    number: u64,
+    name: String,
+    /// What is done now, and the part of it that is.
+    progress: (ScanWork, f32),
 }
 
 /// A scan that is open.
@@ -35,6 +45,10 @@ pub struct OpenScan {
     pub region: Region,
     /// The slice that is asked for.
     pub slice: (Axis, usize),
+    /// The values that are black and white in it.
+    pub window: [f64; 2],
+    /// Whether it is kept for its slices once there is a surface of it.
+    pub keeps: bool,
     /// The surface at reduced resolution, every how many voxels, and the box around it.
     pub preview: Option<(Arc<TriMesh>, usize, Bounds)>,
     /// The slice that has come.
@@ -50,7 +64,7 @@ pub struct OpenScan {
     /// What the newest preview was asked for with.
     previewed: Option<(Selection, Region)>,
     /// The slice that was asked for last.
-    pictured: Option<(Axis, usize)>,
+    pictured: Option<(Axis, usize, [f64; 2])>,
 }
 
 /// A slice as a picture.
@@ -58,6 +72,8 @@ pub struct OpenScan {
 pub struct Picture {
     /// Across which axis, and which.
     pub slice: (Axis, usize),
+    /// The values that are black and white.
+    pub window: [f64; 2],
     /// Pixels along both of its axes.
     pub size: [usize; 2],
     /// A shade of grey for each.
@@ -73,6 +89,8 @@ pub enum Told {
     Made(Source),
     /// Something could not be done: one plain sentence.
     Refused(String),
+    /// The scan that was on its way in is not opened.
+    Stopped,
 }
 
 impl Scans {
@@ -86,9 +104,33 @@ impl Scans {
         self.open.as_deref()
     }
 
-    /// The name of the scan that is on its way in.
-    pub fn opening(&self) -> Option<&str> {
-        self.opening.as_ref().map(|(_, name)| name.as_str())
+    /// The scan that the surface which is open was made of, where it is kept.
+    pub fn kept(&self, source: Option<&Source>) -> Option<&KeptScan> {
+        self.kept.as_deref().filter(|kept| is_of(kept, source))
+    }
+
+    /// Whether a slice of it is on its way.
+    pub fn awaits_slice(&self) -> bool {
+        self.kept.as_ref().is_some_and(|kept| kept.awaits())
+    }
+
+    /// Hears which surface is open: a scan is kept as long as it is the one that was made of it.
+    pub fn surface_opened(&mut self, source: Option<&Source>, link: &mut ScanLink) {
+        if self.kept.take_if(|kept| !is_of(kept, source)).is_some() {
+            self.let_go(link);
+        }
+    }
+
+    /// Frees what the engine has, unless that is to be another scan's.
+    fn let_go(&self, link: &mut ScanLink) {
+        if self.open.is_none() && self.opening.is_none() {
+            link.send(ScanCommand::Close);
+        }
+    }
+
+    /// The name of the scan that is on its way in, what is done with it now, and the part of that which is done.
+    pub fn opening(&self) -> Option<(&str, ScanWork, f32)> {
+        self.opening.as_ref().map(|Opening { name, progress: (work, fraction), .. }| (name.as_str(), *work, *fraction))
     }
 
     /// Reads a scan; the one that is shown stays until it is there.
@@ -99,39 +141,63 @@ impl Scans {
             [] => return,
             [only] => stem(&only.name).to_owned(),
             several => {
-                several.iter().find(|file| is_header(&file.name)).map_or("Scan", |file| stem(&file.name)).to_owned()
+                let header = several.iter().find(|file| is_header(&file.name));
+                header.map_or_else(|| say!("scan-name"), |file| stem(&file.name).to_owned())
             }
         };
-        self.opening = Some((self.number, name));
+        self.opening = Some(Opening { number: self.number, name, progress: (ScanWork::Reading, 0.0) });
         link.send(ScanCommand::Open { id: self.number, files });
     }
 
     /// Does what is asked for.
     pub fn act(&mut self, action: Action, link: &mut ScanLink) {
         if action == Action::Close {
-            (self.open, self.opening) = (None, None);
+            (self.open, self.opening, self.kept) = (None, None, None);
             link.send(ScanCommand::Close);
             return;
         }
-        let Some(open) = &mut self.open else { return };
+        if action == Action::Cancel && self.opening.is_some() {
+            return link.send(ScanCommand::Cancel);
+        }
+        let Some(open) = &mut self.open else { return self.act_on_kept(action, link) };
         match action {
             Action::Select(selection) => open.selection = selection,
             Action::Bound(region) => open.region = region,
             Action::Slice(axis, index) => open.slice = (axis, index),
+            Action::Window(window) => open.window = window,
+            Action::Keep(keeps) => open.keeps = keeps,
             Action::Make => {
                 self.number += 1;
+                // A preview that is on its way gives way; after a cancel it is asked for again.
+                open.previewed.take_if(|_| open.awaited.is_some());
                 (open.making, open.awaited, open.problem) = (Some(self.number), None, None);
                 let (selection, region) = (open.selection, Some(open.region));
                 link.send(ScanCommand::Surface { generation: self.number, selection, region });
             }
             Action::Cancel => link.send(ScanCommand::Cancel),
-            Action::Close => {}
+            Action::Close | Action::Slices(_) => {}
+        }
+    }
+
+    fn act_on_kept(&mut self, action: Action, link: &mut ScanLink) {
+        match (action, &mut self.kept) {
+            (Action::Slices(options), Some(kept)) => kept.options = options,
+            (Action::Keep(false), Some(_)) => {
+                self.kept = None;
+                self.let_go(link);
+            }
+            _ => {}
         }
     }
 
     /// Asks for a preview and a slice of what is chosen now, each once the one before is there.
     pub fn follow(&mut self, link: &mut ScanLink) {
-        let Some(open) = &mut self.open else { return };
+        let Some(open) = &mut self.open else {
+            if let Some(kept) = &mut self.kept {
+                kept.follow(link);
+            }
+            return;
+        };
         let wanted = (open.selection, open.region);
         if open.awaited.is_none() && open.making.is_none() && open.previewed != Some(wanted) {
             self.number += 1;
@@ -139,10 +205,11 @@ impl Scans {
             let (selection, region) = wanted;
             link.send(ScanCommand::Preview { generation: self.number, selection, region: Some(region), step: None });
         }
-        let is_pending = open.pictured.is_some() && open.pictured != open.picture.as_ref().map(|picture| picture.slice);
-        if open.pictured != Some(open.slice) && !is_pending {
-            open.pictured = Some(open.slice);
-            let ((axis, index), window) = (open.slice, open.window());
+        let ((axis, index), window) = (open.slice, open.window);
+        let shown = open.picture.as_ref().map(|picture| (picture.slice.0, picture.slice.1, picture.window));
+        let is_pending = open.pictured.is_some() && open.pictured != shown;
+        if open.pictured != Some((axis, index, window)) && !is_pending {
+            open.pictured = Some((axis, index, window));
             link.send(ScanCommand::Slice { axis, index, window });
         }
     }
@@ -150,18 +217,43 @@ impl Scans {
     /// Takes what the engine says.
     pub fn receive(&mut self, event: ScanEvent, link: &mut ScanLink) -> Option<Told> {
         if let ScanEvent::Opened(opened) = event {
-            let (id, name) = self.opening.take()?;
-            if opened.id == id {
-                self.open = Some(Box::new(OpenScan::new(name, *opened)));
-            }
+            let Opening { name, .. } = self.opening.take_if(|opening| opening.number == opened.id)?;
+            self.open = Some(Box::new(OpenScan::new(name, *opened)));
+            self.kept = None;
             return None;
         }
         if let ScanEvent::Refused { number, sentence } = &event
-            && self.opening.take_if(|(id, _)| id == number).is_some()
+            && self.opening.take_if(|opening| opening.number == *number).is_some()
         {
             return Some(Told::Refused(sentence.clone()));
         }
-        let open = self.open.as_mut()?;
+        if let Some(opening) = &mut self.opening {
+            match event {
+                ScanEvent::Progress {
+                    work: work @ (ScanWork::Fetching | ScanWork::Reading | ScanWork::Surveying),
+                    fraction,
+                } => {
+                    opening.progress = (work, fraction);
+                    return None;
+                }
+                ScanEvent::Cancelled => {
+                    self.opening = None;
+                    return Some(Told::Stopped);
+                }
+                _ => {}
+            }
+        }
+        let Some(open) = &mut self.open else {
+            let kept = self.kept.as_mut()?;
+            match event {
+                ScanEvent::Slice { axis, index, size, pixels, window, corners } => {
+                    kept.take((axis, index, window), size, pixels, corners);
+                }
+                ScanEvent::Refused { .. } => kept.refused(),
+                _ => {}
+            }
+            return None;
+        };
         match event {
             ScanEvent::Progress { work, fraction } => open.progress = Some((work, fraction)),
             ScanEvent::Preview { generation, step, mesh } if open.awaited == Some(generation) => {
@@ -170,18 +262,25 @@ impl Scans {
                 (open.awaited, open.progress) = (None, None);
             }
             ScanEvent::Surface { generation, mesh, .. } if open.making == Some(generation) => {
-                let source = Source::Made { name: open.name.clone(), format: open.opened.format.clone(), mesh };
+                let OpenedScan { format, axes, warnings, .. } = open.opened.clone();
+                let source = Source::Made { name: open.name.clone(), format, mesh, axes, warnings };
+                if let (Source::Made { mesh, .. }, true) = (&source, open.keeps) {
+                    self.kept = Some(Box::new(KeptScan::new(open, Arc::clone(mesh))));
+                } else {
+                    link.send(ScanCommand::Close);
+                }
                 self.open = None;
-                link.send(ScanCommand::Close);
                 return Some(Told::Made(source));
             }
-            ScanEvent::Slice { axis, index, size, pixels, corners } => {
+            ScanEvent::Slice { axis, index, size, pixels, window, corners } => {
                 let [first, across, _, down] = corners.map(glam::DVec3::from);
                 let aspect = (across.distance(first) / down.distance(first).max(1e-6)) as f32;
-                open.picture = Some(Picture { slice: (axis, index), size, pixels, aspect });
+                open.picture = Some(Picture { slice: (axis, index), window, size, pixels, aspect });
             }
             ScanEvent::Refused { number, sentence } => open.refused(number, sentence),
             ScanEvent::Cancelled => {
+                // A preview that was stopped in passing is asked for again.
+                open.previewed.take_if(|_| open.awaited.is_some());
                 (open.making, open.awaited, open.progress) = (None, None, None);
             }
             _ => {}
@@ -191,8 +290,8 @@ impl Scans {
 
     /// The engine has died: nothing of what it had open is left. What there is to say of it, in one sentence.
     pub fn engine_failed(&mut self, reason: &str) -> String {
-        (self.open, self.opening) = (None, None);
-        format!("The scan's engine has stopped ({reason}): open the scan again.")
+        (self.open, self.opening, self.kept) = (None, None, None);
+        say!("scan-engine-stopped", reason = reason)
     }
 }
 
@@ -205,6 +304,8 @@ impl OpenScan {
             selection: Selection::Threshold((low + high) / 2.0),
             region: Region { first: [0; 3], last },
             slice: (Axis::K, last[2] / 2),
+            window: opened.survey.bulk(),
+            keeps: opened.bytes <= KEPT,
             preview: None,
             picture: None,
             progress: None,
@@ -221,12 +322,15 @@ impl OpenScan {
             None if open.is_ct() && artery.check(&open.opened.survey).is_ok() => artery,
             None => open.selection,
         };
+        if open.is_ct() && !open.opened.survey.is_mask() {
+            open.window = WINDOWS[0].ends;
+        }
         open
     }
 
     /// Whether its values are Hounsfield units, as far as that can be known.
     pub fn is_ct(&self) -> bool {
-        self.opened.is_ct || self.opened.survey.range[0] <= AIR_HU
+        self.opened.is_ct || self.opened.survey.has_air()
     }
 
     /// The unit of its values, with a leading space.
@@ -239,11 +343,6 @@ impl OpenScan {
         self.making.is_some()
     }
 
-    /// The values that are black and white in a slice.
-    fn window(&self) -> [f64; 2] {
-        if self.is_ct() && !self.opened.survey.is_mask() { WINDOW_HU } else { self.opened.survey.range }
-    }
-
     fn refused(&mut self, number: u64, sentence: String) {
         if self.awaited == Some(number) {
             (self.awaited, self.preview, self.progress) = (None, None, None);
@@ -253,6 +352,11 @@ impl OpenScan {
             self.problem = Some(sentence);
         }
     }
+}
+
+/// Whether a surface is the one that was made of a scan.
+fn is_of(scan: &KeptScan, source: Option<&Source>) -> bool {
+    matches!(source, Some(Source::Made { mesh, .. }) if scan.is_of(mesh))
 }
 
 /// A file's name without its folder and the endings that a volume has.

@@ -1,15 +1,17 @@
 //! The app's state and an engine on one line, slice by slice: what overtakes what.
 
+mod restarting;
+
 use std::collections::VecDeque;
 use std::time::Duration;
 
 use super::{Effect, State};
-use crate::app::compare::Outcome;
-use crate::engine::{Command, Engine, Event, Link};
+use crate::engine::{Command, Engine, Event, Link, Work};
 use crate::io::Format;
 use crate::phantom::{self, Sample};
 use crate::pipeline::pinch::Pinch;
 use crate::pipeline::settings::{Keep, Target};
+use crate::pipeline::stage::Stage;
 
 /// A line on which commands lie until the next slice.
 #[derive(Default)]
@@ -82,18 +84,6 @@ fn settle(state: &mut State, line: &mut Line) -> Vec<String> {
         }
     }
     panic!("no end");
-}
-
-/// The engine stops by itself.
-fn die(state: &mut State, line: &mut Line) {
-    line.is_dead = true;
-    state.engine_failed("x", line);
-}
-
-/// The engine stops for the third time in a row: it is left alone.
-fn die_for_good(state: &mut State, line: &mut Line) {
-    (0..3).for_each(|_| die(state, line));
-    assert!(line.is_dead);
 }
 
 fn stl(triangles: usize) -> Vec<u8> {
@@ -177,6 +167,22 @@ fn a_broken_file_opened_while_the_engine_starts_again() {
     state.follow(false, &mut line);
     settle(&mut state, &mut line);
     agrees(&state);
+}
+
+#[test]
+fn a_notice_gives_way_to_work_that_is_waited_for_and_not_to_numbers_that_follow() {
+    let mut state = State::default();
+    state.tell("Presenting.");
+    for stage in Stage::ALL {
+        state.work = Some((Work::Stage(stage), 0.5));
+        let follows = stage > Stage::Deviation && stage < Stage::Faults;
+        assert_eq!(state.told_work().is_none(), follows, "{stage:?}");
+    }
+    state.work = Some((Work::Reading, 0.5));
+    assert_eq!(state.told_work(), state.work);
+    state.notice = None;
+    state.work = Some((Work::Stage(Stage::Measures), 0.5));
+    assert_eq!(state.told_work(), state.work);
 }
 
 #[test]
@@ -398,130 +404,6 @@ fn new_levels_have_no_colours_and_no_pinched_vessel_of_older_ones() {
     }
     settle(&mut state, &mut line);
     assert!(state.has_level() && state.document.as_ref().unwrap().deviation_by_node().is_some());
-}
-
-#[test]
-fn after_the_third_death_what_is_shown_can_still_be_saved() {
-    let (mut state, mut line) = start();
-    die_for_good(&mut state, &mut line);
-    state.save(Format::Stl, &mut line);
-    let name = format!("z-{}.stl", shown(&state));
-    assert_eq!(settle(&mut state, &mut line), [name]);
-    // The one that wrote it has nothing open.
-    state.settings.smoothing.iterations = 20;
-    state.follow(false, &mut line);
-    settle(&mut state, &mut line);
-    agrees(&state);
-}
-
-#[test]
-fn after_the_third_death_another_surface_and_a_file_that_is_under_way_both_come() {
-    let (mut state, mut line) = start();
-    die_for_good(&mut state, &mut line);
-    state.save(Format::Ply, &mut line);
-    state.open_file("b.stl".into(), stl(12_000), &mut line);
-    assert_eq!(settle(&mut state, &mut line).len(), 1);
-    assert_eq!(state.document.as_ref().unwrap().name, "b.stl");
-    agrees(&state);
-}
-
-#[test]
-fn a_file_that_dies_with_the_engine_is_said_not_to_be_saved() {
-    let (mut state, mut line) = start();
-    let name = format!("z-{}.stl", shown(&state));
-    let says = |state: &State, what: &str| {
-        let notice = state.notice.as_ref().unwrap();
-        assert!(notice.text.contains(&format!("{name} was not saved")) && notice.text.contains(what), "{notice:?}");
-    };
-    state.save(Format::Stl, &mut line);
-    die(&mut state, &mut line);
-    says(&state, "(x)");
-    assert_eq!(settle(&mut state, &mut line), [""; 0]);
-    state.save(Format::Stl, &mut line);
-    state.open_file("b.stl".into(), stl(12_000), &mut line);
-    state.cancel(&mut line);
-    says(&state, "cancelled");
-    die_for_good(&mut state, &mut line);
-    state.save(Format::Stl, &mut line);
-    die(&mut state, &mut line);
-    says(&state, "keeps stopping");
-    settle(&mut state, &mut line);
-    state.save(Format::Stl, &mut line);
-    assert_eq!(settle(&mut state, &mut line).len(), 1);
-    assert!(state.notice.as_ref().is_none_or(|notice| !notice.text.contains("not saved")), "{:?}", state.notice);
-}
-
-#[test]
-fn after_the_third_death_a_comparison_is_tried_again_by_another_engine() {
-    let (mut state, mut line) = start();
-    state.toggle_comparison();
-    state.follow(false, &mut line);
-    line.slice();
-    die_for_good(&mut state, &mut line);
-    settle(&mut state, &mut line);
-    assert!(line.is_dead, "it is left alone until something is asked for");
-    assert!(state.comparison.cells().iter().all(|cell| matches!(cell.outcome, Outcome::Failed(_))));
-    let again = state.comparison.cells()[1].id;
-    state.comparison.retry(again);
-    settle(&mut state, &mut line);
-    assert!(matches!(state.comparison.cells()[1].outcome, Outcome::Done(_)));
-    assert!(!state.is_busy() && !state.comparison.is_busy());
-}
-
-#[test]
-fn a_comparison_that_stops_the_engine_again_is_not_in_progress_for_ever() {
-    let (mut state, mut line) = start();
-    state.toggle_comparison();
-    state.follow(false, &mut line);
-    die_for_good(&mut state, &mut line);
-    let again = state.comparison.cells()[0].id;
-    state.comparison.retry(again);
-    state.follow(false, &mut line);
-    state.follow(false, &mut line);
-    die(&mut state, &mut line);
-    settle(&mut state, &mut line);
-    assert!(line.is_dead && !state.is_busy() && !state.comparison.is_busy());
-    assert!(matches!(state.comparison.cells()[0].outcome, Outcome::Failed(_)));
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error));
-}
-
-#[test]
-fn a_cancel_that_nobody_can_answer_holds_nothing_up() {
-    let (mut state, mut line) = start();
-    die_for_good(&mut state, &mut line);
-    state.cancel(&mut line);
-    settle(&mut state, &mut line);
-    state.settings.smoothing.iterations = 20;
-    state.follow(false, &mut line);
-    settle(&mut state, &mut line);
-    agrees(&state);
-    // One that was on its way when the engine stopped.
-    state.settings.smoothing.iterations = 10;
-    state.follow(false, &mut line);
-    state.cancel(&mut line);
-    die_for_good(&mut state, &mut line);
-    state.settings.smoothing.iterations = 30;
-    state.follow(false, &mut line);
-    settle(&mut state, &mut line);
-    agrees(&state);
-}
-
-#[test]
-fn a_surface_that_another_engine_cannot_open_again_stays_and_that_is_said() {
-    let (mut state, mut line) = start();
-    let before = shown(&state);
-    die(&mut state, &mut line);
-    line.sent.clear();
-    let id = state.generation();
-    state.receive(Event::OpenFailed { id, name: "z.stl".into(), message: "no memory left".into() });
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.contains("No memory left.")));
-    state.cancel(&mut line);
-    settle(&mut state, &mut line);
-    assert_eq!(shown(&state), before);
-    state.settings.smoothing.iterations = 20;
-    state.follow(false, &mut line);
-    settle(&mut state, &mut line);
-    agrees(&state);
 }
 
 #[test]

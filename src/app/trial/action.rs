@@ -98,10 +98,25 @@ pub enum DeviceAsk {
     Choose(Option<usize>),
     /// Say what will move once its force is armed, or no longer.
     Confirm(bool),
+    /// Remember no longer which of its axes feed and roll.
+    Forget,
     /// Save how long it takes from report to report.
     SaveLatency,
     /// Something of the device itself.
     Command(DeviceCommand),
+    /// Something of the gamepad's motors; [`DeviceCommand::Halt`] ends both.
+    Rumble(RumbleAsk),
+    /// A tone in place of a force, or none.
+    Sound(bool),
+}
+
+/// What is asked of a gamepad's motors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RumbleAsk {
+    /// Say what will shake once it is armed, or no longer.
+    Confirm(bool),
+    /// Let it shake.
+    Arm,
 }
 
 /// What is asked of the fluoroscope.
@@ -117,4 +132,6 @@ pub enum Arm {
     Look(f32, f32),
     /// So many pulses a second.
     Rate(f32),
+    /// The fluoroscopy as the large picture with the others over it, or side by side again.
+    Enlarge,
 }

@@ -4,16 +4,21 @@ use std::sync::Arc;
 
 use super::action::{Action, DeviceAsk, Pick};
 use super::device::TrialState;
+use super::rumble::Felt;
 use super::state::{Coming, Comparing, Preparing, Run, Stage, Subject, Trial, taken_from};
 use super::tables::Tables;
 use crate::app::document::Document;
 use crate::app::keys::Keys;
-use crate::app::platform::{Devices, Gamepad};
+use crate::app::platform::{Devices, Gamepad, Tone};
 use crate::engine::Source;
 use crate::engine::trial::{TrialCommand, TrialLink};
+use crate::haptics::known::KnownMappings;
+use crate::haptics::safety::Halt;
+use crate::haptics::service::DeviceCommand;
 use crate::mesh::Vec3;
 use crate::phantom::Sample;
 use crate::pipeline::settings::{Smoothing, Target};
+use crate::say;
 use crate::trial::log::Log;
 use crate::trial::setup::{Entry, Input, Setup};
 
@@ -74,16 +79,16 @@ impl Trial {
     fn start(&mut self, log: Option<Arc<Vec<u8>>>, document: Option<&Document>, link: &mut TrialLink) {
         let level = document.and_then(|d| Some((d, d.shown_mesh()?, d.levels.as_ref()?.1.clone())));
         let Some((document, mesh, levels)) = level else {
-            self.problem = Some("There is no surface to steer through yet.".to_owned().into());
+            self.problem = Some(say!("trial-no-surface").into());
             return;
         };
-        self.awaits = None;
+        (self.awaits, self.flight) = (None, None);
         let (id, mesh) = (self.next_number(), Arc::new(mesh));
         document.name.clone_into(&mut self.name);
         let (sample, setup) = (sample_of(document), self.setup.clone());
         self.sent = Some(setup.clone());
         let mut preparing = match std::mem::take(&mut self.stage) {
-            Stage::Closed | Stage::Off => Preparing::default(),
+            Stage::Closed | Stage::Off(_) => Preparing::default(),
             Stage::Preparing(preparing) => Preparing { fraction: 0.0, ..preparing },
             Stage::On(session) => Preparing { before: Some(session), ..Preparing::default() },
         };
@@ -258,7 +263,42 @@ impl Trial {
 
     /// Does what is asked of the haptic device.
     pub(in crate::app) fn act_on_device(&mut self, ask: DeviceAsk, devices: Option<&mut dyn Devices>) {
+        match ask {
+            DeviceAsk::Rumble(ask) => return self.rumble.act(ask),
+            DeviceAsk::Sound(on) => return self.sound.turn(on),
+            DeviceAsk::Command(DeviceCommand::Halt(why)) => self.rumble.halt(why),
+            _ => {}
+        }
         self.device.act(ask, devices);
+    }
+
+    /// How strongly a gamepad is to shake from `now_ms` on, 0 to 1, where it has to be told; in a hidden window it is still.
+    pub(in crate::app) fn follow_rumble(
+        &mut self,
+        now_ms: f64,
+        gamepad: Option<Gamepad>,
+        is_hidden: bool,
+    ) -> Option<f64> {
+        if is_hidden {
+            self.rumble.halt(Halt::Hidden);
+        } else if !self.is_open() {
+            self.rumble.halt(Halt::NotArmed);
+        }
+        let felt = self.felt();
+        self.rumble.follow(now_ms, gamepad.is_some_and(|pad| pad.can_rumble), felt)
+    }
+
+    /// What is to sound from `now_ms` on, where that has to be told; in a hidden window nothing does.
+    pub(in crate::app) fn follow_sound(&mut self, now_ms: f64, is_offered: bool, is_hidden: bool) -> Option<Tone> {
+        let felt = self.felt().filter(|_| !is_hidden);
+        self.sound.follow(now_ms, is_offered, felt)
+    }
+
+    /// What the hand holds at the guide, while one does.
+    fn felt(&self) -> Option<Felt> {
+        let is_by_hand = self.is_in_hand() && self.run().is_some_and(|run| !run.autopilot);
+        let frame = self.frame().filter(|_| is_by_hand)?;
+        Some(Felt { step: frame.step, force: [frame.push_n, frame.torque_n_mm] })
     }
 
     /// Hears how the haptic device is; in a hidden window its force ends. Says whether the trial has to be paused, or has to go
@@ -273,14 +313,24 @@ impl Trial {
         self.device.follow(devices, is_hidden, state)
     }
 
+    /// What feeds and rolls by haptic devices that were used before.
+    pub(in crate::app) fn known_mappings(&self) -> &KnownMappings {
+        self.device.known()
+    }
+
+    /// The same, as it was kept.
+    pub(in crate::app) fn set_known_mappings(&mut self, known: KnownMappings) {
+        self.device.set_known(known);
+    }
+
     /// How long the haptic device takes from report to report, as a table; `None` before it is known.
     pub(in crate::app) fn latency_table(&self) -> Option<String> {
         self.device.latency_table()
     }
 
-    /// Whether a haptic device is served, and whether its force is armed.
+    /// Whether a haptic device is served, and whether its force, or a gamepad's, is armed.
     pub(in crate::app) fn has_device(&self) -> (bool, bool) {
-        (self.device.is_served(), self.device.is_armed())
+        (self.device.is_served(), self.device.is_armed() || self.rumble.is_armed())
     }
 
     /// Whether the hand is on the wire: then the engine has to be told of it.

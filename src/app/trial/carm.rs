@@ -2,13 +2,17 @@
 //!
 //! Angles are those of the detector: LAO to the patient's left, RAO to the right, CRAN to the head, CAUD to the feet.
 //! The tube is opposite, 765 mm from the isocentre, as in common systems; the picture is looked at from the detector's
-//! side.
+//! side. Where it is not known which way the patient lies, they are angles about the surface's own axes, and are called so.
 
+use egui::{Pos2, Rect, vec2};
 use glam::{Mat3, Quat};
 
 use super::action::Arm;
+use crate::io::Axes;
+use crate::language::{Key, decimal};
 use crate::mesh::{Bounds, Vec3};
 use crate::render::Camera;
+use crate::say;
 
 /// From the tube to the isocentre, in mm.
 const SOURCE: f32 = 765.0;
@@ -17,9 +21,13 @@ const FIELD: [f32; 2] = [40.0, 480.0];
 /// Seconds after which nothing is left of the contrast anywhere.
 const GONE: f64 = 12.0;
 
-/// The presets: name, LAO, CRAN, in degrees.
-pub(super) const PRESETS: [(&str, f32, f32); 4] =
-    [("AP", 0.0, 0.0), ("LAO 45", 45.0, 0.0), ("LAT", 90.0, 0.0), ("RAO 30", -30.0, 0.0)];
+/// The presets: name, name where the patient's sides are not known, LAO, CRAN, in degrees.
+pub(super) const PRESETS: [(Key, &str, f32, f32); 4] = [
+    (Key("trial-arm-ap"), "0°", 0.0, 0.0),
+    (Key("trial-arm-lao-45"), "45°", 45.0, 0.0),
+    (Key("trial-arm-lat"), "90°", 90.0, 0.0),
+    (Key("trial-arm-rao-30"), "-30°", -30.0, 0.0),
+];
 
 /// The rates in pulses a second.
 pub(super) const RATES: [f32; 2] = [7.5, 15.0];
@@ -27,6 +35,8 @@ pub(super) const RATES: [f32; 2] = [7.5, 15.0];
 /// A C-arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CArm {
+    /// Which way the patient lies in it.
+    pub axes: Axes,
     /// To the patient's left, in degrees; negative is RAO.
     pub lao: f32,
     /// To the head, in degrees; negative is CAUD.
@@ -41,6 +51,8 @@ pub struct CArm {
     pub rate: f32,
     /// Whether the lumen is shown over the picture.
     pub roadmap: bool,
+    /// Whether its picture is the large one.
+    pub is_large: bool,
     /// Seconds that the beam was on.
     pub seconds: f64,
     /// Pulses so far.
@@ -56,6 +68,7 @@ pub struct CArm {
 impl Default for CArm {
     fn default() -> Self {
         Self {
+            axes: Axes::Unknown,
             lao: 0.0,
             cran: 0.0,
             field_mm: 200.0,
@@ -63,6 +76,7 @@ impl Default for CArm {
             is_on: true,
             rate: RATES[1],
             roadmap: false,
+            is_large: false,
             seconds: 0.0,
             pulses: 0,
             given: None,
@@ -94,6 +108,7 @@ impl CArm {
             Arm::Roadmap(on) => self.roadmap = on,
             Arm::Look(lao, cran) => (self.lao, self.cran) = (lao, cran),
             Arm::Rate(rate) => self.rate = rate,
+            Arm::Enlarge => self.is_large = !self.is_large,
         }
     }
 
@@ -153,6 +168,8 @@ impl CArm {
     fn detector(&self) -> Vec3 {
         let (lao, cran) = (self.lao.to_radians(), self.cran.to_radians());
         let (across, up) = (libm::cosf(cran), libm::sinf(cran));
+        // RAS is LPS after half a turn about the axis to the head.
+        let across = if self.axes == Axes::Ras { -across } else { across };
         Vec3::new(libm::sinf(lao) * across, -libm::cosf(lao) * across, up)
     }
 
@@ -166,15 +183,27 @@ impl CArm {
             distance: SOURCE,
             fov_y: 2.0 * libm::atanf(self.field_mm / (2.0 * SOURCE)),
             bounds,
+            ..Camera::default()
         }
     }
 
     /// The angles as they are read.
     pub(super) fn words(&self) -> String {
-        let side = if self.lao < -0.5 { "RAO" } else { "LAO" };
-        let tilt = if self.cran < -0.5 { "CAUD" } else { "CRAN" };
-        format!("{side} {:.0}°  {tilt} {:.0}°", self.lao.abs(), self.cran.abs())
+        if self.axes == Axes::Unknown {
+            return say!("trial-arm-turned", turned = decimal(self.lao, 0), tilted = decimal(self.cran, 0));
+        }
+        let side = if self.lao < -0.5 { say!("trial-arm-rao") } else { say!("trial-arm-lao") };
+        let tilt = if self.cran < -0.5 { say!("trial-arm-caud") } else { say!("trial-arm-cran") };
+        let [turned, tilted] = [self.lao, self.cran].map(|angle| decimal(angle.abs(), 0));
+        say!("trial-arm-angles", side = side, turned = turned, tilt = tilt, tilted = tilted)
     }
+}
+
+/// Where a point is on the screen in `rect`, where a picture of the tube's camera is shown; `None` behind the tube.
+pub(super) fn place(camera: &Camera, rect: Rect, point: Vec3) -> Option<Pos2> {
+    let at = camera.project(point, rect.width() / rect.height().max(1.0))?;
+    // Whoever looks stands on the detector's side.
+    Some(rect.center() - vec2(at.x * rect.width() / 2.0, at.y * rect.height() / 2.0))
 }
 
 #[cfg(test)]
@@ -183,16 +212,23 @@ mod tests {
 
     /// Where a point is in the picture as it is shown: to the right and up.
     fn shown(arm: &CArm, point: Vec3) -> (f32, f32) {
-        let at = arm.camera(Bounds::of(&[Vec3::splat(-100.0), Vec3::splat(100.0)])).project(point, 1.0).unwrap();
-        (-at.x, at.y)
+        let camera = arm.camera(Bounds::of(&[Vec3::splat(-100.0), Vec3::splat(100.0)]));
+        let at = place(&camera, Rect::from_center_size(Pos2::ZERO, vec2(2.0, 2.0)), point).unwrap();
+        (at.x, -at.y)
     }
 
     #[test]
     fn the_patient_s_left_is_on_the_right_of_the_picture_and_the_head_above() {
-        let arm = CArm::default();
-        let (x, y) = shown(&arm, Vec3::new(50.0, 0.0, 20.0));
-        assert!(x > 0.4 && y > 0.1, "{x} {y}");
-        assert_eq!(arm.words(), "LAO 0°  CRAN 0°");
+        for (axes, left) in [(Axes::Lps, 50.0), (Axes::Ras, -50.0)] {
+            let arm = CArm { axes, ..CArm::default() };
+            let (x, y) = shown(&arm, Vec3::new(left, 0.0, 20.0));
+            assert!(x > 0.4 && y > 0.1, "{x} {y}");
+            assert_eq!(arm.words(), "LAO 0°  CRAN 0°");
+            // From the left, for whom the front is on the left.
+            let arm = CArm { lao: 90.0, ..arm };
+            assert!(shown(&arm, Vec3::new(0.0, -left, 0.0)).0 < -0.4);
+        }
+        assert_eq!(CArm::default().words(), "Turned 0°  tilted 0°", "no side is asserted that is not known");
     }
 
     #[test]

@@ -4,15 +4,18 @@ use egui::{Button, ComboBox, DragValue, ProgressBar, Role, Slider, Ui};
 
 use super::action::{Action, DeviceAsk};
 use crate::app::assist::name;
-use crate::app::overlay::NOT_CLINICAL;
+use crate::app::control::reads_comma;
 use crate::app::platform::{Devices, Listing};
 use crate::app::row::{number, remark, row, warning};
 use crate::haptics::feeder::HALF_WAY;
+use crate::haptics::known::KnownMappings;
 use crate::haptics::latency::Percentiles;
 use crate::haptics::learning::Ask;
 use crate::haptics::mapping::{AxisMapping, Mapping, Mode};
 use crate::haptics::safety::Halt;
 use crate::haptics::service::{DeviceCommand, DeviceStatus};
+use crate::language::{Key, decimal, parse};
+use crate::say;
 
 /// What is known of haptic devices.
 #[derive(Default)]
@@ -26,8 +29,26 @@ pub(super) struct Device {
     /// Whether the user is being told what will move.
     is_confirming: bool,
     is_paused: bool,
-    /// Whether it went in the middle of a trial, which waits for it.
-    is_missed: bool,
+    plug: Plug,
+    /// What feeds and rolls by devices that were used before.
+    known: KnownMappings,
+}
+
+/// What the plug of the device has done.
+#[derive(Default)]
+enum Plug {
+    /// Nothing.
+    #[default]
+    In,
+    /// It was pulled out.
+    Out {
+        /// Whether the trial waits for it.
+        is_missed: bool,
+        /// How the device was before.
+        before: Box<DeviceStatus>,
+    },
+    /// It, or another, is there again, and its force was not armed yet.
+    Back,
 }
 
 /// What a device has to know of its trial.
@@ -57,6 +78,39 @@ impl Device {
         self.is_served() && self.status.as_ref().is_some_and(|status| status.has_force && status.halted.is_none())
     }
 
+    /// What feeds and rolls by devices that were used before.
+    pub(super) fn known(&self) -> &KnownMappings {
+        &self.known
+    }
+
+    /// The same, as it was kept; nothing where it is to be forgotten.
+    pub(super) fn set_known(&mut self, known: KnownMappings) {
+        self.known = known;
+    }
+
+    /// By what the one that is served is remembered; empty where none is open.
+    fn key(&self) -> &str {
+        self.status.as_ref().filter(|status| status.ended.is_none()).map_or("", |status| status.key.as_str())
+    }
+
+    /// A device that was used before is held as it was then; what was learnt is remembered.
+    fn remember(&mut self, before: Option<&DeviceStatus>, devices: &mut dyn Devices) {
+        let Some(status) = self.status.as_ref().filter(|status| status.ended.is_none()) else { return };
+        let (key, axes, mapping) = (&status.key, status.axes.len(), status.mapping);
+        match before.filter(|before| before.ended.is_none() && before.key == *key) {
+            Some(before) => {
+                if before.asks.is_some() && status.asks.is_none() && before.mapping != mapping {
+                    self.known.remember(key, axes, mapping);
+                }
+            }
+            None => {
+                if let Some(known) = self.known.get(key, axes).filter(|known| *known != mapping) {
+                    devices.ask(DeviceCommand::Map(known));
+                }
+            }
+        }
+    }
+
     /// Hears how the device is. A window that is hidden, or has no keys, has no hand on it: its force ends. Devices are listed
     /// once there is a trial. Says whether the trial has to be paused, as the device that held its wire is gone, or has to go on,
     /// as one is there again.
@@ -68,8 +122,9 @@ impl Device {
         if let Some(Listing { names, problem, chosen }) = devices.changed() {
             (self.choices, self.problem, self.chosen) = (Some(names), problem, chosen);
         }
-        let was_served = self.is_served();
-        self.status = devices.status();
+        let (was_served, was_open) = (self.is_served(), !self.key().is_empty());
+        let before = std::mem::replace(&mut self.status, devices.status());
+        self.remember(before.as_ref(), devices);
         if is_hidden && self.is_armed() {
             devices.ask(DeviceCommand::Halt(Halt::Hidden));
         }
@@ -78,11 +133,28 @@ impl Device {
             self.is_paused = stands;
             devices.ask(DeviceCommand::Pause(stands));
         }
-        if was_served && self.status.as_ref().is_some_and(|status| status.ended.is_some()) && trial.is_driven {
-            self.is_missed = true;
-            return !trial.is_paused;
+        if was_open && self.status.as_ref().is_some_and(|status| status.ended.is_some()) {
+            self.plug = Plug::Out { is_missed: trial.is_driven, before: Box::new(before.unwrap_or_default()) };
+            self.is_confirming = false;
+            return trial.is_driven && !trial.is_paused;
         }
-        self.is_served() && std::mem::take(&mut self.is_missed) && trial.is_paused
+        self.take_up(devices) && trial.is_paused
+    }
+
+    /// A device that was pulled out is there again, felt as before once it is armed. Says whether the trial has waited for it.
+    fn take_up(&mut self, devices: &mut dyn Devices) -> bool {
+        if self.is_armed() {
+            self.plug = Plug::In;
+        }
+        // One that is not open yet has no key.
+        if self.key().is_empty() || !matches!(self.plug, Plug::Out { .. }) {
+            return false;
+        }
+        let Plug::Out { is_missed, before } = std::mem::replace(&mut self.plug, Plug::Back) else { return false };
+        if before.key == self.key() {
+            devices.ask(DeviceCommand::Factor(before.factor));
+        }
+        is_missed
     }
 
     /// Does what is asked of it.
@@ -92,15 +164,30 @@ impl Device {
             DeviceAsk::Look => self.look(devices),
             DeviceAsk::Choose(chosen) => {
                 (self.chosen, self.is_confirming) = (chosen, false);
+                if matches!(self.plug, Plug::Back) {
+                    self.plug = Plug::In;
+                }
                 devices.choose(chosen);
                 devices.ask(DeviceCommand::Pause(self.is_paused));
-                self.status = devices.status();
+                // Another, even where it is of the same kind.
+                self.status = None;
             }
             DeviceAsk::Confirm(on) => self.is_confirming = on,
-            // Files are the app's.
-            DeviceAsk::SaveLatency => {}
+            // Files are the app's, and neither gamepads nor loudspeakers are devices.
+            DeviceAsk::SaveLatency | DeviceAsk::Rumble(_) | DeviceAsk::Sound(_) => {}
+            DeviceAsk::Forget => {
+                let key = self.key().to_owned();
+                self.known.forget(&key);
+                devices.ask(DeviceCommand::Propose);
+            }
             DeviceAsk::Command(command) => {
                 self.is_confirming = false;
+                // To stop learning maps as before, which nobody has chosen.
+                if let (DeviceCommand::Map(mapping), Some(status)) = (command, &self.status)
+                    && status.asks.is_none()
+                {
+                    self.known.remember(&status.key, status.axes.len(), mapping);
+                }
                 devices.ask(command);
             }
         }
@@ -112,7 +199,7 @@ impl Device {
         let Percentiles { count, p50_ms, p95_ms, p99_ms } = latency;
         let (version, name) = (env!("CARGO_PKG_VERSION"), name.replace('"', "\"\""));
         Some(format!(
-            "# From input report to output report; Lumen {version}. {NOT_CLINICAL}.\n\
+            "# From input report to output report; Lumen {version}. Not for clinical decisions.\n\
              device,reports,p50_ms,p95_ms,p99_ms\n\"{name}\",{count},{p50_ms:.1},{p95_ms:.1},{p99_ms:.1}\n"
         ))
     }
@@ -128,13 +215,14 @@ impl Device {
 pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
     let Some(choices) = &device.choices else { return };
     let mut ask = |what| asked.push(Action::Device(what));
-    row(ui, "Device", "What the wire is held by, beside keys and pads", |ui| {
-        if ui.button("Look again").on_hover_text("Lists the devices that are plugged in now").clicked() {
+    row(ui, &say!("devices-device"), &say!("devices-device-help"), |ui| {
+        if ui.button(say!("devices-look-again")).on_hover_text(say!("devices-look-again-help")).clicked() {
             ask(DeviceAsk::Look);
         }
-        let chosen = device.chosen.and_then(|chosen| choices.get(chosen)).map_or("None", String::as_str);
+        let none = say!("devices-none");
+        let chosen = device.chosen.and_then(|chosen| choices.get(chosen)).map_or(none.as_str(), String::as_str);
         let list = ComboBox::from_id_salt("device").selected_text(chosen).show_ui(ui, |ui| {
-            if ui.selectable_label(device.chosen.is_none(), "None").clicked() {
+            if ui.selectable_label(device.chosen.is_none(), none.as_str()).clicked() {
                 ask(DeviceAsk::Choose(None));
             }
             for (i, choice) in choices.iter().enumerate() {
@@ -143,7 +231,7 @@ pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
                 }
             }
         });
-        name(&list.response, Role::ComboBox, "Device");
+        name(&list.response, Role::ComboBox, &say!("devices-device"));
     });
     if let Some(problem) = &device.problem {
         warning(ui, problem);
@@ -156,20 +244,26 @@ pub(super) fn show(ui: &mut Ui, device: &Device, asked: &mut Vec<Action>) {
     if let Some(wanted) = status.wanted {
         hand(ui, wanted, &mut ask);
     }
-    axes(ui, status, &mut ask);
+    if matches!(device.plug, Plug::Back) {
+        let again = if status.has_force { Key("devices-again-unarmed") } else { Key("devices-again") };
+        remark(ui, &again.say());
+    }
+    axes(ui, status, device.known.has(&status.key), &mut ask);
     force(ui, device, status, &mut ask);
 }
 
 /// Where the hand on the virtual device wants it.
 fn hand(ui: &mut Ui, mut wanted: [f64; 2], ask: &mut impl FnMut(DeviceAsk)) {
     let before = wanted;
-    row(ui, "Hand at", "Where the hand on the virtual device wants its slide", |ui| {
+    row(ui, &say!("devices-hand-at"), &say!("devices-hand-at-help"), |ui| {
         let slider = Slider::new(&mut wanted[0], -HALF_WAY[0]..=HALF_WAY[0]).suffix(" mm").fixed_decimals(1);
-        name(&ui.add(slider), Role::Slider, "Hand at");
+        let slider = slider.custom_parser(|text| parse(text, false));
+        name(&ui.add(slider), Role::Slider, &say!("devices-hand-at"));
     });
-    row(ui, "Turned to", "Where the hand on the virtual device wants its knob", |ui| {
+    row(ui, &say!("devices-turned-to"), &say!("devices-turned-to-help"), |ui| {
         let slider = Slider::new(&mut wanted[1], -HALF_WAY[1]..=HALF_WAY[1]).suffix(" rad").fixed_decimals(2);
-        name(&ui.add(slider), Role::Slider, "Turned to");
+        let slider = slider.custom_parser(|text| parse(text, false));
+        name(&ui.add(slider), Role::Slider, &say!("devices-turned-to"));
     });
     if wanted != before {
         ask(DeviceAsk::Command(DeviceCommand::Want(wanted)));
@@ -177,55 +271,59 @@ fn hand(ui: &mut Ui, mut wanted: [f64; 2], ask: &mut impl FnMut(DeviceAsk)) {
 }
 
 /// The axes as they are, and what they do.
-fn axes(ui: &mut Ui, status: &DeviceStatus, ask: &mut impl FnMut(DeviceAsk)) {
+fn axes(ui: &mut Ui, status: &DeviceStatus, is_known: bool, ask: &mut impl FnMut(DeviceAsk)) {
     for axis in &status.axes {
-        row(ui, &axis.name, "Where the axis is between its ends, and its number", |ui| {
+        row(ui, &axis.name, &say!("devices-axis-help"), |ui| {
             let raw = axis.raw.map_or("-".to_owned(), |raw| raw.to_string());
             ui.add(ProgressBar::new((0.5 + 0.5 * axis.part) as f32).desired_width(120.0).text(raw));
         });
     }
     match status.asks {
-        Some(Ask::Push) => remark(ui, "Push the device forward, as if to feed the wire."),
-        Some(Ask::Turn) => remark(ui, "Turn it to the right, as if to roll the wire."),
+        Some(Ask::Push) => remark(ui, &say!("devices-push")),
+        Some(Ask::Turn) => remark(ui, &say!("devices-turn")),
         Some(Ask::Done) | None => {}
     }
     let mut mapping = status.mapping;
-    mapped(ui, "Feed", "mm", &mut mapping.feed, status);
-    mapped(ui, "Roll", "rad", &mut mapping.roll, status);
+    mapped(ui, ["Feed", &say!("devices-feed")], "mm", &mut mapping.feed, status);
+    mapped(ui, ["Roll", &say!("devices-roll")], "rad", &mut mapping.roll, status);
     if mapping != status.mapping {
         ask(DeviceAsk::Command(DeviceCommand::Map(mapping)));
     }
     ui.horizontal_wrapped(|ui| {
-        let learn = Button::new("Learn axes").selected(status.asks.is_some());
-        if ui.add(learn).on_hover_text("Finds out which axis you push and which you turn").clicked() {
+        let learn = Button::new(say!("devices-learn")).selected(status.asks.is_some());
+        if ui.add(learn).on_hover_text(say!("devices-learn-help")).clicked() {
             let stop = DeviceCommand::Map(status.mapping);
             ask(DeviceAsk::Command(if status.asks.is_some() { stop } else { DeviceCommand::Learn }));
         }
+        if is_known && ui.button(say!("devices-forget")).on_hover_text(say!("devices-forget-help")).clicked() {
+            ask(DeviceAsk::Forget);
+        }
         if !status.has_force && status.mapping != Mapping::default() {
-            ui.label("No force by these axes.");
+            ui.label(say!("devices-no-force"));
         }
     });
 }
 
-/// Which axis, how far it moves, and whether the other way round.
-fn mapped(ui: &mut Ui, what: &str, unit: &str, mapping: &mut Option<AxisMapping>, status: &DeviceStatus) {
+/// Which axis, how far it moves, and whether the other way round; what it moves has a name for ids, and one for the eye.
+fn mapped(ui: &mut Ui, [salt, what]: [&str; 2], unit: &str, mapping: &mut Option<AxisMapping>, status: &DeviceStatus) {
     let Some(of) = mapping else { return };
-    row(ui, what, "Which axis, what its way moves, and which way is forward", |ui| {
-        ui.checkbox(&mut of.is_inverted, "Inverted");
+    row(ui, what, &say!("devices-mapped-help"), |ui| {
+        ui.checkbox(&mut of.is_inverted, say!("devices-inverted"));
         let (value, suffix) = match &mut of.mode {
             Mode::Absolute { travel } => (travel, format!(" {unit}")),
-            Mode::Relative { per_count } => (per_count, format!(" {unit}/count")),
+            Mode::Relative { per_count } => (per_count, format!(" {}", say!("devices-per-count", unit = unit))),
             Mode::Rate { full } => (full, format!(" {unit}/s")),
         };
-        let far = ui.add(DragValue::new(value).range(0.01..=1000.0).suffix(suffix).max_decimals(2));
-        name(&far, Role::SpinButton, &format!("{what}: how far"));
+        let far = reads_comma(DragValue::new(value), false).range(0.01..=1000.0).suffix(suffix).max_decimals(2);
+        let far = ui.add(far);
+        name(&far, Role::SpinButton, &say!("devices-mapped-far", what = what));
         let axis = status.axes.get(of.axis).map_or("-", |axis| axis.name.as_str());
-        let list = ComboBox::from_id_salt(what).selected_text(axis).width(56.0).show_ui(ui, |ui| {
+        let list = ComboBox::from_id_salt(salt).selected_text(axis).width(56.0).show_ui(ui, |ui| {
             for (i, axis) in status.axes.iter().enumerate() {
                 ui.selectable_value(&mut of.axis, i, &axis.name);
             }
         });
-        name(&list.response, Role::ComboBox, &format!("{what}: axis"));
+        name(&list.response, Role::ComboBox, &say!("devices-mapped-axis", what = what));
     });
 }
 
@@ -235,65 +333,62 @@ fn force(ui: &mut Ui, device: &Device, status: &DeviceStatus, ask: &mut impl FnM
         return;
     }
     let mut factor = status.factor;
-    row(ui, "Felt as", "The part of the device's most force that 1 N along the wire is felt as", |ui| {
+    row(ui, &say!("devices-felt-as"), &say!("devices-felt-as-help"), |ui| {
         let value = DragValue::new(&mut factor[0]).range(0.0..=20.0).speed(0.01).suffix(" /N").max_decimals(2);
-        name(&ui.add(value), Role::SpinButton, "Felt as");
+        name(&ui.add(reads_comma(value, false)), Role::SpinButton, &say!("devices-felt-as"));
     });
-    row(ui, "Torque as", "The part of the device's most force that 1 N mm about the wire is felt as", |ui| {
+    row(ui, &say!("devices-torque-as"), &say!("devices-torque-as-help"), |ui| {
         let value = DragValue::new(&mut factor[1]).range(0.0..=5.0).speed(0.001).suffix(" /N mm").max_decimals(3);
-        name(&ui.add(value), Role::SpinButton, "Torque as");
+        name(&ui.add(reads_comma(value, false)), Role::SpinButton, &say!("devices-torque-as"));
     });
     if factor != status.factor {
         ask(DeviceAsk::Command(DeviceCommand::Factor(factor)));
     }
     let halt = DeviceAsk::Command(DeviceCommand::Halt(Halt::Stopped));
     if status.halted.is_none() {
-        if ui.button("Stop force").on_hover_text("The device lets go at once (Esc)").clicked() {
+        if ui.button(say!("devices-stop-force")).on_hover_text(say!("devices-stop-force-help")).clicked() {
             ask(halt);
         }
     } else if device.is_confirming {
-        remark(
-            ui,
-            "The device will push back by itself, with up to 40 % of its force. Hold it loosely, and keep hair, cables and \
-             cups away. Esc, the stop button, or leaving this window ends it.",
-        );
+        remark(ui, &say!("devices-force-warning"));
         ui.horizontal(|ui| {
-            if ui.button("Arm force").clicked() {
+            if ui.button(say!("devices-arm-force")).clicked() {
                 ask(DeviceAsk::Command(DeviceCommand::Arm));
             }
-            if ui.button("Not now").clicked() {
+            if ui.button(say!("devices-not-now")).clicked() {
                 ask(DeviceAsk::Confirm(false));
             }
         });
-    } else if ui.button("Arm force...").on_hover_text("Says what will move, then lets it").clicked() {
+    } else if ui.button(say!("devices-ask-arm-force")).on_hover_text(say!("devices-ask-arm-force-help")).clicked() {
         ask(DeviceAsk::Confirm(true));
     }
     if let Some(why) = status.halted.and_then(why) {
-        remark(ui, why);
+        remark(ui, &why.say());
     }
     if let Some(felt) = status.felt {
         // Nought has no sign.
         let [force, torque] = felt.map(|value| if value.abs() < 5e-4 { 0.0 } else { value });
-        number(ui, "Felt", &format!("{force:.3} N, {torque:.3} N mm"), "What the hand holds at the guide");
+        let felt = format!("{} N, {} N mm", decimal(force, 3), decimal(torque, 3));
+        number(ui, &say!("devices-felt"), &felt, &say!("devices-felt-help"));
     }
     let latency = status.latency;
     if latency.count > 0 {
-        let times = format!("{:.1} / {:.1} / {:.1} ms", latency.p50_ms, latency.p95_ms, latency.p99_ms);
-        number(ui, "Latency", &times, "From input report to output report: half, 95 % and 99 % are not longer");
-        let what = "Saves these times, the device's name and Lumen's version as a small table, and nothing else";
-        if ui.button("Save latency").on_hover_text(what).clicked() {
+        let [half, most, nearly_all] = [latency.p50_ms, latency.p95_ms, latency.p99_ms].map(|ms| decimal(ms, 1));
+        let times = format!("{half} / {most} / {nearly_all} ms");
+        number(ui, &say!("devices-latency"), &times, &say!("devices-latency-help"));
+        if ui.button(say!("devices-save-latency")).on_hover_text(say!("devices-save-latency-help")).clicked() {
             ask(DeviceAsk::SaveLatency);
         }
     }
 }
 
 /// Why its force has ended, where the user did not end it.
-fn why(halt: Halt) -> Option<&'static str> {
+pub(super) fn why(halt: Halt) -> Option<Key> {
     match halt {
         Halt::NotArmed | Halt::Stopped => None,
-        Halt::Hidden => Some("The force was ended as the window was left."),
-        Halt::Unplugged => Some("The force was ended as the device was unplugged."),
-        Halt::NotANumber => Some("The force was ended: the trial gave no number for it."),
-        Halt::Refused => Some("The force was ended: the device takes no more reports."),
+        Halt::Hidden => Some(Key("devices-ended-hidden")),
+        Halt::Unplugged => Some(Key("devices-ended-unplugged")),
+        Halt::NotANumber => Some(Key("devices-ended-no-number")),
+        Halt::Refused => Some(Key("devices-ended-refused")),
     }
 }

@@ -5,6 +5,7 @@ use egui::{Context, Event, Id, Key, Pos2, Rect, Sense, Stroke, TouchPhase, Ui, W
 use crate::app::keys::Keys;
 use crate::app::platform::Gamepad;
 use crate::engine::trial::HAND;
+use crate::say;
 use crate::trial::setup::Input;
 
 /// Feed by a key, and with Shift, in mm/s.
@@ -170,19 +171,23 @@ impl Pads {
     }
 
     fn pad(&mut self, ui: &Ui, pad: Pad, rect: Rect) {
-        let (label, ends, help) = match pad {
-            Pad::Feed => ("Feed", ["out", "in"], "Drag to the right to feed, to the left to withdraw (W, S)"),
-            Pad::Roll => ("Roll", ["left", "right"], "Drag aside to roll the wire (A, D)"),
+        let (salt, label, called, help) = match pad {
+            Pad::Feed => ("Feed", say!("devices-feed"), say!("devices-feed-pad"), say!("devices-feed-pad-help")),
+            Pad::Roll => ("Roll", say!("devices-roll"), say!("devices-roll-pad"), say!("devices-roll-pad-help")),
         };
-        let response = ui.interact(rect, Id::unique(("pad", label)), Sense::drag());
+        let [left, right] = match pad {
+            Pad::Feed => [say!("devices-feed-out"), say!("devices-feed-in")],
+            Pad::Roll => [say!("devices-roll-left"), say!("devices-roll-right")],
+        };
+        let response = ui.interact(rect, Id::unique(("pad", salt)), Sense::drag());
         if !self.fingers.iter().any(|(_, held)| *held == pad) {
             let is_held = response.is_pointer_button_down_on() && !self.is_let_go;
             let at = response.interact_pointer_pos().filter(|_| is_held);
             *self.value(pad) = at.map_or(0.0, |at| pushed(rect, at));
         }
         let value = *self.value(pad);
-        let response = response.on_hover_text(help);
-        response.widget_info(|| WidgetInfo::slider(true, f64::from(value), format!("{label} pad")));
+        let response = response.on_hover_text(help.to_owned());
+        response.widget_info(|| WidgetInfo::slider(true, f64::from(value), called.as_str()));
         let visuals = ui.visuals();
         let painter = ui.painter_at(rect);
         let stroke = Stroke::new(1.0, visuals.widgets.noninteractive.bg_stroke.color);
@@ -190,9 +195,9 @@ impl Pads {
         let (weak, text) = (visuals.weak_text_color(), visuals.text_color());
         let small = egui::FontId::proportional(12.0);
         let top = rect.top() + 10.0;
-        painter.text(pos2(rect.center().x, top), egui::Align2::CENTER_CENTER, label, small.clone(), text);
-        painter.text(pos2(rect.left() + 8.0, top), egui::Align2::LEFT_CENTER, ends[0], small.clone(), weak);
-        painter.text(pos2(rect.right() - 8.0, top), egui::Align2::RIGHT_CENTER, ends[1], small, weak);
+        painter.text(pos2(rect.center().x, top), egui::Align2::CENTER_CENTER, label.as_str(), small.clone(), text);
+        painter.text(pos2(rect.left() + 8.0, top), egui::Align2::LEFT_CENTER, left.as_str(), small.clone(), weak);
+        painter.text(pos2(rect.right() - 8.0, top), egui::Align2::RIGHT_CENTER, right.as_str(), small, weak);
         let (y, reach) = (rect.top() + 36.0, rect.width() / 2.0 - 22.0);
         let rail = [pos2(rect.center().x - reach, y), pos2(rect.center().x + reach, y)];
         painter.line_segment(rail, Stroke::new(3.0, visuals.widgets.inactive.bg_fill));

@@ -4,6 +4,7 @@ use super::state::{Coming, Comparing, Problem, Run, Session, Stage, Trial};
 use crate::app::platform::Offer;
 use crate::engine::trial::{TrialCommand, TrialEvent, TrialLink, TrialReady};
 use crate::mesh::{Bounds, Vec3};
+use crate::say;
 
 impl Trial {
     /// Hears what the engine has to say; a saved log and its summary are for the user. What is left of a trial, a run or
@@ -18,8 +19,8 @@ impl Trial {
                 }
             }
             TrialEvent::Ready(ready) => self.receive_ready(*ready, link),
-            TrialEvent::Refused { id, message, is_too_thin } => {
-                self.receive_refusal(id, Problem { text: message, is_too_thin });
+            TrialEvent::Refused { id, message, is_too_thin, at } => {
+                self.receive_refusal(id, Problem { text: message, is_too_thin, at: at.map(Vec3::from) });
             }
             TrialEvent::Frame { id, frame } => {
                 if let Some(session) = self.session_of(id) {
@@ -38,7 +39,9 @@ impl Trial {
             }
             TrialEvent::Ended { id, summary } => {
                 if let Some(session) = self.session_of(id) {
+                    let missed = summary.missed_fork_at.map(Vec3::from);
                     session.run.summary = Some(*summary);
+                    self.flight = missed.or(self.flight);
                 }
             }
             TrialEvent::Saved { csv, json } => {
@@ -111,10 +114,13 @@ impl Trial {
         if let Stage::Preparing(preparing) = &mut self.stage
             && preparing.awaits(id)
         {
+            let refused = preparing.coming.iter().find(|coming| coming.id == id);
+            let refused = refused.map(|coming| coming.subject.mesh.clone());
             preparing.coming.retain(|coming| coming.id > id);
             if preparing.coming.is_empty() {
-                self.stage = preparing.before.take().map_or(Stage::Off, Stage::On);
+                self.stage = preparing.before.take().map_or(Stage::Off(refused), Stage::On);
             }
+            self.flight = problem.at;
             self.problem = Some(problem);
         } else if let Some(run) = self.run_comparing(id) {
             run.comparing = None;
@@ -127,10 +133,10 @@ impl Trial {
     /// Hears that the engine has stopped by itself; what is open stands.
     pub fn engine_failed(&mut self, reason: &str, link: &mut TrialLink) -> String {
         link.give_up();
-        self.tables.fails("The computation stopped.");
+        self.tables.fails(&say!("trial-computation-stopped"));
         self.tables.cancel();
-        self.end(if self.is_open() { Stage::Off } else { Stage::Closed });
-        let text = format!("The trial stopped ({reason}). The surface is still open; start again.");
+        self.end(if self.is_open() { Stage::Off(None) } else { Stage::Closed });
+        let text = say!("trial-stopped", reason = reason);
         self.problem = Some(text.clone().into());
         text
     }

@@ -1,16 +1,21 @@
-//! What is drawn over the view of the vessel: the way and its stations, the target, where two trials differ.
+//! What is drawn over the view of the vessel: the way and its stations, the target, the fork that was missed, where two
+//! trials differ.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 
 use super::plate::plate;
 use super::state::Session;
-use crate::app::overlay;
+use crate::app::{halo, overlay};
 use crate::engine::trial::RouteShown;
+use crate::language::decimal;
 use crate::mesh::Vec3;
 use crate::render::Camera;
+use crate::say;
 
 /// Rings with numbers stand so far apart, in points.
 const APART: f32 = 30.0;
+/// In points: a narrower picture of the vessel has the wire and the way in it, and nothing else.
+pub(super) const WRITTEN_OVER: f32 = 240.0;
 
 /// The colours of two paths, this level's and the unreduced surface's: blue and orange (Okabe and Ito 2008).
 pub(super) fn colours(dark: bool) -> [Color32; 2] {
@@ -40,10 +45,17 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, session: &Session) {
     for (i, &station) in ready.route.stations.iter().enumerate() {
         if let Some(at) = at(station.into()) {
             dot(&painter, at, accent, visuals.panel_fill);
+            if rect.width() < WRITTEN_OVER {
+                continue;
+            }
             plate(ui, at + vec2(7.0, 0.0), Align2::LEFT_CENTER, &(i + 1).to_string(), true);
         }
     }
     target(ui, &painter, rect, camera, &ready.route);
+    let missed = run.summary.as_ref().and_then(|summary| summary.missed_fork_at);
+    if let Some(fork) = missed.filter(|_| rect.width() >= WRITTEN_OVER) {
+        overlay::ring(ui, rect, camera, fork.into(), &say!("trial-missed-fork-ring"), visuals.error_fg_color);
+    }
     if let Some(comparison) = &run.comparison {
         let colour = visuals.error_fg_color;
         // The largest come first; one beside another would hide its number.
@@ -54,12 +66,15 @@ pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, session: &Session) {
                 continue;
             };
             ringed.push(middle);
-            overlay::ring(ui, rect, camera, place.into(), &format!("{force:+.3} N"), colour);
+            let sign = if force.is_sign_negative() { "" } else { "+" };
+            let label = format!("{sign}{} N", decimal(force, 3));
+            overlay::ring(ui, rect, camera, place.into(), &label, colour);
         }
         for &place in &comparison.pinched {
-            overlay::ring(ui, rect, camera, place.into(), "Pinched", colour);
+            overlay::ring(ui, rect, camera, place.into(), &say!("trial-pinched"), colour);
         }
-        legend(&painter, rect, visuals, [("Tip, this level", here), ("Tip, unreduced", other)]);
+        let entries = [(say!("trial-tip-here"), here), (say!("trial-tip-unreduced"), other)];
+        legend(&painter, rect, visuals, &entries);
     }
 }
 
@@ -100,17 +115,20 @@ fn target(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, route: &Route
     painter.add(Shape::line(circle, Stroke::new(2.5, colour)));
     if let Some(at) = project(camera, rect, end) {
         painter.circle_stroke(at, 9.0, Stroke::new(1.5, colour));
+        if rect.width() < WRITTEN_OVER {
+            return;
+        }
         // Beside the ring, where it hides neither the ring nor the wire.
-        plate(ui, pos2(right.max(at.x + 9.0) + 6.0, at.y), Align2::LEFT_CENTER, "Target", true);
+        plate(ui, pos2(right.max(at.x + 9.0) + 6.0, at.y), Align2::LEFT_CENTER, &say!("trial-target"), true);
     }
 }
 
-fn legend(painter: &Painter, rect: Rect, visuals: &egui::Visuals, entries: [(&str, Color32); 2]) {
-    for (i, (label, colour)) in entries.into_iter().enumerate() {
+fn legend(painter: &Painter, rect: Rect, visuals: &egui::Visuals, entries: &[(String, Color32); 2]) {
+    for (i, (label, colour)) in entries.iter().enumerate() {
         let at = rect.left_top() + vec2(12.0, 58.0 + 18.0 * i as f32);
-        painter.line_segment([at, at + vec2(20.0, 0.0)], Stroke::new(3.0, colour));
+        halo::lines(painter, &[[at, at + vec2(20.0, 0.0)]], Stroke::new(3.0, *colour));
         let font = FontId::proportional(12.0);
-        painter.text(at + vec2(26.0, 0.0), Align2::LEFT_CENTER, label, font, visuals.text_color());
+        halo::text(painter, at + vec2(26.0, 0.0), Align2::LEFT_CENTER, label, font, visuals.text_color());
     }
 }
 

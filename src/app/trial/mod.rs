@@ -3,7 +3,7 @@
 //! - [`Trial`]: what the app knows of it: `state` says what that is, `events` how it changes by what the engine says,
 //!   `actions` by what the user asks for ([`Action`]). None of them draws.
 //! - `panel`, `setup`, `fluoroscope`, `readout`, `outcome`: the controls and the numbers; `drive`: the hand on the wire; `device`: a haptic
-//!   device's;
+//!   device's, `rumble` a gamepad's, `sound` a tone in place of either;
 //!   `tables`: the paper's Tables III and IV, `tables_window` what is seen of them.
 //! - `view`, `marks`, `plate`: the three views and what is written over them; `scene`: what stands in GPU memory; `carm`,
 //!   `peaks`, `largest`: the C-arm, the largest forces on the wall and of all.
@@ -22,14 +22,19 @@ mod panel;
 mod peaks;
 mod plate;
 mod readout;
+mod rumble;
 mod scene;
 mod setup;
+mod sound;
 mod state;
 mod tables;
 mod tables_window;
 mod view;
 
-pub use self::action::{Action, Arm, DeviceAsk, Pick};
+#[cfg(test)]
+mod device_tests;
+
+pub use self::action::{Action, Arm, DeviceAsk, Pick, RumbleAsk};
 pub use self::carm::CArm;
 pub(super) use self::panel::{keys, show as panel};
 pub use self::state::{Preparing, Run, Session, Stage, Trial};

@@ -9,29 +9,32 @@ use super::state::{Comparing, Trial};
 use crate::app::assist::name;
 use crate::app::control::progress;
 use crate::app::row::number;
+use crate::app::still_plot::tick;
 use crate::engine::trial::TrialComparison;
+use crate::language::decimal;
+use crate::say;
 
 /// Shows the button, and what came of it.
 pub(super) fn show(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     let has_way = trial.frame().is_some_and(|frame| frame.step > 0);
     let can_compare = trial.is_on() && has_way && !trial.is_comparing();
     ui.add_enabled_ui(can_compare, |ui| {
-        let button = ui.button("Compare with the unreduced surface");
-        if button.on_hover_text("Replays the same input on the surface before its reduction").clicked() {
+        let button = ui.button(say!("trial-compare"));
+        if button.on_hover_text(say!("trial-compare-help")).clicked() {
             asked.push(Action::Compare);
         }
     });
     let Some(run) = trial.run() else { return };
     if let Some(Comparing { fraction, .. }) = run.comparing {
         ui.horizontal(|ui| {
-            ui.label(format!("Comparing: {:.0} %", fraction * 100.0));
+            ui.label(say!("trial-comparing-percent", percent = decimal(fraction * 100.0, 0)));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let cancel = ui.button("Cancel").on_hover_text("Compare no more; the trial goes on");
-                name(&cancel, Role::Button, "Cancel comparison");
+                let cancel = ui.button(say!("trial-cancel")).on_hover_text(say!("trial-cancel-comparison-help"));
+                name(&cancel, Role::Button, &say!("trial-cancel-comparison"));
                 if cancel.clicked() {
                     asked.push(Action::CancelComparison);
                 }
-                progress(ui, fraction, ui.available_width(), "Comparing");
+                progress(ui, fraction, ui.available_width(), &say!("trial-comparing"));
             });
         });
     }
@@ -42,26 +45,28 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
 
 fn shown(ui: &mut Ui, comparison: &TrialComparison) {
     ui.add(egui::Label::new(RichText::new(&comparison.verdict).strong()).wrap());
-    let diameters = format!("{:.2} mm, was {:.2} mm", comparison.smallest_after_mm, comparison.smallest_before_mm);
-    number(ui, "Smallest lumen", &diameters, "Diameter where the route is narrowest, after and before the reduction");
+    let [after, before] = [comparison.smallest_after_mm, comparison.smallest_before_mm].map(|mm| decimal(mm, 2));
+    let diameters = say!("trial-smallest-was", after = after, before = before);
+    number(ui, &say!("trial-smallest"), &diameters, &say!("trial-smallest-help"));
     let pinched = comparison.pinched.len();
     if pinched > 0 {
-        number(ui, "Pinched", &format!("{pinched} places"), "Ringed in the view");
+        let places = say!("trial-pinched-places", count = pinched);
+        number(ui, &say!("trial-pinched"), &places, &say!("trial-pinched-help"));
     }
     let largest = comparison.deviation_mm.iter().copied().fold(0.0, f32::max);
-    number(ui, "Largest deviation", &format!("{largest:.2} mm"), "Between the two tips at the same time");
+    let told = format!("{} mm", decimal(largest, 2));
+    number(ui, &say!("trial-largest-deviation"), &told, &say!("trial-largest-deviation-help"));
     if comparison.orders[0] > 0 {
         let noise = comparison.noise_mm.iter().copied().fold(0.0, f32::max);
-        let help = "Between the tips on the unreduced surface and on the same with its triangles in another order: what is \
-                    less than this says nothing of the reduction";
-        number(ui, "Noise", &format!("{noise:.2} mm"), help);
+        let told = format!("{} mm", decimal(noise, 2));
+        number(ui, &say!("trial-noise"), &told, &say!("trial-noise-help"));
     }
     let points = |differences: &[f32]| -> PlotPoints<'_> {
         let along = comparison.inserted_mm.iter().zip(differences);
         along.map(|(&inserted, &apart)| [f64::from(inserted) / 10.0, f64::from(apart)]).collect()
     };
     let [colour, grey] = [marks::colours(ui.visuals().dark_mode)[0], ui.visuals().weak_text_color()];
-    ui.label(RichText::new("Deviation of the tip in mm over insertion in cm; grey: noise").small().weak());
+    ui.label(RichText::new(say!("trial-deviation-plot-help")).small().weak());
     let response = Plot::new("deviation")
         .height(120.0)
         .allow_drag(false)
@@ -70,9 +75,12 @@ fn shown(ui: &mut Ui, comparison: &TrialComparison) {
         .allow_boxed_zoom(false)
         .show_x(false)
         .include_y(0.0)
+        .x_axis_formatter(tick)
+        .y_axis_formatter(tick)
         .show(ui, |plot| {
-            plot.line(Line::new("Noise", points(&comparison.noise_mm)).color(grey).width(1.0));
-            plot.line(Line::new("Deviation", points(&comparison.deviation_mm)).color(colour).width(1.5));
+            plot.line(Line::new(say!("trial-noise"), points(&comparison.noise_mm)).color(grey).width(1.0));
+            let deviation = Line::new(say!("trial-deviation"), points(&comparison.deviation_mm));
+            plot.line(deviation.color(colour).width(1.5));
         });
-    name(&response.response, Role::Image, "Deviation of the tip over insertion");
+    name(&response.response, Role::Image, &say!("trial-deviation-plot"));
 }

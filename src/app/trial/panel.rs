@@ -4,12 +4,13 @@ use egui::{Button, Key, Modifiers, RichText, Ui};
 
 use super::action::Action;
 use super::state::{AWAITS, Stage, Trial};
-use super::{device, fluoroscope, outcome, readout, setup};
+use super::{device, fluoroscope, outcome, readout, rumble, setup, sound};
 use crate::app::control::progress;
 use crate::app::document::Document;
 use crate::app::keys::pressed;
 use crate::app::row::{remark, step, warning};
 use crate::pipeline::settings::Smoothing;
+use crate::say;
 
 /// Shows the step; while the trial's views are shown it has the panel to itself. What was set there comes before what was
 /// asked for, which is done with it.
@@ -20,7 +21,7 @@ pub(in crate::app) fn show(
     document: Option<&Document>,
     asked: &mut Vec<Action>,
 ) {
-    step(ui, 4, "Trial", "Steers a guidewire through the level that is shown.");
+    step(ui, 4, &say!("trial-title"), &say!("trial-title-help"));
     if let Some(problem) = &trial.problem {
         warning(ui, &problem.text);
     }
@@ -32,11 +33,8 @@ pub(in crate::app) fn show(
 
 /// Offers the smoothing that leaves thin vessels as wide as they are.
 fn adapt_smoothing(ui: &mut Ui, asked: &mut Vec<Action>) {
-    let button = ui.add(Button::new("Adapt smoothing to the calibre and start").wrap());
-    if button
-        .on_hover_text("Smooths thin vessels less, so that they stay as wide as they are; Undo takes it back")
-        .clicked()
-    {
+    let button = ui.add(Button::new(say!("trial-adapt")).wrap());
+    if button.on_hover_text(say!("trial-adapt-help")).clicked() {
         asked.push(Action::AdaptSmoothing);
     }
 }
@@ -45,10 +43,10 @@ fn closed(ui: &mut Ui, document: Option<&Document>, asked: &mut Vec<Action>) {
     let can_start = document.is_some_and(|document| document.shown.is_some());
     ui.horizontal(|ui| {
         ui.add_enabled_ui(can_start, |ui| {
-            if ui.button("Start trial").clicked() {
+            if ui.button(say!("trial-start")).clicked() {
                 asked.push(Action::Start);
             }
-            let tables = ui.button("Tables III and IV").on_hover_text("The paper's trial at several reduction rates");
+            let tables = ui.button(say!("trial-tables")).on_hover_text(say!("trial-tables-help"));
             if tables.clicked() {
                 asked.push(Action::Tables);
             }
@@ -62,8 +60,7 @@ fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     buttons(ui, trial, asked);
     if let (true, Some(frame)) = (trial.is_on(), trial.frame()) {
         ui.separator();
-        // Rows of numbers are lower than those of controls.
-        ui.scope(|ui| readout::show(ui, trial, frame));
+        ui.push_id("numbers", |ui| readout::show(ui, trial, frame));
     }
     ui.separator();
     let mut setup = trial.setup.clone();
@@ -77,10 +74,12 @@ fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
         asked.insert(before, Action::Set(Box::new(setup)));
     }
     if trial.has_changed() {
-        remark(ui, "Restart to try the wire and seed as they are set now.");
+        remark(ui, &say!("trial-restart-to-try"));
     }
     ui.separator();
     ui.push_id("device", |ui| device::show(ui, &trial.device, asked));
+    ui.push_id("rumble", |ui| rumble::show(ui, &trial.rumble, asked));
+    ui.push_id("sound", |ui| sound::show(ui, &trial.sound, asked));
     if trial.device.is_offered() {
         ui.separator();
     }
@@ -94,18 +93,18 @@ fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
 fn state(ui: &mut Ui, trial: &Trial) {
     ui.add_space(4.0);
     if trial.awaits.is_some() {
-        ui.add(egui::Label::new(AWAITS).wrap());
+        ui.add(egui::Label::new(AWAITS.say()).wrap());
         return;
     }
     match &trial.stage {
         Stage::Preparing(preparing) => {
-            progress(ui, preparing.fraction, ui.available_width(), "Preparing the trial");
-            ui.label("Finding the lumen and the way...");
+            progress(ui, preparing.fraction, ui.available_width(), &say!("trial-preparing"));
+            ui.label(say!("trial-finding"));
         }
         Stage::On(session) => {
             let run = &session.run;
             let Some(frame) = &run.frame else {
-                ui.label("The wire is at the entry.");
+                ui.label(say!("trial-at-entry"));
                 return;
             };
             let (text, is_well) = readout::sentence(run, frame);
@@ -118,8 +117,8 @@ fn state(ui: &mut Ui, trial: &Trial) {
             }
             ui.add(egui::Label::new(rich).wrap());
         }
-        Stage::Closed | Stage::Off => {
-            ui.label("No trial is on.");
+        Stage::Closed | Stage::Off(_) => {
+            ui.label(say!("trial-none-on"));
         }
     }
 }
@@ -130,35 +129,36 @@ fn buttons(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     let (autopilot, is_paused) = run.map_or((false, false), |run| (run.autopilot, run.is_paused));
     ui.horizontal_wrapped(|ui| {
         let mut button = |ui: &mut Ui, enabled, is_down, label: &str, help: &str, what: Action| {
-            let response = ui.add_enabled(enabled, Button::new(label).selected(is_down)).on_hover_text(help);
+            let response = ui.add_enabled(enabled, Button::new(label).selected(is_down)).on_hover_text(help.to_owned());
             if response.clicked() {
                 asked.push(what);
             }
         };
-        if matches!(trial.stage, Stage::Closed | Stage::Off) {
-            button(ui, true, false, "Start trial", "", Action::Start);
+        if matches!(trial.stage, Stage::Closed | Stage::Off(_)) {
+            button(ui, true, false, &say!("trial-start"), "", Action::Start);
         } else {
-            button(ui, true, trial.has_changed(), "Restart", "From the entry (R)", Action::Restart);
+            let help = say!("trial-restart-help");
+            button(ui, true, trial.has_changed(), &say!("trial-restart"), &help, Action::Restart);
         }
-        let help = "Steers by itself; a hand on the wire takes it back (G)";
-        button(ui, is_on, autopilot, "Autopilot", help, Action::Autopilot);
-        button(ui, is_on, is_paused, "Pause", "Stands still (P)", Action::Pause);
-        button(ui, is_on, trial.is_slow, "Slow motion", "A quarter of the speed (M)", Action::Slow);
-        button(ui, is_on, false, "Step back", "A second back, and stand still (Z)", Action::StepBack);
-        button(ui, true, false, "Close", "Back to the surface (Esc)", Action::Close);
+        let help = say!("trial-autopilot-help");
+        button(ui, is_on, autopilot, &say!("trial-autopilot"), &help, Action::Autopilot);
+        button(ui, is_on, is_paused, &say!("trial-pause"), &say!("trial-pause-help"), Action::Pause);
+        button(ui, is_on, trial.is_slow, &say!("trial-slow"), &say!("trial-slow-help"), Action::Slow);
+        button(ui, is_on, false, &say!("trial-step-back"), &say!("trial-step-back-help"), Action::StepBack);
+        button(ui, true, false, &say!("trial-close"), &say!("trial-close-help"), Action::Close);
     });
 }
 
 fn log(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
-        let save = ui.add_enabled(trial.is_on(), Button::new("Save log"));
-        if save.on_hover_text("Samples as CSV and a summary as JSON").clicked() {
+        let save = ui.add_enabled(trial.is_on(), Button::new(say!("trial-save-log")));
+        if save.on_hover_text(say!("trial-save-log-help")).clicked() {
             asked.push(Action::Save);
         }
-        if ui.button("Open log...").on_hover_text("Replays a saved log (CSV) on this level").clicked() {
+        if ui.button(say!("trial-open-log")).on_hover_text(say!("trial-open-log-help")).clicked() {
             asked.push(Action::OpenLog);
         }
-        if ui.button("Tables III and IV").on_hover_text("The paper's trial at several reduction rates").clicked() {
+        if ui.button(say!("trial-tables")).on_hover_text(say!("trial-tables-help")).clicked() {
             asked.push(Action::Tables);
         }
     });

@@ -1,10 +1,12 @@
 //! The numbers of a trial: how far, how long, how hard.
 
-use egui::{Align2, Color32, FontId, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, CollapsingHeader, Color32, FontId, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::state::{Run, Trial};
 use crate::app::row::number;
+use crate::language::{decimal, grouped, inner};
 use crate::render::{Colour, viridis};
+use crate::say;
 use crate::trial::STEP;
 use crate::trial::frame::{Frame, Progress};
 use crate::trial::report::StepKind;
@@ -17,133 +19,128 @@ const END: f32 = 40.0;
 /// One sentence on how the trial stands.
 pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
     if let Some(summary) = &run.summary {
+        let time = decimal(summary.time_s, 1);
         let text = if summary.success {
-            format!(
-                "Success: the tip arrived after {:.1} s; largest wall force {}.",
-                summary.time_s,
-                force(summary.max_wall_force_n)
-            )
+            say!("trial-success", time = time, force = force(summary.max_wall_force_n))
         } else {
-            format!("Failed after {:.1} s: {}", summary.time_s, summary.reason)
+            say!("trial-failed", time = time, why = &summary.reason)
         };
         return (text, summary.success);
     }
     let text = match frame.progress {
-        Progress::Arrived => "Success: the tip is at the target.",
-        Progress::TimedOut => "Failed: the time is over.",
-        Progress::GaveUp => "Failed: the autopilot gave up.",
-        Progress::Over => "The recorded input is over.",
-        Progress::Running if run.is_paused => "Paused.",
-        Progress::Running if frame.is_looped => "The wire has turned back on itself: withdraw.",
-        Progress::Running if frame.is_wrong_branch => "Wrong branch: withdraw and roll.",
-        Progress::Running if frame.is_behind => "The machine is behind: the trial runs slower than time.",
-        Progress::Running if !frame.doing.is_empty() => return (format!("Autopilot: {}.", lower(&frame.doing)), true),
-        Progress::Running if frame.step == 0 => {
-            "Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer: time runs from then on."
-        }
-        Progress::Running => "Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer.",
+        Progress::Arrived => say!("trial-arrived"),
+        Progress::TimedOut => say!("trial-timed-out"),
+        Progress::GaveUp => say!("trial-gave-up"),
+        Progress::Over => say!("trial-input-over"),
+        Progress::Running if run.is_paused => say!("trial-paused"),
+        Progress::Running if frame.is_looped => say!("trial-looped"),
+        Progress::Running if frame.is_wrong_branch => say!("trial-wrong-branch"),
+        Progress::Running if frame.is_behind => say!("trial-behind"),
+        Progress::Running if !frame.doing.is_empty() => say!("trial-steers", doing = inner(&frame.doing)),
+        Progress::Running if frame.step == 0 => say!("trial-feed-first"),
+        Progress::Running => say!("trial-feed"),
     };
-    (text.to_owned(), matches!(frame.progress, Progress::Arrived | Progress::Running))
+    (text, matches!(frame.progress, Progress::Arrived | Progress::Running))
 }
 
-fn lower(text: &str) -> String {
-    let text = text.trim_end_matches('.');
-    let mut letters = text.chars();
-    let first: String = letters.next().map(|c| c.to_lowercase().collect()).unwrap_or_default();
-    format!("{first}{}", letters.as_str())
-}
-
-/// Shows the bars and the numbers.
+/// Shows the three gauges and, folded up, the other numbers.
 pub(super) fn show(ui: &mut Ui, trial: &Trial, frame: &Frame) {
-    let wall = frame.max_wall_force_n as f32;
+    // Rows of numbers are lower than those of controls.
+    ui.scope(|ui| gauges(ui, trial, frame));
+    let fold = CollapsingHeader::new(say!("trial-more-numbers")).id_salt("more numbers");
+    fold.show(ui, |ui| numbers(ui, trial, frame));
+}
+
+fn gauges(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let peaks = trial.peaks();
-    let end = peaks.wall_scale();
-    let Colour([r, g, b]) = viridis(wall / end);
-    let help = "The largest normal force at one place of the wall; the bar grows with the largest so far";
-    bar(ui, "Wall force", wall, end, Color32::from_rgb(r, g, b), help);
     let accent = ui.visuals().hyperlink_color;
-    let help = "What it takes to hold the wire at the guide: negative when it is held back. The bar shows how much";
-    bar(ui, "Push force", frame.push_n as f32, peaks.push_scale(), accent, help);
-    ui.add_space(2.0);
-    number(ui, "Insertion", &format!("{:.1} cm", frame.inserted_mm / 10.0), "Length of wire outside the guide");
-    number(
-        ui,
-        "To target",
-        &format!("{:.1} mm", frame.target_mm),
-        "Distance of the tip from the target's cross-section",
-    );
-    number(ui, "Elapsed", &clock(frame.time_s), "Simulated time");
-    number(ui, "Fluoroscopy", &clock(trial.carm.seconds), "Time that the beam was on");
-    let touches = format!("{}, {} in all", frame.contacts, force(frame.wall_force_n));
-    number(ui, "Contacts", &touches, "Places where the wire lies against the wall, and the sum of their forces");
-    number(ui, "Force at the tip", &force(frame.tip_force_n), "On the wall within 5 mm of the tip");
-    number(
-        ui,
-        "Torque",
-        &format!("{} N mm", thousandths(frame.torque_n_mm)),
-        "The moment about the wire's axis at the guide",
-    );
-    let branch = if frame.is_wrong_branch { "off the route" } else { "on the route" };
-    number(
-        ui,
-        "Branch",
-        &format!("{}, {branch}", frame.branch + 1),
-        "The branch of the vessel tree that the tip is in",
-    );
+    let (wall, end) = (frame.max_wall_force_n as f32, peaks.wall_scale());
+    let Colour([r, g, b]) = viridis(wall / end);
+    let words = [say!("trial-wall-force"), say!("trial-wall-force-help")];
+    let told = [force(frame.max_wall_force_n), force_end(end)];
+    bar(ui, &words, &told, [wall, end], Color32::from_rgb(r, g, b));
+    let words = [say!("trial-push-force"), say!("trial-push-force-help")];
+    let end = peaks.push_scale();
+    bar(ui, &words, &[force(frame.push_n), force_end(end)], [frame.push_n as f32, end], accent);
+    let length = trial.session().map_or(0.0, |session| session.ready.route.length_mm);
+    let told = [format!("{} cm", decimal(frame.inserted_mm / 10.0, 1)), format!("{:.0} cm", length / 10.0)];
+    let words = [say!("trial-insertion"), say!("trial-insertion-help")];
+    bar(ui, &words, &told, [frame.inserted_mm as f32, (length as f32).max(1.0)], accent);
+}
+
+fn numbers(ui: &mut Ui, trial: &Trial, frame: &Frame) {
+    let distance = format!("{} mm", decimal(frame.target_mm, 1));
+    number(ui, &say!("trial-to-target"), &distance, &say!("trial-to-target-help"));
+    number(ui, &say!("trial-elapsed"), &clock(frame.time_s), &say!("trial-elapsed-help"));
+    number(ui, &say!("trial-fluoroscopy"), &clock(trial.carm.seconds), &say!("trial-beam-time-help"));
+    let touches = say!("trial-contacts-sum", count = frame.contacts, force = force(frame.wall_force_n));
+    number(ui, &say!("trial-contacts"), &touches, &say!("trial-contacts-help"));
+    number(ui, &say!("trial-tip-force"), &force(frame.tip_force_n), &say!("trial-tip-force-help"));
+    let torque = format!("{} N mm", thousandths(frame.torque_n_mm));
+    number(ui, &say!("trial-torque"), &torque, &say!("trial-torque-help"));
+    let branch = (frame.branch + 1).to_string();
+    let branch = if frame.is_wrong_branch {
+        say!("trial-branch-off", branch = branch)
+    } else {
+        say!("trial-branch-on", branch = branch)
+    };
+    number(ui, &say!("trial-branch"), &branch, &say!("trial-branch-help"));
     let speed = frame.steps_per_second;
-    let steps = if speed > 0.0 { format!("{speed:.0} a second") } else { "-".to_owned() };
-    number(ui, "Steps", &steps, "What this machine can do; 500 a second keep up with time");
-    number(
-        ui,
-        "Unbalanced steps",
-        &unbalanced(frame),
-        "Where something snaps, steps are braked or the guide waits, so that their forces are not in balance: forces are \
-         those of the last step that was",
-    );
-    number(ui, "Fed", &fed(frame), "What the guide fed in the last step, of what was asked for");
+    let steps = if speed > 0.0 { say!("trial-steps-rate", rate = decimal(speed, 0)) } else { "-".to_owned() };
+    number(ui, &say!("trial-steps"), &steps, &say!("trial-steps-help"));
+    number(ui, &say!("trial-unbalanced"), &unbalanced(frame), &say!("trial-unbalanced-help"));
+    number(ui, &say!("trial-fed"), &fed(frame), &say!("trial-fed-help"));
 }
 
 /// The share of the steps that were not balanced, and what the last one was.
 fn unbalanced(frame: &Frame) -> String {
-    let now = match frame.report.kind {
-        StepKind::Balanced => "",
-        StepKind::Unsettled => ", now not settled",
-        StepKind::Braked => ", now braked",
-        StepKind::Waited => ", now waiting",
-        StepKind::Held => ", now held",
-    };
-    format!("{:.1} %{now}", 100.0 * frame.step_kinds.unbalanced_share())
+    let share = decimal(100.0 * frame.step_kinds.unbalanced_share(), 1);
+    match frame.report.kind {
+        StepKind::Balanced => format!("{share} %"),
+        StepKind::Unsettled => say!("trial-unbalanced-unsettled", share = share),
+        StepKind::Braked => say!("trial-unbalanced-braked", share = share),
+        StepKind::Waited => say!("trial-unbalanced-waiting", share = share),
+        StepKind::Held => say!("trial-unbalanced-held", share = share),
+    }
 }
 
 /// The speed of the feed in the last step, and what was asked for where that is another.
 fn fed(frame: &Frame) -> String {
     let [fed, wanted] = [frame.report.fed_mm, frame.report.wanted_mm].map(|mm| (10.0 * mm / STEP).round() / 10.0 + 0.0);
-    if fed == wanted { format!("{fed:.1} mm/s") } else { format!("{fed:.1} of {wanted:.1} mm/s") }
+    let is_all = fed == wanted;
+    let [fed, wanted] = [fed, wanted].map(|speed| decimal(speed, 1));
+    if is_all { format!("{fed} mm/s") } else { say!("trial-fed-of", fed = fed, wanted = wanted) }
 }
 
-/// A bar with its number, and beside it the force at its end.
-fn bar(ui: &mut Ui, what: &str, value: f32, scale: f32, colour: Color32, help: &str) {
-    let most = if is_small(scale) { format!("{:.0} mN", scale * 1e3) } else { format!("{scale} N") };
-    number(ui, what, &force(f64::from(value)), help);
+/// A bar from 0 to `end` with its number, and beside it what stands at its end: `told` has both in words. What it is, and
+/// what that means, come before.
+fn bar(ui: &mut Ui, words: &[String; 2], told: &[String; 2], [value, end]: [f32; 2], colour: Color32) {
+    let ([what, help], [number_told, most]) = (words, told);
+    number(ui, what, number_told, help);
     let (whole, response) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
     let rect = whole.shrink2(vec2(0.0, 2.0)).with_max_x(whole.right() - END);
     response.widget_info(|| {
-        let mut info = WidgetInfo::labeled(Role::Meter, true, format!("{what}, up to {most}"));
+        let mut info = WidgetInfo::labeled(Role::Meter, true, say!("trial-bar-up-to", what = what, most = most));
         info.value = Some(f64::from(value));
         info
     });
-    response.on_hover_text(help);
+    response.on_hover_text(help.to_owned());
     let painter = ui.painter();
-    let (end, font) = (whole.right_center(), FontId::proportional(12.0));
-    painter.text(end, Align2::RIGHT_CENTER, most, font, ui.visuals().weak_text_color());
+    let (beside, font) = (whole.right_center(), FontId::proportional(12.0));
+    painter.text(beside, Align2::RIGHT_CENTER, most, font, ui.visuals().weak_text_color());
     painter.rect_filled(rect, 3.0, ui.visuals().widgets.inactive.bg_fill);
-    let part = (value.abs() / scale).min(1.0);
+    let part = (value.abs() / end).min(1.0);
     let filled = rect.with_max_x(rect.left() + rect.width() * part);
     painter.rect_filled(filled, 3.0, colour);
     // Colours of low forces are dark: the end of the bar is marked.
-    let end = filled.right().max(rect.left() + 1.0);
+    let mark = filled.right().max(rect.left() + 1.0);
     painter
-        .line_segment([pos2(end, rect.top()), pos2(end, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
+        .line_segment([pos2(mark, rect.top()), pos2(mark, rect.bottom())], Stroke::new(1.0, ui.visuals().text_color()));
+}
+
+/// The end of a bar of forces.
+fn force_end(end: f32) -> String {
+    if is_small(end) { format!("{:.0} mN", end * 1e3) } else { format!("{} N", grouped(end)) }
 }
 
 /// Whether a bar or a legend that ends at this many N is told in mN.
@@ -154,7 +151,7 @@ pub(super) fn is_small(end: f32) -> bool {
 /// In N, or in mN where there are few.
 fn force(newtons: f64) -> String {
     if newtons.abs() < SMALL {
-        format!("{:.2} mN", (newtons * 1e5).round() / 100.0 + 0.0)
+        format!("{} mN", decimal((newtons * 1e5).round() / 100.0 + 0.0, 2))
     } else {
         format!("{} N", thousandths(newtons))
     }
@@ -162,13 +159,14 @@ fn force(newtons: f64) -> String {
 
 /// With three decimals, and never a negative nought.
 fn thousandths(value: f64) -> String {
-    format!("{:.3}", (value * 1000.0).round() / 1000.0 + 0.0)
+    decimal((value * 1000.0).round() / 1000.0 + 0.0, 3)
 }
 
 /// Minutes and seconds.
 fn clock(seconds: f64) -> String {
     let tenths = (seconds * 10.0).round() as u64;
-    format!("{}:{:02}.{} min", tenths / 600, tenths / 10 % 60, tenths % 10)
+    let second = decimal((tenths % 600) as f64 / 10.0, 1);
+    format!("{}:{second:0>4} min", tenths / 600)
 }
 
 #[cfg(test)]

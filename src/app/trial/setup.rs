@@ -1,12 +1,17 @@
 //! What a trial is to be: the wire, where it enters and should go, the seed.
 
-use egui::{Button, ComboBox, DragValue, Role, Ui};
+use std::ops::RangeInclusive;
+
+use egui::{Button, CollapsingHeader, ComboBox, DragValue, Role, Ui, Vec2};
 
 use super::action::{Action, Pick};
 use crate::app::assist::name;
-use crate::app::control::Setting;
+use crate::app::control::{Setting, reads_comma};
 use crate::app::row::{remark, row};
+use crate::app::theme;
 use crate::engine::trial::TrialReady;
+use crate::mesh::Vec3;
+use crate::say;
 use crate::trial::setup::{Entry, Setup};
 use crate::trial::wire::Wire;
 
@@ -16,18 +21,17 @@ pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, proposed: Option<&Wire>) {
     let before = (!setup.proposes_wire).then(|| setup.wire.name.clone());
     let mut chosen = before.clone();
     let known = before.as_ref().or(proposed.map(|wire| &wire.name));
-    let shown = known.map_or("Proposed".to_owned(), |name| words(name));
-    let help =
-        "What the wire is made of, one that suits the way unless another is chosen; the numbers are in the fold below";
-    row(ui, "Wire", help, |ui| {
+    let shown = known.map_or(say!("trial-proposed"), |name| words(name));
+    let label = say!("trial-wire");
+    row(ui, &label, &say!("trial-wire-help"), |ui| {
         let list = ComboBox::from_id_salt("wire").width(128.0).height(300.0).selected_text(shown);
         let response = list.show_ui(ui, |ui| {
-            ui.selectable_value(&mut chosen, None, "Proposed");
+            ui.selectable_value(&mut chosen, None, say!("trial-proposed"));
             for preset in Wire::names() {
                 ui.selectable_value(&mut chosen, Some(preset.to_owned()), words(preset));
             }
         });
-        name(&response.response, Role::ComboBox, "Wire");
+        name(&response.response, Role::ComboBox, &label);
     });
     if chosen != before {
         setup.proposes_wire = chosen.is_none();
@@ -38,7 +42,8 @@ pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, proposed: Option<&Wire>) {
         return;
     }
     let known = setup.wire.clone();
-    ui.collapsing("Tip, stiffness, friction", |ui| numbers(ui, &mut setup.wire));
+    let fold = CollapsingHeader::new(say!("trial-wire-numbers")).id_salt("wire numbers");
+    fold.show(ui, |ui| numbers(ui, &mut setup.wire));
     // What is changed by hand is no longer what is proposed.
     setup.proposes_wire &= setup.wire == known;
 }
@@ -46,88 +51,118 @@ pub(super) fn wire(ui: &mut Ui, setup: &mut Setup, proposed: Option<&Wire>) {
 /// A preset's name in words.
 fn words(preset: &str) -> String {
     match preset {
-        "floppy" => "0.014 in floppy".to_owned(),
-        "workhorse" => "0.014 in workhorse".to_owned(),
-        "stiff" => "0.014 in stiff".to_owned(),
-        "workhorse-j" => "0.014 in J tip".to_owned(),
-        "035-j" => "0.035 in J tip".to_owned(),
-        "035-stiff-j" => "0.035 in stiff J".to_owned(),
-        "035-angled" => "0.035 in angled, long bend".to_owned(),
+        "floppy" => say!("trial-wire-floppy"),
+        "workhorse" => say!("trial-wire-workhorse"),
+        "stiff" => say!("trial-wire-stiff"),
+        "workhorse-j" => say!("trial-wire-workhorse-j"),
+        "035-j" => say!("trial-wire-035-j"),
+        "035-stiff-j" => say!("trial-wire-035-stiff-j"),
+        "035-angled" => say!("trial-wire-035-angled"),
         other => other.to_owned(),
     }
 }
 
 fn numbers(ui: &mut Ui, wire: &mut Wire) {
     let default = Wire::preset(&wire.name).unwrap_or_default();
-    let setting = |name, help, unit, range, default, decimals, logarithmic| Setting {
-        name,
-        help,
-        unit,
-        range,
-        default,
-        decimals,
-        logarithmic,
-    };
-    let bend = "The angle by which the tip is bent before it is let into the vessel";
-    setting("Tip angle", bend, "°", 0.0..=200.0, default.bend_degrees, 0, false).show(ui, &mut wire.bend_degrees);
-    let length = "Length of the bent tip, from its end";
-    setting("Tip length", length, " mm", 1.0..=20.0, default.bend_mm, 1, false).show(ui, &mut wire.bend_mm);
+    let words = [say!("trial-tip-angle"), say!("trial-tip-angle-help")];
+    setting(&words, "°", 0.0..=200.0, default.bend_degrees, 0, false).show(ui, &mut wire.bend_degrees);
+    let words = [say!("trial-tip-length"), say!("trial-tip-length-help")];
+    setting(&words, " mm", 1.0..=20.0, default.bend_mm, 1, false).show(ui, &mut wire.bend_mm);
     wire.straight_end_mm = wire.straight_end_mm.min(wire.bend_mm);
-    let tip = "Bending stiffness EI at the tip";
-    setting("Tip stiffness", tip, " N mm²", 0.01..=20.0, default.tip_ei, 2, true).show(ui, &mut wire.tip_ei);
-    let shaft = "Bending stiffness EI of the shaft";
-    setting("Shaft stiffness", shaft, " N mm²", 1.0..=1000.0, default.shaft_ei, 0, true).show(ui, &mut wire.shaft_ei);
-    let friction =
-        "Coefficient of friction while the wire sticks to the wall; while it slides it keeps its part of this";
+    let words = [say!("trial-tip-stiffness"), say!("trial-tip-stiffness-help")];
+    setting(&words, " N mm²", 0.01..=20.0, default.tip_ei, 2, true).show(ui, &mut wire.tip_ei);
+    let words = [say!("trial-shaft-stiffness"), say!("trial-shaft-stiffness-help")];
+    setting(&words, " N mm²", 1.0..=1000.0, default.shaft_ei, 0, true).show(ui, &mut wire.shaft_ei);
+    let words = [say!("trial-friction"), say!("trial-friction-help")];
     let part = default.friction[1] / default.friction[0];
     let mut sticking = wire.friction[0];
-    if setting("Friction", friction, "", 0.0..=0.5, default.friction[0], 2, false).show(ui, &mut sticking) {
+    if setting(&words, "", 0.0..=0.5, default.friction[0], 2, false).show(ui, &mut sticking) {
         wire.friction = [sticking, sticking * part];
     }
+}
+
+/// A number of the wire: its name and what it does, its unit, what can be set, and the preset's.
+fn setting<'a>(
+    [name, help]: &'a [String; 2],
+    unit: &'a str,
+    range: RangeInclusive<f64>,
+    default: f64,
+    decimals: usize,
+    logarithmic: bool,
+) -> Setting<'a> {
+    Setting { name, help, unit, range, default, decimals, logarithmic }
 }
 
 /// Where it enters and should go, of the places in `ready`, and the seed; `pick` is what the next click on the vessel
 /// chooses. Another place than before begins anew.
 pub(super) fn places(ui: &mut Ui, ready: &TrialReady, setup: &mut Setup, pick: Option<Pick>, asked: &mut Vec<Action>) {
     let (mut entry, mut target) = (setup.entry, setup.target);
-    let chosen = entry.map_or("Proposed".to_owned(), |entry| place(entry.at));
-    row(ui, "Entry", "Where the wire comes out of its sheath or guide catheter", |ui| {
+    let name_of = |at: Entry| ready.entries.iter().find(|(_, other)| key(*other) == key(at)).map(|(name, _)| name);
+    let called = |at: Entry| name_of(at).map_or_else(|| place(at.at), |name| name.label());
+    let chosen = entry.map_or(say!("trial-proposed"), called);
+    let label = say!("trial-entry");
+    row(ui, &label, &say!("trial-entry-help"), |ui| {
         pick_button(ui, pick, Pick::Entry, asked);
         let list = ComboBox::from_id_salt("entry").width(112.0).selected_text(chosen);
         let response = list.show_ui(ui, |ui| {
-            ui.selectable_value(&mut entry, None, "Proposed");
-            for (i, other) in ready.entries.iter().enumerate() {
-                let label = format!("{}: {}", i + 1, place(other.at));
-                ui.selectable_value(&mut entry, Some(*other), label);
+            ui.selectable_value(&mut entry, None, say!("trial-proposed"));
+            for (name, other) in &ready.entries {
+                ui.selectable_value(&mut entry, Some(*other), name.label());
             }
         });
-        name(&response.response, Role::ComboBox, "Entry");
+        name(&response.response, Role::ComboBox, &label);
     });
-    let name_of = |at: [f32; 3]| ready.targets.iter().find(|(_, other)| *other == at).map(|(name, _)| name.clone());
-    let chosen = target.map_or("Proposed".to_owned(), |at| name_of(at).unwrap_or_else(|| place(at)));
-    row(ui, "Target", "Where it should go", |ui| {
+    let name_of = |at: [f32; 3]| ready.targets.iter().find(|(_, other)| *other == at).map(|(name, _)| name);
+    let called = |at: [f32; 3]| name_of(at).map_or_else(|| place(at), |name| name.label());
+    let chosen = target.map_or(say!("trial-proposed"), called);
+    let label = say!("trial-target");
+    row(ui, &label, &say!("trial-target-help"), |ui| {
         pick_button(ui, pick, Pick::Target, asked);
         let list = ComboBox::from_id_salt("target").width(112.0).selected_text(chosen);
         let response = list.show_ui(ui, |ui| {
-            ui.selectable_value(&mut target, None, "Proposed");
-            for (label, at) in &ready.targets {
-                ui.selectable_value(&mut target, Some(*at), label);
+            ui.selectable_value(&mut target, None, say!("trial-proposed"));
+            for (name, at) in &ready.targets {
+                ui.selectable_value(&mut target, Some(*at), name.label());
             }
         });
-        name(&response.response, Role::ComboBox, "Target");
+        name(&response.response, Role::ComboBox, &label);
+    });
+    let other_way = swapped(ready, entry, target);
+    row(ui, &say!("trial-direction"), &say!("trial-direction-help"), |ui| {
+        let swap = ui.add_enabled(other_way.is_some(), Button::new(say!("trial-swap")));
+        let swap = swap.on_hover_text(say!("trial-swap-help"));
+        if swap.on_disabled_hover_text(say!("trial-swap-refused")).clicked() {
+            (entry, target) = other_way.map_or((entry, target), |(entry, target)| (Some(entry), Some(target)));
+        }
     });
     if entry.map(key) != setup.entry.map(key) || target != setup.target {
         asked.push(Action::Restart);
     }
     (setup.entry, setup.target) = (entry, target);
     if let Some(pick) = pick {
-        let what = if pick == Pick::Entry { "where the wire enters" } else { "where it should go" };
-        remark(ui, &format!("Click the vessel {what}."));
+        let what = match pick {
+            Pick::Entry => say!("trial-click-entry"),
+            Pick::Target => say!("trial-click-target"),
+        };
+        remark(ui, &what);
     }
-    row(ui, "Seed", "Varies entry, roll and friction a little; 0 varies nothing. Takes effect on restart", |ui| {
-        let response = ui.add(DragValue::new(&mut setup.seed).range(0..=9999).update_while_editing(false));
-        name(&response, Role::SpinButton, "Seed");
+    let label = say!("trial-seed");
+    row(ui, &label, &say!("trial-seed-help"), |ui| {
+        let field = reads_comma(DragValue::new(&mut setup.seed), true).range(0..=9999).update_while_editing(false);
+        let response = ui.add(field);
+        name(&response, Role::SpinButton, &label);
     });
+}
+
+/// An entry where the target is, if a wire could come in there, and a target where it came in.
+fn swapped(ready: &TrialReady, entry: Option<Entry>, target: Option<[f32; 3]>) -> Option<(Entry, [f32; 3])> {
+    /// Targets and entries of one end lie no farther apart than this, in mm.
+    const SAME: f32 = 5.0;
+    let from = entry.or(ready.setup.entry)?;
+    let to = Vec3::from(target.or(ready.setup.target)?);
+    let distance = |entry: &Entry| Vec3::from(entry.at).distance(to);
+    let there = ready.entries.iter().map(|(_, entry)| *entry).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    (distance(&there) <= SAME).then_some((there, from.at))
 }
 
 fn key(entry: Entry) -> ([f32; 3], [f32; 3]) {
@@ -141,10 +176,32 @@ fn place(at: [f32; 3]) -> String {
 
 fn pick_button(ui: &mut Ui, picked: Option<Pick>, pick: Pick, asked: &mut Vec<Action>) {
     let is_on = picked == Some(pick);
-    let what = if pick == Pick::Entry { "entry" } else { "target" };
-    let response = ui.add(Button::new("Pick").selected(is_on)).on_hover_text("Then click the vessel");
-    name(&response, Role::Button, &format!("Pick {what}"));
+    let what = match pick {
+        Pick::Entry => say!("trial-pick-entry"),
+        Pick::Target => say!("trial-pick-target"),
+    };
+    let least = Vec2::splat(theme::row(ui.ctx(), 0.0));
+    let button = Button::new(say!("trial-pick")).selected(is_on).min_size(least);
+    let response = ui.add(button).on_hover_text(say!("trial-pick-help"));
+    name(&response, Role::Button, &what);
     if response.clicked() {
         asked.push(Action::Pick((!is_on).then_some(pick)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trial::route::PlaceName;
+    use crate::trial::setup::Setup;
+
+    #[test]
+    fn entry_and_target_change_places_where_a_wire_could_come_in() {
+        let entry = |z: f32| Entry { at: [0.0, 0.0, z], direction: [0.0, 0.0, if z > 50.0 { -1.0 } else { 1.0 }] };
+        let named = |z: f32| (PlaceName::Own, entry(z));
+        let setup = Setup { entry: Some(entry(3.0)), target: Some([0.0, 1.0, 98.0]), ..Setup::default() };
+        let ready = TrialReady { setup, entries: vec![named(3.0), named(97.0)], ..TrialReady::default() };
+        assert_eq!(swapped(&ready, None, None), Some((entry(97.0), [0.0, 0.0, 3.0])));
+        assert_eq!(swapped(&ready, None, Some([30.0, 0.0, 50.0])), None, "no vessel ends there");
     }
 }

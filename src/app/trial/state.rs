@@ -10,9 +10,12 @@ use super::carm::CArm;
 use super::device::Device;
 use super::drive::Hand;
 use super::largest::Largest;
+use super::rumble::Rumble;
+use super::sound::Sound;
 use super::tables::Tables;
 use crate::app::document::{Document, Revision};
 use crate::engine::trial::{TrialComparison, TrialReady};
+use crate::language::Key;
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::Smoothing;
@@ -22,7 +25,7 @@ use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
 
 /// What is said until a smoother level is there.
-pub(super) const AWAITS: &str = "Adapting the smoothing: the trial starts when the new level is there.";
+pub(super) const AWAITS: Key = Key("trial-awaits");
 
 /// What the app knows of the trial.
 #[derive(Default)]
@@ -41,8 +44,14 @@ pub struct Trial {
     pub(super) hand: Hand,
     /// The haptic device.
     pub(super) device: Device,
+    /// A gamepad's motors.
+    pub(super) rumble: Rumble,
+    /// A tone in place of a force.
+    pub(super) sound: Sound,
     /// Why the last thing asked for could not be done.
     pub(super) problem: Option<Problem>,
+    /// A place that the camera flies to from the next picture on, in mm: where it is too thin, the fork that was missed.
+    pub(super) flight: Option<Vec3>,
     /// The smoothing whose level is awaited: it begins with that.
     pub(super) awaits: Option<Smoothing>,
     /// The setup of the newest start, as the controls had it.
@@ -60,8 +69,8 @@ pub enum Stage {
     /// The surface is shown, and there is no trial.
     #[default]
     Closed,
-    /// The trial's views are shown, but none is on.
-    Off,
+    /// The trial's views are shown, but none is on. The surface in which one was refused is shown then.
+    Off(Option<Arc<TriMesh>>),
     /// The wall and the route are being found.
     Preparing(Preparing),
     /// The wire is in the vessel.
@@ -148,11 +157,13 @@ pub(super) struct Problem {
     pub(super) text: String,
     /// Whether a lumen is thinner than the wire: less smoothing may help.
     pub(super) is_too_thin: bool,
+    /// The place that is the reason, in mm.
+    pub(super) at: Option<Vec3>,
 }
 
 impl From<String> for Problem {
     fn from(text: String) -> Self {
-        Self { text, is_too_thin: false }
+        Self { text, is_too_thin: false, at: None }
     }
 }
 
@@ -184,7 +195,7 @@ impl Trial {
 
     pub(super) fn session_mut(&mut self) -> Option<&mut Session> {
         match &mut self.stage {
-            Stage::Closed | Stage::Off => None,
+            Stage::Closed | Stage::Off(_) => None,
             Stage::Preparing(preparing) => preparing.before.as_deref_mut(),
             Stage::On(session) => Some(session),
         }
@@ -205,9 +216,12 @@ impl Trial {
         self.run().map(|run| run.peaks).unwrap_or_default()
     }
 
-    /// The surface that the wire is in.
+    /// The surface that the wire is in, or was refused in.
     pub(super) fn mesh(&self) -> Option<&Arc<TriMesh>> {
-        self.session().map(|session| &session.subject.mesh)
+        match &self.stage {
+            Stage::Off(refused) => refused.as_ref(),
+            stage => stage.session().map(|session| &session.subject.mesh),
+        }
     }
 
     /// Whether a hand can move the wire: then it is looked after, as a gamepad tells nothing by itself.
@@ -286,7 +300,9 @@ impl Trial {
     pub(super) fn end(&mut self, stage: Stage) {
         let (setup, tables) = (std::mem::take(&mut self.setup), std::mem::take(&mut self.tables));
         let (name, number) = (std::mem::take(&mut self.name), self.number);
+        let known = self.device.known().clone();
         *self = Self { setup, tables, name, number, stage, ..Self::default() };
+        self.device.set_known(known);
     }
 
     /// Hears that the window's clock begins anew.
@@ -300,7 +316,7 @@ impl Stage {
     /// The trial that is shown: the one that is on, or that stands until the next is ready.
     pub(super) fn session(&self) -> Option<&Session> {
         match self {
-            Self::Closed | Self::Off => None,
+            Self::Closed | Self::Off(_) => None,
             Self::Preparing(preparing) => preparing.before.as_deref(),
             Self::On(session) => Some(session),
         }

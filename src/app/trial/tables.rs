@@ -8,6 +8,7 @@ use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::settings::Target;
+use crate::say;
 use crate::trial::setup::Setup;
 use crate::trial::summary::Summary;
 use crate::trial::wire::Wire;
@@ -145,7 +146,7 @@ impl Tables {
     pub(super) fn cancel(&mut self) -> Option<u64> {
         for row in &mut self.rows {
             if matches!(row.outcome, Outcome::Waiting | Outcome::Running(_)) {
-                row.outcome = Outcome::Failed("Cancelled.".to_owned());
+                row.outcome = Outcome::Failed(say!("trial-cancelled"));
             }
         }
         self.running.take()

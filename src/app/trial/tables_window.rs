@@ -8,25 +8,26 @@ use egui::{Align, Grid, Layout, RichText, ScrollArea, Ui};
 use super::action::Action;
 use super::tables::{Outcome, Row, Tables};
 use crate::app::control::progress;
-use crate::digits::grouped;
+use crate::language::{Key, decimal, grouped};
 use crate::phantom::Sample;
 use crate::pipeline::paper::{TABLE_III, TABLE_IV, TrialRow};
+use crate::say;
 
 /// Heads of the columns, and what they say.
-const COLUMNS: [(&str, &str); 13] = [
-    ("Rate", "The part of the triangles that was removed"),
-    ("Triangles", "What was left"),
-    ("Initial fps", "Frames a second in the first simulated second (the paper's)"),
-    ("Average fps", "Mean over the five stations (the paper's)"),
-    ("Worst fps", "The slowest station"),
-    ("Simulation, ms", "To compute 1/60 s: in the first second, and the mean at the stations"),
-    ("Drawing, ms", "To draw one frame of 1280x800"),
-    ("Steps/s", "Steps of 2 ms that this machine computes in a second"),
-    ("Success", "Whether the tip arrived (the paper's)"),
-    ("Peak force, N", "The largest wall force at one place, in the steps that are balanced"),
-    ("Mean force, N", "The sum of the wall forces, mean over the balanced steps"),
-    ("Unbalanced, %", "Steps whose forces were not in balance; the forces are those of the others"),
-    ("Time, s", "Simulated time to the target"),
+const COLUMNS: [(Key, Key); 13] = [
+    (Key("trial-column-rate"), Key("trial-column-rate-help")),
+    (Key("trial-column-triangles"), Key("trial-column-triangles-help")),
+    (Key("trial-column-initial-fps"), Key("trial-column-initial-fps-help")),
+    (Key("trial-column-average-fps"), Key("trial-column-average-fps-help")),
+    (Key("trial-column-worst-fps"), Key("trial-column-worst-fps-help")),
+    (Key("trial-column-simulation"), Key("trial-column-simulation-help")),
+    (Key("trial-column-drawing"), Key("trial-column-drawing-help")),
+    (Key("trial-column-steps"), Key("trial-column-steps-help")),
+    (Key("trial-column-success"), Key("trial-column-success-help")),
+    (Key("trial-column-peak-force"), Key("trial-column-peak-force-help")),
+    (Key("trial-column-mean-force"), Key("trial-column-mean-force-help")),
+    (Key("trial-column-unbalanced"), Key("trial-column-unbalanced-help")),
+    (Key("trial-column-time"), Key("trial-column-time-help")),
 ];
 
 /// What the columns take, in points; where there is less room they scroll.
@@ -39,7 +40,8 @@ pub(in crate::app) fn show(ui: &Ui, tables: &Tables, asked: &mut Vec<Action>) {
     }
     let mut is_open = true;
     let room = ui.ctx().content_rect().shrink(16.0);
-    egui::Window::new("Tables III and IV")
+    egui::Window::new(say!("trial-tables"))
+        .id(egui::Id::unique("trial tables"))
         .open(&mut is_open)
         .collapsible(false)
         .resizable(false)
@@ -53,16 +55,16 @@ pub(in crate::app) fn show(ui: &Ui, tables: &Tables, asked: &mut Vec<Action>) {
 
 fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
     let what = match tables.sample {
-        Some(Sample::Aorta) => "Table III: the autopilot in the aorta.",
-        Some(Sample::Coronary) => "Table IV: the autopilot in aorta and coronary arteries.",
-        None => "The autopilot in this surface.",
+        Some(Sample::Aorta) => say!("trial-tables-aorta"),
+        Some(Sample::Coronary) => say!("trial-tables-coronary"),
+        None => say!("trial-tables-other"),
     };
-    ui.label(RichText::new(format!("{what} The paper's figures are in brackets.")).weak());
+    ui.label(RichText::new(format!("{what} {}", say!("trial-tables-brackets"))).weak());
     ScrollArea::horizontal().show(ui, |ui| {
         Grid::new("tables").num_columns(COLUMNS.len()).striped(true).spacing([14.0, 6.0]).show(ui, |ui| {
             for (i, (head, help)) in COLUMNS.into_iter().enumerate() {
                 aligned(ui, i, |ui| {
-                    ui.label(RichText::new(head).small().strong()).on_hover_text(help);
+                    ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
                 });
             }
             ui.end_row();
@@ -78,19 +80,19 @@ fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
     });
     for row in &tables.rows {
         if let Outcome::Failed(why) = &row.outcome {
-            ui.label(RichText::new(format!("{} %: {why}", row.rate)).small());
+            ui.label(RichText::new(say!("trial-tables-failed", rate = row.rate, why = why)).small());
         }
     }
     ui.horizontal(|ui| {
         if tables.is_running() {
-            progress(ui, tables.part(), 160.0, "Tables");
-            if ui.button("Cancel tables").clicked() {
+            progress(ui, tables.part(), 160.0, &say!("trial-tables-progress"));
+            if ui.button(say!("trial-tables-cancel")).clicked() {
                 asked.push(Action::CancelTables);
             }
-        } else if ui.button("Run again").clicked() {
+        } else if ui.button(say!("trial-tables-again")).clicked() {
             asked.push(Action::RepeatTables);
         }
-        if ui.button("Copy").on_hover_text("As text, a tab between columns").clicked() {
+        if ui.button(say!("trial-tables-copy")).on_hover_text(say!("trial-tables-copy-help")).clicked() {
             ui.ctx().copy_text(text(tables));
         }
     });
@@ -108,7 +110,7 @@ fn aligned(ui: &mut Ui, column: usize, content: impl FnOnce(&mut Ui)) {
 /// The tables as text.
 fn text(tables: &Tables) -> String {
     let line = |cells: &[String]| format!("{}\n", cells.join("\t"));
-    let heads: Vec<String> = COLUMNS.iter().map(|(head, _)| (*head).to_owned()).collect();
+    let heads: Vec<String> = COLUMNS.iter().map(|(head, _)| head.say()).collect();
     let rows = tables.rows.iter().map(|row| line(&cells(row, tables.sample)));
     format!("{}\n{}{}", tables.name, line(&heads), rows.collect::<String>())
 }
@@ -131,14 +133,14 @@ fn cells(row: &Row, sample: Option<Sample>) -> [String; COLUMNS.len()] {
         theirs.map_or(ours.clone(), |theirs| format!("{ours} ({theirs})"))
     };
     let whole = |x: Option<f64>| x.map(|x| format!("{x:.0}"));
-    let yes = |is_so: bool| if is_so { "yes" } else { "no" }.to_owned();
+    let yes = |is_so: bool| if is_so { say!("trial-tables-yes") } else { say!("trial-tables-no") };
     let mut cells: [String; COLUMNS.len()] = std::array::from_fn(|_| "–".to_owned());
     cells[0] = format!("{} %", row.rate);
     if row.triangles > 0 {
         cells[1] = grouped(row.triangles);
     }
     if let Some(ms) = row.draw_ms {
-        cells[6] = format!("{ms:.1}");
+        cells[6] = decimal(ms, 1);
     }
     let Outcome::Done(summary) = &row.outcome else { return cells };
     let passed: Vec<f64> = summary.stations.iter().filter_map(|station| station.simulation_ms).collect();
@@ -148,14 +150,17 @@ fn cells(row: &Row, sample: Option<Sample>) -> [String; COLUMNS.len()] {
     cells[2] = beside(whole(fps(row, summary.initial_simulation_ms)), printed.map(|p| p.initial_fps.to_string()));
     cells[3] = beside(whole(mean(&rates)), printed.map(|p| p.average_fps.to_string()));
     cells[4] = beside(whole(worst), None);
-    cells[5] = mean(&passed).map_or("–".to_owned(), |ms| format!("{:.1}, {ms:.1}", summary.initial_simulation_ms));
+    if let Some(ms) = mean(&passed) {
+        let first = decimal(summary.initial_simulation_ms, 1);
+        cells[5] = say!("trial-tables-two", first = first, mean = decimal(ms, 1));
+    }
     cells[7] = format!("{:.0}", summary.steps_per_second);
     cells[8] = beside(Some(yes(summary.success)), printed.map(|p| yes(p.success)));
-    cells[9] = format!("{:.3}", summary.max_wall_force_n);
-    cells[10] = format!("{:.3}", summary.mean_wall_force_n);
-    cells[11] = format!("{:.1}", 100.0 * summary.unbalanced_share);
+    cells[9] = decimal(summary.max_wall_force_n, 3);
+    cells[10] = decimal(summary.mean_wall_force_n, 3);
+    cells[11] = decimal(100.0 * summary.unbalanced_share, 1);
     if summary.success {
-        cells[12] = format!("{:.1}", summary.time_s);
+        cells[12] = decimal(summary.time_s, 1);
     }
     cells
 }

@@ -4,4 +4,5 @@
 mod findings;
 mod view;
 
+pub(super) use self::findings::verdict;
 pub(super) use self::view::{height, show};

@@ -1,59 +1,66 @@
 //! The verdict as it is shown: a strip above the views, of the same height whatever it says.
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align, Color32, FontSelection, Layout, RichText, Role, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Align, Color32, Context, FontSelection, Layout, RichText, Role, Shape, Stroke, Ui, pos2, vec2};
 
-use super::findings::{Finding, Verdict};
+use super::findings::{look, take, verdict};
 use crate::app::action::Action;
 use crate::app::assist::name;
+use crate::app::menus::menu;
 use crate::app::state::State;
+use crate::app::theme;
 use crate::app::vessels;
+use crate::pipeline::verdict::{Finding, Verdict};
+use crate::say;
 
-/// Height of a line, in points.
+/// Height of a line where a mouse points, in points.
 const LINE: f32 = 24.0;
 
 /// Height of the strip, in points; in a narrow window the sentence has a line of its own.
-pub(in crate::app) fn height(is_narrow: bool) -> f32 {
-    if is_narrow { 2.0 * LINE } else { LINE }
+pub(in crate::app) fn height(ctx: &Context, is_narrow: bool) -> f32 {
+    theme::row(ctx, LINE) + if is_narrow { LINE } else { 0.0 }
 }
 
 /// Shows the verdict on what is shown, and says what is asked for there.
 pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &mut Vec<Action>) {
     let Some(document) = &state.document else { return };
-    let verdict = Verdict::new(state, document);
+    let verdict = verdict(state, document);
     let first = verdict.findings.first().filter(|finding| finding.is_grave);
     let text = match (first, &verdict.calibre) {
-        (Some(finding), _) => &finding.text,
-        (None, Some(sentence)) => sentence,
-        (None, None) => "Calibre and shape follow.",
+        (Some(finding), _) => finding.text.clone(),
+        (None, Some(sentence)) => sentence.clone(),
+        (None, None) if state.is_measuring() => say!("verdict-follows"),
+        (None, None) => say!("verdict-stopped"),
     };
     ui.spacing_mut().item_spacing.y = 0.0;
-    ui.spacing_mut().interact_size.y = LINE;
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), LINE), Layout::left_to_right(Align::Center), |ui| {
+    let line = theme::row(ui.ctx(), LINE);
+    ui.spacing_mut().interact_size.y = line;
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), line), Layout::left_to_right(Align::Center), |ui| {
         mark(ui, verdict.is_safe);
         ui.label(RichText::new(&verdict.head).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            buttons(ui, &verdict, first, asked);
+            buttons(ui, &verdict, first, is_narrow, asked);
             if !is_narrow {
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| sentence(ui, text));
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| sentence(ui, &text));
             }
         });
     });
     if is_narrow {
-        sentence(ui, text);
+        sentence(ui, &text);
     }
 }
 
-/// From right to left.
-fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, asked: &mut Vec<Action>) {
-    let others: Vec<&Finding> = verdict.findings.iter().skip(usize::from(first.is_some())).collect();
+/// From right to left. In a narrow window there is room for the place alone: what may help is in the list, beside the whole
+/// of the sentence.
+fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: bool, asked: &mut Vec<Action>) {
+    let others: Vec<&Finding> = verdict.findings.iter().skip(usize::from(first.is_some() && !is_narrow)).collect();
     let words = match (first, others.len()) {
-        (Some(_), count) => format!("{count} more"),
-        (None, 1) => "1 note".to_owned(),
-        (None, count) => format!("{count} notes"),
+        (Some(_), _) if is_narrow => say!("verdict-what-to-do"),
+        (Some(_), count) => say!("verdict-more", count = count),
+        (None, count) => say!("verdict-notes", count = count),
     };
     if !others.is_empty() {
-        ui.menu_button(words, |ui| {
+        menu(ui, &words, &mut |ui| {
             ui.set_max_width(320.0);
             for (i, finding) in others.iter().enumerate() {
                 if i > 0 {
@@ -65,10 +72,11 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, asked: &mut 
         });
     }
     match first {
+        Some(finding) if is_narrow => go(ui, finding, asked),
         Some(finding) => act(ui, finding, asked),
         None => {
-            let vessels = ui.add_enabled(verdict.calibre.is_some(), egui::Button::new("Show vessels"));
-            if vessels.on_hover_text("What became of each, and where (V)").clicked() {
+            let vessels = ui.add_enabled(verdict.calibre.is_some(), egui::Button::new(say!("verdict-show-vessels")));
+            if vessels.on_hover_text(say!("verdict-show-vessels-help")).clicked() {
                 asked.push(Action::Vessels(vessels::Action::Toggle));
             }
         }
@@ -77,15 +85,20 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, asked: &mut 
 
 /// What can be done about a finding.
 fn act(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
-    if let Some(place) = &finding.place
-        && ui.button("Show me").on_hover_text("Goes to where it is").clicked()
-    {
-        asked.push(place.clone());
-    }
-    for (words, action) in &finding.remedies {
-        if ui.button(words).on_hover_text("Would help; can be undone").clicked() {
-            asked.push(action.clone());
+    go(ui, finding, asked);
+    for remedy in &finding.remedies {
+        if ui.button(&remedy.words).on_hover_text(say!("verdict-remedy-help")).clicked() {
+            asked.push(take(remedy));
         }
+    }
+}
+
+/// The way to its place, where it has one.
+fn go(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
+    if let Some(place) = look(finding)
+        && ui.button(say!("verdict-show-place")).on_hover_text(say!("verdict-show-place-help")).clicked()
+    {
+        asked.push(place);
     }
 }
 
@@ -102,7 +115,7 @@ fn sentence(ui: &mut Ui, text: &str) {
     ui.painter().galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, colour);
     name(&response, Role::Label, text);
     if is_cut {
-        response.on_hover_text(text);
+        response.on_hover_text(text.to_owned());
     }
 }
 

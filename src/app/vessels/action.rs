@@ -1,5 +1,6 @@
 //! What can be asked of the vessels.
 
+use crate::language::Key;
 use crate::vessel::CentrelineFormat;
 
 /// What can be asked of the vessels.
@@ -16,12 +17,8 @@ pub enum Action {
 }
 
 /// What of the vessels can be saved: what it is called, how it is asked for, what is in it.
-pub(in crate::app) const FILES: [(&str, Action, &str); 3] = [
-    (
-        "Centrelines (VTP)...",
-        Action::SaveCentrelines(CentrelineFormat::Vtp),
-        "Of the surface as opened, with the radius of the inscribed ball, as vmtk names its arrays",
-    ),
-    ("Centrelines (CSV)...", Action::SaveCentrelines(CentrelineFormat::Csv), "Of the surface as opened, a row a place"),
-    ("Calibre (CSV)...", Action::SaveTable, "Area and radius as opened, smoothed and reduced, a row a place"),
+pub(in crate::app) const FILES: [(Key, Action, Key); 3] = [
+    (Key("vessels-save-vtp"), Action::SaveCentrelines(CentrelineFormat::Vtp), Key("vessels-save-vtp-help")),
+    (Key("vessels-save-csv"), Action::SaveCentrelines(CentrelineFormat::Csv), Key("vessels-save-csv-help")),
+    (Key("vessels-save-calibre"), Action::SaveTable, Key("vessels-save-calibre-help")),
 ];

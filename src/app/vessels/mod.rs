@@ -8,8 +8,8 @@ mod words;
 
 pub use self::action::Action;
 pub(super) use self::action::FILES;
-pub(super) use self::view::{go_to, show};
-pub(super) use self::words::{in_order, sentence, verdict};
+pub(super) use self::view::show;
+pub(super) use self::words::verdict;
 
 /// What of the vessels is shown.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,8 +1,11 @@
 //! The radius along a branch: as opened, smoothed and reduced.
 
-use egui::{RichText, Role, Stroke, Ui, Vec2, Visuals, WidgetInfo};
+use egui::{RichText, Role, Stroke, Ui, Visuals, WidgetInfo};
 use egui_plot::{AxisHints, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine};
 
+use crate::app::still_plot::{still, tick};
+use crate::language::decimal;
+use crate::say;
 use crate::vessel::certificate::{BranchCalibre, OnSurface, Standing};
 
 /// How the radius on each surface is drawn.
@@ -28,41 +31,36 @@ impl Strokes {
 /// Shows the radii of `branch`, beside what is allowed. Returns the station that was clicked.
 pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) -> Option<usize> {
     let strokes = Strokes::of(ui.visuals());
+    let names = [say!("vessels-as-opened"), say!("vessels-smoothed"), say!("vessels-reduced")];
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 8.0;
-        ui.label(RichText::new(format!("Radius along {}:", branch.name)).small().strong());
-        let named = [("as opened", strokes.opened), ("smoothed", strokes.smoothed), ("reduced", strokes.reduced)];
-        for (name, stroke) in named {
+        ui.label(RichText::new(say!("vessels-radius-head", name = branch.label())).small().strong());
+        for (name, stroke) in names.iter().zip([strokes.opened, strokes.smoothed, strokes.reduced]) {
             ui.label(RichText::new(name).small().color(stroke.color));
         }
-        ui.label(RichText::new(format!("dotted: ±{tolerance_percent} %")).small().weak());
+        ui.label(RichText::new(say!("vessels-dotted", percent = tolerance_percent)).small().weak());
     });
     let Some((low, high)) = range(branch) else {
-        ui.label(RichText::new("No cross-section of it can be measured.").weak());
+        ui.label(RichText::new(say!("vessels-no-section")).weak());
         return None;
     };
     let weak = ui.visuals().weak_text_color();
     let font = egui::TextStyle::Small.resolve(ui.style());
     let x_axis = AxisHints::new_x()
-        .label(RichText::new("Along the vessel, mm").small())
+        .label(RichText::new(say!("vessels-along")).small())
         .label_spacing(egui::Rangef::new(24.0, 48.0))
+        .formatter(tick)
         .tick_label_color(weak)
         .tick_label_font(font.clone());
     let y_axis = AxisHints::new_y()
-        .label(RichText::new("Radius, mm").small())
+        .label(RichText::new(say!("vessels-radius")).small())
         .label_spacing(egui::Rangef::new(16.0, 32.0))
+        .formatter(tick)
         .tick_label_color(weak)
         .tick_label_font(font)
         .min_thickness(40.0);
-    let plot = Plot::new(("radius", branch.number))
+    let plot = still(Plot::new(("radius", branch.number)))
         .height(ui.available_height().max(120.0))
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_axis_zoom_drag(false)
-        .allow_double_click_reset(false)
-        .set_margin_fraction(Vec2::ZERO)
         .custom_x_axes(vec![x_axis])
         .custom_y_axes(vec![y_axis])
         .label_formatter(hover_text);
@@ -76,11 +74,11 @@ pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) 
             }
         }
         let surfaces = [
-            ("as opened", &branch.opened, strokes.opened),
-            ("smoothed", &branch.smoothed, strokes.smoothed),
-            ("reduced", &branch.reduced, strokes.reduced),
+            (&branch.opened, strokes.opened),
+            (&branch.smoothed, strokes.smoothed),
+            (&branch.reduced, strokes.reduced),
         ];
-        for (name, of, stroke) in surfaces {
+        for (name, (of, stroke)) in names.iter().zip(surfaces) {
             for piece in pieces(branch, of, 1.0) {
                 plot.line(Line::new(name, piece).stroke(stroke));
             }
@@ -91,7 +89,7 @@ pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) 
         }
         plot.pointer_coordinate().filter(|_| plot.response().clicked())
     });
-    let text = format!("Radius along {}", branch.name);
+    let text = say!("vessels-radius-along", name = branch.label());
     shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
     nearest(branch, shown.inner?.x)
 }
@@ -133,5 +131,5 @@ fn nearest(branch: &BranchCalibre, abscissa_mm: f64) -> Option<usize> {
 /// What stands beside the pointer.
 fn hover_text(hover: &HoverPosition<'_>) -> Option<String> {
     let HoverPosition::NearDataPoint { plot_name, position: PlotPoint { x, y }, .. } = hover else { return None };
-    Some(format!("{plot_name}\n{y:.2} mm at {x:.1} mm\nClick to go there"))
+    Some(say!("vessels-hover", surface = *plot_name, radius = decimal(*y, 2), at = decimal(*x, 1)))
 }

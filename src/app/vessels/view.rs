@@ -2,14 +2,19 @@
 
 use egui::{Button, DragValue, Grid, RichText, Role, ScrollArea, Ui};
 
-use super::words::{COLUMNS, cells, in_order, place, sentence, text, why_not_measured};
+use super::words::{COLUMNS, cells, text, why_not_measured};
 use super::{Action as Asked, Vessels, plot};
 use crate::app::action::Action;
-use crate::app::assist::{describe, name};
+use crate::app::assist::{describe, heading, name};
+use crate::app::control::reads_comma;
+use crate::app::document::Document;
 use crate::app::state::State;
+use crate::app::theme;
 use crate::app::views::{Colours, ViewOptions, Views};
 use crate::pipeline::settings::Settings;
+use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, Change, Verdict};
+use crate::vessel::summary::{in_order, place, sentence};
 
 /// Height of what is seen at a place that is gone to, in radii of the vessel there.
 const SEEN: f32 = 16.0;
@@ -30,12 +35,12 @@ pub(in crate::app) fn show(
     // What was known last stands until there is something newer.
     let known = state.document.as_ref().and_then(|document| document.calibre.as_ref());
     let Some(calibre) = known else {
-        ui.label(RichText::new("The vessels are being measured...").weak());
+        ui.label(RichText::new(say!("vessels-coming")).weak());
         return;
     };
     let is_current = state.calibre().is_some();
     let told = sentence(&calibre.found);
-    let told = RichText::new(if is_current { told } else { format!("{told} Newer numbers are on their way.") });
+    let told = RichText::new(if is_current { told } else { format!("{told} {}", say!("vessels-newer")) });
     let is_changed = matches!(&calibre.found, Ok(found) if found.verdict == Verdict::Changed);
     let told = if is_changed && is_current { told.color(ui.visuals().error_fg_color) } else { told };
     ui.add(egui::Label::new(told).wrap());
@@ -61,36 +66,38 @@ pub(in crate::app) fn show(
 
 fn head(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("Vessels").heading());
+        heading(ui, &say!("vessels-heading"));
         ui.add_space(8.0);
         let mut tolerance = state.settings.tolerance_percent;
-        ui.label("Allowed change").on_hover_text("Of the radius of each vessel, from the surface as opened");
+        let allowed = say!("vessels-allowed");
+        ui.label(&allowed).on_hover_text(say!("vessels-allowed-help"));
         let field = DragValue::new(&mut tolerance).range(0.0..=100.0).speed(0.05).max_decimals(1).suffix(" %");
-        let field = ui.add(field.update_while_editing(false)).on_hover_text("Drag, or click to type");
-        describe(&field, Role::SpinButton, "Allowed change", tolerance);
+        let field = reads_comma(field, false).update_while_editing(false);
+        let field = ui.add(field).on_hover_text(say!("panel-type"));
+        describe(&field, Role::SpinButton, &allowed, tolerance);
         let tolerance_percent = (tolerance * 10.0).round() / 10.0;
         if tolerance_percent.to_bits() != state.settings.tolerance_percent.to_bits() && field.changed() {
             asked.push(Action::Set(Box::new(Settings { tolerance_percent, ..state.settings.clone() })));
         }
         let mut is_coloured = views.options.colours == Colours::Calibre;
-        let help = "How much wider or narrower each vessel is than as opened";
-        if ui.checkbox(&mut is_coloured, "Colour the surface").on_hover_text(help).changed() {
+        let colour = ui.checkbox(&mut is_coloured, say!("vessels-colour"));
+        if colour.on_hover_text(say!("vessels-colour-help")).changed() {
             let colours = views.options.colours.toggled(Colours::Calibre);
             asked.push(Action::Show(ViewOptions { colours, ..views.options }));
         }
         let calibre = state.calibre();
         let found = calibre.and_then(|calibre| calibre.found.as_ref().ok());
-        let copy = ui.add_enabled(found.is_some(), Button::new("Copy"));
-        if let (Some(found), true) = (found, copy.on_hover_text("The table as text, a tab between columns").clicked()) {
-            let of = state.document.as_ref().map_or("", |document| &document.name);
-            ui.ctx().copy_text(text(of, found, state.safe()));
+        let copy = ui.add_enabled(found.is_some(), Button::new(say!("vessels-copy")));
+        if let (Some(found), true) = (found, copy.on_hover_text(say!("vessels-copy-help")).clicked()) {
+            let of = state.document.as_ref().map_or_else(Default::default, Document::title);
+            ui.ctx().copy_text(text(&of, found, state.safe()));
         }
-        let save = ui.add_enabled(found.is_some(), Button::new("Save CSV"));
-        if save.on_hover_text("Area and radius at each place of each vessel").clicked() {
+        let save = ui.add_enabled(found.is_some(), Button::new(say!("vessels-save")));
+        if save.on_hover_text(say!("vessels-save-help")).clicked() {
             asked.push(Action::Vessels(Asked::SaveTable));
         }
-        let close = if is_narrow { "Back" } else { "Close" };
-        if ui.button(close).on_hover_text("V, Esc").clicked() {
+        let close = if is_narrow { say!("vessels-back") } else { say!("vessels-close") };
+        if ui.button(close).on_hover_text("V, Esc".to_owned()).clicked() {
             asked.push(Action::Vessels(Asked::Toggle));
         }
     });
@@ -98,11 +105,11 @@ fn head(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut 
 
 fn table(ui: &mut Ui, rows: &[&BranchCalibre], chosen: &BranchCalibre, state: &State, asked: &mut Vec<Action>) {
     let safe = state.safe();
-    ui.spacing_mut().interact_size.y = 18.0;
+    ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), 18.0);
     ui.spacing_mut().button_padding.y = 1.0;
     Grid::new("vessels").num_columns(COLUMNS.len()).striped(true).spacing([12.0, 2.0]).show(ui, |ui| {
         for (head, help) in COLUMNS {
-            ui.label(RichText::new(head).small().strong()).on_hover_text(help);
+            ui.label(RichText::new(head.say()).small().strong()).on_hover_text(help.say());
         }
         ui.end_row();
         for &branch in rows {
@@ -112,7 +119,7 @@ fn table(ui: &mut Ui, rows: &[&BranchCalibre], chosen: &BranchCalibre, state: &S
                     let cell = RichText::new(cell);
                     let label = ui.label(if is_bad { cell.color(ui.visuals().error_fg_color) } else { cell });
                     if let Some(why) = why_not_measured(branch).filter(|_| column == 1) {
-                        label.on_hover_text(why);
+                        label.on_hover_text(why.say());
                     }
                     continue;
                 }
@@ -145,13 +152,13 @@ fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
         None => Action::GoTo {
             at_mm,
             height_mm: height(branch, abscissa_mm),
-            label: format!("{}: not measured here", branch.name),
+            label: say!("vessels-not-here", name = branch.label()),
         },
     })
 }
 
 /// A look at the place of a change.
-pub(in crate::app) fn go_to(branch: &BranchCalibre, change: &Change) -> Action {
+fn go_to(branch: &BranchCalibre, change: &Change) -> Action {
     let label = place(branch, change);
     Action::GoTo { at_mm: change.at_mm, height_mm: height(branch, change.abscissa_mm), label }
 }

@@ -5,28 +5,26 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::super::machine::{Machine, SLICE};
-use super::message::{NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanWork};
-use crate::io::Axes;
-use crate::io::volume::{self, Part};
+use super::message::{ScanCommand, ScanEvent, ScanWork};
+use super::opening::{Found, Opening};
+use super::shelf::{Empty, Shelf};
+use crate::say;
 use crate::task::{Budget, Progress, Task};
-use crate::volume::{
-    Grid, Reducing, Region, Selection, Surfacing, Survey, Surveying, VolumeError, preview_step, slice,
-};
+use crate::volume::{Grid, Reducing, Region, Selection, Surfacing, Survey, VolumeError, preview_step, slice};
 
 /// A volume and surfaces of it, as a machine of commands and events.
-#[derive(Default)]
 pub struct ScanEngine {
-    /// The newest files to be read.
-    opening: Option<(u64, Vec<NamedFile>)>,
+    shelf: Box<dyn Shelf>,
+    /// The newest files, until they are a volume; what is open stands that long.
+    opening: Option<Opening>,
     current: Option<Current>,
     events: VecDeque<ScanEvent>,
 }
 
-/// A volume that was read.
+/// A volume that is open.
 struct Current {
     grid: Arc<Grid>,
-    /// What is said of it once it is surveyed.
-    survey: Option<Survey>,
+    survey: Survey,
     /// At reduced resolution, and by which step.
     reduced: Option<(usize, Arc<Grid>)>,
     job: Option<Job>,
@@ -34,10 +32,6 @@ struct Current {
 
 /// What is being made.
 enum Job {
-    Surveying {
-        task: Surveying,
-        opened: Box<OpenedScan>,
-    },
     /// For a preview that is asked for, if one is.
     Reducing {
         task: Reducing,
@@ -64,60 +58,59 @@ struct Wanted {
 }
 
 impl ScanEngine {
-    /// An engine with nothing open.
+    /// An engine with nothing open, which is given the bytes of files.
     pub fn new() -> Self {
-        Self::default()
+        Self::with_shelf(Empty)
+    }
+
+    /// An engine with nothing open, which can read the files on a shelf.
+    pub fn with_shelf(shelf: impl Shelf + 'static) -> Self {
+        Self { shelf: Box::new(shelf), opening: None, current: None, events: VecDeque::new() }
     }
 
     fn refuse(&mut self, number: u64, sentence: impl Into<String>) {
         self.events.push_back(ScanEvent::Refused { number, sentence: sentence.into() });
     }
 
-    fn open(&mut self, id: u64, files: &[NamedFile]) {
-        let parts: Vec<Part> = files.iter().map(|file| Part { name: &file.name, bytes: &file.bytes }).collect();
-        match volume::read(&parts) {
-            Ok(scan) => {
-                let geometry = *scan.grid.geometry();
-                let grid = Arc::new(scan.grid);
-                let opened = Box::new(OpenedScan {
-                    id,
-                    format: scan.format.to_owned(),
-                    dimensions: geometry.size,
-                    spacing_mm: geometry.spacing.to_array(),
-                    origin_mm: geometry.origin.to_array(),
-                    directions: geometry.direction.to_cols_array_2d(),
-                    is_ct: scan.is_ct,
-                    survey: Survey { range: [0.0; 2], histogram: Vec::new(), labels: Vec::new() },
-                    proposed: None,
-                    warnings: scan.warnings,
-                });
-                let job = Some(Job::Surveying { task: Surveying::new(Arc::clone(&grid)), opened });
-                self.current = Some(Current { grid, survey: None, reduced: None, job });
+    /// Goes on with opening; whether there is more to do.
+    fn open(&mut self, budget: Budget) -> bool {
+        let Some(mut opening) = self.opening.take() else { return false };
+        match opening.advance(&mut *self.shelf, budget) {
+            Ok(Progress::Working(fraction)) => {
+                self.tell(opening.work(), fraction);
+                self.opening = Some(opening);
             }
-            Err(error) => self.refuse(id, error.to_string()),
+            Ok(Progress::Done(Found { grid, mut opened })) => {
+                opened.proposed = opened.survey.is_mask().then_some(Selection::AnyLabel);
+                let mut current = Current { grid, survey: opened.survey.clone(), reduced: None, job: None };
+                current.reduce(preview_step(current.grid.geometry().points()), None);
+                self.current = Some(current);
+                self.events.push_back(ScanEvent::Opened(opened));
+            }
+            Err(sentence) => self.refuse(opening.id, sentence),
         }
+        self.opening.is_some()
     }
 
-    /// The surveyed volume, or a sentence on why there is none.
-    fn surveyed(&mut self, number: u64) -> Option<&mut Current> {
-        if self.current.as_ref().is_none_or(|current| current.survey.is_none()) {
-            self.refuse(number, "No scan is open yet.");
+    /// The volume that is open, or a sentence on why there is none.
+    fn current(&mut self, number: u64) -> Option<&mut Current> {
+        if self.current.is_none() {
+            self.refuse(number, say!("scan-none-open"));
             return None;
         }
         self.current.as_mut()
     }
 
     fn begin_preview(&mut self, wanted: Wanted, step: Option<usize>) {
-        let Some(current) = self.surveyed(wanted.generation) else { return };
+        let Some(current) = self.current(wanted.generation) else { return };
         if let Err(error) = current.begin_preview(wanted, step) {
             self.refuse(wanted.generation, error.to_string());
         }
     }
 
     fn begin_surface(&mut self, generation: u64, selection: Selection, region: Option<Region>) {
-        let Some(current) = self.surveyed(generation) else { return };
-        let checked = current.survey.as_ref().map_or(Ok(()), |survey| selection.check(survey));
-        match checked.and_then(|()| Surfacing::new(&current.grid, selection, region)) {
+        let Some(current) = self.current(generation) else { return };
+        match selection.check(&current.survey).and_then(|()| Surfacing::new(&current.grid, selection, region)) {
             Ok(task) => current.job = Some(Job::Surface { task, generation }),
             Err(error) => self.refuse(generation, error.to_string()),
         }
@@ -127,9 +120,9 @@ impl ScanEngine {
         let picture = self.current.as_ref().and_then(|current| slice(&current.grid, axis, index, window));
         match picture {
             Some(crate::volume::Slice { size, pixels, corners }) => {
-                self.events.push_back(ScanEvent::Slice { axis, index, size, pixels, corners });
+                self.events.push_back(ScanEvent::Slice { axis, index, size, pixels, window, corners });
             }
-            None => self.refuse(0, "There is no such slice."),
+            None => self.refuse(0, say!("scan-no-slice")),
         }
     }
 
@@ -164,13 +157,6 @@ impl ScanEngine {
     fn made(&mut self, job: Job, made: Made) {
         let Some(current) = &mut self.current else { return };
         match (job, made) {
-            (Job::Surveying { mut opened, .. }, Made::Survey(survey)) => {
-                opened.proposed = survey.is_mask().then_some(Selection::AnyLabel);
-                opened.survey = survey.clone();
-                current.survey = Some(survey);
-                current.reduce(preview_step(current.grid.geometry().points()), None);
-                self.events.push_back(ScanEvent::Opened(opened));
-            }
             (Job::Reducing { step, then, .. }, Made::Reduced(grid)) => {
                 current.reduced = Some((step, grid));
                 if let Some(wanted) = then {
@@ -181,7 +167,7 @@ impl ScanEngine {
                 self.events.push_back(ScanEvent::Preview { generation, step, mesh: Arc::new(mesh) });
             }
             (Job::Surface { generation, .. }, Made::Surface(Ok(mesh))) => {
-                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh), axes: Axes::Lps });
+                self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh) });
             }
             (Job::Preview { generation, .. } | Job::Surface { generation, .. }, Made::Surface(Err(error))) => {
                 self.refuse(generation, error.to_string());
@@ -193,7 +179,6 @@ impl ScanEngine {
 
 /// What a job makes.
 enum Made {
-    Survey(Survey),
     Reduced(Arc<Grid>),
     Surface(Result<crate::mesh::TriMesh, VolumeError>),
 }
@@ -207,7 +192,6 @@ impl Job {
             }
         }
         match self {
-            Self::Surveying { task, .. } => made(task.advance(budget), Made::Survey),
             Self::Reducing { task, .. } => made(task.advance(budget), Made::Reduced),
             Self::Preview { task, .. } | Self::Surface { task, .. } => made(task.advance(budget), Made::Surface),
         }
@@ -216,7 +200,6 @@ impl Job {
     /// What it is for, where somebody waits for it.
     fn work(&self) -> Option<ScanWork> {
         match self {
-            Self::Surveying { .. } => Some(ScanWork::Surveying),
             Self::Reducing { then, .. } => then.map(|_| ScanWork::Preview),
             Self::Preview { .. } => Some(ScanWork::Preview),
             Self::Surface { .. } => Some(ScanWork::Surface),
@@ -227,22 +210,20 @@ impl Job {
 impl Current {
     /// Begins a copy at reduced resolution.
     fn reduce(&mut self, step: usize, then: Option<Wanted>) {
-        let is_mask = self.survey.as_ref().is_some_and(Survey::is_mask);
-        let task = Reducing::new(Arc::clone(&self.grid), step, is_mask);
+        let task = Reducing::new(Arc::clone(&self.grid), step, self.survey.is_mask());
         self.job = Some(Job::Reducing { task, step, then });
     }
 
     /// Begins a preview, or the copy that it takes.
     fn begin_preview(&mut self, wanted: Wanted, step: Option<usize>) -> Result<(), VolumeError> {
         let step = step.unwrap_or_else(|| preview_step(self.grid.geometry().points())).max(1);
-        if let Some(survey) = &self.survey {
-            wanted.selection.check(survey)?;
-        }
+        wanted.selection.check(&self.survey)?;
         match &self.reduced {
             Some((known, grid)) if *known == step => {
                 let region = wanted.region.map(|Region { first, last }| Region {
                     first: first.map(|first| first / step),
-                    last: last.map(|last| last / step),
+                    // A thin box holds two of the coarser points at least.
+                    last: std::array::from_fn(|axis| last[axis].div_ceil(step).max(first[axis] / step + 1)),
                 });
                 let task = Surfacing::new(grid, wanted.selection, region)?;
                 self.job = Some(Job::Preview { task, generation: wanted.generation, step });
@@ -257,6 +238,12 @@ impl Current {
     }
 }
 
+impl Default for ScanEngine {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Machine for ScanEngine {
     type Command = ScanCommand;
     type Event = ScanEvent;
@@ -264,7 +251,13 @@ impl Machine for ScanEngine {
     /// Takes a command. Nothing long happens here but a slice's picture, a few milliseconds.
     fn handle(&mut self, command: ScanCommand) {
         match command {
-            ScanCommand::Open { id, files } => self.opening = Some((id, files)),
+            ScanCommand::Open { id, files } => {
+                let opening = Opening::new(id, files);
+                if let Some(first) = opening.first_number() {
+                    self.shelf.forget_before(first);
+                }
+                self.opening = Some(opening);
+            }
             ScanCommand::Preview { generation, selection, region, step } => {
                 self.begin_preview(Wanted { generation, selection, region }, step);
             }
@@ -272,10 +265,10 @@ impl Machine for ScanEngine {
             ScanCommand::Slice { axis, index, window } => self.picture(axis, index, window),
             ScanCommand::Close => (self.opening, self.current) = (None, None),
             ScanCommand::Cancel => {
-                self.opening = None;
-                // A volume that is not surveyed yet is given up with what is being made of it.
-                self.current.take_if(|current| current.survey.is_none());
-                if let Some(current) = &mut self.current {
+                // What was open before goes on.
+                if self.opening.take().is_none()
+                    && let Some(current) = &mut self.current
+                {
                     current.job = None;
                 }
                 self.events.push_back(ScanEvent::Cancelled);
@@ -283,12 +276,11 @@ impl Machine for ScanEngine {
         }
     }
 
-    /// Reading is one piece and may take longer than a slice of work.
+    /// What is read whole is understood in one piece, which may take longer than a slice of work.
     fn advance(&mut self, _: f64) -> Option<Duration> {
-        if let Some((id, files)) = self.opening.take() {
-            self.open(id, &files);
-        }
-        self.work(Budget::new(SLICE)).then_some(Duration::ZERO)
+        let budget = Budget::new(SLICE);
+        let is_busy = self.open(budget) || self.work(budget);
+        is_busy.then_some(Duration::ZERO)
     }
 
     fn poll(&mut self) -> Option<ScanEvent> {

@@ -19,9 +19,29 @@ pub type ScanLink = dyn Link<ScanCommand, ScanEvent>;
 pub struct NamedFile {
     /// Its name, with extension.
     pub name: String,
-    /// Its bytes.
-    #[serde(with = "bulk")]
-    pub bytes: Arc<Vec<u8>>,
+    /// What is in it.
+    pub contents: Contents,
+}
+
+/// What is in a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Contents {
+    /// These bytes.
+    Bytes(#[serde(with = "bulk")] Arc<Vec<u8>>),
+    /// What the engine's [`Shelf`](super::Shelf) has under a number, so that no more than the engine holds it.
+    Shelved {
+        /// The number; a file that comes later has a larger one.
+        number: u32,
+        /// Its length in bytes.
+        bytes: u64,
+    },
+}
+
+impl NamedFile {
+    /// A file whose bytes are here.
+    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
+        Self { name: name.into(), contents: Contents::Bytes(Arc::new(bytes)) }
+    }
 }
 
 /// What the engine is asked to do. A surface or a preview takes the place of the one that is being made.
@@ -72,6 +92,10 @@ pub enum ScanCommand {
 /// What the engine is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ScanWork {
+    /// Waiting for the engine itself, which is being fetched.
+    Fetching,
+    /// Taking in the bytes of its files.
+    Reading,
     /// Counting the values of a volume.
     Surveying,
     /// Making a surface at reduced resolution.
@@ -91,10 +115,14 @@ pub struct OpenedScan {
     pub dimensions: [usize; 3],
     /// Distance between them in mm.
     pub spacing_mm: [f64; 3],
-    /// Place of the first in LPS mm.
+    /// Place of the first in mm.
     pub origin_mm: [f64; 3],
-    /// The directions of the three axes in LPS, each of unit length.
+    /// The directions of the three axes, each of unit length.
     pub directions: [[f64; 3]; 3],
+    /// What coordinates grow towards: LPS, or unknown where the file does not say it.
+    pub axes: Axes,
+    /// Bytes that its numbers take in memory.
+    pub bytes: u64,
     /// Whether the file says that values are Hounsfield units.
     pub is_ct: bool,
     /// Range, histogram and labels.
@@ -123,7 +151,7 @@ pub enum ScanEvent {
         generation: u64,
         /// Every how many voxels one was looked at.
         step: usize,
-        /// The surface in LPS mm, not welded.
+        /// The surface in mm, not welded.
         #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
     },
@@ -134,8 +162,6 @@ pub enum ScanEvent {
         /// In mm, counter-clockwise seen from outside, not welded.
         #[serde(with = "surface")]
         mesh: Arc<TriMesh>,
-        /// What its coordinates grow towards: LPS.
-        axes: Axes,
     },
     /// A picture of a slice.
     Slice {
@@ -148,7 +174,9 @@ pub enum ScanEvent {
         /// A shade of grey for each.
         #[serde(with = "bulk")]
         pixels: Vec<u8>,
-        /// Where its corners lie in LPS mm, around it from the first pixel on.
+        /// The values that are black and white.
+        window: [f64; 2],
+        /// Where its corners lie in mm, around it from the first pixel on.
         corners: [[f64; 3]; 4],
     },
     /// Something cannot be done; what was open still is.

@@ -1,7 +1,5 @@
 //! The engine without a window: a ball of known size in, its surface out, and what interrupts what.
 
-use std::sync::Arc;
-
 use super::super::machine::Machine;
 use super::*;
 use crate::mesh::Topology;
@@ -21,7 +19,7 @@ fn ball(is_mask: bool) -> ScanCommand {
         let depth = RADIUS - (x * x + y * y + z * z).sqrt();
         bytes.push(if is_mask { u8::from(depth > 0.0) } else { (100.0 + 10.0 * depth) as u8 });
     }
-    ScanCommand::Open { id: 7, files: vec![NamedFile { name: "ball.mha".into(), bytes: Arc::new(bytes) }] }
+    ScanCommand::Open { id: 7, files: vec![NamedFile::new("ball.mha", bytes)] }
 }
 
 /// Sends a command, lets the engine work until it is done, and says what it told; each message crosses unchanged.
@@ -50,8 +48,7 @@ fn a_scan_is_opened_previewed_and_cut() {
     let [ScanEvent::Opened(opened)] = &run(&mut engine, ball(false))[..] else { panic!("it opens") };
     assert_eq!((opened.id, opened.dimensions, opened.format.as_str()), (7, [64; 3], "MetaImage"));
     assert_eq!((opened.survey.histogram.iter().sum::<u64>(), opened.proposed), (64 * 64 * 64, None));
-    let [ScanEvent::Surface { generation: 2, mesh, axes: crate::io::Axes::Lps }] =
-        &run(&mut engine, surface(Selection::Threshold(100.0)))[..]
+    let [ScanEvent::Surface { generation: 2, mesh }] = &run(&mut engine, surface(Selection::Threshold(100.0)))[..]
     else {
         panic!("it is cut")
     };
@@ -100,7 +97,7 @@ fn what_cannot_be_done_is_told_in_a_sentence_and_the_volume_stays() {
     };
     assert_eq!(refused(&run(&mut engine, surface(Selection::AnyLabel))), (2, "No scan is open yet.".to_owned()));
     run(&mut engine, ball(false));
-    let letter = NamedFile { name: "letter".into(), bytes: Arc::new(b"Dear colleague".to_vec()) };
+    let letter = NamedFile::new("letter", b"Dear colleague".to_vec());
     let (number, sentence) = refused(&run(&mut engine, ScanCommand::Open { id: 9, files: vec![letter] }));
     assert!(number == 9 && sentence.starts_with("\"letter\" is not a volume"), "{sentence}");
     let (number, sentence) = refused(&run(&mut engine, preview(Selection::Threshold(900.0), None, None)));
@@ -129,4 +126,96 @@ fn the_newest_command_wins_and_a_cancel_stops() {
     engine.handle(ball(false));
     assert_eq!(run(&mut engine, ScanCommand::Cancel), [ScanEvent::Cancelled]);
     assert!(matches!(run(&mut engine, surface(Selection::Threshold(100.0)))[..], [ScanEvent::Surface { .. }]));
+}
+
+/// Files in memory, as a shelf.
+struct Shelved {
+    first: u32,
+    files: Vec<Vec<u8>>,
+}
+
+impl Shelf for Shelved {
+    fn read(&mut self, number: u32, begin: u64, target: &mut [u8]) -> Result<(), String> {
+        let file = number.checked_sub(self.first).and_then(|at| self.files.get(at as usize));
+        let bytes = file.and_then(|file| file.get(begin as usize..)?.get(..target.len()));
+        target.copy_from_slice(bytes.ok_or("The file has gone.")?);
+        Ok(())
+    }
+
+    fn forget_before(&mut self, number: u32) {
+        let passed = (number - self.first) as usize;
+        self.files.drain(..passed.min(self.files.len()));
+        self.first = number;
+    }
+}
+
+/// A mask of `along` voxels in each direction in NRRD, a ball of half that size, as one file or as header and data.
+fn large(along: usize, is_apart: bool) -> Vec<(String, Vec<u8>)> {
+    let header = format!(
+        "NRRD0004\ntype: uchar\ndimension: 3\nspace: LPS\nsizes: {along} {along} {along}\nencoding: raw\n{}\n",
+        if is_apart { "data file: a.raw\n" } else { "" }
+    );
+    let distance = |n: usize| (n as f64 - along as f64 / 2.0).powi(2);
+    let inside = |at: usize| {
+        let squares = distance(at % along) + distance(at / along % along) + distance(at / along / along);
+        u8::from(squares < (along as f64 / 4.0).powi(2))
+    };
+    let data: Vec<u8> = (0..along.pow(3)).map(inside).collect();
+    if is_apart {
+        vec![("a.raw".to_owned(), data), ("a.nhdr".to_owned(), header.into_bytes())]
+    } else {
+        vec![("a.nrrd".to_owned(), [header.into_bytes(), data].concat())]
+    }
+}
+
+/// An engine with files on its shelf from number `first` on, and the command that opens them.
+fn with_shelf(first: u32, files: Vec<(String, Vec<u8>)>) -> (ScanEngine, ScanCommand) {
+    let (names, files): (Vec<String>, Vec<Vec<u8>>) = files.into_iter().unzip();
+    let named = names.into_iter().zip(&files).zip(first..).map(|((name, bytes), number)| NamedFile {
+        name,
+        contents: Contents::Shelved { number, bytes: bytes.len() as u64 },
+    });
+    let open = ScanCommand::Open { id: 7, files: named.collect() };
+    (ScanEngine::with_shelf(Shelved { first: 0, files: [vec![Vec::new(); first as usize], files].concat() }), open)
+}
+
+#[test]
+fn files_on_the_shelf_are_read_with_progress() {
+    for is_apart in [false, true] {
+        let (mut engine, open) = with_shelf(2, large(160, is_apart));
+        engine.handle(open);
+        let mut reading = Vec::new();
+        let opened = loop {
+            engine.advance(0.0);
+            match engine.poll() {
+                Some(ScanEvent::Progress { work: ScanWork::Reading, fraction }) => reading.push(fraction),
+                Some(ScanEvent::Opened(opened)) => break opened,
+                None | Some(ScanEvent::Progress { .. }) => {}
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(opened.dimensions, [160; 3]);
+        assert!(reading.is_sorted() && reading.iter().all(|fraction| (0.0..=1.0).contains(fraction)), "{reading:?}");
+    }
+}
+
+#[test]
+fn a_cancel_stops_reading_and_what_was_open_stands() {
+    let (mut engine, open) = with_shelf(0, large(160, false));
+    run(&mut engine, ball(false));
+    engine.handle(open);
+    engine.advance(0.0);
+    assert_eq!(run(&mut engine, ScanCommand::Cancel), [ScanEvent::Cancelled]);
+    assert!(matches!(run(&mut engine, surface(Selection::Threshold(100.0)))[..], [ScanEvent::Surface { .. }]));
+}
+
+#[test]
+fn a_file_that_has_gone_is_told() {
+    let (mut engine, open) = with_shelf(0, large(8, false));
+    let ScanCommand::Open { files, .. } = open else { panic!("it opens") };
+    let gone = NamedFile { contents: Contents::Shelved { number: 5, bytes: 100 }, ..files[0].clone() };
+    assert_eq!(
+        run(&mut engine, ScanCommand::Open { id: 8, files: vec![gone] }),
+        [ScanEvent::Refused { number: 8, sentence: "The file has gone.".to_owned() }]
+    );
 }

@@ -9,6 +9,7 @@ use super::message::{TrialCommand, TrialEvent, TrialReady};
 use super::shown::Shown;
 use super::start::start;
 use crate::engine::machine::{Machine, SLICE};
+use crate::say;
 use crate::trial::session::Trial;
 
 /// The trial as commands and events.
@@ -138,7 +139,9 @@ fn saved(trial: &Trial) -> TrialEvent {
     let summary = trial.summary();
     match (trial.log().csv(summary.steps), serde_json::to_string_pretty(&summary)) {
         (Ok(csv), Ok(json)) => TrialEvent::Saved { csv, json },
-        (Err(error), _) | (_, Err(error)) => TrialEvent::failed(&format!("the log cannot be written: {error}")),
+        (Err(error), _) | (_, Err(error)) => {
+            TrialEvent::failed(&say!("devices-log-not-written", error = error.to_string()))
+        }
     }
 }
 

@@ -75,9 +75,8 @@ impl Exchange {
 /// A device's hand on the wire of one trial.
 #[derive(Default)]
 pub(super) struct Grasp {
-    exchange: Exchange,
-    /// Whether a device may take hold at any time.
-    is_awaited: bool,
+    /// Where it meets a device, which may take hold at any time; `None` where there can be none.
+    exchange: Option<Exchange>,
     hold: Hold,
     /// Whether a device is served.
     is_held: bool,
@@ -88,34 +87,45 @@ pub(super) struct Grasp {
 impl Grasp {
     /// Of whoever is at the other side, if there may be somebody.
     pub(super) fn new(exchange: Option<Exchange>) -> Self {
-        Self { is_awaited: exchange.is_some(), exchange: exchange.unwrap_or_default(), ..Self::default() }
+        Self { exchange, ..Self::default() }
     }
 
     /// Where it meets the device.
     pub(super) fn exchange(&self) -> Option<Exchange> {
-        self.is_awaited.then(|| self.exchange.clone())
+        self.exchange.clone()
     }
 
     /// Whether a device may take hold at any time: it does so without a command.
     pub(super) fn is_awaited(&self) -> bool {
-        self.is_awaited
+        self.exchange.is_some()
+    }
+
+    /// How far the device has moved since this was asked last; `None` where none is served.
+    fn moved(&self) -> Option<[f64; 2]> {
+        self.exchange.as_ref()?.take()
+    }
+
+    fn tell(&self, feels: Option<HandFeels>) {
+        if let Some(exchange) = &self.exchange {
+            exchange.tell(feels);
+        }
     }
 
     /// Nothing moves: the hand feels nothing, and what it does meanwhile is not made up for. Says whether it moves.
     pub(super) fn rest(&mut self) -> bool {
         self.hold = Hold::default();
-        self.exchange.tell(None);
-        self.exchange.take().is_some_and(|moved| moved != [0.0; 2])
+        self.tell(None);
+        self.moved().is_some_and(|moved| moved != [0.0; 2])
     }
 
     /// A step of the trial, by the hand and by what is beside it. An autopilot, or a log, takes none of it.
     pub(super) fn step(&mut self, trial: &mut Trial, is_by_hand: bool) {
-        let moved = self.exchange.take();
+        let moved = self.moved();
         if !is_by_hand || moved.is_none() {
             // A device that is no longer served lets go of the wire.
             if std::mem::take(&mut self.is_held) {
                 trial.drive(self.beside);
-                self.exchange.tell(None);
+                self.tell(None);
                 self.hold = Hold::default();
             }
             trial.step();
@@ -133,6 +143,6 @@ impl Grasp {
         if trial.simulation().steps() > steps {
             self.hold.stepped(&trial.simulation().report());
         }
-        self.exchange.tell(Some(HandFeels { felt: self.hold.felt(), stiffness: self.hold.stiffness() }));
+        self.tell(Some(HandFeels { felt: self.hold.felt(), stiffness: self.hold.stiffness() }));
     }
 }

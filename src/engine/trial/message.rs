@@ -8,11 +8,12 @@ use crate::engine::message::Link;
 use crate::engine::surfaces::surface;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
+use crate::say;
 use crate::transfer::bulk;
 use crate::trial::compare::TrialComparison;
 use crate::trial::course::{Course, TrialError};
 use crate::trial::frame::{Frame, Touch};
-use crate::trial::route::{Route, RouteError, RoutePoint};
+use crate::trial::route::{PlaceName, Route, RouteError, RoutePoint};
 use crate::trial::setup::{Entry, Input, Setup};
 use crate::trial::summary::Summary;
 
@@ -141,10 +142,10 @@ pub struct TrialReady {
     pub setup: Setup,
     /// The way.
     pub route: RouteShown,
-    /// Other places where a wire could enter.
-    pub entries: Vec<Entry>,
-    /// Other places where it could go, with names.
-    pub targets: Vec<(String, [f32; 3])>,
+    /// Other places where a wire could enter, with their names.
+    pub entries: Vec<(PlaceName, Entry)>,
+    /// Other places where it could go, with their names.
+    pub targets: Vec<(PlaceName, [f32; 3])>,
     /// Milliseconds to build the hierarchy of boxes over the wall.
     pub wall_ms: f64,
     /// Milliseconds to find tree and route.
@@ -186,6 +187,8 @@ pub enum TrialEvent {
         message: String,
         /// Whether the reason is a lumen thinner than the wire.
         is_too_thin: bool,
+        /// The place that is the reason, in mm, where there is one.
+        at: Option<[f32; 3]>,
     },
     /// The wire now.
     Frame {
@@ -251,12 +254,12 @@ impl TrialEvent {
     /// That what was asked for under this number cannot be done.
     pub(super) fn refused(id: u64, error: &TrialError) -> Self {
         let is_too_thin = matches!(error, TrialError::Route(RouteError::TooThin { .. }));
-        Self::Refused { id, message: sentence(&error.to_string()), is_too_thin }
+        Self::Refused { id, message: sentence(&error.to_string()), is_too_thin, at: error.place() }
     }
 
     /// That what acts on a trial cannot be done without one.
     pub(super) fn refused_without_trial(id: u64) -> Self {
-        Self::Refused { id, message: sentence(NO_TRIAL), is_too_thin: false }
+        Self::Refused { id, message: sentence(&say!("devices-no-trial")), is_too_thin: false, at: None }
     }
 
     /// That something else cannot be done.
@@ -266,12 +269,9 @@ impl TrialEvent {
 
     /// The same, without a trial.
     pub(super) fn failed_without_trial() -> Self {
-        Self::failed(NO_TRIAL)
+        Self::failed(&say!("devices-no-trial"))
     }
 }
-
-/// Why what acts on the trial that is shown cannot be done.
-const NO_TRIAL: &str = "no trial is on";
 
 /// Whether this is the line of a frame, which the next frame makes useless.
 pub fn is_frame(line: &str) -> bool {
@@ -292,6 +292,7 @@ mod tests {
     use crate::transfer::tests::sent;
     use crate::trial::frame::Progress;
     use crate::trial::report::{StepCounts, StepKind, StepReport};
+    use crate::trial::route::WayEnd;
 
     #[test]
     fn every_command_comes_through_unchanged() {
@@ -332,7 +333,8 @@ mod tests {
             ..Frame::default()
         };
         let route = RouteShown { points: vec![[1.0; 3]; 2], radii: vec![2.0; 2], ..RouteShown::default() };
-        let ready = TrialReady { id: 1, route, targets: vec![("left".to_owned(), [0.0; 3])], ..TrialReady::default() };
+        let left = PlaceName::Target { branch: 3, end: WayEnd::Closed, diameter_mm: 1.7, away_mm: 80.5 };
+        let ready = TrialReady { id: 1, route, targets: vec![(left, [0.0; 3])], ..TrialReady::default() };
         let comparison = TrialComparison {
             verdict: "it arrives".to_owned(),
             inserted_mm: vec![1.0, 2.0],
@@ -349,7 +351,7 @@ mod tests {
         let events = [
             TrialEvent::Preparing { id: 1, fraction: 0.5 },
             TrialEvent::Ready(Box::new(ready)),
-            TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true },
+            TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true, at: Some([1.0, 2.5, 3.0]) },
             TrialEvent::Frame { id: 4, frame: Box::new(frame) },
             TrialEvent::Felt { id: 4, touches: vec![touch; 3] },
             TrialEvent::Ended { id: 4, summary: summary.clone() },

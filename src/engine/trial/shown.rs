@@ -6,6 +6,8 @@ use std::time::Duration;
 use super::grasp::{Exchange, Grasp};
 use super::message::{HAND, TrialEvent};
 use super::pace::Pace;
+use crate::language::decimal;
+use crate::say;
 use crate::trial::course::TrialError;
 use crate::trial::frame::Progress;
 use crate::trial::log::Log;
@@ -30,19 +32,42 @@ enum Hand {
     Until(f64),
 }
 
+/// What moves the wire.
+#[derive(Clone, Copy, PartialEq)]
+enum Mover {
+    /// Nothing has yet: it lies at its entry, and its time does not run.
+    Nothing,
+    /// A hand, or no one just now.
+    Hand,
+    /// The autopilot, or a log.
+    Steering,
+}
+
+impl Mover {
+    /// A hand is on the wire. Who steers goes on.
+    fn take_hold(&mut self) {
+        if *self == Self::Nothing {
+            *self = Self::Hand;
+        }
+    }
+
+    /// Who steers does so no longer.
+    fn let_go(&mut self) {
+        if *self == Self::Steering {
+            *self = Self::Hand;
+        }
+    }
+}
+
 /// The trial that is shown.
 pub(super) struct Shown {
     /// That of the command which began what is shown now.
     id: u64,
     trial: Box<Trial>,
-    /// Whether a hand, the autopilot or a log has moved the wire yet: until then it lies at its entry, and its time does
-    /// not run.
-    has_begun: bool,
+    mover: Mover,
     hand: Hand,
     /// A haptic device's.
     grasp: Grasp,
-    /// Whether the autopilot steers, or a log.
-    is_steered: bool,
     is_paused: bool,
     pace: Pace,
     /// When the last frame was told, in seconds by the clock.
@@ -57,10 +82,9 @@ impl Shown {
         Self {
             id,
             trial: Box::new(trial),
-            has_begun: false,
+            mover: Mover::Nothing,
             hand: Hand::Off,
             grasp: Grasp::new(exchange),
-            is_steered: false,
             is_paused: false,
             pace: Pace::new(),
             framed: f64::NEG_INFINITY,
@@ -96,13 +120,18 @@ impl Shown {
         self.grasp.beside = input.limited();
         let is_on = input != Input::default();
         self.hand = if is_on { Hand::Heard } else { Hand::Off };
-        self.has_begun |= is_on;
+        if is_on {
+            self.mover.take_hold();
+        }
     }
 
     pub(super) fn set_autopilot(&mut self, on: bool) {
         self.trial.set_autopilot(on);
-        self.is_steered = on;
-        self.has_begun |= on;
+        if on {
+            self.mover = Mover::Steering;
+        } else {
+            self.mover.let_go();
+        }
     }
 
     pub(super) fn pause(&mut self, on: bool) {
@@ -133,7 +162,7 @@ impl Shown {
     pub(super) fn replay(&mut self, csv: &[u8]) -> Result<(), String> {
         let trial = self.recorded(csv).inspect_err(|_| self.hand_over())?;
         let anew = Self::new(self.id, trial, self.grasp.exchange());
-        *self = Self { pace: self.pace.anew(), has_begun: true, is_steered: true, ..anew };
+        *self = Self { pace: self.pace.anew(), mover: Mover::Steering, ..anew };
         Ok(())
     }
 
@@ -141,13 +170,10 @@ impl Shown {
         let recorded = Log::read(csv).map_err(|error| error.to_string())?;
         let (course, setup) = (self.trial.course().clone(), self.trial.setup());
         if recorded.surface != format!("{:016x}", course.fingerprint) {
-            return Err("the log is of another surface, or of another level: open that first".to_owned());
+            return Err(say!("devices-log-other-surface"));
         }
         if (recorded.setup.entry, recorded.setup.target) != (setup.entry, setup.target) {
-            return Err(format!(
-                "the log has another entry or target than the route of {:.0} mm that is shown: start a trial with those first",
-                course.route.length_mm
-            ));
+            return Err(say!("devices-log-other-route", length = decimal(course.route.length_mm, 0)));
         }
         let mut trial = Trial::new(course, recorded.setup).map_err(|error| error.to_string())?;
         trial.replay(recorded.inputs, recorded.steps);
@@ -157,7 +183,7 @@ impl Shown {
     /// What was to begin anew could not: it goes on, but in the hand of whoever asked.
     fn hand_over(&mut self) {
         self.trial.set_autopilot(false);
-        self.is_steered = false;
+        self.mover.let_go();
         (self.is_paused, self.is_told) = (false, false);
     }
 
@@ -182,7 +208,7 @@ impl Shown {
 
     /// Whether it stands, whatever the clock says.
     fn stands(&self) -> bool {
-        self.is_paused || !self.has_begun
+        self.is_paused || self.mover == Mover::Nothing
     }
 
     fn is_over(&self) -> bool {
@@ -199,10 +225,12 @@ impl Shown {
         if self.stands() || self.is_over() {
             self.pace.stand();
             let moves = self.grasp.rest();
-            self.has_begun |= moves && !self.is_paused;
+            if moves && !self.is_paused {
+                self.mover.take_hold();
+            }
         } else {
-            let Self { pace, trial, grasp, is_steered, .. } = self;
-            pace.run(trial, now_s, slice, |trial| grasp.step(trial, !*is_steered));
+            let Self { pace, trial, grasp, mover, .. } = self;
+            pace.run(trial, now_s, slice, |trial| grasp.step(trial, *mover != Mover::Steering));
         }
         let is_over = self.is_over();
         let is_end = is_over && !self.is_told;

@@ -7,7 +7,7 @@ use super::engine::TrialEngine;
 use super::grasp::Exchange;
 use super::message::{HAND, TrialCommand, TrialEvent};
 use super::pace::BEHIND;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, Vec3};
 use crate::phantom::Sample;
 use crate::trial::STEP;
 use crate::trial::frame::{Frame, Progress};
@@ -234,6 +234,20 @@ fn closing_the_trial_lets_measurements_go_on() {
     assert_eq!(engine.advance(0.0, SLICE), Some(Duration::ZERO));
     engine.handle(TrialCommand::Compare { id: 8, mesh: Arc::default() });
     assert!(matches!(events(&mut engine)[..], [TrialEvent::Refused { id: 8, .. }]), "without a trial");
+}
+
+#[test]
+fn a_refusal_tells_the_place_where_the_wire_does_not_fit() {
+    let (mut engine, mesh) = (TrialEngine::new(), aorta());
+    let mut setup = Setup::default();
+    setup.wire.diameter_mm = 9.9;
+    engine.handle(TrialCommand::Start { id: 4, mesh: mesh.clone(), sample: Some(Sample::Aorta), setup });
+    let told = events(&mut engine);
+    let [.., TrialEvent::Refused { id: 4, is_too_thin: true, at: Some(at), .. }] = &told[..] else {
+        panic!("{told:?}")
+    };
+    let wall = mesh.positions.iter().map(|p| p.distance(Vec3::from(*at))).fold(f32::INFINITY, f32::min);
+    assert!(wall > 1.0 && wall < 9.9 / 2.0 + 1.0, "{wall} mm from the wall: in a lumen thinner than the wire");
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! FFBeast's wheels, joysticks and rudders: one report on their vendor's interface holds the force, and the device lets go
 //! by itself where that does not come again (layout as in npm's `@shubham0x13/ffbeast-wheel-webhid-api` 0.1.1).
 
-use super::single::SingleReport;
-use super::{ForceDriver, ForceError, Reply, Request, Wish};
+use super::Wish;
+use super::single::{SingleDriver, SingleForce};
 
 /// The report's id.
 pub const REPORT: u8 = 0xA3;
@@ -25,55 +25,38 @@ pub fn report(force: f64) -> Vec<u8> {
     data
 }
 
-/// Drives one: its only axis feeds, or rolls.
+/// Its only axis.
 #[derive(Clone, Debug)]
-pub struct Ffbeast {
-    axis: usize,
-    line: SingleReport,
-}
+pub struct Axis(usize);
+
+/// Drives one: its only axis feeds, or rolls.
+pub type Ffbeast = SingleDriver<Axis>;
 
 impl Ffbeast {
     /// Moved by what is wished for feed, 0, or for roll, 1.
     pub fn new(axis: usize) -> Self {
-        Self { axis: axis.min(1), line: SingleReport::new(LEAST_MS, Some(KEEP_MS), report(0.0)) }
+        Self::by(Axis(axis.min(1)), LEAST_MS, Some(KEEP_MS), report(0.0))
     }
 }
 
-impl ForceDriver for Ffbeast {
-    fn wish(&mut self, wish: &Wish) {
-        let of = wish[self.axis];
-        self.line.wish(of.force.clamp(-of.limit, of.limit));
+impl SingleForce for Axis {
+    const ID: u8 = REPORT;
+    type Force = f64;
+
+    fn force(&self, wish: &Wish) -> f64 {
+        let of = wish[self.0];
+        of.force.clamp(-of.limit, of.limit)
     }
 
-    fn stop(&mut self) {
-        self.line.stop();
-    }
-
-    fn next(&mut self, now_ms: f64) -> Option<Request> {
-        self.line.next(now_ms, report).map(|data| Request::Send { id: REPORT, data })
-    }
-
-    fn reply(&mut self, _now_ms: f64, reply: Reply<'_>) {
-        self.line.reply(reply);
-    }
-
-    fn farewell(&self) -> Vec<Request> {
-        self.line.farewell().map(|data| Request::Send { id: REPORT, data }).into_iter().collect()
-    }
-
-    fn error(&self) -> Option<ForceError> {
-        self.line.error()
-    }
-
-    fn has_coupling(&self) -> bool {
-        false
+    fn report(&self, force: f64) -> Vec<u8> {
+        report(force)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::haptics::force::AxisForce;
+    use crate::haptics::force::{AxisForce, ForceDriver as _, Reply, Request};
 
     fn wish(force: f64, limit: f64) -> Wish {
         [AxisForce { force, coupling: None, limit }, AxisForce::default()]

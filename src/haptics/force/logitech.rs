@@ -4,8 +4,8 @@
 //! A wheel plays its last command until another comes, without end. So it is given no force that could move it once the
 //! host is silent, but friction in proportion to the force: that resists a hand, and cannot push.
 
-use super::single::SingleReport;
-use super::{ForceDriver, ForceError, Reply, Request, Wish};
+use super::Wish;
+use super::single::{SingleDriver, SingleForce};
 
 /// A command's length; it has no id.
 pub const BYTES: usize = 7;
@@ -23,58 +23,45 @@ pub fn friction(part: f64) -> [u8; BYTES] {
     if strength == 0 { [0x20, 0, 0, 0, 0, 0, 0] } else { [0x21, 0x02, strength, 0, strength, 0, 0] }
 }
 
-/// Drives one: its only axis feeds, or rolls.
+/// Its only axis, and whether its own centring is off.
 #[derive(Clone, Debug)]
-pub struct Logitech {
+pub struct Wheel {
     axis: usize,
     is_prepared: bool,
-    line: SingleReport,
 }
+
+/// Drives one: its only axis feeds, or rolls.
+pub type Logitech = SingleDriver<Wheel>;
 
 impl Logitech {
     /// Braked by what is wished for feed, 0, or for roll, 1.
     pub fn new(axis: usize) -> Self {
-        Self { axis: axis.min(1), is_prepared: false, line: SingleReport::new(LEAST_MS, None, OFF.to_vec()) }
+        Self::by(Wheel { axis: axis.min(1), is_prepared: false }, LEAST_MS, None, OFF.to_vec())
     }
 }
 
-impl ForceDriver for Logitech {
-    fn wish(&mut self, wish: &Wish) {
+impl SingleForce for Wheel {
+    const ID: u8 = 0;
+    type Force = f64;
+
+    fn force(&self, wish: &Wish) -> f64 {
         let of = wish[self.axis];
-        self.line.wish(of.force.abs().min(of.limit));
+        of.force.abs().min(of.limit)
     }
 
-    fn stop(&mut self) {
-        self.line.stop();
+    fn report(&self, force: f64) -> Vec<u8> {
+        if self.is_prepared { friction(force) } else { NO_CENTRING }.to_vec()
     }
 
-    fn next(&mut self, now_ms: f64) -> Option<Request> {
-        let is_prepared = self.is_prepared;
-        let saying = |part| if is_prepared { friction(part) } else { NO_CENTRING }.to_vec();
-        self.line.next(now_ms, saying).map(|data| Request::Send { id: 0, data })
-    }
-
-    fn reply(&mut self, _now_ms: f64, reply: Reply<'_>) {
-        self.is_prepared |= self.line.reply(reply) == Some(&NO_CENTRING);
-    }
-
-    fn farewell(&self) -> Vec<Request> {
-        self.line.farewell().map(|data| Request::Send { id: 0, data }).into_iter().collect()
-    }
-
-    fn error(&self) -> Option<ForceError> {
-        self.line.error()
-    }
-
-    fn has_coupling(&self) -> bool {
-        false
+    fn arrived(&mut self, report: &[u8]) {
+        self.is_prepared |= report == NO_CENTRING;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::haptics::force::AxisForce;
+    use crate::haptics::force::{AxisForce, ForceDriver as _, Reply, Request};
 
     #[test]
     fn commands_are_the_published_ones() {

@@ -3,10 +3,11 @@
 //! A driver is a state machine without a transport: it says which report goes next, hears how that went, and has one report
 //! under way at a time. Forces are parts of the most that the device gives: what that is in N, its maker knows.
 
+pub mod cartesian;
 pub mod ffbeast;
 pub mod logitech;
 pub mod pid;
-mod single;
+pub mod single;
 
 /// A spring and a damper that the device itself renders, at its own rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

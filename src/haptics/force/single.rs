@@ -1,44 +1,120 @@
 //! A force that one report says by itself: it is sent when it changes, again where the device asks for that, and taken back
 //! until the taking back has arrived.
 
-use super::{ForceError, Reply};
+use super::{ForceDriver, ForceError, Reply, Request, Wish};
 
 /// Failures in a row after which the device counts as gone.
 const PATIENCE: u32 = 5;
 
+/// A device whose force one report says.
+pub trait SingleForce: Send {
+    /// The report's id; 0 for none.
+    const ID: u8;
+    /// The force as this device is told it.
+    type Force: Copy + Send;
+
+    /// What it is to be told of what is wished.
+    fn force(&self, wish: &Wish) -> Self::Force;
+
+    /// The report that says so.
+    fn report(&self, force: Self::Force) -> Vec<u8>;
+
+    /// Hears that a report has arrived.
+    fn arrived(&mut self, _report: &[u8]) {}
+}
+
+/// Drives one.
+#[derive(Clone, Debug)]
+pub struct SingleDriver<D: SingleForce> {
+    device: D,
+    line: SingleReport<D::Force>,
+}
+
+impl<D: SingleForce> SingleDriver<D> {
+    /// With at least `least_ms` between two reports, told again after `keep_ms`, and ended by `stop`.
+    pub(super) fn by(device: D, least_ms: f64, keep_ms: Option<f64>, stop: Vec<u8>) -> Self {
+        Self { device, line: SingleReport::new(least_ms, keep_ms, stop) }
+    }
+}
+
+impl<D: SingleForce> ForceDriver for SingleDriver<D> {
+    fn wish(&mut self, wish: &Wish) {
+        self.line.wish(self.device.force(wish));
+    }
+
+    fn stop(&mut self) {
+        self.line.stop();
+    }
+
+    fn next(&mut self, now_ms: f64) -> Option<Request> {
+        let data = self.line.next(now_ms, |force| self.device.report(force))?;
+        Some(Request::Send { id: D::ID, data })
+    }
+
+    fn reply(&mut self, _now_ms: f64, reply: Reply<'_>) {
+        if let Some(report) = self.line.reply(reply) {
+            self.device.arrived(report);
+        }
+    }
+
+    fn farewell(&self) -> Vec<Request> {
+        self.line.farewell().map(|data| Request::Send { id: D::ID, data }).into_iter().collect()
+    }
+
+    fn error(&self) -> Option<ForceError> {
+        self.line.error()
+    }
+
+    fn has_coupling(&self) -> bool {
+        false
+    }
+}
+
 /// One report's way to the device.
 #[derive(Clone, Debug)]
-pub(super) struct SingleReport {
+struct SingleReport<W> {
     /// The least between two reports, in ms.
     least_ms: f64,
     /// ms after which an unchanged force is told again; `None` where the device keeps it.
     keep_ms: Option<f64>,
     /// What ends the force.
     stop: Vec<u8>,
-    wished: Option<f64>,
+    wished: Option<W>,
     told: Option<(f64, Vec<u8>)>,
+    /// Whether anything was ever told, arrived or not.
+    has_told: bool,
     is_under_way: bool,
     must_stop: bool,
     failures: u32,
 }
 
-impl SingleReport {
+impl<W: Copy> SingleReport<W> {
     /// With at least `least_ms` between two, told again after `keep_ms`, and ended by `stop`.
-    pub(super) fn new(least_ms: f64, keep_ms: Option<f64>, stop: Vec<u8>) -> Self {
-        Self { least_ms, keep_ms, stop, wished: None, told: None, is_under_way: false, must_stop: false, failures: 0 }
+    fn new(least_ms: f64, keep_ms: Option<f64>, stop: Vec<u8>) -> Self {
+        Self {
+            least_ms,
+            keep_ms,
+            stop,
+            wished: None,
+            told: None,
+            has_told: false,
+            is_under_way: false,
+            must_stop: false,
+            failures: 0,
+        }
     }
 
-    pub(super) fn wish(&mut self, force: f64) {
+    fn wish(&mut self, force: W) {
         self.wished = Some(force);
         self.must_stop = false;
     }
 
-    pub(super) fn stop(&mut self) {
+    fn stop(&mut self) {
         self.must_stop = self.wished.take().is_some() || self.must_stop;
     }
 
     /// The bytes that go next at `now_ms`: what `saying` makes of the force that is wished, or what ends it.
-    pub(super) fn next(&mut self, now_ms: f64, saying: impl FnOnce(f64) -> Vec<u8>) -> Option<Vec<u8>> {
+    fn next(&mut self, now_ms: f64, saying: impl FnOnce(W) -> Vec<u8>) -> Option<Vec<u8>> {
         if self.is_under_way || self.error().is_some() {
             return None;
         }
@@ -51,13 +127,14 @@ impl SingleReport {
         });
         is_due.then(|| {
             self.is_under_way = true;
+            self.has_told = true;
             self.told = Some((now_ms, data.clone()));
             data
         })
     }
 
     /// Hears how the last went; what has arrived, if it has.
-    pub(super) fn reply(&mut self, reply: Reply<'_>) -> Option<&[u8]> {
+    fn reply(&mut self, reply: Reply<'_>) -> Option<&[u8]> {
         self.is_under_way = false;
         if reply == Reply::Failed {
             self.failures += 1;
@@ -71,11 +148,11 @@ impl SingleReport {
     }
 
     /// What leaves the device without force: nothing, where nothing was ever told.
-    pub(super) fn farewell(&self) -> Option<Vec<u8>> {
-        self.told.as_ref().map(|_| self.stop.clone())
+    fn farewell(&self) -> Option<Vec<u8>> {
+        self.has_told.then(|| self.stop.clone())
     }
 
-    pub(super) fn error(&self) -> Option<ForceError> {
+    fn error(&self) -> Option<ForceError> {
         (self.failures >= PATIENCE).then_some(ForceError::Silent)
     }
 }

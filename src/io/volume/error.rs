@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::super::error::ReadError;
+use crate::say;
 use crate::volume::VolumeError;
 
 /// Why a volume was not opened.
@@ -15,15 +16,13 @@ pub enum ScanError {
     #[error(transparent)]
     Volume(#[from] VolumeError),
     /// None of the files is a volume.
-    #[error(
-        "\"{name}\" is not a volume that Lumen knows: it opens NIfTI, NRRD, MetaImage and VTI files and series of DICOM."
-    )]
+    #[error("{}", say!("scan-no-volume", name = .name))]
     NoVolume {
         /// The first file's name.
         name: String,
     },
     /// The numbers stand in a file of their own.
-    #[error("The {format} header keeps its numbers in the file \"{name}\": open both together.")]
+    #[error("{}", say!("scan-data-elsewhere", format = *.format, name = .name))]
     DataElsewhere {
         /// The format.
         format: &'static str,
@@ -31,7 +30,7 @@ pub enum ScanError {
         name: String,
     },
     /// More numbers than can be held.
-    #[error("The volume is too large: its numbers take {bytes} bytes, and Lumen can take {limit}.")]
+    #[error("{}", say!("scan-too-large", bytes = .bytes.to_string(), limit = .limit.to_string()))]
     TooLarge {
         /// Bytes of its numbers.
         bytes: u64,
@@ -39,7 +38,7 @@ pub enum ScanError {
         limit: u64,
     },
     /// There is no memory for it here.
-    #[error("There is not enough memory for the {bytes} bytes of the volume.")]
+    #[error("{}", say!("scan-volume-memory", bytes = .bytes.to_string()))]
     Memory {
         /// Bytes of its numbers.
         bytes: u64,

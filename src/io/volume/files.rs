@@ -6,14 +6,13 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::stream::HEAD;
 use super::{base_name, data_name, is_volume};
-
-/// Bytes of a file that say what it is.
-const HEAD: u64 = 4096;
+use crate::say;
 
 /// A file or a folder that cannot be read.
 #[derive(Debug, Error)]
-#[error("cannot read {path}")]
+#[error("{}", say!("scan-unreadable", path = .path))]
 pub struct Unreadable {
     /// Its name.
     pub path: String,
@@ -25,34 +24,40 @@ pub struct Unreadable {
 /// Names and bytes of files.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// Reads the files of the volume that `paths` name: files, headers with the data beside them, folders with all in them but
-/// further folders. `None` where there is a single file that is no volume, of which no more than its beginning is read.
+/// Finds the files of the volume that `paths` name: files, headers with the data beside them, folders with all in them but
+/// further folders. `None` where there is a single file that is no volume. No more is read than the beginnings.
+///
+/// # Errors
+/// [`Unreadable`], the first that is.
+pub fn find(paths: &[PathBuf]) -> Result<Option<Vec<PathBuf>>, Unreadable> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            files.extend(listed(path)?);
+            continue;
+        }
+        let head = head(path)?;
+        if paths.len() == 1 && !is_volume(&head) {
+            return Ok(None);
+        }
+        if let Some(data) = data_name(&head, &path.to_string_lossy()) {
+            // Beside the header, wherever the header says that it was.
+            let beside = path.with_file_name(base_name(&data));
+            if beside.is_file() && !paths.contains(&beside) {
+                files.push(beside);
+            }
+        }
+        files.push(path.clone());
+    }
+    Ok(Some(files))
+}
+
+/// Reads the files that [`find`] finds.
 ///
 /// # Errors
 /// [`Unreadable`], the first that is.
 pub fn gather(paths: &[PathBuf]) -> Result<Option<Files>, Unreadable> {
-    let mut files = Vec::new();
-    for path in paths {
-        if path.is_dir() {
-            for path in listed(path)? {
-                files.push(file(&path)?);
-            }
-            continue;
-        }
-        if paths.len() == 1 && !is_volume(&head(path)?) {
-            return Ok(None);
-        }
-        let (name, bytes) = file(path)?;
-        if let Some(data) = data_name(&bytes, &name) {
-            // Beside the header, wherever the header says that it was.
-            let beside = path.with_file_name(base_name(&data));
-            if beside.is_file() && !paths.contains(&beside) {
-                files.push(file(&beside)?);
-            }
-        }
-        files.push((name, bytes));
-    }
-    Ok(Some(files))
+    find(paths)?.map(|paths| paths.iter().map(|path| file(path)).collect()).transpose()
 }
 
 fn unreadable(path: &Path) -> impl FnOnce(io::Error) -> Unreadable {
@@ -72,7 +77,7 @@ fn listed(folder: &Path) -> Result<Vec<PathBuf>, Unreadable> {
 /// The first bytes of a file.
 fn head(path: &Path) -> Result<Vec<u8>, Unreadable> {
     let mut head = Vec::new();
-    let read = fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    let read = fs::File::open(path).and_then(|file| file.take(HEAD as u64).read_to_end(&mut head));
     read.map_err(unreadable(path))?;
     Ok(head)
 }

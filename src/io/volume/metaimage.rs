@@ -1,22 +1,25 @@
 //! MetaImage: a header of `Key = Value` lines, the numbers behind it (.mha) or in a file of their own (.mhd).
 //!
-//! The format is described in ITK's "MetaIO documentation". Its coordinates are LPS, as all of ITK's are; each row of
+//! The format is described in ITK's "MetaIO documentation". Its coordinates are LPS, as all of ITK's are, where it has an
+//! `AnatomicalOrientation`; what has none was written by others, and nothing is known of its axes. Each row of
 //! `TransformMatrix` is the direction of an axis of the grid. `ElementSize` is the size of a voxel, and only where there is
 //! no `ElementSpacing` their distance. There is no crate that reads it.
 
 use glam::{DMat3, DVec3};
 
+use super::super::axes::Axes;
 use super::super::numbers::Scalar;
 use super::super::text;
-use super::axes::numbers;
+use super::axes::{numbers, silent};
 use super::error::ScanError;
+use super::lines::lines;
+use super::named;
 use super::numbers::{Layout, Packing};
-use super::{Part, Scan, named};
-use crate::volume::{Geometry, Grid, VolumeError};
+use super::stream::{Head, Outline};
+use crate::say;
+use crate::volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "MetaImage";
-/// Lines of a header at most.
-const MOST_LINES: usize = 1000;
 
 /// What a header says, and where it ends.
 struct Header<'a> {
@@ -27,11 +30,8 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     fn parse(bytes: &'a [u8]) -> Result<Self, ScanError> {
         let mut fields = Vec::new();
-        let mut length = bytes.len() - text::without_mark(bytes).len();
-        for _ in 0..MOST_LINES {
-            let rest = &bytes[length..];
-            let line = rest.iter().position(|&byte| byte == b'\n').map_or(rest, |end| &rest[..end]);
-            length = bytes.len().min(length + line.len() + 1);
+        let start = bytes.len() - text::without_mark(bytes).len();
+        for (line, length) in lines(bytes, start) {
             let Ok(line) = std::str::from_utf8(line) else { break };
             if let Some((key, value)) = line.split_once('=') {
                 fields.push((key.trim(), value.trim()));
@@ -39,11 +39,8 @@ impl<'a> Header<'a> {
                     return Ok(Self { fields, length });
                 }
             }
-            if length == bytes.len() {
-                break;
-            }
         }
-        Err(ScanError::malformed(FORMAT, "its header does not say where the numbers are (ElementDataFile)"))
+        Err(ScanError::malformed(FORMAT, say!("scan-no-data-file", key = "ElementDataFile")))
     }
 
     fn get(&self, key: &str) -> Option<&'a str> {
@@ -60,7 +57,7 @@ impl<'a> Header<'a> {
             return Ok(None);
         };
         let found = numbers(value);
-        let problem = || ScanError::malformed(FORMAT, format!("\"{key}\" is not {N} numbers"));
+        let problem = || ScanError::malformed(FORMAT, say!("scan-not-numbers", key = key, count = N));
         found.map(Some).ok_or_else(problem)
     }
 
@@ -92,34 +89,57 @@ fn scalar(name: &str) -> Option<Scalar> {
     })
 }
 
-/// Reads the volume whose header is `part`.
-pub(super) fn read(part: &Part, parts: &[Part]) -> Result<Scan, ScanError> {
-    let header = Header::parse(part.bytes)?;
+/// What the header's unit of length is in mm, and what is to be said where it is none.
+fn unit(header: &Header) -> (f64, Vec<String>) {
+    match header.get("DistanceUnits") {
+        None | Some("?" | "" | "mm") => (1.0, Vec::new()),
+        Some("cm") => (10.0, Vec::new()),
+        Some("um") => (1e-3, Vec::new()),
+        Some(other) => {
+            let quoted = text::quoted(other.as_bytes());
+            (1.0, vec![say!("scan-unknown-unit", format = FORMAT, unit = quoted)])
+        }
+    }
+}
+
+/// What the header in file `at` says.
+pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
+    let header = Header::parse(files[at].bytes)?;
     if header.get("NDims").is_some_and(|n| n != "3") {
-        return Err(ScanError::unsupported(FORMAT, "other than three dimensions"));
+        return Err(ScanError::unsupported(FORMAT, say!("scan-dimensions")));
     }
     if header.get("ElementNumberOfChannels").is_some_and(|n| n != "1") {
-        return Err(ScanError::unsupported(FORMAT, "several numbers a voxel"));
+        return Err(ScanError::unsupported(FORMAT, say!("scan-numbers-a-voxel")));
     }
-    let missing = |key: &str| ScanError::malformed(FORMAT, format!("its header has no \"{key}\""));
+    let missing = |key: &str| ScanError::malformed(FORMAT, say!("scan-header-lacks", key = key));
     let size = header.numbers::<3>(&["DimSize"])?.ok_or_else(|| missing("DimSize"))?.map(|n| n as usize);
     let spacing = header.numbers::<3>(&["ElementSpacing", "ElementSize"])?.unwrap_or([1.0; 3]);
     let origin = header.numbers::<3>(&["Offset", "Position", "Origin"])?.unwrap_or_default();
     let rows = header.numbers::<9>(&["TransformMatrix", "Rotation", "Orientation"])?;
     let direction = rows.map_or(DMat3::IDENTITY, |rows| DMat3::from_cols_array(&rows));
-    let geometry = Geometry::from_steps(size, direction * DMat3::from_diagonal(spacing.into()), DVec3::from(origin));
+    let (scale, mut warnings) = unit(&header);
+    // ITK writes three letters beside directions that are LPS, "???" where it does not know them.
+    let orientation = header.get("AnatomicalOrientation").unwrap_or_default();
+    let is_stated = orientation.len() == 3 && orientation.bytes().all(|letter| b"RLAPISrlapis".contains(&letter));
+    let axes = if is_stated { Axes::Lps } else { Axes::Unknown };
+    if !is_stated {
+        warnings.push(silent(FORMAT));
+    }
+    let steps = direction * DMat3::from_diagonal(spacing.into()) * scale;
+    let geometry = Geometry::from_steps(size, steps, DVec3::from(origin) * scale);
     let geometry = geometry.map_err(VolumeError::from)?;
     let name = header.get("ElementType").ok_or_else(|| missing("ElementType"))?;
-    let scalar = scalar(name)
-        .ok_or_else(|| ScanError::unsupported(FORMAT, format!("numbers of type {}", text::quoted(name.as_bytes()))))?;
+    let scalar = scalar(name).ok_or_else(|| {
+        ScanError::unsupported(FORMAT, say!("scan-number-type", kind = text::quoted(name.as_bytes())))
+    })?;
     let is_big_endian = header.is("BinaryDataByteOrderMSB", "True") || header.is("ElementByteOrderMSB", "True");
     let layout = Layout::new(FORMAT, size, scalar, is_big_endian)?;
-    let bytes = match header.data() {
-        None => &part.bytes[header.length..],
+    let (file, start) = match header.data() {
+        None => (at, header.length as u64),
         Some(name) if name.starts_with("LIST") || name.contains('%') => {
-            return Err(ScanError::unsupported(FORMAT, "a file for each slice"));
+            return Err(ScanError::unsupported(FORMAT, say!("scan-file-a-slice")));
         }
-        Some(name) => named(parts, name, FORMAT)?,
+        Some(name) => (named(files, name, FORMAT)?, 0),
     };
     let packing = match (header.is("CompressedData", "True"), header.is("BinaryData", "False")) {
         (true, _) => Packing::Zlib,
@@ -128,10 +148,10 @@ pub(super) fn read(part: &Part, parts: &[Part]) -> Result<Scan, ScanError> {
     };
     let skipped = match header.get("HeaderSize") {
         // The numbers stand at the end, whatever is before them.
-        Some("-1") => bytes.len().saturating_sub(layout.points.saturating_mul(scalar.size())) as u64,
+        Some("-1") => (files[file].length - start).saturating_sub(layout.bytes()),
         Some(skipped) => skipped.parse().unwrap_or(0),
         None => 0,
     };
-    let grid = Grid::new(geometry, layout.take(bytes, packing, skipped)?, 1.0, 0.0)?;
-    Ok(Scan { grid, format: FORMAT, is_ct: header.is("Modality", "MET_MOD_CT"), warnings: Vec::new() })
+    let (is_ct, scaling) = (header.is("Modality", "MET_MOD_CT"), [1.0, 0.0]);
+    Ok(Outline { format: FORMAT, geometry, layout, packing, file, start, skipped, scaling, axes, is_ct, warnings })
 }

@@ -3,8 +3,9 @@
 //! A volume may stand in several files: a header and its numbers, or a series of slices. So what is read is a list of named
 //! files ([`Part`]); a header that names another gets it from that list. Which file is what is decided by the content.
 //!
-//! Coordinates become LPS millimetres. MetaImage and DICOM have them, NRRD says what it has, NIfTI is RAS and is turned; VTI
-//! says nothing and is taken as it stands, with a warning.
+//! Coordinates become LPS millimetres where a file says which way the patient lies: DICOM has them, MetaImage where it has an
+//! `AnatomicalOrientation`, as ITK writes it; NRRD says what it has, NIfTI is RAS and is turned. Where a file does not say it,
+//! its coordinates are taken as they stand, their axes are unknown, and a warning says so.
 //!
 //! Memory: numbers are kept in their stored type, and read straight into it (`numbers`). What a header claims is checked
 //! against the bytes that are there, and against the most that deflate can make of them (1032 times as many): masks of
@@ -15,18 +16,22 @@ mod dicom;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod files;
+mod lines;
 mod metaimage;
 mod nifti;
 mod nrrd;
 mod numbers;
+mod stream;
 mod vti;
 
 pub use error::ScanError;
 #[cfg(not(target_arch = "wasm32"))]
-pub use files::{Files, Unreadable, gather};
+pub use files::{Files, Unreadable, find, gather};
+pub use stream::{HEAD, Head, Stream, begin};
 
+use super::axes::Axes;
+use super::detect::{self, Volume as Content};
 use super::error::ReadError;
-use super::{text, vtk};
 use crate::volume::Grid;
 
 /// A file by its name.
@@ -45,20 +50,12 @@ pub struct Scan {
     pub grid: Grid,
     /// What the files are: "NIfTI", "NRRD", "MetaImage", "VTI", "DICOM".
     pub format: &'static str,
-    /// Whether values are Hounsfield units, as DICOM says of CT; the other formats do not say.
+    /// What its coordinates grow towards: LPS, or unknown where the file does not say it.
+    pub axes: Axes,
+    /// Whether values are Hounsfield units, as DICOM and MetaImage say of CT; the other formats do not say.
     pub is_ct: bool,
     /// Sentences for the user about what looks odd.
     pub warnings: Vec<String>,
-}
-
-/// A kind of file that holds a volume.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Content {
-    Nifti,
-    Nrrd,
-    MetaImage,
-    Vti,
-    Dicom,
 }
 
 /// Whether a file is a volume, or the header of one, by its first bytes.
@@ -82,19 +79,22 @@ pub fn data_name(bytes: &[u8], name: &str) -> Option<String> {
 /// [`ScanError`], each in one plain sentence: no file is a volume, one is broken or cut short, the numbers are missing, do not
 /// fit into memory or have no place in a patient.
 pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
-    let found = parts.iter().find_map(|part| content(part.bytes).map(|content| (part, content)));
-    let Some((part, content)) = found else {
+    let found = parts.iter().enumerate().find_map(|(at, part)| content(part.bytes).map(|content| (at, content)));
+    let Some((at, content)) = found else {
         return Err(match parts {
             [] => ReadError::Empty.into(),
             [only] if only.bytes.is_empty() => ReadError::Empty.into(),
             [first, ..] => ScanError::NoVolume { name: base_name(first.name).to_owned() },
         });
     };
+    let whole = |part: &Part<'_>| part.bytes.len() as u64;
+    let heads: Vec<Head> =
+        parts.iter().map(|part| Head { name: part.name, bytes: part.bytes, length: whole(part) }).collect();
     match content {
-        Content::Nifti => nifti::read(part, parts),
-        Content::Nrrd => nrrd::read(part, parts),
-        Content::MetaImage => metaimage::read(part, parts),
-        Content::Vti => vti::read(part.bytes),
+        Content::Nifti => stream::read_whole(nifti::outline(at, &heads)?, parts),
+        Content::Nrrd => stream::read_whole(nrrd::outline(at, &heads)?, parts),
+        Content::MetaImage => stream::read_whole(metaimage::outline(at, &heads)?, parts),
+        Content::Vti => vti::read(parts[at].bytes),
         Content::Dicom => {
             let slices: Vec<&Part> =
                 parts.iter().filter(|part| self::content(part.bytes) == Some(Content::Dicom)).collect();
@@ -103,25 +103,12 @@ pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
     }
 }
 
-/// What the first bytes say.
+/// What the first bytes say; of a packed file, those that it unfolds to.
 fn content(bytes: &[u8]) -> Option<Content> {
-    if nifti::is_header(bytes) || (numbers::is_gzip(bytes) && nifti::is_header(&numbers::first_unfolded(bytes))) {
+    if numbers::is_gzip(bytes) && nifti::is_header(&numbers::first_unfolded(bytes)) {
         return Some(Content::Nifti);
     }
-    if bytes.starts_with(b"NRRD000") {
-        return Some(Content::Nrrd);
-    }
-    if bytes.get(128..132) == Some(b"DICM") {
-        return Some(Content::Dicom);
-    }
-    let head = text::without_mark(bytes).trim_ascii_start();
-    let head = &head[..head.len().min(2048)];
-    let contains = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
-    if vtk::is_xml(head) {
-        return contains(b"\"ImageData\"").then_some(Content::Vti);
-    }
-    let begins = [&b"ObjectType"[..], b"NDims", b"Comment"].iter().any(|word| head.starts_with(word));
-    (begins && contains(b"DimSize")).then_some(Content::MetaImage)
+    detect::volume(bytes).filter(|&found| found != Content::Nifti || nifti::is_header(bytes))
 }
 
 /// A file's name without the folder before it.
@@ -129,11 +116,11 @@ fn base_name(name: &str) -> &str {
     name.rsplit(['/', '\\']).next().unwrap_or(name)
 }
 
-/// The bytes of the part that a header names, whatever folder it lies in.
-fn named<'a>(parts: &[Part<'a>], name: &str, format: &'static str) -> Result<&'a [u8], ScanError> {
+/// Which file a header names, whatever folder it lies in.
+fn named(files: &[Head], name: &str, format: &'static str) -> Result<usize, ScanError> {
     let wanted = base_name(name);
-    let same = |part: &&Part| base_name(part.name) == wanted;
-    let alike = |part: &&Part| base_name(part.name).eq_ignore_ascii_case(wanted);
-    let found = parts.iter().find(same).or_else(|| parts.iter().find(alike));
-    found.map(|part| part.bytes).ok_or_else(|| ScanError::DataElsewhere { format, name: wanted.to_owned() })
+    let same = |file: &Head| base_name(file.name) == wanted;
+    let alike = |file: &Head| base_name(file.name).eq_ignore_ascii_case(wanted);
+    let found = files.iter().position(same).or_else(|| files.iter().position(alike));
+    found.ok_or_else(|| ScanError::DataElsewhere { format, name: wanted.to_owned() })
 }

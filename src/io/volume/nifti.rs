@@ -9,12 +9,15 @@
 
 use glam::{DMat3, DVec3};
 
+use super::super::axes::Axes;
 use super::super::numbers::Scalar;
-use super::axes::ras_to_lps;
+use super::axes::{ras_to_lps, silent};
 use super::error::ScanError;
 use super::numbers::{Layout, Packing, first_unfolded, is_gzip};
-use super::{Part, Scan, base_name, named};
-use crate::volume::{Geometry, Grid, VolumeError};
+use super::stream::{Head, Outline};
+use super::{base_name, named};
+use crate::say;
+use crate::volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "NIfTI";
 const SIZE_1: usize = 348;
@@ -166,10 +169,10 @@ impl<'a> Header<'a> {
         let axes = self.dimension(0);
         let along = |axis: i64| if axis <= axes { self.dimension(axis as usize) } else { 1 };
         if !(1..=7).contains(&axes) {
-            return Err(ScanError::malformed(FORMAT, format!("it has {axes} axes")));
+            return Err(ScanError::malformed(FORMAT, say!("scan-axes", axes = axes.to_string())));
         }
         if (4..=axes).any(|axis| along(axis) > 1) {
-            return Err(ScanError::unsupported(FORMAT, "more than three dimensions"));
+            return Err(ScanError::unsupported(FORMAT, say!("scan-more-dimensions")));
         }
         Ok([1, 2, 3].map(|axis| usize::try_from(along(axis)).unwrap_or(0)))
     }
@@ -186,7 +189,7 @@ impl<'a> Header<'a> {
             768 => Scalar::U32,
             1024 => Scalar::I64,
             1280 => Scalar::U64,
-            other => return Err(ScanError::unsupported(FORMAT, format!("numbers of type {other}"))),
+            other => return Err(ScanError::unsupported(FORMAT, say!("scan-number-type", kind = other.to_string()))),
         })
     }
 
@@ -233,29 +236,48 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Reads the volume whose header is `part`.
-pub(super) fn read(part: &Part, parts: &[Part]) -> Result<Scan, ScanError> {
+/// What the header in file `at` says.
+pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
+    let part = files[at];
     let unfolded = if is_gzip(part.bytes) { first_unfolded(part.bytes) } else { Vec::new() };
     let header = Header::parse(if unfolded.is_empty() { part.bytes } else { &unfolded });
-    let header = header.ok_or_else(|| ScanError::malformed(FORMAT, "its header is none"))?;
+    let header = header.ok_or_else(|| ScanError::malformed(FORMAT, say!("scan-header-none")))?;
     let (places, size) = (header.places(), header.size()?);
     let mut warnings = Vec::new();
-    let (steps, origin) = header.placed().unwrap_or_else(|| {
-        warnings.push("The NIfTI file does not say which way the patient lies: its axes are taken as RAS.".to_owned());
-        let spacing = DVec3::from([1, 2, 3].map(|axis| some_spacing(header.float(places.spacings, axis))));
-        (DMat3::from_diagonal(spacing), DVec3::ZERO)
-    });
-    let (steps, origin) = ras_to_lps(steps * header.unit(), origin * header.unit());
+    let (steps, origin, axes) = match header.placed() {
+        Some((steps, origin)) => {
+            let (steps, origin) = ras_to_lps(steps, origin);
+            (steps, origin, Axes::Lps)
+        }
+        None => {
+            warnings.push(silent(FORMAT));
+            let spacing = DVec3::from([1, 2, 3].map(|axis| some_spacing(header.float(places.spacings, axis))));
+            (DMat3::from_diagonal(spacing), DVec3::ZERO, Axes::Unknown)
+        }
+    };
+    let (steps, origin) = (steps * header.unit(), origin * header.unit());
     let geometry = Geometry::from_steps(size, steps, origin).map_err(VolumeError::from)?;
     let layout = Layout::new(FORMAT, size, header.scalar()?, header.is_big_endian)?;
-    let bytes = match data_name(part.bytes, part.name) {
-        Some(name) => named(parts, &name, FORMAT)?,
-        None => part.bytes,
+    let file = match data_name(part.bytes, part.name) {
+        Some(name) => named(files, &name, FORMAT)?,
+        None => at,
     };
-    let packing = if is_gzip(bytes) { Packing::Gzip } else { Packing::Plain };
-    let samples = layout.take(bytes, packing, header.offset())?;
-    let grid = Grid::new(geometry, samples, header.float(places.slope, 0), header.float(places.intercept, 0))?;
-    Ok(Scan { grid, format: FORMAT, is_ct: false, warnings })
+    let packing = if is_gzip(files[file].bytes) { Packing::Gzip } else { Packing::Plain };
+    let scaling = [places.slope, places.intercept].map(|place| header.float(place, 0));
+    let (start, skipped) = (0, header.offset());
+    Ok(Outline {
+        format: FORMAT,
+        geometry,
+        layout,
+        packing,
+        file,
+        start,
+        skipped,
+        scaling,
+        axes,
+        is_ct: false,
+        warnings,
+    })
 }
 
 /// A spacing that was left out is 1.

@@ -6,17 +6,19 @@
 
 use glam::{DMat3, DVec3};
 
+use super::super::axes::Axes;
 use super::super::numbers::Scalar;
 use super::super::text;
-use super::axes::{numbers, ras_to_lps};
+use super::axes::{numbers, ras_to_lps, silent};
 use super::error::ScanError;
+use super::lines::lines;
+use super::named;
 use super::numbers::{Layout, Packing};
-use super::{Part, Scan, named};
-use crate::volume::{Geometry, Grid, VolumeError};
+use super::stream::{Head, Outline};
+use crate::say;
+use crate::volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "NRRD";
-/// Lines of a header at most.
-const MOST_LINES: usize = 1000;
 
 /// What a header says, and where it ends.
 struct Header<'a> {
@@ -27,11 +29,15 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     fn parse(bytes: &'a [u8]) -> Result<Self, ScanError> {
         let (mut fields, mut length) = (Vec::new(), 0);
-        for _ in 0..MOST_LINES {
-            let rest = &bytes[length..];
-            let line = rest.iter().position(|&byte| byte == b'\n').map_or(rest, |end| &rest[..end]);
-            length = bytes.len().min(length + line.len() + 1);
-            let line = std::str::from_utf8(line).map_err(|_| Self::endless())?.trim_end_matches('\r');
+        for (line, end) in lines(bytes, 0) {
+            length = end;
+            let is_remark = line.starts_with(b"#") || line.windows(2).any(|pair| pair == b":=");
+            let line = match std::str::from_utf8(line) {
+                Ok(line) => line.trim_end_matches('\r'),
+                // In whatever letters a writer has put it.
+                Err(_) if is_remark => continue,
+                Err(_) => return Err(Self::endless()),
+            };
             if line.is_empty() {
                 return Ok(Self { fields, length });
             }
@@ -42,16 +48,13 @@ impl<'a> Header<'a> {
                 // Some fields are written with and without the space in their name.
                 fields.push((key.to_ascii_lowercase().replace(' ', ""), value.trim()));
             }
-            if length == bytes.len() {
-                // A header of its own may end with its last line.
-                return Ok(Self { fields, length });
-            }
         }
-        Err(Self::endless())
+        // A header of its own may end with its last line.
+        if length == bytes.len() { Ok(Self { fields, length }) } else { Err(Self::endless()) }
     }
 
     fn endless() -> ScanError {
-        ScanError::malformed(FORMAT, "its header does not end with an empty line")
+        ScanError::malformed(FORMAT, say!("scan-header-endless"))
     }
 
     fn get(&self, key: &str) -> Option<&'a str> {
@@ -59,11 +62,11 @@ impl<'a> Header<'a> {
     }
 
     fn need(&self, key: &str) -> Result<&'a str, ScanError> {
-        self.get(key).ok_or_else(|| ScanError::malformed(FORMAT, format!("its header has no \"{key}\"")))
+        self.get(key).ok_or_else(|| ScanError::malformed(FORMAT, say!("scan-header-lacks", key = key)))
     }
 
     fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>, ScanError> {
-        let problem = || ScanError::malformed(FORMAT, format!("\"{key}\" is not {N} numbers"));
+        let problem = || ScanError::malformed(FORMAT, say!("scan-not-numbers", key = key, count = N));
         self.get(key).map(|value| numbers(value).ok_or_else(problem)).transpose()
     }
 }
@@ -90,8 +93,28 @@ fn scalar(name: &str) -> Option<Scalar> {
     })
 }
 
-/// The place of the grid, and what is to be said about it.
-fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Vec<String>), ScanError> {
+/// What the header's unit of length is in mm; 1 where it has none, or one that is no length of a body, which is told.
+fn unit(header: &Header, warnings: &mut Vec<String>) -> f64 {
+    let Some(units) = header.get("spaceunits").or_else(|| header.get("units")) else { return 1.0 };
+    let mut names = units.split('"').filter(|name| !name.trim().is_empty());
+    let first = names.next().unwrap_or_default().trim();
+    let scale = match first {
+        "" | "mm" | "millimeter" | "millimetre" => 1.0,
+        "cm" => 10.0,
+        "m" => 1000.0,
+        "um" | "\u{b5}m" | "\u{3bc}m" => 1e-3,
+        _ => f64::NAN,
+    };
+    if scale.is_nan() || names.any(|name| name.trim() != first) {
+        let quoted = text::quoted(units.as_bytes());
+        warnings.push(say!("scan-unknown-unit", format = FORMAT, unit = quoted));
+        return 1.0;
+    }
+    scale
+}
+
+/// The place of the grid, its axes, and what is to be said about it.
+fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Axes, Vec<String>), ScanError> {
     let steps = match header.numbers::<9>("spacedirections")? {
         Some(columns) => DMat3::from_cols_array(&columns),
         None => {
@@ -101,6 +124,7 @@ fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Vec<String>)
     };
     let origin = DVec3::from(header.numbers::<3>("spaceorigin")?.unwrap_or_default());
     let (mut warnings, space) = (Vec::new(), header.get("space").map(str::to_ascii_lowercase));
+    let mut axes = Axes::Lps;
     let (steps, origin) = match space.as_deref() {
         Some("left-posterior-superior" | "lps") => (steps, origin),
         Some("right-anterior-superior" | "ras") => ras_to_lps(steps, origin),
@@ -109,52 +133,55 @@ fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Vec<String>)
             (DMat3::from_diagonal(turn) * steps, turn * origin)
         }
         _ => {
-            warnings
-                .push("The NRRD file does not say which way the patient lies: its axes are taken as LPS.".to_owned());
+            axes = Axes::Unknown;
+            warnings.push(silent(FORMAT));
             (steps, origin)
         }
     };
-    Ok((Geometry::from_steps(size, steps, origin).map_err(VolumeError::from)?, warnings))
+    let scale = unit(header, &mut warnings);
+    Ok((Geometry::from_steps(size, steps * scale, origin * scale).map_err(VolumeError::from)?, axes, warnings))
 }
 
-/// Reads the volume whose header is `part`.
-pub(super) fn read(part: &Part, parts: &[Part]) -> Result<Scan, ScanError> {
-    let header = Header::parse(part.bytes)?;
+/// What the header in file `at` says.
+pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
+    let header = Header::parse(files[at].bytes)?;
     if header.need("dimension")? != "3" {
-        return Err(ScanError::unsupported(FORMAT, "other than three dimensions"));
+        return Err(ScanError::unsupported(FORMAT, say!("scan-dimensions")));
     }
-    let missing = || ScanError::malformed(FORMAT, "its header has no \"sizes\"");
+    let missing = || ScanError::malformed(FORMAT, say!("scan-header-lacks", key = "sizes"));
     let size = header.numbers::<3>("sizes")?.ok_or_else(missing)?.map(|n| n as usize);
-    let (geometry, warnings) = geometry(&header, size)?;
+    let (geometry, axes, warnings) = geometry(&header, size)?;
     let name = header.need("type")?;
-    let scalar = scalar(name)
-        .ok_or_else(|| ScanError::unsupported(FORMAT, format!("numbers of type {}", text::quoted(name.as_bytes()))))?;
+    let scalar = scalar(name).ok_or_else(|| {
+        ScanError::unsupported(FORMAT, say!("scan-number-type", kind = text::quoted(name.as_bytes())))
+    })?;
     let layout = Layout::new(FORMAT, size, scalar, header.get("endian") == Some("big"))?;
-    let bytes = match header.get("datafile") {
-        None => &part.bytes[header.length..],
+    let (file, begin) = match header.get("datafile") {
+        None => (at, header.length),
         Some(name) if name.starts_with("LIST") || name.contains('%') => {
-            return Err(ScanError::unsupported(FORMAT, "a file for each slice"));
+            return Err(ScanError::unsupported(FORMAT, say!("scan-file-a-slice")));
         }
-        Some(name) => named(parts, name, FORMAT)?,
+        Some(name) => (named(files, name, FORMAT)?, 0),
     };
     let packing = match header.need("encoding")?.to_ascii_lowercase().as_str() {
         "raw" => Packing::Plain,
         "gzip" | "gz" => Packing::Gzip,
         "text" | "txt" | "ascii" => Packing::Text,
         other => {
-            return Err(ScanError::unsupported(FORMAT, format!("the encoding {}", text::quoted(other.as_bytes()))));
+            return Err(ScanError::unsupported(FORMAT, say!("scan-encoding", name = text::quoted(other.as_bytes()))));
         }
     };
     let skip = |key| header.get(key).map_or(Ok(0), str::parse::<i64>).unwrap_or(0);
     // Lines are skipped as they stand in the file, bytes in what it unfolds to; -1 is all before the numbers.
     let lines = usize::try_from(skip("lineskip")).unwrap_or(0);
-    let mut ends = bytes.iter().enumerate().filter(|&(_, &byte)| byte == b'\n').map(|(at, _)| at + 1);
-    let start = if lines == 0 { 0 } else { ends.nth(lines - 1).unwrap_or(bytes.len()) };
-    let bytes = &bytes[start..];
+    let known = &files[file].bytes[begin..];
+    let mut ends = known.iter().enumerate().filter(|&(_, &byte)| byte == b'\n').map(|(at, _)| at + 1);
+    let start = begin + if lines == 0 { 0 } else { ends.nth(lines - 1).unwrap_or(known.len()) };
+    let start = start as u64;
     let skipped = match skip("byteskip") {
-        -1 => bytes.len().saturating_sub(layout.points.saturating_mul(scalar.size())) as u64,
+        -1 => (files[file].length - start).saturating_sub(layout.bytes()),
         skipped => u64::try_from(skipped).unwrap_or(0),
     };
-    let grid = Grid::new(geometry, layout.take(bytes, packing, skipped)?, 1.0, 0.0)?;
-    Ok(Scan { grid, format: FORMAT, is_ct: false, warnings })
+    let (is_ct, scaling) = (false, [1.0, 0.0]);
+    Ok(Outline { format: FORMAT, geometry, layout, packing, file, start, skipped, scaling, axes, is_ct, warnings })
 }

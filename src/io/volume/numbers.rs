@@ -1,13 +1,16 @@
-//! The numbers of a volume out of the bytes of a file, as they are, packed by gzip or zlib, or as text.
+//! The numbers of a volume as they stand in a file: their type and number, and how they become samples. Those that are packed
+//! come through `stream`.
 
-use std::io::{self, Read};
+use std::io::Read as _;
 
-use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
+use flate2::bufread::MultiGzDecoder;
 
+use super::super::detect::GZIP;
 use super::super::error::ReadError;
 use super::super::numbers::Scalar;
 use super::super::text::{self, Words};
 use super::error::ScanError;
+use crate::say;
 use crate::volume::{SampleType, Samples};
 
 /// The most bytes that the numbers of a volume may take: 512 x 512 x 800 at 16 bit five times over.
@@ -16,8 +19,6 @@ pub(super) const LARGEST: u64 = 1 << 31;
 pub(super) const MOST_UNFOLDED: u64 = 1032;
 /// Numbers that there is room for at once.
 const FIRST_ROOM: usize = 1 << 20;
-/// Bytes that are read at a time.
-const BLOCK: usize = 1 << 16;
 
 /// What a header says of the numbers.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +42,7 @@ pub(super) enum Packing {
 
 /// Whether bytes are packed by gzip.
 pub(super) fn is_gzip(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"\x1f\x8b")
+    bytes.starts_with(GZIP)
 }
 
 /// What the beginning of a gzip file unfolds to: as many bytes as any header here has, or fewer where it is damaged.
@@ -88,67 +89,42 @@ impl Layout {
     }
 
     /// The bytes that the numbers take.
-    fn bytes(self) -> u64 {
+    pub(super) fn bytes(self) -> u64 {
         (self.points * self.scalar.size()) as u64
     }
 
-    /// Takes the numbers out of the bytes of a file, after `skipped` of those that these unfold to.
-    pub(super) fn take(self, bytes: &[u8], packing: Packing, skipped: u64) -> Result<Samples, ScanError> {
-        match packing {
-            Packing::Text => self.take_text(bytes),
-            Packing::Plain => {
-                let start = usize::try_from(skipped).unwrap_or(usize::MAX).min(bytes.len());
-                let bytes = &bytes[start..];
-                if (bytes.len() as u64) < self.bytes() {
-                    return Err(self.cut_short(bytes.len() as u64));
-                }
-                self.fill(bytes)
-            }
-            Packing::Gzip | Packing::Zlib => {
-                let needed = self.bytes().saturating_add(skipped);
-                if needed > MOST_UNFOLDED * bytes.len() as u64 {
-                    let (what, file) = (format!("{needed} bytes"), bytes.len() as u64);
-                    return Err(ReadError::Unfolds { format: self.format, what, file }.into());
-                }
-                if packing == Packing::Gzip {
-                    self.unfold(MultiGzDecoder::new(bytes), skipped)
-                } else {
-                    self.unfold(ZlibDecoder::new(bytes), skipped)
-                }
-            }
+    /// Refuses packed data of so many bytes that cannot unfold to the numbers.
+    pub(super) fn check_packed(self, packing: Packing, bytes: u64, skipped: u64) -> Result<(), ScanError> {
+        let needed = self.bytes().saturating_add(skipped);
+        let is_packed = matches!(packing, Packing::Gzip | Packing::Zlib);
+        if is_packed && needed > MOST_UNFOLDED.saturating_mul(bytes) {
+            let problem = say!("scan-packed", needed = needed.to_string(), bytes = bytes.to_string());
+            return Err(ScanError::malformed(self.format, problem));
         }
+        Ok(())
     }
 
-    fn unfold(self, mut source: impl Read, skipped: u64) -> Result<Samples, ScanError> {
-        let passed = io::copy(&mut source.by_ref().take(skipped), &mut io::sink());
-        if passed.map_err(|_| self.damaged())? < skipped {
-            return Err(self.cut_short(0));
+    /// Takes the numbers out of bytes that are unpacked.
+    pub(super) fn take(self, bytes: &[u8]) -> Result<Samples, ScanError> {
+        if (bytes.len() as u64) < self.bytes() {
+            return Err(self.cut_short(bytes.len() as u64));
         }
-        self.fill(source)
-    }
-
-    /// Reads the numbers, making room as they come.
-    fn fill(self, mut source: impl Read) -> Result<Samples, ScanError> {
         let mut samples = self.begin();
-        let (size, mut block, mut kept) = (self.scalar.size(), vec![0; BLOCK], 0);
-        while samples.len() < self.points {
-            let read = source.read(&mut block[kept..]).map_err(|_| self.damaged())?;
-            if read == 0 {
-                return Err(self.cut_short((samples.len() * size + kept) as u64));
-            }
-            let filled = kept + read;
-            let whole = (filled / size).min(self.points - samples.len());
-            self.make_room(&mut samples, whole)?;
-            let words = &block[..whole * size];
-            match self.scalar {
-                Scalar::I64 => self.push_wide(words, &mut samples, |word| i64::from_le_bytes(word) as f64),
-                Scalar::U64 => self.push_wide(words, &mut samples, |word| u64::from_le_bytes(word) as f64),
-                _ => samples.extend_from_bytes(words, self.is_big_endian),
-            }
-            block.copy_within(whole * size..filled, 0);
-            kept = filled - whole * size;
-        }
+        self.add(&mut samples, bytes)?;
         Ok(samples)
+    }
+
+    /// Adds the next numbers, whole ones, and none that are too many.
+    pub(super) fn add(self, samples: &mut Samples, words: &[u8]) -> Result<(), ScanError> {
+        let wanted = (self.points - samples.len()) * self.scalar.size();
+        let words = &words[..words.len().min(wanted)];
+        self.make_room(samples, words.len() / self.scalar.size())?;
+        match self.scalar {
+            Scalar::I64 => self.push_wide(words, samples, |word| i64::from_le_bytes(word) as f64),
+            Scalar::U64 => self.push_wide(words, samples, |word| u64::from_le_bytes(word) as f64),
+            _ => samples.extend_from_bytes(words, self.is_big_endian),
+        }
+        Ok(())
     }
 
     /// Adds whole numbers of 64 bits as floats.
@@ -162,7 +138,8 @@ impl Layout {
         }
     }
 
-    fn take_text(self, bytes: &[u8]) -> Result<Samples, ScanError> {
+    /// Takes numbers that are written as text.
+    pub(super) fn take_text(self, bytes: &[u8]) -> Result<Samples, ScanError> {
         // A digit and a space each.
         if (bytes.len() as u64).div_ceil(2) < self.points as u64 {
             return Err(self.cut_short(bytes.len() as u64));
@@ -171,9 +148,8 @@ impl Layout {
         let mut words = Words::new(bytes, 1);
         while samples.len() < self.points {
             let word = words.next().ok_or_else(|| self.cut_short((samples.len() * self.scalar.size()) as u64))?;
-            let value = text::number(word).ok_or_else(|| {
-                ScanError::malformed(self.format, format!("{} stands where a number should", text::quoted(word)))
-            })?;
+            let value = text::number(word)
+                .ok_or_else(|| ScanError::malformed(self.format, say!("scan-no-number", word = text::quoted(word))))?;
             self.make_room(&mut samples, 1)?;
             samples.push(value);
         }
@@ -193,7 +169,7 @@ impl Layout {
     }
 
     /// Makes room for `more` numbers: four times as much as there was, but never more than is needed.
-    fn make_room(self, samples: &mut Samples, more: usize) -> Result<(), ScanError> {
+    pub(super) fn make_room(self, samples: &mut Samples, more: usize) -> Result<(), ScanError> {
         let needed = samples.len() + more;
         if needed > samples.capacity() {
             let room = needed.max(4 * samples.len()).max(FIRST_ROOM).min(self.points);
@@ -202,12 +178,14 @@ impl Layout {
         Ok(())
     }
 
-    fn cut_short(self, found: u64) -> ScanError {
-        let what = "bytes".to_owned();
+    /// That there are no more than `found` bytes of them.
+    pub(super) fn cut_short(self, found: u64) -> ScanError {
+        let what = say!("scan-bytes");
         ReadError::CutShort { format: self.format, what, announced: self.bytes(), found }.into()
     }
 
-    fn damaged(self) -> ScanError {
-        ScanError::malformed(self.format, "its compressed data are damaged")
+    /// That they cannot be unpacked.
+    pub(super) fn damaged(self) -> ScanError {
+        ScanError::malformed(self.format, say!("scan-packed-damaged"))
     }
 }

@@ -1,13 +1,15 @@
 //! VTK image data (.vti), whose XML `vtk` reads.
 //!
-//! It has a place for directions, but none for what they are directions of: its axes are taken as LPS, and a warning says so.
+//! It has a place for directions, but none for what they are directions of: its axes are unknown, and a warning says so.
 
 use glam::{DMat3, DVec3};
 
+use super::super::axes::Axes;
 use super::super::vtk::{Image, Values, read_image};
 use super::Scan;
 use super::error::ScanError;
-use super::numbers::{LARGEST, Layout, MOST_UNFOLDED, Packing};
+use super::numbers::{LARGEST, Layout, MOST_UNFOLDED};
+use crate::say;
 use crate::volume::{Geometry, Grid, VolumeError};
 
 const FORMAT: &str = "VTI";
@@ -29,10 +31,11 @@ fn scan(image: &Image) -> Result<Scan, ScanError> {
     let geometry = Geometry::from_steps(size, steps, origin).map_err(VolumeError::from)?;
     let layout = |is_big_endian| Layout::new(FORMAT, size, image.scalar, is_big_endian);
     let samples = match &image.values {
-        Values::Text(text) => layout(false)?.take(text, Packing::Text, 0)?,
-        Values::Little(bytes) => layout(false)?.take(bytes, Packing::Plain, 0)?,
-        Values::Big(bytes) => layout(true)?.take(bytes, Packing::Plain, 0)?,
+        Values::Text(text) => layout(false)?.take_text(text)?,
+        Values::Little(bytes) => layout(false)?.take(bytes)?,
+        Values::Big(bytes) => layout(true)?.take(bytes)?,
     };
-    let warning = "VTI does not say which way the patient lies: its axes are taken as LPS.".to_owned();
-    Ok(Scan { grid: Grid::new(geometry, samples, 1.0, 0.0)?, format: FORMAT, is_ct: false, warnings: vec![warning] })
+    let grid = Grid::new(geometry, samples, 1.0, 0.0)?;
+    let warnings = vec![say!("scan-silent-format", format = FORMAT)];
+    Ok(Scan { grid, format: FORMAT, axes: Axes::Unknown, is_ct: false, warnings })
 }

@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 
 use super::super::numbers::{BinaryNumbers, Numbers, Scalar, TextNumbers};
+use super::super::pace::{BYTES, NUMBERS, Pace};
 use super::super::text::Words;
+use crate::language::Key;
 use crate::mesh::arrays::Values;
 
 /// The numbers of an array.
@@ -11,6 +13,8 @@ use crate::mesh::arrays::Values;
 pub(super) struct Array<'a> {
     pub(super) kind: Scalar,
     pub(super) content: Content<'a>,
+    /// Bytes of the file that are done with each byte of the content: what was decoded is half done.
+    pub(super) weight: f64,
 }
 
 /// How the numbers stand in the file.
@@ -45,29 +49,38 @@ impl Array<'_> {
     }
 
     /// The first `count` numbers in their own type, or why they cannot be had.
-    pub(super) fn values(&self, count: u64) -> Result<Values, &'static str> {
-        const CUT_SHORT: &str = "it is cut short";
+    pub(super) async fn values(&self, count: u64, pace: &Pace) -> Result<Values, Key> {
+        const CUT_SHORT: Key = Key("errors-array-cut-short");
         let count = usize::try_from(count).ok().filter(|&count| count <= self.most()).ok_or(CUT_SHORT)?;
         let size = self.kind.size();
-        match &self.content {
+        let (bytes, is_big) = match &self.content {
             &Content::Text { text, line } => {
-                let mut words = Words::new(text, line);
-                let mut values = Values::new(self.kind);
-                for _ in 0..count {
-                    let word = words.next().ok_or(CUT_SHORT)?;
-                    if !std::str::from_utf8(word).is_ok_and(|word| values.push_word(word)) {
-                        return Err("it holds what is no number");
+                let (mut words, mut values) = (Words::new(text, line), Values::new(self.kind));
+                while values.len() < count {
+                    let before = words.remaining();
+                    for _ in 0..NUMBERS.min(count - values.len()) {
+                        let word = words.next().ok_or(CUT_SHORT)?;
+                        if !std::str::from_utf8(word).is_ok_and(|word| values.push_word(word)) {
+                            return Err(Key("errors-array-no-number"));
+                        }
                     }
+                    pace.rest(self.weight * (before - words.remaining()) as f64).await;
                 }
-                Ok(values)
+                return Ok(values);
             }
-            Content::Little(bytes) => Ok(Values::from_bytes(self.kind, bytes[..count * size].to_vec())),
-            Content::Big(bytes) => {
-                let mut turned = bytes[..count * size].to_vec();
-                turned.chunks_exact_mut(size).for_each(<[u8]>::reverse);
-                Ok(Values::from_bytes(self.kind, turned))
+            Content::Little(bytes) => (bytes, false),
+            Content::Big(bytes) => (bytes, true),
+        };
+        let mut taken = Vec::with_capacity(count * size);
+        for block in bytes[..count * size].chunks(BYTES) {
+            let start = taken.len();
+            taken.extend_from_slice(block);
+            if is_big {
+                taken[start..].chunks_exact_mut(size).for_each(<[u8]>::reverse);
             }
+            pace.rest(self.weight * block.len() as f64).await;
         }
+        Ok(Values::from_bytes(self.kind, taken))
     }
 
     /// Whether the numbers may have more digits than f32.

@@ -10,10 +10,12 @@ use quick_xml::events::Event;
 
 use super::super::error::ReadError;
 use super::super::numbers::Scalar;
+use super::super::pace::{Pace, at_once};
 use super::super::text;
 use super::array::Content;
 use super::xml::{DataArray, Structure, attribute, broken, inline_text, malformed};
 use super::xml_arrays::Arrays;
+use crate::say;
 
 const FORMAT: &str = "VTI";
 
@@ -76,7 +78,9 @@ pub(in crate::io) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(I
             b"ImageData" => {
                 found.whole = attribute(&element, "WholeExtent").and_then(|text| extent(&text));
                 let set = |name, values: &mut [f64]| match attribute(&element, name) {
-                    Some(text) => fill(&text, values).ok_or_else(|| malformed(FORMAT, format!("\"{name}\" is wrong"))),
+                    Some(text) => {
+                        fill(&text, values).ok_or_else(|| malformed(FORMAT, say!("scan-vti-wrong", name = name)))
+                    }
                     None => Ok(()),
                 };
                 set("Origin", &mut origin)?;
@@ -87,7 +91,7 @@ pub(in crate::io) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(I
                 found.pieces += 1;
                 let piece = attribute(&element, "Extent").and_then(|text| extent(&text));
                 if found.pieces > 1 || piece.is_some_and(|piece| Some(piece) != found.whole) {
-                    return Err(ReadError::Unsupported { format: FORMAT, feature: "several pieces".to_owned() });
+                    return Err(ReadError::Unsupported { format: FORMAT, feature: say!("scan-vti-pieces") });
                 }
             }
             b"PointData" => (in_points, found.scalars) = (is_open, attribute(&element, "Scalars")),
@@ -107,10 +111,11 @@ pub(in crate::io) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(I
             _ => {}
         }
     }
-    let file = file.ok_or_else(|| malformed(FORMAT, "it has no element \"VTKFile\""))?;
-    let extent = found.whole.ok_or_else(|| malformed(FORMAT, "it does not say how many points there are"))?;
-    let array = found.array.ok_or_else(|| malformed(FORMAT, "it has no array of one number a point"))?;
-    let opened = Arrays::new(&file, bytes, room).open(&array)?;
+    let file = file.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-element", name = "VTKFile")))?;
+    let extent = found.whole.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-points")))?;
+    let array = found.array.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-array")))?;
+    let pace = Pace::default();
+    let opened = at_once(Arrays::new(&file, bytes, room, &pace).open(&array))?;
     let values = match opened.content {
         Content::Text { text, .. } => Values::Text(text),
         Content::Little(bytes) => Values::Little(bytes),

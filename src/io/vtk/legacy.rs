@@ -9,6 +9,7 @@ use super::super::axes;
 use super::super::error::ReadError;
 use super::super::import::RawSurface;
 use super::super::numbers::Scalar;
+use super::super::pace::Pace;
 use super::super::room::Room;
 use super::super::text;
 use super::array::Array;
@@ -16,6 +17,7 @@ use super::legacy_data;
 use super::legacy_text::Cursor;
 use super::no_surface;
 use super::surface::{Cells, Lengths, Shape, Surface};
+use crate::say;
 
 const MAGIC: &[u8] = b"# vtk DataFile";
 
@@ -34,37 +36,37 @@ struct Parts<'a> {
 }
 
 /// Reads a file, with positions relative to `origin`.
-pub(in crate::io) fn read(bytes: &[u8], origin: DVec3) -> Result<RawSurface, ReadError> {
-    let mut cursor = Cursor::new(text::without_mark(bytes).trim_ascii_start());
+pub(in crate::io) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+    let mut cursor = Cursor::new(text::without_mark(bytes).trim_ascii_start(), pace);
     cursor.rest_of_line();
     let title = cursor.rest_of_line();
     let encoding = cursor.word().unwrap_or_default();
     cursor.is_binary = encoding.eq_ignore_ascii_case(b"binary");
     if !cursor.is_binary && !encoding.eq_ignore_ascii_case(b"ascii") {
-        return Err(cursor.broken("neither \"ASCII\" nor \"BINARY\" stands in its third line"));
+        return Err(cursor.broken(say!("errors-vtk-third-line")));
     }
     cursor.rest_of_line();
     let label = cursor.label();
     let room = Room::of(bytes.len());
-    let parts = Parts::read(&mut cursor, room)?;
+    let parts = Parts::read(&mut cursor, room).await?;
     let mut surface = Surface::new(label, bytes.len(), origin);
     if let Some((points, count)) = &parts.points {
-        surface.add_points(points, *count)?;
+        surface.add_points(points, *count, pace).await?;
     }
     if parts.has_data {
         surface.note_cells();
     }
     for cells in &parts.cells {
-        surface.add_cells(cells)?;
+        surface.add_cells(cells, pace).await?;
     }
     let counts = [surface.vertices() as u64, parts.cell_count()];
-    let columns = legacy_data::read(&mut cursor, counts, room)?;
+    let columns = legacy_data::read(&mut cursor, counts, room).await?;
     surface.finish(label, axes::stated(title), columns)
 }
 
 impl<'a> Parts<'a> {
     /// Finds points and cells, up to the first array on either.
-    fn read(cursor: &mut Cursor<'a>, room: Room) -> Result<Self, ReadError> {
+    async fn read(cursor: &mut Cursor<'a>, room: Room) -> Result<Self, ReadError> {
         let mut parts = Self::default();
         while let Some(word) = cursor.word() {
             room.check_parts(cursor.label(), parts.cells.len())?;
@@ -77,32 +79,32 @@ impl<'a> Parts<'a> {
                 }
                 b"points" => {
                     let (count, kind) = (cursor.count()?, cursor.kind()?);
-                    parts.points = Some((cursor.numbers(kind, count.saturating_mul(3)), count));
+                    parts.points = Some((cursor.numbers(kind, count.saturating_mul(3)).await, count));
                 }
-                b"vertices" => parts.read_cells(cursor, Shape::Vertices)?,
-                b"lines" => parts.read_cells(cursor, Shape::Lines)?,
-                b"polygons" => parts.read_cells(cursor, Shape::Polygons)?,
-                b"triangle_strips" => parts.read_cells(cursor, Shape::Strips)?,
-                b"cells" => parts.read_cells(cursor, Shape::Typed)?,
+                b"vertices" => parts.read_cells(cursor, Shape::Vertices).await?,
+                b"lines" => parts.read_cells(cursor, Shape::Lines).await?,
+                b"polygons" => parts.read_cells(cursor, Shape::Polygons).await?,
+                b"triangle_strips" => parts.read_cells(cursor, Shape::Strips).await?,
+                b"cells" => parts.read_cells(cursor, Shape::Typed).await?,
                 b"cell_types" => {
                     let count = cursor.count()?;
-                    let types = cursor.numbers(Scalar::I32, count);
+                    let types = cursor.numbers(Scalar::I32, count).await;
                     if let Some(cells) = parts.cells.last_mut() {
                         cells.types = Some(types);
                     }
                 }
-                b"field" => skip_field(cursor)?,
+                b"field" => skip_field(cursor).await?,
                 b"metadata" => cursor.skip_metadata(),
                 b"cell_data" | b"point_data" => {
                     cursor.go_back(word);
                     parts.has_data = true;
                     break;
                 }
-                _ => return Err(cursor.broken(format!("{} is no part of a surface", text::quoted(word)))),
+                _ => return Err(cursor.broken(say!("errors-vtk-no-part", word = text::quoted(word)))),
             }
         }
         if parts.cells.iter().any(|cells| cells.shape == Shape::Typed && cells.types.is_none()) {
-            return Err(cursor.broken("its cells have no types"));
+            return Err(cursor.broken(say!("errors-vtk-no-types")));
         }
         parts.number_cells();
         Ok(parts)
@@ -125,33 +127,35 @@ impl<'a> Parts<'a> {
     }
 
     /// Reads a list of cells.
-    fn read_cells(&mut self, cursor: &mut Cursor<'a>, shape: Shape) -> Result<(), ReadError> {
+    async fn read_cells(&mut self, cursor: &mut Cursor<'a>, shape: Shape) -> Result<(), ReadError> {
         let (count, size) = (cursor.count()?, cursor.count()?);
-        let part = |cursor: &mut Cursor<'a>, name: &str, count| {
-            if !cursor.comes(name.as_bytes()) {
-                return Err(cursor.broken(format!("{name} of its cells are missing")));
-            }
-            cursor.word();
-            let kind = cursor.kind()?;
-            if !kind.is_whole() {
-                return Err(cursor.broken("its cells are numbered with fractions"));
-            }
-            Ok(cursor.numbers(kind, count))
-        };
         let (count, lengths, points) = if cursor.comes(b"OFFSETS") {
-            let bounds = part(cursor, "OFFSETS", count)?;
-            let points = part(cursor, "CONNECTIVITY", size)?;
+            let bounds = part_of_cells(cursor, "OFFSETS", count).await?;
+            let points = part_of_cells(cursor, "CONNECTIVITY", size).await?;
             (count.saturating_sub(1), Lengths::Bounds(bounds), points)
         } else {
-            (count, Lengths::Inline, cursor.numbers(Scalar::I32, size))
+            (count, Lengths::Inline, cursor.numbers(Scalar::I32, size).await)
         };
         self.cells.push(Cells { shape, count, first: 0, lengths, points, types: None });
         Ok(())
     }
 }
 
+/// Reads one of the two arrays that are cells from version 5.0 on.
+async fn part_of_cells<'a>(cursor: &mut Cursor<'a>, name: &str, count: u64) -> Result<Array<'a>, ReadError> {
+    if !cursor.comes(name.as_bytes()) {
+        return Err(cursor.broken(say!("errors-vtk-cells-lack", name = name)));
+    }
+    cursor.word();
+    let kind = cursor.kind()?;
+    if !kind.is_whole() {
+        return Err(cursor.broken(say!("errors-vtk-fractions")));
+    }
+    Ok(cursor.numbers(kind, count).await)
+}
+
 /// Steps over field data.
-fn skip_field(cursor: &mut Cursor) -> Result<(), ReadError> {
+async fn skip_field(cursor: &mut Cursor<'_>) -> Result<(), ReadError> {
     cursor.word();
     let arrays = cursor.count()?;
     for _ in 0..arrays {
@@ -164,7 +168,7 @@ fn skip_field(cursor: &mut Cursor) -> Result<(), ReadError> {
             Some(_) => {
                 let (components, tuples) = (cursor.count()?, cursor.count()?);
                 let kind = cursor.word().unwrap_or_default();
-                cursor.skip_array(kind, components.saturating_mul(tuples))?;
+                cursor.skip_array(kind, components.saturating_mul(tuples)).await?;
             }
         }
     }

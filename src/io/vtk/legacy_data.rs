@@ -13,14 +13,15 @@ use super::super::room::Room;
 use super::super::text::quoted;
 use super::legacy_text::{Cursor, scalar};
 use crate::mesh::arrays::On;
+use crate::say;
 
-/// Reads the arrays on `points` points and `cells` cells.
-pub(super) fn read(cursor: &mut Cursor, [points, cells]: [u64; 2], room: Room) -> Result<Columns, ReadError> {
-    let mut data = Data { columns: Columns::default(), on: On::Point, counts: [points, cells] };
+/// Reads the arrays on so many points and cells.
+pub(super) async fn read(cursor: &mut Cursor<'_>, counts: [u64; 2], room: Room) -> Result<Columns, ReadError> {
+    let mut data = Data { columns: Columns::default(), on: On::Point, counts };
     while let Some(word) = cursor.word() {
         room.check_parts(cursor.label(), data.columns.len())?;
-        if data.attribute(word, cursor).is_none() {
-            data.columns.leave_out(&String::from_utf8_lossy(word), "it and what follows are not understood");
+        if data.attribute(word, cursor).await.is_none() {
+            data.columns.leave_out(&String::from_utf8_lossy(word), &say!("errors-array-not-understood"));
             break;
         }
     }
@@ -39,7 +40,7 @@ struct Data {
 
 impl Data {
     /// Reads what a keyword begins; `None` where it is not understood.
-    fn attribute(&mut self, word: &[u8], cursor: &mut Cursor) -> Option<()> {
+    async fn attribute(&mut self, word: &[u8], cursor: &mut Cursor<'_>) -> Option<()> {
         match word.to_ascii_lowercase().as_slice() {
             b"point_data" => self.begin(On::Point, cursor),
             b"cell_data" => self.begin(On::Triangle, cursor),
@@ -54,34 +55,35 @@ impl Data {
                 }
                 cursor.word();
                 cursor.word()?;
-                self.array(&name, kind, components, cursor)
+                self.array(&name, kind, components, cursor).await
             }
             b"color_scalars" => {
                 let (name, components) = (name(cursor)?, cursor.count().ok()?);
                 // As bytes in binary, as parts of 1 in text.
                 let kind: &[u8] = if cursor.is_binary { b"unsigned_char" } else { b"float" };
-                self.array(&name, kind, components, cursor)
+                self.array(&name, kind, components, cursor).await
             }
             b"lookup_table" => {
                 let (_, rows) = (cursor.word()?, cursor.count().ok()?);
-                cursor.numbers(if cursor.is_binary { Scalar::U8 } else { Scalar::F32 }, rows.saturating_mul(4));
+                let kind = if cursor.is_binary { Scalar::U8 } else { Scalar::F32 };
+                cursor.numbers(kind, rows.saturating_mul(4)).await;
                 Some(())
             }
             b"normals" => {
                 let (_, kind) = (cursor.word()?, cursor.kind().ok()?);
-                cursor.numbers(kind, self.count().saturating_mul(3));
+                cursor.numbers(kind, self.count().saturating_mul(3)).await;
                 Some(())
             }
             b"texture_coordinates" => {
                 let (_, components, kind) = (cursor.word()?, cursor.count().ok()?, cursor.kind().ok()?);
-                cursor.numbers(kind, self.count().saturating_mul(components));
+                cursor.numbers(kind, self.count().saturating_mul(components)).await;
                 Some(())
             }
-            b"vectors" => self.named(3, cursor),
-            b"tensors" => self.named(9, cursor),
-            b"tensors6" => self.named(6, cursor),
-            b"global_ids" | b"pedigree_ids" | b"edge_flags" => self.named(1, cursor),
-            b"field" => self.field(cursor),
+            b"vectors" => self.named(3, cursor).await,
+            b"tensors" => self.named(9, cursor).await,
+            b"tensors6" => self.named(6, cursor).await,
+            b"global_ids" | b"pedigree_ids" | b"edge_flags" => self.named(1, cursor).await,
+            b"field" => self.field(cursor).await,
             b"metadata" => {
                 cursor.skip_metadata();
                 Some(())
@@ -101,16 +103,18 @@ impl Data {
     }
 
     /// A name, a type, and so many components of each tuple.
-    fn named(&mut self, components: u64, cursor: &mut Cursor) -> Option<()> {
+    async fn named(&mut self, components: u64, cursor: &mut Cursor<'_>) -> Option<()> {
         let (name, kind) = (name(cursor)?, cursor.word()?);
-        self.array(&name, kind, components, cursor)
+        self.array(&name, kind, components, cursor).await
     }
 
     /// The arrays of a field.
-    fn field(&mut self, cursor: &mut Cursor) -> Option<()> {
+    async fn field(&mut self, cursor: &mut Cursor<'_>) -> Option<()> {
         cursor.word()?;
         let arrays = cursor.count().ok()?;
         for _ in 0..arrays {
+            // An array of nothing takes no block of numbers.
+            cursor.pace.rest(0.0).await;
             while cursor.comes(b"METADATA") {
                 cursor.skip_metadata();
             }
@@ -121,27 +125,27 @@ impl Data {
             let name = name(cursor)?;
             let (components, tuples, kind) = (cursor.count().ok()?, cursor.count().ok()?, cursor.word()?);
             if tuples == self.count() {
-                self.array(&name, kind, components, cursor)?;
+                self.array(&name, kind, components, cursor).await?;
             } else {
-                cursor.skip_array(kind, components.saturating_mul(tuples)).ok()?;
-                self.columns.leave_out(&name, "it has another length than the surface");
+                cursor.skip_array(kind, components.saturating_mul(tuples)).await.ok()?;
+                self.columns.leave_out(&name, &say!("errors-array-other-length"));
             }
         }
         Some(())
     }
 
     /// The numbers of an array.
-    fn array(&mut self, name: &str, kind: &[u8], components: u64, cursor: &mut Cursor) -> Option<()> {
+    async fn array(&mut self, name: &str, kind: &[u8], components: u64, cursor: &mut Cursor<'_>) -> Option<()> {
         let count = components.saturating_mul(self.count());
         match scalar(kind).filter(|_| !kind.eq_ignore_ascii_case(b"bit")) {
-            Some(scalar) => match cursor.numbers(scalar, count).values(count) {
+            Some(scalar) => match cursor.numbers(scalar, count).await.values(count, cursor.pace).await {
                 // No more than the numbers that are there.
                 Ok(values) => self.columns.add(self.on, name, components as usize, values),
-                Err(why) => self.columns.leave_out(name, why),
+                Err(why) => self.columns.leave_out(name, &why.say()),
             },
             None => {
-                cursor.skip_array(kind, count).ok()?;
-                self.columns.leave_out(name, &format!("it holds values of the type {}", quoted(kind)));
+                cursor.skip_array(kind, count).await.ok()?;
+                self.columns.leave_out(name, &say!("errors-array-of-type", kind = quoted(kind)));
             }
         }
         Some(())

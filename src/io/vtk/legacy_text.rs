@@ -4,8 +4,10 @@ use std::borrow::Cow;
 
 use super::super::error::ReadError;
 use super::super::numbers::Scalar;
+use super::super::pace::{NUMBERS, Pace};
 use super::super::text::{self, Words};
 use super::array::{Array, Content};
+use crate::say;
 
 /// A place in the file.
 pub(super) struct Cursor<'a> {
@@ -13,12 +15,13 @@ pub(super) struct Cursor<'a> {
     at: usize,
     line: usize,
     pub(super) is_binary: bool,
+    pub(super) pace: &'a Pace,
 }
 
 impl<'a> Cursor<'a> {
     /// Begins at the start of `bytes`.
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, line: 1, is_binary: false }
+    pub(super) fn new(bytes: &'a [u8], pace: &'a Pace) -> Self {
+        Self { bytes, at: 0, line: 1, is_binary: false, pace }
     }
 
     /// The label for errors.
@@ -27,11 +30,12 @@ impl<'a> Cursor<'a> {
     }
 
     /// What is wrong here.
-    pub(super) fn broken(&self, problem: impl Into<String>) -> ReadError {
-        let (format, problem) = (self.label(), problem.into());
+    pub(super) fn broken(&self, problem: String) -> ReadError {
+        let format = self.label();
         if self.is_binary {
             // Binary numbers have no lines.
-            ReadError::Malformed { format, problem: format!("{problem} at byte {}", self.at) }
+            let problem = say!("errors-at-byte", problem = problem, byte = self.at.to_string());
+            ReadError::Malformed { format, problem }
         } else {
             ReadError::Syntax { format, line: self.line, problem }
         }
@@ -72,34 +76,38 @@ impl<'a> Cursor<'a> {
 
     /// The next word as a count.
     pub(super) fn count(&mut self) -> Result<u64, ReadError> {
-        let word = self.word().ok_or_else(|| self.broken("it ends where a count should stand"))?;
-        text::number(word).ok_or_else(|| self.broken(format!("{} is no count", text::quoted(word))))
+        let word = self.word().ok_or_else(|| self.broken(say!("errors-vtk-ends-count")))?;
+        text::number(word).ok_or_else(|| self.broken(say!("errors-no-count", word = text::quoted(word))))
     }
 
     /// The next word as a type of number.
     pub(super) fn kind(&mut self) -> Result<Scalar, ReadError> {
-        let word = self.word().ok_or_else(|| self.broken("it ends where a type should stand"))?;
-        scalar(word).ok_or_else(|| self.broken(format!("{} is no type of number", text::quoted(word))))
+        let word = self.word().ok_or_else(|| self.broken(say!("errors-vtk-ends-type")))?;
+        scalar(word).ok_or_else(|| self.broken(say!("errors-no-type", word = text::quoted(word))))
     }
 
     /// The `count` numbers that begin on the next line if they are binary, and with the next word if they are text; those
     /// that are there where the file ends before.
-    pub(super) fn numbers(&mut self, kind: Scalar, count: u64) -> Array<'a> {
+    pub(super) async fn numbers(&mut self, kind: Scalar, count: u64) -> Array<'a> {
+        /// To find where a text ends is half the work on it, to read the numbers the other.
+        const FOUND: f64 = 0.5;
         if self.is_binary {
             self.rest_of_line();
             let bytes = self.take(count.saturating_mul(kind.size() as u64));
-            return Array { kind, content: Content::Big(Cow::Borrowed(bytes)) };
+            return Array { kind, content: Content::Big(Cow::Borrowed(bytes)), weight: 1.0 };
         }
         let (text, line) = (&self.bytes[self.at..], self.line);
         let mut words = Words::new(text, line);
-        for _ in 0..count {
-            if words.next().is_none() {
-                break;
-            }
+        let (mut left, mut is_there) = (count, true);
+        while left > 0 && is_there {
+            let (before, block) = (words.remaining(), left.min(NUMBERS as u64));
+            is_there = (0..block).all(|_| words.next().is_some());
+            left -= block;
+            self.pace.rest(FOUND * (before - words.remaining()) as f64).await;
         }
         let length = text.len() - words.remaining();
         (self.at, self.line) = (self.at + length, words.line());
-        Array { kind, content: Content::Text { text: &text[..length], line } }
+        Array { kind, content: Content::Text { text: &text[..length], line }, weight: 1.0 - FOUND }
     }
 
     /// The next bytes, as many of `count` as there are.
@@ -111,12 +119,15 @@ impl<'a> Cursor<'a> {
     }
 
     /// Steps over an array of field data: its numbers, bits or strings.
-    pub(super) fn skip_array(&mut self, kind: &[u8], count: u64) -> Result<(), ReadError> {
+    pub(super) async fn skip_array(&mut self, kind: &[u8], count: u64) -> Result<(), ReadError> {
         if kind.eq_ignore_ascii_case(b"string") || kind.eq_ignore_ascii_case(b"utf8_string") {
             self.rest_of_line();
-            for _ in 0..count {
+            for n in 0..count {
                 if self.at == self.bytes.len() {
                     break;
+                }
+                if n % NUMBERS as u64 == 0 {
+                    self.pace.rest(0.0).await;
                 }
                 if self.is_binary {
                     self.skip_string();
@@ -129,8 +140,8 @@ impl<'a> Cursor<'a> {
             self.take(count.div_ceil(8));
         } else {
             let kind = scalar(kind);
-            let kind = kind.ok_or_else(|| self.broken("a field has values of a type that is not known"))?;
-            self.numbers(kind, count);
+            let kind = kind.ok_or_else(|| self.broken(say!("errors-vtk-field-type")))?;
+            self.numbers(kind, count).await;
         }
         Ok(())
     }

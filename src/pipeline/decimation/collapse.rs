@@ -2,20 +2,21 @@
 
 use glam::Vec3A;
 
+use super::borders::{Border, border_of, mark};
 use super::guard::{Guard, Planned};
 use super::method::{Candidate, Judged, Method};
 use super::rings::{Rings, gather, neighbour};
 use super::schedule::Stuck;
 use super::star::{MOST_AROUND, Star};
-use crate::mesh::TriMesh;
+use crate::mesh::{Topology, TriMesh};
 
 /// What a collapse may do to the triangles around it.
 #[derive(Clone, Copy)]
 pub(super) struct Strictness {
     /// Smallest cosine between a triangle's normal before and after.
-    turn: f32,
+    pub(super) turn: f32,
     /// Smallest quality of a triangle that gets worse: 1 is equilateral, 0 has no area.
-    quality: f32,
+    pub(super) quality: f32,
     /// By what the distance of a vertex counts that is held to no more than this: it waits until the others have come
     /// as far.
     pub(super) price: f32,
@@ -83,8 +84,17 @@ impl Surface {
             Some(Stuck::Complex)
         } else if self.is_hub(v) {
             Some(Stuck::Geometry)
+        } else if self.rings.has_borders() && border_of(&self.rings, v) == Border::Stays {
+            Some(Stuck::Topology)
         } else {
             None
+        }
+    }
+
+    /// Finds the borders between labels around `v`; `labels` has a number for each triangle of the mesh.
+    pub(super) fn find_borders(&mut self, v: u32, mesh: &TriMesh, topology: &Topology, labels: &[u32]) {
+        if !self.is_hub(v) {
+            mark(&mut self.rings, v, mesh, topology, labels);
         }
     }
 
@@ -115,7 +125,9 @@ impl Surface {
     /// Loads the star of `v` and judges it, held to the limits of number `strictness`.
     pub(super) fn judge(&mut self, v: u32, strictness: u8) -> Judged {
         self.star.load(&self.rings, v);
-        self.method.judge(&self.rings, &self.star, v, strictness == LAST)
+        let border = if self.rings.has_borders() { border_of(&self.rings, v) } else { Border::None };
+        let along = if let Border::Along(ends) = border { Some(ends) } else { None };
+        self.method.judge(&self.rings, &self.star, v, strictness == LAST, along)
     }
 
     /// The limits of that number for `v`, whose weight is in the price.

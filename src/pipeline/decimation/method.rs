@@ -47,9 +47,9 @@ pub(super) trait Method {
     /// Looks at a vertex for the first time, before any is judged. The triangles of the star are worked out.
     fn meet(&mut self, rings: &Rings, star: &Star, v: u32);
 
-    /// Judges a vertex; if it `is_last`, nothing else has helped, and feature edges no longer count. The triangles of the
-    /// star are not worked out.
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool) -> Judged;
+    /// Judges a vertex; if it `is_last`, nothing else has helped, and feature edges no longer count. On the `border` between
+    /// labels it may go to those two neighbours alone. The triangles of the star are not worked out.
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged;
 
     /// Adds to `candidates` where the vertex, judged just now, may go.
     fn offer(&mut self, star: &Star, v: u32, judged: &Judged, candidates: &mut Vec<Candidate>);

@@ -9,12 +9,12 @@
 //!
 //! Where the planes leave a direction free (on a plane, along a tube), the new vertex stays near the middle of its edge,
 //! which counts as a faint point of attraction, so that the system is never singular. Boundary edges add a plane that
-//! stands on the surface; a vertex inside that meets the boundary goes where the boundary is. Feature edges need no rule:
+//! stands on the surface; a vertex inside that meets the boundary goes where the boundary is; so do borders between labels. Feature edges need no rule:
 //! the planes on both sides hold them. Where a vertex can go in no better way, it may go to where a neighbour is.
 
 use glam::{DVec3, Vec3A};
 
-use super::method::{Candidate, Judged, Method};
+use super::method::{Candidate, Judged, Method, distance_to_segment};
 use super::rings::{Rings, SIZE, gather, neighbour};
 use super::star::Star;
 
@@ -134,6 +134,10 @@ impl Method for Quadric {
                 form.add_plane(edge.cross(normal), BOUNDARY * edge.length_squared());
             }
         }
+        for (edge, normal) in star.borders() {
+            let edge = edge.as_dvec3();
+            form.add_plane(edge.cross(normal.as_dvec3()), BOUNDARY * edge.length_squared());
+        }
         // A star that reaches farther than the surface is large has a stray in it, and the area of many others.
         if star.reach().iter().all(|corner| corner.abs().max_element() <= 2.0 * SIZE) {
             self.area += form.area;
@@ -142,10 +146,12 @@ impl Method for Quadric {
         self.forms[v as usize] = form;
     }
 
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool) -> Judged {
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged {
         let entries = star.entries();
         let is_open = rings.is_open(v);
-        let along = is_open.then(|| [0, entries.len() - 1]);
+        let along = is_open.then(|| [0, entries.len() - 1]).or(border);
+        // What the planes do not know: how far the border is from the line that takes its place.
+        let off = border.map(|[a, b]| distance_to_segment(star.edge(a), star.edge(b)));
         let own = &self.forms[v as usize];
         self.candidates.clear();
         let mut judged = Judged { distance: f32::INFINITY, priority: f32::INFINITY, along, is_held: false };
@@ -156,11 +162,12 @@ impl Method for Quadric {
             let u = neighbour(entry);
             let way = star.edge(to).as_dvec3();
             let form = own.plus(&self.forms[u as usize].seen_from(-way));
-            let stays = rings.stays(u) || rings.is_open(u) && !is_open;
+            let stays = rings.stays(u) || rings.is_open(u) && !is_open || rings.is_on_border(u);
             let place = if stays { None } else { form.least(way * 0.5) };
             let candidate = |place: Option<DVec3>| {
                 let cost = form.at(place.unwrap_or(way));
                 let distance = if form.area > 0.0 { (cost / form.area).sqrt() as f32 } else { 0.0 };
+                let distance = off.map_or(distance, |off| distance.max(off));
                 (cost.sqrt() as f32, Candidate { distance, cost: cost as f32, to, place: place.map(DVec3::as_vec3a) })
             };
             let (priority, best) = candidate(place);
@@ -171,6 +178,9 @@ impl Method for Quadric {
             if priority < judged.priority {
                 (judged.priority, judged.distance) = (priority, best.distance);
             }
+        }
+        if let Some(off) = off {
+            judged.priority = judged.priority.max(self.priority(off));
         }
         judged
     }

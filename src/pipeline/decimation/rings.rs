@@ -17,6 +17,12 @@ use crate::mesh::{Bounds, Topology, TriMesh};
 /// Bit of a ring's entry: the edge to that neighbour is a feature edge.
 pub(super) const CREASE: u32 = 1 << 31;
 
+/// Bit of a ring's entry: the edge to that neighbour is a border between labels.
+pub(super) const BORDER: u32 = 1 << 30;
+
+/// What an entry says of its edge.
+const KIND: u32 = CREASE | BORDER;
+
 /// Size of the surface while it is being decimated: far from where f32 under- or overflows when squared twice.
 pub(super) const SIZE: f32 = 1024.0;
 
@@ -53,6 +59,7 @@ pub(super) struct Rings {
     /// For the slots of cut vertices, `(node, slot)`, ascending.
     cut: Vec<(u32, u32)>,
     scratch: Vec<u32>,
+    has_borders: bool,
     /// No ring is longer.
     widest: u32,
     /// Until all slots have a ring: the slot of each vertex, and the slots found at which the surface is no fan.
@@ -70,7 +77,7 @@ fn unit_of(most: &Bounds, all: &Bounds) -> f32 {
 
 /// `entry` without its bits.
 pub(super) fn neighbour(entry: u32) -> u32 {
-    entry & !CREASE
+    entry & !KIND
 }
 
 impl Rings {
@@ -94,6 +101,7 @@ impl Rings {
             made: Vec::new(),
             cut: Vec::new(),
             scratch: Vec::new(),
+            has_borders: false,
             widest: 0,
             slots,
             complex: Vec::new(),
@@ -269,6 +277,22 @@ impl Rings {
         self.around_mut(v)[i] |= CREASE;
     }
 
+    /// Marks the edge from `v` to its `i`-th neighbour as a border between labels, on this side.
+    pub(super) fn set_border(&mut self, v: u32, i: usize) {
+        self.around_mut(v)[i] |= BORDER;
+        self.has_borders = true;
+    }
+
+    /// Whether there are borders between labels.
+    pub(super) fn has_borders(&self) -> bool {
+        self.has_borders
+    }
+
+    /// Whether `v` lies on one.
+    pub(super) fn is_on_border(&self, v: u32) -> bool {
+        self.has_borders && self.around(v).iter().any(|entry| entry & BORDER != 0)
+    }
+
     /// Whether collapsing `v` onto `u` keeps the topology: the vertices that both touch are just those opposite their
     /// common edge, and no ring falls below a triangle (below three edges for a boundary).
     pub(super) fn may_collapse(&self, v: u32, u: u32) -> bool {
@@ -343,11 +367,11 @@ impl Rings {
         for side in sides.into_iter().flatten() {
             let entry = self.entries[start + side];
             let w = neighbour(entry);
-            if entry & CREASE != 0 {
+            if entry & KIND != 0 {
                 // The feature edge v-w becomes u-w.
                 let (of_u, of_w) = (self.position(u, w), self.position(w, u));
-                self.around_mut(u)[of_u] |= CREASE;
-                self.around_mut(w)[of_w] |= CREASE;
+                self.around_mut(u)[of_u] |= entry & KIND;
+                self.around_mut(w)[of_w] |= entry & KIND;
             }
             let i = self.position(w, v);
             let ring = self.around_mut(w);
@@ -375,7 +399,7 @@ impl Rings {
     /// Puts `new` where `old` stands in the ring around `v`; the edge keeps its kind.
     fn replace(&mut self, v: u32, old: u32, new: u32) {
         if let Some(entry) = self.around_mut(v).iter_mut().find(|entry| neighbour(**entry) == old) {
-            *entry = new | (*entry & CREASE);
+            *entry = new | (*entry & KIND);
         }
     }
 
@@ -428,7 +452,7 @@ impl Rings {
         let mut heads = Vec::with_capacity(kept.len());
         for &v in &kept {
             let start = entries.len() as u32;
-            entries.extend(self.around(v).iter().map(|&entry| new[neighbour(entry) as usize] | (entry & CREASE)));
+            entries.extend(self.around(v).iter().map(|&entry| new[neighbour(entry) as usize] | (entry & KIND)));
             let head = self.heads[v as usize];
             heads.push(Head { start, room: head.length, ..head });
         }

@@ -16,6 +16,7 @@ use glam::Vec3A;
 use super::method::{Candidate, Judged, Method, distance_to_segment};
 use super::rings::{CREASE, Rings, gather, neighbour};
 use super::star::{MOST_AROUND, Star};
+use crate::pipeline::classes::Class;
 
 /// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
 const SHAPE_COST: f32 = 0.01;
@@ -86,11 +87,14 @@ impl Method for Schroeder {
                 area += planes.add_plane(edge.cross(normal.normalize_or_zero()) * edge.length());
             }
         }
+        for (edge, normal) in star.borders() {
+            area += planes.add_plane(edge.cross(normal.normalize_or_zero()) * edge.length());
+        }
         self.planes[v as usize] = planes;
         self.own[v as usize] = Own { lost: 0.0, area };
     }
 
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool) -> Judged {
+    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged {
         let entries = star.entries();
         let (planes, own) = (&self.planes[v as usize], self.own[v as usize]);
         let mut values = [0.0; MOST_AROUND + 4];
@@ -100,17 +104,19 @@ impl Method for Schroeder {
             let area = own.area + other.area;
             if area > 0.0 { (values[j].max(0.0) + other.lost) / area } else { 0.0 }
         };
-        let mut creases = (0..entries.len()).filter(|&j| !is_last && entries[j] & CREASE != 0);
-        let edge = match [creases.next(), creases.next(), creases.next()] {
-            [Some(a), Some(b), None] => Some([a, b]),
-            _ => None,
+        let creases = || (0..entries.len()).filter(|&j| !is_last && entries[j] & CREASE != 0);
+        let class = Class::of(rings.stays(v), rings.is_open(v), creases().count());
+        let along = match class {
+            Class::Boundary => Some([0, entries.len() - 1]),
+            _ if border.is_some() => border,
+            Class::InteriorEdge => creases().next().zip(creases().next_back()).map(<[usize; 2]>::from),
+            Class::Simple | Class::Complex | Class::Corner => None,
         };
-        let along = if rings.is_open(v) { Some([0, entries.len() - 1]) } else { edge };
         let distance = match along {
             Some([a, b]) => square(a).min(square(b)).sqrt().max(distance_to_segment(star.edge(a), star.edge(b))),
             None => (0..entries.len()).map(square).fold(f32::INFINITY, f32::min).sqrt(),
         };
-        Judged { distance, priority: distance, along, is_held: !rings.is_open(v) && edge.is_some() }
+        Judged { distance, priority: distance, along, is_held: class == Class::InteriorEdge && border.is_none() }
     }
 
     /// By the mean height over which the star would be swept.

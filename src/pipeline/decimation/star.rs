@@ -6,7 +6,7 @@
 
 use glam::{Vec3, Vec3A, Vec4};
 
-use super::rings::{Rings, neighbour};
+use super::rings::{BORDER, Rings, neighbour};
 use crate::mesh::foot_on_triangle;
 
 /// Triangles around a vertex above which it waits for its neighbours to go first, and nothing collapses onto it: what
@@ -178,6 +178,13 @@ impl Star {
     pub(super) fn normal(&self, i: usize) -> Vec3A {
         let n = &self.quads[i / 4].n;
         Vec3A::new(n[0][i % 4], n[1][i % 4], n[2][i % 4])
+    }
+
+    /// The borders between labels: the way along each, and the sum of the normals of its two triangles.
+    pub(super) fn borders(&self) -> impl Iterator<Item = (Vec3A, Vec3A)> + '_ {
+        let on_border = |&i: &usize| self.entries[i] & BORDER != 0;
+        let before = |i: usize| if i > 0 { i - 1 } else { self.count - 1 };
+        (0..self.count).filter(on_border).map(move |i| (self.edge(i), self.normal(i) + self.normal(before(i))))
     }
 
     /// Mean height over which a collapse onto neighbour `j` would sweep the star.

@@ -21,7 +21,7 @@ pub(super) enum Carrying {
 impl Carrying {
     pub(super) fn start(store: &Store) -> Option<Self> {
         store.now.reduced.as_ref()?;
-        Some(if store.arrays.is_empty() { Self::Nothing } else { Self::Begin })
+        Some(if store.now.mended.as_ref()?.arrays.is_empty() { Self::Nothing } else { Self::Begin })
     }
 }
 
@@ -69,23 +69,28 @@ fn begin(store: &mut Store) -> Option<CarryTask> {
 
 /// The arrays of what connectivity kept.
 fn kept(store: &mut Store) -> Option<Arc<Vec<Array>>> {
-    let kept = store.now.kept.clone()?;
+    let (kept, arrays) = (store.now.kept.clone()?, kept_arrays(store)?);
+    store.kept_arrays = Some((kept, arrays.clone()));
+    Some(arrays)
+}
+
+/// The same, which nothing keeps.
+pub(super) fn kept_arrays(store: &Store) -> Option<Arc<Vec<Array>>> {
+    let kept = store.now.kept.as_ref()?;
     if let Some((of, arrays)) = &store.kept_arrays
-        && Arc::ptr_eq(of, &kept)
+        && Arc::ptr_eq(of, kept)
     {
         return Some(arrays.clone());
     }
-    let opened = &store.opened;
-    let arrays = match store.connectivity.as_ref()?.chosen(store.now.settings.keep).ok()? {
-        None => store.arrays.clone(),
+    let (entering, connectivity) = (store.now.mended.as_ref()?, store.now.connectivity.as_ref()?);
+    Some(match connectivity.chosen(store.now.settings.keep).ok()? {
+        None => entering.arrays.clone(),
         Some(piece) => {
-            let of_triangle = &store.connectivity.as_ref()?.labels.of_triangle;
+            let of_triangle = &connectivity.labels.of_triangle;
             let rows: Vec<u32> = (0..of_triangle.len() as u32).filter(|&t| of_triangle[t as usize] == piece).collect();
-            let triangles: Vec<[u32; 3]> = rows.iter().map(|&t| opened.triangles[t as usize]).collect();
-            let vertices = used_vertices(opened.positions.len(), &triangles);
-            Arc::new(gathered(&store.arrays, &vertices, &rows))
+            let triangles: Vec<[u32; 3]> = rows.iter().map(|&t| entering.mesh.triangles[t as usize]).collect();
+            let vertices = used_vertices(entering.mesh.positions.len(), &triangles);
+            Arc::new(gathered(&entering.arrays, &vertices, &rows))
         }
-    };
-    store.kept_arrays = Some((kept, arrays.clone()));
-    Some(arrays)
+    })
 }

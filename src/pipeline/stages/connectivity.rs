@@ -7,13 +7,19 @@ use web_time::Instant;
 use super::Run;
 use crate::mesh::{Topology, TriMesh, measures_within, oriented_loops};
 use crate::pipeline::connectivity::Connectivity;
-use crate::pipeline::results::{Part, Surface};
+use crate::pipeline::results::{Part as Aside, Surface};
 use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress};
 
-/// How far it is; each part is one slice.
-pub(super) enum Connecting {
+/// The surface that is parted, and how far that is.
+pub(super) struct Connecting {
+    whole: Arc<TriMesh>,
+    part: Part,
+}
+
+/// Each is one slice.
+enum Part {
     Pieces,
     Kept,
     Adjacency(Arc<TriMesh>),
@@ -21,41 +27,42 @@ pub(super) enum Connecting {
 }
 
 impl Connecting {
-    pub(super) fn start() -> Self {
-        Self::Pieces
+    pub(super) fn start(store: &Store) -> Option<Self> {
+        Some(Self { whole: store.now.mended.as_ref()?.mesh.clone(), part: Part::Pieces })
     }
 }
 
 impl Run for Connecting {
     fn advance(&mut self, store: &mut Store, _: Budget) -> Result<Progress<()>, SettingsError> {
         store.now.settings.check()?;
-        let found = match &mut store.connectivity {
+        let whole = &self.whole;
+        let found = match &mut store.now.connectivity {
             Some(found) => found,
-            none => none.insert(Arc::new(Connectivity::unmeasured(&store.opened))),
+            none => none.insert(Arc::new(Connectivity::unmeasured(whole))),
         };
-        let (next, fraction) = match self {
-            Self::Pieces => (Self::Kept, 0.2),
-            Self::Kept => (Self::Adjacency(found.kept(&store.opened, store.now.settings.keep)?), 0.3),
-            Self::Adjacency(mesh) => {
+        let (next, fraction) = match &self.part {
+            Part::Pieces => (Part::Kept, 0.2),
+            Part::Kept => (Part::Adjacency(found.kept(whole, store.now.settings.keep)?), 0.3),
+            Part::Adjacency(mesh) => {
                 let start = Instant::now();
                 let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-                store.now.times.tell_apart(Part::Adjacency, start);
-                (Self::Measures(mesh.clone(), Arc::new(topology)), 0.7)
+                store.now.times.tell_apart(Aside::Adjacency, start);
+                (Part::Measures(mesh.clone(), Arc::new(topology)), 0.7)
             }
-            Self::Measures(mesh, topology) => {
+            Part::Measures(mesh, topology) => {
                 let start = Instant::now();
                 if found.components.is_empty() {
-                    Arc::make_mut(found).measure(&store.opened);
+                    Arc::make_mut(found).measure(whole);
                 }
                 let loops = oriented_loops(topology);
                 let measures = measures_within(mesh, loops.as_deref());
                 let (mesh, topology) = (mesh.clone(), topology.clone());
                 store.now.kept = Some(Arc::new(Surface { mesh, topology, loops, measures }));
-                store.now.times.tell_apart(Part::KeptAreas, start);
+                store.now.times.tell_apart(Aside::KeptAreas, start);
                 return Ok(Progress::Done(()));
             }
         };
-        *self = next;
+        self.part = next;
         Ok(Progress::Working(fraction))
     }
 }

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::Run;
+use super::carry::kept_arrays;
 use crate::mesh::{Topology, TriMesh};
-use crate::pipeline::decimation::DecimationTask;
+use crate::pipeline::decimation::{DecimationTask, labels_of};
 use crate::pipeline::results::{Levels, Smoothed, Surface};
-use crate::pipeline::settings::{Decimation, SettingsError};
+use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
 use crate::pipeline::widths::WidthTask;
@@ -14,7 +15,6 @@ use crate::pipeline::widths::WidthTask;
 pub(super) struct Decimating {
     kept: Arc<Surface>,
     smoothed: Arc<Smoothed>,
-    settings: Decimation,
     step: Step,
     /// The part of the work that is done when the collapses begin.
     before: f32,
@@ -39,15 +39,24 @@ impl Decimating {
                 let task = WidthTask::new(kept.mesh.clone(), kept.topology.clone());
                 Step::Widths(Box::new(task.with_index(store.now.indices.kept.clone())))
             }
-            known => collapses(&kept, &smoothed, &settings, known.filter(|_| settings.spare_thin).cloned()),
+            known => {
+                let widths = known.filter(|_| settings.spare_thin).cloned();
+                collapses(store, &kept, &smoothed, widths)
+            }
         };
         let before = if matches!(step, Step::Widths(_)) { WIDTHS } else { 0.0 };
-        Some(Self { kept, smoothed, settings, step, before })
+        Some(Self { kept, smoothed, step, before })
     }
 }
 
-fn collapses(kept: &Surface, smoothed: &Smoothed, settings: &Decimation, widths: Option<Arc<[f32]>>) -> Step {
+fn collapses(store: &Store, kept: &Surface, smoothed: &Smoothed, widths: Option<Arc<[f32]>>) -> Step {
+    let settings = &store.now.settings.decimation;
     let task = DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), settings);
+    let arrays = if settings.keep_labels { kept_arrays(store) } else { None };
+    let task = match arrays.and_then(|arrays| labels_of(&kept.mesh, &arrays)) {
+        Some(labels) => task.with_labels(labels.into()),
+        None => task,
+    };
     Step::Collapses(Box::new(match widths {
         Some(widths) => task.with_widths(widths),
         None => task,
@@ -64,7 +73,7 @@ impl Run for Decimating {
                         store.now.indices.kept = task.index().cloned();
                         let widths: Arc<[f32]> = widths.into();
                         store.widths = Some((self.kept.clone(), widths.clone()));
-                        self.step = collapses(&self.kept, &self.smoothed, &self.settings, Some(widths));
+                        self.step = collapses(store, &self.kept, &self.smoothed, Some(widths));
                     }
                 },
                 Step::Collapses(task) => match task.advance(budget) {

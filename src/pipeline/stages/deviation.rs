@@ -30,7 +30,7 @@ impl Deviating {
             }
         };
         let from_smoothed = task(&levels.finest, &now.indices.finest).with_map();
-        let from_original = task(&kept.mesh, &now.indices.kept);
+        let from_original = task(&kept.mesh, &now.indices.kept).with_map();
         Some(Self { from_smoothed, from_original, first: None })
     }
 }

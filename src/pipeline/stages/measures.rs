@@ -150,7 +150,8 @@ impl Run for OfLevel {
                 let index = self.shape.index();
                 let narrowing = index.and_then(|index| narrowing(&self.samples, mesh, topology, index));
                 store.now.level_measures = Some(Arc::new(LevelMeasures { shape: measured.shape, narrowing }));
-                store.now.indices.level = None;
+                let finest = store.now.levels.as_ref().map_or(0, |levels| levels.finest.triangles.len());
+                store.now.indices.let_go(finest);
                 Progress::Done(())
             }
         })

@@ -6,8 +6,10 @@ mod carry;
 mod connectivity;
 mod decimation;
 mod deviation;
+mod faults;
 mod level;
 mod measures;
+mod mending;
 mod safe;
 mod smoothing;
 
@@ -25,7 +27,8 @@ pub(super) trait Run: Send {
 /// Starts a stage on what it rests on; `None` while that is not there.
 pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {
     Some(match stage {
-        Stage::Connectivity => Box::new(connectivity::Connecting::start()),
+        Stage::Mending => Box::new(mending::Mending::start(store)),
+        Stage::Connectivity => Box::new(connectivity::Connecting::start(store)?),
         Stage::Smoothing => Box::new(smoothing::Filtering::start(store)?),
         Stage::Decimation => Box::new(decimation::Decimating::start(store)?),
         Stage::Bound => Box::new(bound::Bounding::start(store)?),
@@ -34,6 +37,7 @@ pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {
         Stage::Arrays => Box::new(carry::Carrying::start(store)?),
         Stage::SmoothedMeasures => Box::new(measures::OfSmoothed::start(store)?),
         Stage::Measures => Box::new(measures::OfLevel::start(store)?),
+        Stage::Faults => Box::new(faults::Looking::start(store)),
         Stage::Vessels => Box::new(calibre::Finding::start(store)?),
         Stage::Certificate => Box::new(calibre::Certifying::start(store)?),
         Stage::Safe => Box::new(safe::Searching::start(store)?),

@@ -19,6 +19,7 @@ use super::session::Trial;
 use super::summary::Summary;
 use super::wall::Wall;
 use crate::mesh::{TriMesh, shuffled};
+use crate::pipeline::lumen::PINCHED;
 use crate::pipeline::results::fingerprint;
 use crate::pipeline::task::milliseconds;
 
@@ -30,8 +31,6 @@ const LEAST: f32 = 1e-3;
 const PLACES: usize = 5;
 /// Times that the unreduced surface is run against itself.
 pub const SHUFFLES: u64 = 3;
-/// A lumen is pinched where this part of its width, or less, is left.
-const PINCHED: f64 = 0.5;
 
 /// How one trial's wire differs from another's under the same input.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -155,7 +154,7 @@ impl TrialComparison {
         let widths: Vec<[f64; 2]> =
             route.points.iter().map(|p| [clear(reduced, p.at), clear(original, p.at)]).collect();
         let wire = reduced.setup().wire.radius();
-        let is_pinched = |width: &[f64; 2]| width[0] < PINCHED * width[1] || width[0] < wire;
+        let is_pinched = |width: &[f64; 2]| width[0] < f64::from(PINCHED) * width[1] || width[0] < wire;
         let pinched = route.points.iter().zip(&widths).filter(|(_, width)| is_pinched(width));
         let least = |which: usize| 2.0 * widths.iter().map(|width| width[which]).fold(f64::INFINITY, f64::min);
         let summaries = [reduced.summary(), original.summary()];

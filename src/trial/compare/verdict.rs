@@ -1,6 +1,8 @@
 //! What is said of a comparison, in one sentence.
 
+use crate::language::decimal;
 use crate::pipeline::settings::reduction_percent;
+use crate::say;
 use crate::trial::summary::Summary;
 
 /// What is to be said, with the largest deviation and the largest noise in mm, and the orders that were tried.
@@ -10,31 +12,27 @@ pub(super) fn verdict(
     [orders, arrived]: [usize; 2],
 ) -> String {
     let gone = reduction_percent(original.triangles, reduced.triangles);
-    let mut path = format!("its tip path differs by {most:.1} mm at most");
-    if orders > 0 {
-        let relation = if most > noise { "while" } else { "no more than noise, as" };
-        path += &format!(
-            ", {relation} the unreduced surface differs from itself by up to {noise:.1} mm with its triangles in another order"
-        );
-    }
+    let (is_more, most, noise) = (most > noise, decimal(most, 1), decimal(noise, 1));
+    let path = match (orders, is_more) {
+        (0, _) => say!("trial-path", most = most),
+        (_, true) => say!("trial-path-more", most = most, noise = noise),
+        (_, false) => say!("trial-path-noise", most = most, noise = noise),
+    };
+    let gone = decimal(gone, 0);
     let all = orders + 1;
     let arrives = arrived + usize::from(original.success);
     if (1..all).contains(&arrives) {
-        let here = if reduced.success { "arrives" } else { "does not arrive" };
-        return format!(
-            "At {gone:.0} % this wire {here}, but whether it does is chance: on the unreduced surface it arrives with {arrives} of \
-             {all} orders of the triangles; {path}."
-        );
+        return if reduced.success {
+            say!("trial-verdict-chance-yes", gone = gone, arrives = arrives, all = all, path = path)
+        } else {
+            say!("trial-verdict-chance-no", gone = gone, arrives = arrives, all = all, path = path)
+        };
     }
     match (reduced.success, original.success) {
-        (true, true) => format!("At {gone:.0} % this wire arrives; {path}."),
-        (false, false) => format!("This wire arrives on neither surface under this input; at {gone:.0} % {path}."),
-        (true, false) => format!(
-            "At {gone:.0} % this wire arrives; under the same input it does not on the unreduced surface, and {path}."
-        ),
-        (false, true) => {
-            format!("At {gone:.0} % this wire does not arrive, and on the unreduced surface it does; {path}.")
-        }
+        (true, true) => say!("trial-verdict-both", gone = gone, path = path),
+        (false, false) => say!("trial-verdict-neither", gone = gone, path = path),
+        (true, false) => say!("trial-verdict-reduced", gone = gone, path = path),
+        (false, true) => say!("trial-verdict-unreduced", gone = gone, path = path),
     }
 }
 

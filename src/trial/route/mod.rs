@@ -1,6 +1,7 @@
 //! Where a wire can go: routes through the vessel tree of a surface (`way`), and where they could begin and end
 //! (`propose`).
 
+mod place_name;
 mod propose;
 #[cfg(test)]
 mod tests;
@@ -8,8 +9,12 @@ mod way;
 
 use thiserror::Error;
 
+pub use place_name::{PlaceName, WayEnd};
 pub use propose::{Target, phantom_task};
 pub use way::{CrossSection, OnRoute, Route, RoutePoint};
+
+use crate::language::decimal;
+use crate::say;
 
 /// The radius that half of a way's length is narrower than: its pieces have a radius and a length each.
 fn usual_radius(mut pieces: Vec<(f64, f64)>) -> f64 {
@@ -23,11 +28,27 @@ fn usual_radius(mut pieces: Vec<(f64, f64)>) -> f64 {
     pieces.iter().find(is_beyond).map_or(0.0, |piece| piece.0)
 }
 
+/// What a branch is called in a message, as [`Branch::name`](crate::vessel::Branch::name) is in English.
+pub(super) fn called(branch: u32) -> String {
+    say!("trial-branch-named", number = (branch + 1).to_string())
+}
+
+/// A place in mm, as it stands in a message.
+fn place([x, y, z]: [f32; 3]) -> String {
+    say!("trial-place", x = decimal(x, 1), y = decimal(y, 1), z = decimal(z, 1))
+}
+
+/// What is said of a lumen that is thinner than the wire, with both diameters, the place and how far it is along the route.
+fn too_thin([wire_mm, lumen_mm]: [f64; 2], at: [f32; 3], arc_mm: f64) -> String {
+    let (wire, lumen, along) = (decimal(wire_mm, 2), decimal(lumen_mm, 2), decimal(arc_mm, 0));
+    say!("trial-too-thin", wire = wire, lumen = lumen, at = place(at), along = along)
+}
+
 /// Why there is no route.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RouteError {
     /// The wire would begin outside.
-    #[error("the entry ({:.1}, {:.1}, {:.1}) lies outside of the vessel, {distance_mm:.1} mm from its wall", at[0], at[1], at[2])]
+    #[error("{}", say!("trial-entry-outside", at = place(*at), distance = decimal(*distance_mm, 1)))]
     EntryOutside {
         /// The entry in mm.
         at: [f32; 3],
@@ -35,7 +56,7 @@ pub enum RouteError {
         distance_mm: f32,
     },
     /// The target cannot be reached from inside.
-    #[error("the target ({:.1}, {:.1}, {:.1}) lies outside of the vessel, {distance_mm:.1} mm from its wall", at[0], at[1], at[2])]
+    #[error("{}", say!("trial-target-outside", at = place(*at), distance = decimal(*distance_mm, 1)))]
     TargetOutside {
         /// The target in mm.
         at: [f32; 3],
@@ -43,11 +64,7 @@ pub enum RouteError {
         distance_mm: f32,
     },
     /// No lumen leads from the one to the other.
-    #[error(
-        "there is no open way from the entry to the target: the lumen ends at ({:.1}, {:.1}, {:.1}), \
-         {gap_mm:.1} mm from where the target's begins",
-        at[0], at[1], at[2]
-    )]
+    #[error("{}", say!("trial-no-way", at = place(*at), gap = decimal(*gap_mm, 1)))]
     NoWay {
         /// Where the part of the lumen with the entry comes nearest to the other, in mm.
         at: [f32; 3],
@@ -55,17 +72,13 @@ pub enum RouteError {
         gap_mm: f32,
     },
     /// Entry and target are the same place of the centreline.
-    #[error("entry and target are {length_mm:.1} mm apart: too near for a route")]
+    #[error("{}", say!("trial-too-short", length = decimal(*length_mm, 1)))]
     TooShort {
         /// Distance along the vessel in mm.
         length_mm: f64,
     },
     /// The wire does not fit.
-    #[error(
-        "the lumen is too thin for a wire of {wire_mm:.2} mm: it is {lumen_mm:.2} mm wide at ({:.1}, {:.1}, {:.1}), \
-         {arc_mm:.0} mm along the route; less smoothing keeps thin vessels wider",
-        at[0], at[1], at[2]
-    )]
+    #[error("{}", too_thin([*wire_mm, *lumen_mm], *at, *arc_mm))]
     TooThin {
         /// Diameter of the wire in mm.
         wire_mm: f64,
@@ -76,4 +89,17 @@ pub enum RouteError {
         /// Arc length along the route in mm.
         arc_mm: f64,
     },
+}
+
+impl RouteError {
+    /// The place that is the reason, in mm, where there is one.
+    pub fn place(&self) -> Option<[f32; 3]> {
+        match self {
+            Self::EntryOutside { at, .. }
+            | Self::TargetOutside { at, .. }
+            | Self::NoWay { at, .. }
+            | Self::TooThin { at, .. } => Some(*at),
+            Self::TooShort { .. } => None,
+        }
+    }
 }

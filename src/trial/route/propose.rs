@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::usual_radius;
+use super::{PlaceName, WayEnd, usual_radius};
 use crate::phantom::{Sample, Vessel, vessels};
 use crate::trial::setup::Entry;
 use crate::vessel::{Branch, End, NONE, Tree, direction};
@@ -18,8 +18,10 @@ const THREAD: f64 = 0.03;
 /// A place where a wire could go.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    /// The branch, by name, and what is there.
-    pub name: String,
+    /// The branch that it lies in, as its place in [`Tree::branches`].
+    pub branch: u32,
+    /// What is there.
+    pub end: WayEnd,
     /// In the middle of the lumen, in mm.
     pub at: Vec3,
     /// Radius of the lumen there, in mm.
@@ -28,6 +30,18 @@ pub struct Target {
     pub length_mm: f64,
     /// The radius that half of the way is narrower than, in mm.
     pub usual_radius_mm: f64,
+}
+
+impl Target {
+    /// What it is called.
+    pub fn name(&self) -> PlaceName {
+        PlaceName::Target {
+            branch: self.branch,
+            end: self.end,
+            diameter_mm: 2.0 * self.radius_mm,
+            away_mm: self.length_mm,
+        }
+    }
 }
 
 /// An end of a vessel.
@@ -43,14 +57,15 @@ struct Tip<'a> {
 
 impl Tree {
     /// Places where a wire could enter, a little inside of the vessels' ends and pointing inwards, best first: those of
-    /// the largest tree, the widest first, as an artery is entered where it is wide.
-    pub fn entries(&self) -> Vec<Entry> {
+    /// the largest tree, the widest first, as an artery is entered where it is wide. Each with its name.
+    pub fn entries(&self) -> Vec<(PlaceName, Entry)> {
         let mut tips = self.tips();
         tips.sort_by(|a, b| {
             let key = |tip: &Tip<'_>| (tip.branch.tree, tip.end != End::Open);
             key(a).cmp(&key(b)).then(b.radius.total_cmp(&a.radius)).then(a.branch.id.cmp(&b.branch.id))
         });
-        tips.iter().map(Tip::entry).collect()
+        let name = |tip: &Tip<'_>| PlaceName::Entry { branch: tip.branch.id, diameter_mm: 2.0 * tip.radius };
+        tips.iter().map(|tip| (name(tip), tip.entry())).collect()
     }
 
     /// Places where a wire from `from` could go, best first: far, and thin. Where the lumen on the way becomes thinner
@@ -84,15 +99,16 @@ impl Tree {
             if from.distance(at) <= 2.0 * radius as f32 {
                 continue;
             }
-            let what = match tip.end {
-                _ if !is_whole => "as far as there is room",
-                End::Open => "open end",
-                _ => "closed end",
+            let end = match tip.end {
+                _ if !is_whole => WayEnd::Narrow,
+                End::Open => WayEnd::Open,
+                _ => WayEnd::Closed,
             };
             let length = |i: usize| f64::from(ways.length[way[i] as usize]);
             let pieces = (1..room).map(|i| (f64::from(ball(i).radius), length(i) - length(i - 1))).collect();
             let target = Target {
-                name: format!("{}, {what}", tip.branch.name),
+                branch: tip.branch.id,
+                end,
                 at,
                 radius_mm: radius,
                 length_mm: length(there),

@@ -84,7 +84,12 @@ fn a_fork_has_three_branches_and_each_route_is_as_long_as_its_axes() {
         assert_eq!(located.branch, aside);
         assert!(route.is_off(off, &located) && !route.is_off(joint, &tree.locate(joint, None).unwrap()));
     }
-    let entry = tree.entries()[0];
+    let widths = tree.entries().into_iter().map(|(name, _)| {
+        let PlaceName::Entry { diameter_mm, .. } = name else { panic!("{name:?}") };
+        diameter_mm
+    });
+    widths.zip([8.0, 6.0, 4.0]).for_each(|(found, expected)| near(found, expected, 0.05));
+    let (_, entry) = tree.entries().swap_remove(0);
     let targets = tree.targets(entry.at.into(), 0.0);
     assert_eq!((tree.entries().len(), targets.len()), (3, 2));
     assert!(Vec3::from(entry.at).distance(bottom.as_vec3()) < 6.0 && entry.direction[2] > 0.99, "{entry:?}");

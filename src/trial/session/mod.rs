@@ -14,6 +14,7 @@ use super::felt::Felt;
 use super::frame::{Progress, Touch};
 use super::log::Log;
 use super::meter::{Meter, SinceRow};
+use super::missed::MissedFork;
 use super::press::outward;
 use super::report::StepKind;
 use super::setup::{Input, Setup};
@@ -42,6 +43,8 @@ struct State {
     located: Option<Located>,
     arc: f64,
     is_off: bool,
+    /// The fork that has yet to be taken rightly.
+    missed: Option<MissedFork>,
     is_looped: bool,
     progress: Progress,
     meter: Meter,
@@ -86,6 +89,7 @@ impl Trial {
             located: None,
             arc: 0.0,
             is_off: false,
+            missed: None,
             is_looped: false,
             progress: Progress::Running,
             meter: Meter::new(&course.route),
@@ -319,6 +323,9 @@ impl Trial {
         let on = route.locate(tip);
         if !state.is_off {
             state.arc = on.arc_mm;
+            state.missed = state.missed.filter(|missed| !missed.is_passed(route, on.arc_mm));
+        } else if let Some(located) = state.located.as_ref().filter(|_| !was_off) {
+            state.missed = Some(MissedFork { arc_mm: state.arc, into: located.branch });
         }
         let shaft = self.shaft();
         let state = &mut self.state;
@@ -334,6 +341,16 @@ impl Trial {
                 state.progress = Progress::TimedOut;
             }
         }
+    }
+
+    /// The fork that it missed and has not taken rightly since, as a clause; `None` where it missed none.
+    pub(super) fn missed_fork(&self) -> Option<String> {
+        self.state.missed.map(|missed| missed.words(&self.course.tree, &self.course.route))
+    }
+
+    /// Where that fork is: where the tip left the route, in mm.
+    pub(super) fn missed_fork_at(&self) -> Option<DVec3> {
+        self.state.missed.map(|missed| self.course.route.at(missed.arc_mm).at)
     }
 
     /// What the wall has felt so far.

@@ -5,7 +5,9 @@ mod elements;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::language::{Key, exact};
 use crate::phantom::Sample;
+use crate::say;
 
 /// A guidewire.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,10 +84,10 @@ const SHARPEST: f64 = 90.0;
 
 /// A number that makes no wire.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("the wire's {what} of {value} is not possible")]
+#[error("{}", say!("trial-wire-impossible", what = what.say(), value = exact(*value)))]
 pub struct WireError {
     /// Which number.
-    pub what: &'static str,
+    pub what: Key,
     /// It.
     pub value: f64,
 }
@@ -144,25 +146,27 @@ impl Wire {
     /// Names the number.
     pub fn check(&self) -> Result<(), WireError> {
         let positive = [
-            ("diameter", self.diameter_mm, 10.0),
-            ("stiffness of the shaft", self.shaft_ei, 1e5),
-            ("stiffness of the tip", self.tip_ei, 1e5),
-            ("torsion ratio", self.torsion_ratio, 100.0),
-            ("length", self.length_mm, 10_000.0),
-            ("density", self.density, 1e-6),
+            (Key("trial-wire-diameter"), self.diameter_mm, 10.0),
+            (Key("trial-wire-shaft-stiffness"), self.shaft_ei, 1e5),
+            (Key("trial-wire-tip-stiffness"), self.tip_ei, 1e5),
+            (Key("trial-wire-torsion-ratio"), self.torsion_ratio, 100.0),
+            (Key("trial-wire-length"), self.length_mm, 10_000.0),
+            (Key("trial-wire-density"), self.density, 1e-6),
         ];
-        let elements =
-            [("element at the tip", self.elements_mm[0], 20.0), ("element of the shaft", self.elements_mm[1], 20.0)];
+        let elements = [
+            (Key("trial-wire-tip-element"), self.elements_mm[0], 20.0),
+            (Key("trial-wire-shaft-element"), self.elements_mm[1], 20.0),
+        ];
         let others = [
-            ("soft part", self.soft_mm, 10_000.0),
-            ("taper", self.taper_mm, 10_000.0),
-            ("bend", self.bend_mm, 100.0),
-            ("angle of the bend", self.bend_degrees, 360.0),
-            ("straight end", self.straight_end_mm, 100.0),
-            ("static friction", self.friction[0], 2.0),
-            ("kinetic friction", self.friction[1], 2.0),
+            (Key("trial-wire-soft-part"), self.soft_mm, 10_000.0),
+            (Key("trial-wire-taper"), self.taper_mm, 10_000.0),
+            (Key("trial-wire-bend"), self.bend_mm, 100.0),
+            (Key("trial-wire-bend-angle"), self.bend_degrees, 360.0),
+            (Key("trial-wire-straight-end"), self.straight_end_mm, 100.0),
+            (Key("trial-wire-static-friction"), self.friction[0], 2.0),
+            (Key("trial-wire-kinetic-friction"), self.friction[1], 2.0),
         ];
-        let wrong = |&(what, value, most): &(&'static str, f64, f64), least: f64| {
+        let wrong = |&(what, value, most): &(Key, f64, f64), least: f64| {
             (!(least..=most).contains(&value)).then_some(WireError { what, value })
         };
         let found = positive.iter().find_map(|number| wrong(number, 1e-9));
@@ -172,11 +176,11 @@ impl Wire {
             return Err(error);
         }
         if self.length_mm < 20.0 * self.elements_mm[0].max(self.elements_mm[1]) {
-            return Err(WireError { what: "length", value: self.length_mm });
+            return Err(WireError { what: Key("trial-wire-length"), value: self.length_mm });
         }
         let bent = (self.bend_mm - self.straight_end_mm).max(self.elements_mm[0]);
         if self.bend_degrees * self.elements_mm[0] > SHARPEST * bent {
-            return Err(WireError { what: "angle of the bend", value: self.bend_degrees });
+            return Err(WireError { what: Key("trial-wire-bend-angle"), value: self.bend_degrees });
         }
         Ok(())
     }

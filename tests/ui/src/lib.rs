@@ -11,9 +11,10 @@ use std::time::Duration;
 use eframe::App as _;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use lumen::app::{Gamepad, LastingApp, LumenApp, Offer, Platform, PlatformEvent, State, Store};
+use lumen::app::{Gamepad, LastingApp, LumenApp, Offer, Platform, PlatformEvent, State, Store, Tone};
+use lumen::engine::scan::{ScanCommand, ScanEngine, ScanEvent, ScanLink};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
-use lumen::engine::{Command, Engine, Event, Link, TrialEngine};
+use lumen::engine::{Command, Engine, Event, Link, Machine, TrialEngine};
 use lumen::render::Fault;
 
 /// What the test sees of the platform.
@@ -45,8 +46,16 @@ pub struct Memory {
     pub trial_failure: Option<String>,
     /// The gamepad that is plugged in.
     pub gamepad: Option<Gamepad>,
+    /// How strongly it was told to shake.
+    pub rumbled: Vec<f64>,
+    /// Whether it can sound.
+    pub has_sound: bool,
+    /// What it was told to sound.
+    pub sounded: Vec<Tone>,
     /// Whether what moves by itself is welcome.
     pub likes_motion: bool,
+    /// Whether what points is a finger.
+    pub has_finger: bool,
     /// Lets a trial run too, by a clock that goes on by 1/60 s a frame.
     pub trial_runs: bool,
     /// What outlives the app, where something does.
@@ -69,6 +78,7 @@ struct MemoryPlatform {
     engine: Engine,
     has_advanced: bool,
     trial: MemoryTrial,
+    scans: MemoryScans,
     memory: Rc<RefCell<Memory>>,
 }
 
@@ -105,6 +115,31 @@ impl Store for MemoryPlatform {
 
     fn forget(&mut self) {
         self.change_kept(|kept| *kept = Kept::default());
+    }
+}
+
+/// The line to an engine of scans within the test.
+#[derive(Default)]
+struct MemoryScans(ScanEngine);
+
+impl Link<ScanCommand, ScanEvent> for MemoryScans {
+    fn send(&mut self, command: ScanCommand) {
+        self.0.handle(command);
+    }
+
+    fn poll(&mut self) -> Option<ScanEvent> {
+        self.0.poll().or_else(|| {
+            self.0.advance(0.0);
+            self.0.poll()
+        })
+    }
+
+    fn restart(&mut self) {
+        self.0 = ScanEngine::new();
+    }
+
+    fn failure(&mut self) -> Option<String> {
+        None
     }
 }
 
@@ -185,8 +220,16 @@ impl Platform for MemoryPlatform {
         &mut self.trial
     }
 
+    fn scans(&mut self) -> Option<&mut ScanLink> {
+        Some(&mut self.scans)
+    }
+
     fn prefers_less_motion(&self) -> bool {
         !self.memory.borrow().likes_motion
+    }
+
+    fn has_finger(&self) -> bool {
+        self.memory.borrow().has_finger
     }
 
     fn store(&mut self) -> Option<&mut dyn Store> {
@@ -206,11 +249,24 @@ impl Platform for MemoryPlatform {
         self.memory.borrow().gamepad
     }
 
+    fn rumble(&mut self, strength: f64) {
+        self.memory.borrow_mut().rumbled.push(strength);
+    }
+
+    fn has_sound(&self) -> bool {
+        self.memory.borrow().has_sound
+    }
+
+    fn sound(&mut self, tone: Tone) {
+        self.memory.borrow_mut().sounded.push(tone);
+    }
+
     fn choose_file(&mut self, _: &egui::Context) {
         self.memory.borrow_mut().asked += 1;
     }
 
-    fn read_dropped(&mut self, file: egui::DroppedFileHandle, _: &egui::Context) {
+    fn read_dropped(&mut self, files: Vec<egui::DroppedFileHandle>, _: &egui::Context) {
+        let Some(file) = files.first() else { return };
         let name = file.path().display().to_string();
         let event = match file.bytes() {
             Ok(bytes) => PlatformEvent::Chosen { name, bytes },
@@ -252,6 +308,20 @@ pub fn moving_app(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, 
     app_on((platform, memory), size, step_dt)
 }
 
+/// The same on a phone, held upright in the hand.
+pub fn phone() -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    in_hand([390.0, 844.0], 0.25, false)
+}
+
+/// The same on what a finger points at: of this size, with so many seconds between two frames, where what moves by itself is
+/// welcome or not.
+pub fn in_hand(size: [f32; 2], step_dt: f32, likes_motion: bool) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    let (platform, memory) = platform();
+    memory.borrow_mut().has_finger = true;
+    memory.borrow_mut().likes_motion = likes_motion;
+    app_on((platform, memory), size, step_dt)
+}
+
 /// The same as a page, which has an address, and of which `kept` outlives it.
 pub fn page(size: [f32; 2], kept: Kept) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     page_with(size, kept, true)
@@ -287,7 +357,8 @@ fn platform() -> (MemoryPlatform, Rc<RefCell<Memory>>) {
     let memory =
         Rc::new(RefCell::new(Memory { runs: true, slice: Duration::from_millis(50), engines: 1, ..Memory::default() }));
     let trial = MemoryTrial { engine: TrialEngine::new(), now_s: 0.0, has_advanced: false, memory: memory.clone() };
-    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, trial, memory: memory.clone() };
+    let scans = MemoryScans::default();
+    let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, trial, scans, memory: memory.clone() };
     (platform, memory)
 }
 

@@ -9,6 +9,7 @@ use egui_kittest::kittest::Queryable as _;
 use lumen::app::LumenApp;
 use lumen::engine::trial::{RouteShown, TrialCommand, TrialEvent, TrialReady};
 use lumen::trial::frame::Frame;
+use lumen::trial::route::{PlaceName, WayEnd};
 use lumen::trial::setup::{Entry, Setup};
 use lumen::trial::summary::Summary;
 
@@ -104,8 +105,16 @@ pub fn ready(id: u64) -> TrialEvent {
         points,
         ..RouteShown::default()
     };
-    let targets = vec![("Right renal".to_owned(), [1.0, 2.0, 3.0])];
-    TrialEvent::Ready(Box::new(TrialReady { id, setup, route, entries: vec![entry], targets, ..TrialReady::default() }))
+    let renal = PlaceName::Target { branch: 4, end: WayEnd::Closed, diameter_mm: 5.0, away_mm: 120.0 };
+    let targets = vec![(renal, [1.0, 2.0, 3.0])];
+    TrialEvent::Ready(Box::new(TrialReady {
+        id,
+        setup,
+        route,
+        entries: vec![(PlaceName::Entry { branch: 1, diameter_mm: 9.0 }, entry)],
+        targets,
+        ..TrialReady::default()
+    }))
 }
 
 /// The number of the first trial of an app.
@@ -140,7 +149,7 @@ pub fn frame() -> Frame {
 
 /// What cannot be done, and why.
 pub fn refused(id: u64, message: &str, is_too_thin: bool) -> TrialEvent {
-    TrialEvent::Refused { id, message: message.to_owned(), is_too_thin }
+    TrialEvent::Refused { id, message: message.to_owned(), is_too_thin, at: None }
 }
 
 /// The number of the newest start.
@@ -163,7 +172,7 @@ pub fn at_entry() -> Frame {
 /// Chooses another target, to which a trial starts.
 pub fn retarget(harness: &mut App) {
     choose(harness, "Target");
-    harness.get_by_label("Right renal").click();
+    harness.get_by_label("branch 5, closed end, 5.0 mm, 120 mm away").click();
     harness.run_steps(3);
 }
 

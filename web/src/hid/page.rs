@@ -7,19 +7,26 @@ use std::rc::Rc;
 
 use js_sys::{Array, Object, Reflect};
 use lumen::app::{Listing, Waker};
+use lumen::haptics::feeder::USB_IDS;
 use lumen::haptics::safety::Halt;
 use lumen::haptics::service::{DeviceCommand, DeviceStatus};
+use lumen::language::Key;
+use lumen::say;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
-use web_sys::Worker;
+use web_sys::{EventTarget, Worker};
 
-use super::api::{self, Hid, HidDevice};
+use super::api::{self, Hid};
+use super::port::{self, Serial, object};
 use super::{Asked, Choice, Told};
 
 /// The name of the choice that asks for a device.
-const PAIR: &str = "Pair a device...";
-const NO_HID: &str = "This browser reaches no devices: Chrome and Edge do, on a computer. Gamepads work everywhere.";
-const NOT_PAIRED: &str = "The browser did not ask for a device: choose \"Pair a device...\" once more.";
+const PAIR: Key = Key("devices-pair");
+/// That of the one that asks for a serial port.
+const PAIR_SERIAL: Key = Key("devices-pair-serial");
+const NO_HID: Key = Key("devices-no-hid");
+const ONLY_SERIAL: Key = Key("devices-only-serial");
+const NOT_PAIRED: Key = Key("devices-not-paired");
 
 /// What a device that can be held has: the pages and numbers of its outermost usage, or its vendor's number.
 const USAGES: [(u16, u16); 5] = [(1, 4), (1, 5), (1, 8), (1, 0x0E), (0x0F, 1)];
@@ -31,13 +38,16 @@ pub(crate) struct Devices(Rc<Inner>);
 
 struct Inner {
     hid: Option<Hid>,
+    serial: Option<Serial>,
     waker: Waker,
     paired: RefCell<Vec<Choice>>,
     /// What the Worker is to serve.
     wanted: RefCell<Option<Choice>>,
     status: RefCell<Option<DeviceStatus>>,
-    problem: RefCell<Option<String>>,
+    problem: Cell<Option<Key>>,
     has_changed: Cell<bool>,
+    /// Whether the page was left and the app has not heard of it.
+    was_left: Cell<bool>,
     /// The Worker that serves, while it runs.
     worker: RefCell<Option<Worker>>,
 }
@@ -45,16 +55,22 @@ struct Inner {
 impl Devices {
     /// Finds what is paired already, and hears of what comes and goes.
     pub(crate) fn new(waker: Waker) -> Self {
-        let hid = api::hid();
-        let problem = hid.is_none().then(|| NO_HID.to_owned());
+        let (hid, serial) = (api::hid(), port::serial());
+        let problem = match (&hid, &serial) {
+            (Some(_), _) => None,
+            (None, Some(_)) => Some(ONLY_SERIAL),
+            (None, None) => Some(NO_HID),
+        };
         let devices = Self(Rc::new(Inner {
             hid,
+            serial,
             waker,
             paired: RefCell::default(),
             wanted: RefCell::default(),
             status: RefCell::default(),
-            problem: RefCell::new(problem),
+            problem: Cell::new(problem),
             has_changed: Cell::new(false),
+            was_left: Cell::new(false),
             worker: RefCell::default(),
         }));
         devices.find();
@@ -63,7 +79,8 @@ impl Devices {
     }
 
     fn listen(&self) {
-        if let Some(hid) = &self.0.hid {
+        let targets: [Option<&EventTarget>; 2] = [self.0.hid.as_deref(), self.0.serial.as_deref()];
+        for target in targets.into_iter().flatten() {
             for (name, is_there) in [("connect", true), ("disconnect", false)] {
                 let devices = self.clone();
                 let hear = Closure::<dyn Fn()>::new(move || {
@@ -73,7 +90,7 @@ impl Devices {
                     }
                 });
                 // Where it cannot be heard, the user looks again.
-                let _ = hid.add_event_listener_with_callback(name, hear.as_ref().unchecked_ref());
+                let _ = target.add_event_listener_with_callback(name, hear.as_ref().unchecked_ref());
                 // It lives as long as the page.
                 hear.forget();
             }
@@ -81,6 +98,10 @@ impl Devices {
         let Some(window) = web_sys::window() else { return };
         let devices = self.clone();
         let end = Closure::<dyn Fn()>::new(move || {
+            crate::gamepad::shake(0.0);
+            crate::sound::end();
+            devices.0.was_left.set(true);
+            devices.0.waker.wake();
             // One that was armed a moment ago, and is not told of yet, ends with the app's next look.
             let is_armed = devices.0.status.borrow().as_ref().is_some_and(|status| status.halted.is_none());
             if is_armed {
@@ -98,18 +119,29 @@ impl Devices {
 
     /// Lists what is paired, when the browser has told.
     fn find(&self) {
-        let Some(hid) = self.0.hid.clone() else { return };
+        if self.0.hid.is_none() && self.0.serial.is_none() {
+            return;
+        }
         let devices = self.clone();
         spawn_local(async move {
-            let list = JsFuture::from(hid.get_devices()).await;
-            devices.list(list.map(|list| api::devices(&list)).unwrap_or_default());
+            let mut found = Vec::new();
+            if let Some(hid) = &devices.0.hid
+                && let Ok(list) = JsFuture::from(hid.get_devices()).await
+            {
+                found.extend(api::devices(&list).iter().map(Choice::of));
+            }
+            if let Some(serial) = &devices.0.serial
+                && let Ok(list) = JsFuture::from(serial.get_ports()).await
+            {
+                found.extend(port::ports(&list).iter().filter_map(Choice::of_port));
+            }
+            devices.list(found);
         });
     }
 
-    fn list(&self, found: Vec<HidDevice>) {
+    fn list(&self, found: Vec<Choice>) {
         let mut paired: Vec<Choice> = Vec::new();
-        for device in found {
-            let choice = Choice::of(&device);
+        for choice in found {
             // A device has an entry for each of its interfaces.
             if !paired.contains(&choice) {
                 paired.push(choice);
@@ -119,7 +151,8 @@ impl Devices {
         self.change();
     }
 
-    fn change(&self) {
+    /// Says that the listing is another, if only in its words.
+    pub(crate) fn change(&self) {
         self.0.has_changed.set(true);
         self.0.waker.wake();
     }
@@ -143,9 +176,17 @@ impl Devices {
         let chosen = wanted.as_ref().and_then(|wanted| choices.iter().position(|choice| choice == wanted));
         let mut names: Vec<String> = choices.iter().map(name).collect();
         if self.0.hid.is_some() {
-            names.push(PAIR.to_owned());
+            names.push(PAIR.say());
         }
-        Listing { names, problem: self.0.problem.borrow().clone(), chosen }
+        if self.0.serial.is_some() {
+            names.push(PAIR_SERIAL.say());
+        }
+        Listing { names, problem: self.0.problem.get().map(Key::say), chosen }
+    }
+
+    /// Whether the page was left, or hidden, since this was asked last.
+    pub(crate) fn was_left(&self) -> bool {
+        self.0.was_left.take()
     }
 
     /// The same, where it has changed since this was asked.
@@ -157,7 +198,7 @@ impl Devices {
     pub(crate) fn choose(&self, number: Option<usize>) {
         let choices = self.choices();
         match number {
-            Some(number) if number >= choices.len() => self.pair(),
+            Some(number) if number >= choices.len() => self.pair(self.0.hid.is_none() || number > choices.len()),
             number => self.serve(number.map(|number| choices[number].clone())),
         }
     }
@@ -168,27 +209,34 @@ impl Devices {
         self.send(&Asked::Serve(choice));
     }
 
-    fn pair(&self) {
-        let Some(hid) = &self.0.hid else { return };
+    /// Asks the user for a device, or for a serial port.
+    fn pair(&self, by_serial: bool) {
         // Now: the browser asks only while the click is fresh.
-        let asked = hid.request_device(&filters());
+        let asked = match (&self.0.hid, &self.0.serial) {
+            (Some(hid), _) if !by_serial => hid.request_device(&filters()),
+            (_, Some(serial)) if by_serial => serial.request_port(&port_filter()),
+            _ => return,
+        };
         let devices = self.clone();
         spawn_local(async move {
             match JsFuture::from(asked).await {
-                Ok(list) => {
-                    let found = api::devices(&list);
-                    devices.0.problem.take();
-                    if let Some(device) = found.first() {
-                        let choice = Choice::of(device);
+                Ok(found) => {
+                    devices.0.problem.set(None);
+                    let choice = if by_serial {
+                        Choice::of_port(found.unchecked_ref())
+                    } else {
+                        api::devices(&found).first().map(Choice::of)
+                    };
+                    if let Some(choice) = choice {
                         if !devices.0.paired.borrow().contains(&choice) {
                             devices.0.paired.borrow_mut().push(choice.clone());
                         }
                         devices.serve(Some(choice));
                     }
                 }
-                Err(_) => {
-                    devices.0.problem.replace(Some(NOT_PAIRED.to_owned()));
-                }
+                // The user has chosen none.
+                Err(why) if Reflect::get(&why, &"name".into()).is_ok_and(|name| name == "NotFoundError") => {}
+                Err(_) => devices.0.problem.set(Some(NOT_PAIRED)),
             }
             devices.change();
         });
@@ -234,27 +282,28 @@ impl Devices {
 
 fn name(choice: &Choice) -> String {
     match choice {
-        Choice::Virtual => "Virtual device".to_owned(),
-        Choice::Paired { vendor, product, name } if name.is_empty() => format!("Device {vendor:04X}:{product:04X}"),
+        Choice::Virtual => say!("app-virtual-device"),
+        Choice::Serial { .. } => say!("devices-serial-feeder"),
+        Choice::Paired { vendor, product, name } if name.is_empty() => {
+            say!("devices-unnamed", numbers = format!("{vendor:04X}:{product:04X}"))
+        }
         Choice::Paired { name, .. } => name.clone(),
     }
 }
 
 /// Which devices the browser offers.
 fn filters() -> Object {
-    let filter = |entries: &[(&str, u16)]| {
-        let filter = Object::new();
-        for &(key, value) in entries {
-            // A plain object takes any entry.
-            let _ = Reflect::set(&filter, &key.into(), &value.into());
-        }
-        filter
-    };
-    let all: Array = USAGES.iter().map(|&(page, usage)| filter(&[("usagePage", page), ("usage", usage)])).collect();
+    let filter = |entries: [(&str, u16); 2]| object(&entries.map(|(key, value)| (key, JsValue::from(value))));
+    let all: Array = USAGES.iter().map(|&(page, usage)| filter([("usagePage", page), ("usage", usage)])).collect();
     VENDORS.iter().for_each(|&vendor| {
-        all.push(&filter(&[("vendorId", vendor)]));
+        all.push(&object(&[("vendorId", vendor.into())]));
     });
-    let options = Object::new();
-    let _ = Reflect::set(&options, &"filters".into(), &all);
-    options
+    object(&[("filters", all.into())])
+}
+
+/// Which serial ports it offers: the open feeder's.
+fn port_filter() -> Object {
+    let [vendor, product] = USB_IDS;
+    let filter = object(&[("usbVendorId", vendor.into()), ("usbProductId", product.into())]);
+    object(&[("filters", Array::of1(&filter).into())])
 }

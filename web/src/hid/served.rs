@@ -2,7 +2,9 @@
 //! side of the engine's [`Exchange`].
 //!
 //! A report that comes is taken in and answered at once; a timer looks after the device while it is silent. One request is
-//! under way at a time, as devices want it.
+//! under way at a time, as devices want it. Devices on a serial line are [`serial`]'s.
+
+mod serial;
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -16,6 +18,7 @@ use lumen::haptics::port::{Port as _, carry_out};
 use lumen::haptics::service::{DeviceStatus, Service};
 use lumen::haptics::virtual_feeder::VirtualFeeder;
 use lumen::haptics::webhid::{self, CollectionInfo};
+use lumen::language::Key;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::DedicatedWorkerGlobalScope;
@@ -30,12 +33,11 @@ const TELL_MS: f64 = 50.0;
 /// Requests of the virtual device that are carried out in a look at most.
 const REQUESTS: usize = 4;
 
-const NO_HID: &str =
-    "This browser opens no devices in a Worker: Chrome and Edge do from version 131 on, on a computer.";
-const NOT_THERE: &str = "The device is no longer there; plug it in again to go on.";
-const NO_MODEL: &str = "The device has no axis that could feed or roll the wire.";
-const NOT_OPENED: &str = "The device could not be opened: another program holds it, or this user may not use it (on Linux it \
-                          takes a udev rule, see docs/haptics.md).";
+const NO_HID: Key = Key("devices-no-hid-in-worker");
+const NOT_THERE: Key = Key("devices-not-there");
+const NO_TIMER: Key = Key("devices-no-timer");
+const NO_MODEL: Key = Key("devices-no-axis");
+const NOT_OPENED: Key = Key("devices-not-opened");
 
 /// Hears of devices that come and go.
 type OnConnection = Closure<dyn Fn(HidConnectionEvent)>;
@@ -84,7 +86,28 @@ struct Served {
 
 enum Line {
     Virtual(Box<VirtualFeeder>),
-    Device { device: HidDevice, is_asking: bool, _input: Closure<dyn Fn(HidInputReportEvent)> },
+    Device { device: HidDevice, is_asking: bool, _input: Input },
+    Serial(serial::Talk),
+}
+
+/// Hears a device's reports until it is dropped: the browser keeps the device, and one that is served again is the same.
+struct Input {
+    device: HidDevice,
+    hear: Closure<dyn Fn(HidInputReportEvent)>,
+}
+
+impl Input {
+    fn new(device: HidDevice, hear: Closure<dyn Fn(HidInputReportEvent)>) -> Result<Self, JsValue> {
+        device.add_event_listener_with_callback("inputreport", hear.as_ref().unchecked_ref())?;
+        Ok(Self { device, hear })
+    }
+}
+
+impl Drop for Input {
+    fn drop(&mut self) {
+        // What cannot be removed is not there any more.
+        let _ = self.device.remove_event_listener_with_callback("inputreport", self.hear.as_ref().unchecked_ref());
+    }
 }
 
 impl Hands {
@@ -142,23 +165,25 @@ impl Hands {
                 Ok(())
             }
             Some(Choice::Virtual) => {
-                let identity = Identity { name: "Virtual device".to_owned(), ..Identity::default() };
-                let device = HapticDevice::from_descriptor(identity, feeder::DESCRIPTOR);
+                let device = HapticDevice::from_descriptor(Choice::Virtual.identity(), feeder::DESCRIPTOR);
                 let device = device.map_err(|error| JsValue::from(error.to_string()))?;
                 self.begin(Service::new(device).with_virtual_hand(), Line::Virtual(Box::default()))
             }
-            Some(Choice::Paired { vendor, product, name }) => {
-                let (hands, identity) = (self.clone(), Identity { vendor, product, name });
+            Some(choice) => {
+                let (hands, identity) = (self.clone(), choice.identity());
                 self.0.opening.set(Some(number));
                 spawn_local(async move {
-                    let opened = hands.open(&identity, number).await;
+                    let opened = match choice {
+                        Choice::Serial { .. } => hands.open_serial(&identity, number).await,
+                        Choice::Virtual | Choice::Paired { .. } => hands.open(&identity, number).await,
+                    };
                     if hands.0.opening.get() == Some(number) {
                         hands.0.opening.set(None);
                     }
                     if let Err(why) = opened
                         && hands.0.number.get() == number
                     {
-                        hands.end(&identity.name, &why);
+                        hands.end(&identity.name, why);
                     }
                 });
                 Ok(())
@@ -167,7 +192,7 @@ impl Hands {
     }
 
     /// The interface that can be held, opened; a device may have several, and some say nothing of a hand.
-    async fn open(&self, identity: &Identity, number: u32) -> Result<(), String> {
+    async fn open(&self, identity: &Identity, number: u32) -> Result<(), Key> {
         let hid = api::hid().ok_or(NO_HID)?;
         self.hear_connections(&hid);
         let list = JsFuture::from(hid.get_devices()).await.map_err(|_| NOT_THERE)?;
@@ -178,7 +203,7 @@ impl Hands {
         };
         let found: Vec<HidDevice> = api::devices(&list).into_iter().filter(is_it).collect();
         if found.is_empty() {
-            return Err(NOT_THERE.to_owned());
+            return Err(NOT_THERE);
         }
         let served = found.into_iter().filter_map(|device| Some((modelled(identity, &device)?, device)));
         // One that can push back goes before one that can only be moved.
@@ -193,17 +218,16 @@ impl Hands {
             return Ok(());
         }
         let hands = self.clone();
-        let input = Closure::<dyn Fn(HidInputReportEvent)>::new(move |event: HidInputReportEvent| {
+        let hear = Closure::<dyn Fn(HidInputReportEvent)>::new(move |event: HidInputReportEvent| {
             let now = hands.now_ms();
             if let Some(served) = &mut *hands.0.served.borrow_mut() {
                 served.service.device_mut().input(now, event.report_id(), &api::bytes(&event.data()));
             }
             hands.look();
         });
-        let listens = device.add_event_listener_with_callback("inputreport", input.as_ref().unchecked_ref());
-        listens.map_err(|_| NOT_OPENED)?;
+        let input = Input::new(device.clone(), hear).map_err(|_| NOT_OPENED)?;
         let line = Line::Device { device, is_asking: false, _input: input };
-        self.begin(Service::new(haptic), line).map_err(|_| "The browser gives no timer.".to_owned())
+        self.begin(Service::new(haptic), line).map_err(|_| NO_TIMER)
     }
 
     fn hear_connections(&self, hid: &Hid) {
@@ -282,6 +306,11 @@ impl Hands {
                 }
             }
             Line::Device { .. } => {}
+            Line::Serial(talk) => {
+                if let Some(request) = talk.next(now, service.device_mut()) {
+                    self.ask_serial(talk.port(), request);
+                }
+            }
         }
         if now - *told_ms >= TELL_MS {
             *told_ms = now;
@@ -318,24 +347,26 @@ impl Hands {
     /// Stops serving, and leaves the device without a force.
     fn let_go(&self) {
         *self.0.look.borrow_mut() = None;
-        let Some(Served { service: mut of, line: Line::Device { device, .. }, .. }) = self.0.served.take() else {
-            return;
-        };
+        let Some(Served { service: mut of, line, .. }) = self.0.served.take() else { return };
         let farewell = of.device_mut().farewell();
-        spawn_local(async move {
-            for request in farewell {
-                // One that is gone hears nothing; its motors end by themselves.
-                let _ = carried_out(&device, &request).await;
-            }
-            let _ = JsFuture::from(device.close()).await;
-        });
+        match line {
+            Line::Virtual(_) => {}
+            Line::Device { device, .. } => spawn_local(async move {
+                for request in farewell {
+                    // One that is gone hears nothing; its motors end by themselves.
+                    let _ = carried_out(&device, &request).await;
+                }
+                let _ = JsFuture::from(device.close()).await;
+            }),
+            Line::Serial(talk) => talk.close(&farewell, &self.slept()),
+        }
     }
 
     /// The device is no longer served, and why.
-    fn end(&self, name: &str, why: &str) {
+    fn end(&self, name: &str, why: Key) {
         self.0.number.set(self.0.number.get() + 1);
         self.let_go();
-        let status = DeviceStatus { name: name.to_owned(), ended: Some(why.to_owned()), ..DeviceStatus::default() };
+        let status = DeviceStatus { name: name.to_owned(), ended: Some(why.say()), ..DeviceStatus::default() };
         self.tell(&Some(status));
     }
 
@@ -352,7 +383,7 @@ impl Hands {
 fn modelled(identity: &Identity, device: &HidDevice) -> Option<HapticDevice> {
     let text = js_sys::JSON::stringify(&device.collections()).ok()?.as_string()?;
     let collections: Vec<CollectionInfo> = serde_json::from_str(&text).ok()?;
-    let haptic = HapticDevice::new(identity.clone(), webhid::model(&collections).ok()?);
+    let haptic = HapticDevice::new(identity.clone(), webhid::model(&collections).ok()?).known_by(text.as_bytes());
     (!haptic.controls().axes.is_empty()).then_some(haptic)
 }
 

@@ -75,7 +75,7 @@ fn describe(node: &Node, nodes: &HashMap<NodeId, &Node>, above: &Above) -> Optio
     let role = aria_role(node, above, name.is_some())?;
     // What has no name is called as it begins.
     let name = name.or_else(|| matches!(role, "dialog" | "alertdialog").then(|| first_text(node, nodes)).flatten());
-    let is_text = node.role() == Role::Label;
+    let is_text = matches!(node.role(), Role::Label | Role::Heading);
     let is_field = matches!(role, "textbox" | "searchbox" | "combobox" | "status" | "alert");
     let text = match (is_text, is_field) {
         (true, _) => node.value().map(str::to_owned).or_else(|| name.clone()),
@@ -246,6 +246,8 @@ fn states(node: &Node, role: &str) -> impl Iterator<Item = (&'static str, String
     ]
     .into_iter()
     .filter_map(|(key, value)| value.map(|value| (key, value.to_owned())))
+    // AccessKit counts from 0.
+    .chain(node.level().map(|level| ("aria-level", (level + 1).to_string())))
 }
 
 #[cfg(test)]
@@ -292,6 +294,19 @@ mod tests {
         assert_eq!(attribute(slider, "aria-valuenow"), Some("90"));
         assert_eq!(attribute(slider, "aria-valuemin"), Some("0"));
         assert_eq!(attribute(slider, "aria-valuemax"), Some("99.9"));
+    }
+
+    #[test]
+    fn a_heading_has_its_text_and_level() {
+        let twins = twins_of(1.0, |ui| {
+            let id = ui.label("Smooth").id;
+            ui.ctx().accesskit_node_builder(id, |node| {
+                node.set_role(Role::Heading);
+                node.set_level(1);
+            });
+        });
+        let heading = twins.iter().find(|twin| attribute(twin, "role") == Some("heading")).expect("a heading");
+        assert_eq!((heading.text.as_deref(), attribute(heading, "aria-level")), (Some("Smooth"), Some("2")));
     }
 
     #[test]

@@ -38,13 +38,15 @@ pub(super) fn desktop(program: &Path) -> Result<Vec<Packed>> {
     Ok(files)
 }
 
-/// Both licences, of which the user chooses one.
+/// Both licences, of which the user chooses one, and that of the letters.
 fn copyright() -> Result<Vec<u8>> {
     Ok([
         b"Lumen may be used under either of two licences, MIT or Apache-2.0, as its user chooses.\n\n".to_vec(),
         read("LICENSE-MIT")?,
         b"\n".to_vec(),
         read("LICENSE-APACHE")?,
+        b"\nIts letters are Ubuntu Light derivative Lumen, Copyright 2011 Canonical Ltd.\n\n".to_vec(),
+        read("www/ubuntu-font-licence.txt")?,
     ]
     .concat())
 }
@@ -85,7 +87,16 @@ mod tests {
         let (_, opened) = formats.split_once("pub const OPENED:").unwrap();
         let (_, opened) = opened.split_once("= [").unwrap();
         let (opened, _) = opened.split_once(']').unwrap();
+        let scans = text("src/desktop/scans.rs");
+        let (_, scans) = scans.split_once("const ENDINGS:").unwrap();
+        let (_, scans) = scans.split_once("= [").unwrap();
+        let (scans, _) = scans.split_once(']').unwrap();
+        let opened = format!("{opened}, {scans}");
         assert!(endings.iter().all(|ending| opened.contains(&format!("\"{ending}\""))), "{endings:?} of {opened}");
+        // What a hospital and a segmentation tool hand over opens at a double click.
+        for ending in ["stl", "vtp", "ply", "obj", "glb", "nii", "nrrd"] {
+            assert!(endings.iter().any(|known| known == ending), "{ending} of {endings:?}");
+        }
         assert_eq!(entry.lines().filter(|line| *line == "Exec=lumen %f").count(), 1);
     }
 }

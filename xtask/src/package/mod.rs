@@ -11,6 +11,7 @@ mod files;
 mod headers;
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 use clap::Args;
@@ -32,7 +33,7 @@ pub(crate) struct Options {
     /// The browser app to pack, in place of a build.
     #[arg(long)]
     dist: Option<PathBuf>,
-    /// Install the Debian package in a clean Debian and run it there; as root, with debootstrap.
+    /// Install the program from the checkout, and the Debian package in a clean Debian; run both. As root, with debootstrap.
     #[arg(long = "try")]
     tries: bool,
 }
@@ -84,9 +85,17 @@ pub(crate) fn package(options: &Options) -> Result<()> {
         write(&format!("lumen-{VERSION}-web.zip"), &archive::zip(&files::site(&dist)?)?)
     })?;
     if options.tries {
+        step("Install the program from the checkout", install)?;
         clean_root::try_package(&deb)?;
     }
     Ok(())
+}
+
+/// Installs the program as docs/install.md says, into a folder of its own, and runs it.
+fn install() -> Result<()> {
+    let place = target().join("installed");
+    run(cargo().args(["install", "--quiet", "--locked", "--force", "--path", "."]).arg("--root").arg(&place))?;
+    run(Command::new(place.join("bin/lumen")).arg("--version"))
 }
 
 /// The bytes of a file of the checkout.

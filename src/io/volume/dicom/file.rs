@@ -17,6 +17,8 @@ use glam::DVec3;
 
 use super::super::error::ScanError;
 use super::FORMAT;
+use crate::language::Key;
+use crate::say;
 
 /// The file's own elements begin here, behind 128 bytes and "DICM".
 const META: usize = 132;
@@ -95,7 +97,7 @@ impl<'a> File<'a> {
         let length = length.map_or(0, u32::from_le_bytes) as usize;
         let start = META + 12 + length;
         let (Some(meta), Some(rest)) = (bytes.get(META..start), bytes.get(start..)) else {
-            return Err(ScanError::malformed(FORMAT, "a file ends within its header"));
+            return Err(ScanError::malformed(FORMAT, say!("scan-dicom-header")));
         };
         let mut syntax = String::new();
         walk(meta, &entries::EXPLICIT_VR_LITTLE_ENDIAN.erased(), |_, tag, value| {
@@ -149,17 +151,17 @@ impl<'a> File<'a> {
 /// How the pixels of a transfer syntax are packed, and how its elements are encoded.
 fn packing(syntax: &str) -> Result<(Packing, TransferSyntax), ScanError> {
     let explicit = entries::EXPLICIT_VR_LITTLE_ENDIAN.erased();
-    let refused = |what: &str| Err(ScanError::unsupported(FORMAT, what));
+    let refused = |what: Key| Err(ScanError::unsupported(FORMAT, what.say()));
     match syntax.strip_prefix("1.2.840.10008.1.2").unwrap_or("?") {
         "" => Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased())),
         ".1" => Ok((Packing::Little, explicit)),
         ".2" => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
         ".5" => Ok((Packing::Rle, explicit)),
         ".4.50" | ".4.51" | ".4.57" | ".4.70" => Ok((Packing::Jpeg, explicit)),
-        ".1.99" => refused("a deflated data set"),
-        ".4.80" | ".4.81" => refused("JPEG-LS compression"),
-        ".4.90" | ".4.91" | ".4.201" | ".4.202" | ".4.203" => refused("JPEG 2000 compression"),
-        _ => refused("a compression that is not known"),
+        ".1.99" => refused(Key("scan-dicom-deflated")),
+        ".4.80" | ".4.81" => refused(Key("scan-dicom-jpeg-ls")),
+        ".4.90" | ".4.91" | ".4.201" | ".4.202" | ".4.203" => refused(Key("scan-dicom-jpeg-2000")),
+        _ => refused(Key("scan-dicom-compression")),
     }
 }
 
@@ -170,7 +172,7 @@ fn walk<'a>(
     encoding: &TransferSyntax,
     mut take: impl FnMut(Option<Tag>, Tag, &'a [u8]),
 ) -> Result<(), ScanError> {
-    let broken = || ScanError::malformed(FORMAT, "the elements of a file are damaged");
+    let broken = || ScanError::malformed(FORMAT, say!("scan-dicom-damaged"));
     let mut reader = LazyDataSetReader::new_with_ts(Cursor::new(bytes), encoding).map_err(|_| broken())?;
     // The sequences that are open, and the items in them.
     let mut open: Vec<Option<Tag>> = Vec::new();
@@ -211,7 +213,7 @@ fn walk<'a>(
 }
 
 fn cut_short() -> ScanError {
-    ScanError::malformed(FORMAT, "a file ends within one of its elements")
+    ScanError::malformed(FORMAT, say!("scan-dicom-cut-short"))
 }
 
 /// The bytes of a value, if they are all there.

@@ -1,18 +1,21 @@
 //! DICOM: the slices of a series, one to a file in any order, or all in one file.
 //!
 //! Slices are put in order along their normal. Of several series, or of slices of other sizes or directions among them, those
-//! are taken of which there are most; a sentence tells of the rest by number alone. Nothing that names a patient is looked
-//! at, kept or reported, a file's name neither.
+//! are taken of which there are most; a sentence tells of the rest by number alone. Files that cannot be read are left out and
+//! counted, as long as there are others. Nothing that names a patient is looked at, kept or reported, a file's name neither.
 
 mod file;
 mod pixels;
 
 use glam::{DMat3, DVec3};
 
+use super::super::axes::Axes;
 use super::super::numbers::Scalar;
 use super::error::ScanError;
 use super::numbers::Layout;
 use super::{Part, Scan};
+use crate::language::{Key, decimal};
+use crate::say;
 use crate::volume::{Geometry, Grid, Samples, VolumeError};
 use file::File;
 
@@ -21,6 +24,9 @@ const FORMAT: &str = "DICOM";
 const UNEVEN: f64 = 0.05;
 /// By so much a direction may differ between slices of a series, and by so many mm two slices of one place.
 const SAME: f64 = 1e-3;
+
+/// That a file of a series does not say where its slices are.
+const NO_PLACES: Key = Key("scan-dicom-no-places");
 
 /// A slice of the volume.
 struct Slice<'f, 'a> {
@@ -33,31 +39,67 @@ struct Slice<'f, 'a> {
 
 /// Reads a series from the files of a folder.
 pub(super) fn read(parts: &[&Part]) -> Result<Scan, ScanError> {
-    let files = parts.iter().map(|part| File::parse(part.bytes)).collect::<Result<Vec<_>, _>>()?;
+    let (mut files, mut unreadable) = (Vec::new(), Unreadable::default());
+    for part in parts {
+        match File::parse(part.bytes) {
+            Ok(file) => files.push(file),
+            Err(error) => unreadable.add(error),
+        }
+    }
+    if files.is_empty() {
+        return Err(unreadable.into_error());
+    }
     let mut warnings = Vec::new();
     let series = largest_series(&files, &mut warnings)?;
     let first = series[0];
-    let [across, down] = first.orientation.ok_or_else(|| missing("which way its slices lie"))?;
-    let [between_rows, between_columns] = first.spacing.ok_or_else(|| missing("how far apart its pixels are"))?;
-    let mut slices = placed(&series, across.cross(down))?;
+    let [across, down] = first.orientation.ok_or_else(|| missing(Key("scan-dicom-no-directions")))?;
+    let [between_rows, between_columns] = first.spacing.ok_or_else(|| missing(Key("scan-dicom-no-spacing")))?;
+    let mut slices = placed(&series, across.cross(down), &mut unreadable);
     slices.sort_by(|a, b| a.height.total_cmp(&b.height).then(a.file.instance.total_cmp(&b.file.instance)));
     let all = slices.len();
     slices.dedup_by(|next, kept| next.height - kept.height < SAME);
     if slices.len() < all {
         let more = all - slices.len();
-        warnings.push(format!("{more} slices lie at the place of another: of each place the first is taken."));
+        warnings.push(say!("scan-dicom-same-place", count = more));
     }
+    let (samples, slope, intercept) = samples(&mut slices, &mut unreadable)?;
+    warnings.extend(unreadable.sentence());
     let step = step(&slices, &mut warnings)?;
     let size = [first.columns, first.rows, slices.len()];
     let steps = DMat3::from_cols(across * between_columns, down * between_rows, step);
     let geometry = Geometry::from_steps(size, steps, slices[0].position).map_err(VolumeError::from)?;
-    let (samples, slope, intercept) = samples(&slices, size)?;
     let grid = Grid::new(geometry, samples, slope, intercept)?;
-    Ok(Scan { grid, format: FORMAT, is_ct: first.modality == "CT", warnings })
+    Ok(Scan { grid, format: FORMAT, axes: Axes::Lps, is_ct: first.modality == "CT", warnings })
 }
 
-fn missing(what: &str) -> ScanError {
-    ScanError::malformed(FORMAT, format!("it does not say {what}"))
+/// Files and slices that cannot be read.
+#[derive(Default)]
+struct Unreadable {
+    first: Option<ScanError>,
+    count: usize,
+}
+
+impl Unreadable {
+    fn add(&mut self, error: ScanError) {
+        self.first.get_or_insert(error);
+        self.count += 1;
+    }
+
+    /// Why there is nothing left.
+    fn into_error(self) -> ScanError {
+        self.first.unwrap_or_else(|| missing(NO_PLACES))
+    }
+
+    /// What to tell the user of them.
+    fn sentence(&self) -> Option<String> {
+        let first = self.first.as_ref()?;
+        Some(say!("scan-dicom-unreadable", count = self.count, why = first.to_string()))
+    }
+}
+
+/// That a file does not say what it should.
+fn missing(what: Key) -> ScanError {
+    ScanError::malformed(FORMAT, what.say())
 }
 
 /// The files that belong together, of which there are most images.
@@ -76,21 +118,17 @@ fn largest_series<'f, 'a>(files: &'f [File<'a>], warnings: &mut Vec<String>) -> 
     let others = groups.len().saturating_sub(1);
     let taken = groups.iter().enumerate().max_by_key(|(number, group)| (images(group), std::cmp::Reverse(*number)));
     let Some((number, _)) = taken else {
-        return Err(ScanError::malformed(FORMAT, "none of its files holds a slice in shades of grey"));
+        return Err(ScanError::malformed(FORMAT, say!("scan-dicom-no-slice")));
     };
     let series = groups.swap_remove(number);
     let slices = groups.iter().map(|group| images(group)).fold(0, usize::saturating_add);
     let empty = files.iter().filter(|file| !holds_slices(file)).count();
     if others > 0 {
-        warnings.push(format!(
-            "The files hold {} series: the one with most slices, {}, is taken, and {slices} of {} are left out.",
-            others + 1,
-            images(&series),
-            if others == 1 { "the other".to_owned() } else { format!("{others} others") },
-        ));
+        let (count, taken, slices) = (others + 1, images(&series).to_string(), slices.to_string());
+        warnings.push(say!("scan-dicom-series", count = count, taken = taken, slices = slices, others = others));
     }
     if empty > 0 {
-        warnings.push(format!("{empty} files hold no slice in shades of grey and are left out."));
+        warnings.push(say!("scan-dicom-no-slices", count = empty));
     }
     Ok(series)
 }
@@ -103,11 +141,22 @@ fn belong_together(a: &File, b: &File) -> bool {
         (a, b) => a.is_none() && b.is_none(),
     };
     let form = |file: &File| (file.rows, file.columns, file.bits_allocated, file.is_signed);
-    a.series == b.series && same_way && form(a) == form(b)
+    let same_spacing = match (a.spacing, b.spacing) {
+        (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME),
+        (a, b) => a.is_none() && b.is_none(),
+    };
+    a.series == b.series && same_way && same_spacing && form(a) == form(b)
+}
+
+/// The most frames that the bytes of a file can hold: packed ones have a fragment each.
+fn most_frames(file: &File) -> usize {
+    let frame = (file.rows * file.columns).saturating_mul(usize::from(file.bits_allocated)) / 8;
+    let bytes: usize = file.pixels.iter().map(|fragment| fragment.len()).sum();
+    file.pixels.len().max(bytes / frame.max(1))
 }
 
 /// The slices of all files, each with its place.
-fn placed<'f, 'a>(series: &[&'f File<'a>], normal: DVec3) -> Result<Vec<Slice<'f, 'a>>, ScanError> {
+fn placed<'f, 'a>(series: &[&'f File<'a>], normal: DVec3, unreadable: &mut Unreadable) -> Vec<Slice<'f, 'a>> {
     let mut slices = Vec::new();
     for &file in series {
         if file.positions.len() == file.frames {
@@ -118,71 +167,100 @@ fn placed<'f, 'a>(series: &[&'f File<'a>], normal: DVec3) -> Result<Vec<Slice<'f
                 height: position.dot(normal),
             }));
         } else if let (&[position], Some(between)) = (&file.positions[..], file.between) {
-            // Frames on top of each other, of which only the first has a place. Each has a pixel, so there are not more of
-            // them than bytes.
-            let frames = file.frames.min(file.pixels.iter().map(|fragment| fragment.len()).sum());
+            // Frames on top of each other, of which only the first has a place.
+            let frames = file.frames.min(most_frames(file));
             slices.extend((0..frames).map(|frame| {
                 let position = position + normal * (between * frame as f64);
                 Slice { file, frame, position, height: position.dot(normal) }
             }));
         } else {
-            return Err(missing("where its slices are"));
+            unreadable.add(missing(NO_PLACES));
         }
     }
-    Ok(slices)
+    slices
 }
 
 /// The mean step from a slice to the next, which a tilted gantry makes oblique.
 fn step(slices: &[Slice], warnings: &mut Vec<String>) -> Result<DVec3, ScanError> {
     let [first, .., last] = slices else {
-        return Err(ScanError::malformed(FORMAT, "it holds a single slice, and a surface takes two or more"));
+        return Err(ScanError::malformed(FORMAT, say!("scan-dicom-single")));
     };
     let steps = (slices.len() - 1) as f64;
-    let mut distances: Vec<f64> = slices.windows(2).map(|two| two[1].height - two[0].height).collect();
-    let widest = distances.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(slice, _)| slice);
-    let farthest = distances[widest];
-    distances.sort_unstable_by(f64::total_cmp);
-    let usual = distances[distances.len() / 2];
-    if farthest > usual * (1.0 + UNEVEN) || distances[0] < usual * (1.0 - UNEVEN) {
-        let (below, above) = (widest + 1, widest + 2);
-        warnings.push(format!(
-            "The slices are not evenly apart: mostly {usual:.3} mm, but {farthest:.3} mm between slices {below} and {above}; \
-             some may be missing, and the surface is stretched there."
-        ));
+    let distances: Vec<f64> = slices.windows(2).map(|two| two[1].height - two[0].height).collect();
+    let usual = {
+        let mut sorted = distances.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        sorted[sorted.len() / 2]
+    };
+    let off = |distance: f64| (distance - usual).abs();
+    let worst = (0..distances.len()).max_by(|&a, &b| off(distances[a]).total_cmp(&off(distances[b]))).unwrap_or(0);
+    let there = distances[worst];
+    if off(there) > usual * UNEVEN {
+        let (below, above) = ((worst + 1).to_string(), (worst + 2).to_string());
+        let (is_wide, usual, there) = (there > usual, decimal(usual, 3), decimal(there, 3));
+        warnings.push(if is_wide {
+            say!("scan-dicom-gap", usual = usual, there = there, below = below, above = above)
+        } else {
+            say!("scan-dicom-squeeze", usual = usual, there = there, below = below, above = above)
+        });
     }
     Ok((last.position - first.position) / steps)
 }
 
 /// The stored numbers of all slices, and what turns them into values. Where that differs from slice to slice, the values.
-fn samples(slices: &[Slice], size: [usize; 3]) -> Result<(Samples, f64, f64), ScanError> {
-    let first = slices[0].file;
+/// Slices whose pixels cannot be read are taken out, as long as there are others.
+fn samples(slices: &mut Vec<Slice>, unreadable: &mut Unreadable) -> Result<(Samples, f64, f64), ScanError> {
+    let Some(Slice { file: first, .. }) = slices.first() else {
+        return Err(std::mem::take(unreadable).into_error());
+    };
+    let size = [first.columns, first.rows, slices.len()];
     let rescale = |file: &File| (file.slope.unwrap_or(1.0), file.intercept.unwrap_or(0.0));
     let scalar = match (first.bits_allocated, first.is_signed) {
         (8, false) => Scalar::U8,
         (8, true) => Scalar::I8,
         (16, false) => Scalar::U16,
         (16, true) => Scalar::I16,
-        (bits, _) => return Err(ScanError::unsupported(FORMAT, format!("{bits} bits a pixel"))),
+        (bits, _) => return Err(ScanError::unsupported(FORMAT, say!("scan-dicom-bits", bits = bits.to_string()))),
     };
     let layout = Layout::new(FORMAT, size, scalar, false)?;
     let (slope, intercept) = rescale(first);
-    if slices.iter().all(|slice| rescale(slice.file) == (slope, intercept)) {
-        let mut samples = layout.begin();
-        for slice in slices {
-            layout.append(&mut samples, &trimmed(slice)?)?;
+    let is_uniform = slices.iter().all(|slice| rescale(slice.file) == (slope, intercept));
+    let kept = if is_uniform { layout } else { Layout::new(FORMAT, size, Scalar::F32, false)? };
+    let mut samples = kept.begin();
+    let mut failed = None;
+    slices.retain(|slice| {
+        if failed.is_some() {
+            return false;
         }
-        return Ok((samples, slope, intercept));
+        let pixels = match trimmed(slice) {
+            Ok(pixels) => pixels,
+            Err(error) => {
+                unreadable.add(error);
+                return false;
+            }
+        };
+        let appended = if is_uniform {
+            kept.append(&mut samples, &pixels)
+        } else {
+            values(layout, &pixels, rescale(slice.file)).and_then(|values| kept.append(&mut samples, &values))
+        };
+        failed = appended.err();
+        failed.is_none()
+    });
+    match (failed, slices.is_empty()) {
+        (Some(error), _) => Err(error),
+        (None, true) => Err(std::mem::take(unreadable).into_error()),
+        (None, false) if is_uniform => Ok((samples, slope, intercept)),
+        (None, false) => Ok((samples, 1.0, 0.0)),
     }
-    let in_values = Layout::new(FORMAT, size, Scalar::F32, false)?;
-    let mut samples = in_values.begin();
-    for slice in slices {
-        let mut stored = layout.begin();
-        layout.append(&mut stored, &trimmed(slice)?)?;
-        let (slope, intercept) = rescale(slice.file);
-        let values = (0..stored.len()).map(|at| (slope * stored.stored(at) + intercept) as f32);
-        in_values.append(&mut samples, &values.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
-    }
-    Ok((samples, 1.0, 0.0))
+}
+
+/// The values that stored numbers stand for, as bytes of floats.
+fn values(layout: Layout, pixels: &[u8], (slope, intercept): (f64, f64)) -> Result<Vec<u8>, ScanError> {
+    let mut stored = layout.begin();
+    layout.append(&mut stored, pixels)?;
+    let values = (0..stored.len()).map(|at| (slope * stored.stored(at) + intercept) as f32);
+    Ok(values.flat_map(f32::to_le_bytes).collect())
 }
 
 /// The pixels of a slice without what older files keep in the bits above a pixel's own.

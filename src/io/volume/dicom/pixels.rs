@@ -9,12 +9,13 @@ use super::super::error::ScanError;
 use super::super::numbers::MOST_UNFOLDED;
 use super::FORMAT;
 use super::file::{File, Packing};
+use crate::say;
 
 /// The pixels of frame `frame` of a file, in little-endian order.
 pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
     let size = file.bits_allocated as usize / 8;
     let bytes = file.rows * file.columns * size;
-    let short = || ScanError::malformed(FORMAT, "a slice has fewer pixels than rows times columns");
+    let short = || ScanError::malformed(FORMAT, say!("scan-dicom-pixels"));
     match file.packing {
         Some(Packing::Rle | Packing::Jpeg) => {
             let packed = packed(file, frame).ok_or_else(short)?;
@@ -88,8 +89,7 @@ fn run_lengths(packed: &[u8], size: usize, bytes: usize) -> Option<Vec<u8>> {
 
 /// Decodes a JPEG picture of one channel.
 fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
-    let damaged =
-        || ScanError::malformed(FORMAT, "the JPEG picture of a slice is damaged, or of a kind that is not read");
+    let damaged = || ScanError::malformed(FORMAT, say!("scan-dicom-jpeg"));
     let mut decoder = Decoder::new(packed);
     decoder.read_info().map_err(|_| damaged())?;
     let info = decoder.info().ok_or_else(damaged)?;
@@ -100,7 +100,7 @@ fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
         _ => return Err(damaged()),
     };
     if (width, height) != (file.columns, file.rows) || size > file.bits_allocated as usize / 8 {
-        return Err(ScanError::malformed(FORMAT, "the JPEG picture of a slice is not of the size that the file says"));
+        return Err(ScanError::malformed(FORMAT, say!("scan-dicom-jpeg-size")));
     }
     decoder.set_max_decoding_buffer_size(width * height * size);
     let pixels = decoder.decode().map_err(|_| damaged())?;

@@ -1,6 +1,6 @@
 //! Which of the triangles around a collapse run into others, before and after.
 
-use crate::mesh::crossing::{Face, cross};
+use crate::mesh::crossing::{Face, cross_at_all};
 
 /// Which triangles of two lists, or of the first alone, run into each other.
 pub(super) struct Crossings {
@@ -16,13 +16,13 @@ impl Crossings {
         let mut hits = vec![false; own.len()];
         for (i, face) in own.iter().enumerate() {
             for (j, other) in others.iter().enumerate() {
-                if cross(face, other) {
+                if cross_at_all(face, other) {
                     hits[i] = true;
                     is_hit[j] = true;
                 }
             }
             for j in i + 1..own.len() {
-                if cross(face, &own[j]) {
+                if cross_at_all(face, &own[j]) {
                     hits[i] = true;
                     hits[j] = true;
                 }

@@ -6,9 +6,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::app::compare::{Arrangement, Cell, Made, Outcome};
+use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::paper;
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{app, settle, settle_wholly};
+use lumen_ui_tests::{app, says, settle, settle_wholly};
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
 const PHONE: [f32; 2] = [390.0, 844.0];
@@ -272,4 +273,146 @@ fn pictures_of_the_compare_view() {
             }
         }
     }
+}
+
+/// The pixels of a cell's picture below what is written over it.
+fn pixels(harness: &mut Harness<'_, LumenApp>, cell: usize) -> Vec<[u8; 4]> {
+    let rect = harness.query_all_by_role(Role::RadioButton).nth(cell).unwrap().rect().shrink(3.0);
+    let whole = harness.render().unwrap();
+    // Of pictures that are as wide to a pixel.
+    let (left, top, width, height) =
+        (rect.left().round() as u32, rect.top() as u32 + 30, 300, rect.height() as u32 - 34);
+    (top..top + height)
+        .flat_map(|y| (left..left + width).map(move |x| (x, y)))
+        .map(|(x, y)| whole.get_pixel(x, y).0)
+        .collect()
+}
+
+#[test]
+fn the_first_settings_are_in_every_cell_while_x_is_held() {
+    let mut harness = open();
+    let is_near = |a: &[[u8; 4]], b: &[[u8; 4]]| {
+        let off = a.iter().zip(b).filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 24)).count();
+        off * 200 < a.len()
+    };
+    let (first, third) = (pixels(&mut harness, 0), pixels(&mut harness, 2));
+    assert!(!is_near(&first, &third), "10 % and 99 % look different");
+    harness.key_down(Key::X);
+    harness.run_steps(3);
+    let held = pixels(&mut harness, 2);
+    assert!(is_near(&first, &held) && !is_near(&third, &held));
+    harness.key_up(Key::X);
+    harness.run_steps(3);
+    assert!(is_near(&third, &pixels(&mut harness, 2)));
+}
+
+/// Where a surface is farthest from the first, and how wide the vessel is there, in mm.
+fn largest(harness: &Harness<'_, LumenApp>) -> ([f32; 3], f32) {
+    let largest = harness.state().state().comparison.largest_difference().expect("all are known").clone();
+    (largest.deviation.unwrap().max_at_mm[0], largest.width_mm.expect("the aorta has a lumen everywhere"))
+}
+
+#[test]
+fn the_comparison_opens_where_the_settings_differ_most_and_goes_back() {
+    let (mut harness, _) = app(DESKTOP);
+    settle(&mut harness);
+    let camera = |harness: &Harness<'_, LumenApp>| *harness.state().camera();
+    let before = camera(&harness);
+    press(&mut harness, "Compare");
+    settle(&mut harness);
+    let (at, width) = largest(&harness);
+    let there = camera(&harness);
+    assert_eq!(there.target.to_array(), at);
+    let seen = 2.0 * there.distance * (there.fov_y / 2.0).tan();
+    assert!((2.0..=4.0).contains(&(seen / width)) || seen < 8.1, "{seen} mm around a vessel of {width} mm");
+    assert!(there.distance < before.distance && there.rotation == before.rotation);
+    press(&mut harness, "Whole vessel");
+    assert!(camera(&harness).distance > there.distance && camera(&harness).target.to_array() != at);
+    harness.run_steps(5);
+    assert!(camera(&harness).target.to_array() != at, "it goes there by itself once");
+    press(&mut harness, "Where they differ most");
+    assert_eq!((camera(&harness).target, camera(&harness).distance), (there.target, there.distance));
+    // What it did by itself is taken back when it is left.
+    let (mut harness, _) = app(DESKTOP);
+    settle(&mut harness);
+    press(&mut harness, "Compare");
+    settle(&mut harness);
+    assert_eq!(camera(&harness).target.to_array(), at);
+    press(&mut harness, "Compare");
+    harness.run_steps(2);
+    let after = camera(&harness);
+    assert!((after.distance / before.distance - 1.0).abs() < 1e-3 && after.target.distance(before.target) < 0.1);
+}
+
+#[test]
+fn who_has_moved_the_camera_is_left_where_he_looks() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    memory.borrow_mut().runs = false;
+    press(&mut harness, "Compare");
+    let middle = harness.query_all_by_role(Role::RadioButton).next().unwrap().rect().center();
+    harness.drag_at(middle);
+    harness.run_steps(2);
+    harness.hover_at(middle + egui::vec2(60.0, 0.0));
+    harness.run_steps(2);
+    harness.drop_at(middle + egui::vec2(60.0, 0.0));
+    harness.run_steps(2);
+    let chosen = *harness.state().camera();
+    memory.borrow_mut().runs = true;
+    settle(&mut harness);
+    assert_ne!(largest(&harness).0, chosen.target.to_array());
+    assert_eq!(*harness.state().camera(), chosen);
+}
+
+#[test]
+fn the_others_are_coloured_by_their_distance_from_the_first() {
+    let mut harness = open();
+    let green = |harness: &mut Harness<'_, LumenApp>, cell: usize| {
+        let is_green = |p: &&[u8; 4]| i32::from(p[1]) - i32::from(p[0]) > 40;
+        pixels(harness, cell).iter().filter(is_green).count()
+    };
+    assert_eq!([green(&mut harness, 0), green(&mut harness, 2)], [0, 0]);
+    press(&mut harness, "Difference from A");
+    harness.run_steps(3);
+    assert!(green(&mut harness, 0) == 0 && green(&mut harness, 2) > 500, "{}", green(&mut harness, 2));
+    assert!(says(&harness, "A: the reference"));
+    let comparison = &harness.state().state().comparison;
+    let [a, b, c] = comparison.cells() else { panic!("three cells") };
+    for cell in [b, c] {
+        // By other samples, and four times as many.
+        let expected = deviation(&made(a).mesh, &made(cell).mesh, 200_000).unwrap();
+        let found = comparison.difference(cell).unwrap().deviation.unwrap();
+        assert!((found.mean / expected.mean - 1.0).abs() < 0.03, "{found:?} {expected:?}");
+        assert!((found.max / expected.max - 1.0).abs() < 0.1, "{found:?} {expected:?}");
+        assert!(says(&harness, &format!("From A: mean {:.3} mm, at most {:.3} mm", found.mean, found.max)));
+    }
+    assert!(comparison.difference(a).is_none());
+    let most = [b, c].map(|cell| comparison.difference(cell).unwrap().deviation.unwrap().p95);
+    assert!(says(&harness, &format!("{:.3} mm and more", most[0].max(most[1]))), "{most:?}");
+    // Without the first, the second is what is measured from.
+    let second = made(b).mesh.clone();
+    press(&mut harness, "Remove Reduction 10 %");
+    settle(&mut harness);
+    let comparison = &harness.state().state().comparison;
+    let [b, c] = comparison.cells() else { panic!("two cells") };
+    assert!(std::sync::Arc::ptr_eq(&made(b).mesh, &second) && comparison.difference(b).is_none());
+    let found = comparison.difference(c).unwrap().deviation.unwrap();
+    let expected = deviation(&second, &made(c).mesh, 200_000).unwrap();
+    assert!((found.mean / expected.mean - 1.0).abs() < 0.03, "{found:?} {expected:?}");
+    press(&mut harness, "Difference from A");
+    assert!(!says(&harness, "A: the reference") && green(&mut harness, 1) == 0);
+}
+
+#[test]
+fn what_is_compared_has_a_plain_heading_with_the_papers_figure_below() {
+    let mut harness = open();
+    let heading = |harness: &Harness<'_, LumenApp>, text: &str| {
+        harness.query_all_by_role_and_label(Role::Heading, text).next().is_some()
+    };
+    assert!(heading(&harness, "Fewer and fewer triangles") && says(&harness, "Rates of Figure 7 of the paper"));
+    press(&mut harness, "Figure 6");
+    assert!(heading(&harness, "More and less smoothing") && says(&harness, "Figure 6 of the paper"));
+    settle(&mut harness);
+    press(&mut harness, "Remove Pass band 0.1, 30 iterations");
+    assert!(heading(&harness, "Settings side by side") && !says(&harness, "Figure 6 of the paper"));
 }

@@ -1,23 +1,24 @@
-//! Each control does what it says, moved as a user moves it: by pointer and keys, found by role and name.
+//! Each control of the settings does what it says, moved as a user moves it: by pointer and keys, found by role and name.
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use lumen::app::{LumenApp, PlatformEvent};
-use lumen::pipeline::settings::{Keep, Method, Target, Window};
-use lumen_ui_tests::{app, settle};
+use lumen::app::LumenApp;
+use lumen::pipeline::filter::Filter;
+use lumen::pipeline::settings::{Method, Target, Window};
+use lumen_ui_tests::{app, says, settle};
 
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
+pub(crate) const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
-fn open() -> Harness<'static, LumenApp> {
+pub(crate) fn open() -> Harness<'static, LumenApp> {
     let (mut harness, _) = app(DESKTOP);
     settle(&mut harness);
     harness
 }
 
 /// Moves a slider by pressing on it at a part of its length.
-fn press_at(harness: &mut Harness<'_, LumenApp>, slider: &str, part: f32) {
+pub(crate) fn press_at(harness: &mut Harness<'_, LumenApp>, slider: &str, part: f32) {
     let rect = harness.get_by_role_and_label(Role::Slider, slider).rect();
     let at = egui::pos2(rect.left() + rect.width() * part, rect.center().y);
     harness.drag_at(at);
@@ -27,7 +28,7 @@ fn press_at(harness: &mut Harness<'_, LumenApp>, slider: &str, part: f32) {
 }
 
 /// Types into the field beside a slider.
-fn type_into(harness: &mut Harness<'_, LumenApp>, field: &str, text: &str) {
+pub(crate) fn type_into(harness: &mut Harness<'_, LumenApp>, field: &str, text: &str) {
     harness.get_by_role_and_label(Role::SpinButton, field).scroll_to_me();
     harness.run_steps(12);
     harness.get_by_role_and_label(Role::SpinButton, field).click();
@@ -39,20 +40,9 @@ fn type_into(harness: &mut Harness<'_, LumenApp>, field: &str, text: &str) {
     harness.run_steps(2);
 }
 
-fn shown(harness: &Harness<'_, LumenApp>) -> usize {
+pub(crate) fn shown(harness: &Harness<'_, LumenApp>) -> usize {
     let document = harness.state().state().document.as_ref();
     document.and_then(|document| document.shown.as_ref()).map_or(0, |shown| shown.level.triangles.len())
-}
-
-#[test]
-fn the_app_opens_with_the_sample_of_the_paper_smoothed_and_reduced() {
-    let harness = open();
-    let document = harness.state().state().document.as_ref().unwrap();
-    // Tables I and II of the paper: 74,307 polygons, 7,430 of them at 90 %.
-    assert_eq!(document.levels.as_ref().unwrap().1.triangles.len(), 74_307);
-    assert!((7_429..=7_430).contains(&shown(&harness)));
-    assert!(document.pieces.list.len() > 5, "islands for connectivity to leave out");
-    assert!(harness.query_by_label_contains("Not for clinical decisions").is_some());
 }
 
 #[test]
@@ -90,23 +80,6 @@ fn the_picture_follows_the_slider_in_the_same_frame() {
     let after = picture(&mut harness);
     harness.run_steps(3);
     assert!(before != after && after == picture(&mut harness));
-}
-
-#[test]
-fn a_surface_of_one_triangle_leaves_the_settings_for_the_next() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    let bytes = b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec();
-    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "one.obj".to_owned(), bytes });
-    harness.run_steps(20);
-    assert_eq!(harness.state().state().document.as_ref().unwrap().name, "one.obj");
-    assert_eq!(harness.state().state().settings.target, Target::default());
-    harness.get_by_role_and_label(Role::Button, "Sample").click();
-    harness.run_steps(3);
-    harness.get_by_label_contains("orta").click();
-    harness.run_steps(3);
-    settle(&mut harness);
-    assert!((7_429..=7_430).contains(&shown(&harness)), "Table II at 90 %: {}", shown(&harness));
 }
 
 #[test]
@@ -187,7 +160,7 @@ fn the_panel_says_how_far_is_safe_and_goes_there() {
 }
 
 /// Up to which rate a reduction is called safe, once that is known: it comes after the other numbers.
-fn safe_percent(harness: &mut Harness<'_, LumenApp>) -> f64 {
+pub(crate) fn safe_percent(harness: &mut Harness<'_, LumenApp>) -> f64 {
     for _ in 0..4000 {
         let measured = harness.state().state().document.as_ref().and_then(|document| document.measured.as_ref());
         if let Some(safe) = measured.and_then(|measured| measured.report.safe.clone()) {
@@ -214,7 +187,7 @@ fn the_other_method_leaves_less_deviation() {
 }
 
 /// Chooses from a list.
-fn choose(harness: &mut Harness<'_, LumenApp>, list: &str, choice: &str) {
+pub(crate) fn choose(harness: &mut Harness<'_, LumenApp>, list: &str, choice: &str) {
     harness.get_by_role_and_label(Role::ComboBox, list).scroll_to_me();
     harness.run_steps(12);
     harness.get_by_role_and_label(Role::ComboBox, list).click();
@@ -243,16 +216,33 @@ fn smoothing_is_set_by_slider_field_and_list_and_goes_back() {
     assert_eq!(measured.report.settings, harness.state().state().settings);
 }
 
-/// What the panel says of the filter's half gain: its eigenvalue and the length of the waves in mm.
-fn half_gain(harness: &Harness<'_, LumenApp>) -> (f64, f64) {
-    let nodes = harness.query_all_by_label_contains("Half gain at");
+#[test]
+fn a_number_is_typed_with_a_decimal_comma_as_with_a_point() {
+    let mut harness = open();
+    for (typed, meant) in [("0,02", 0.02), ("0.03", 0.03)] {
+        type_into(&mut harness, "Pass band value", typed);
+        let pass_band = harness.state().state().settings.smoothing.pass_band;
+        assert!((pass_band - meant).abs() < 1e-12, "{typed}: {pass_band}");
+    }
+    type_into(&mut harness, "Reduction value", "87,5");
+    assert_eq!(harness.state().state().settings.target, Target::Reduction(875));
+    type_into(&mut harness, "Triangles wanted", "10,000");
+    assert_eq!(harness.state().state().settings.target, Target::Triangles(10_000));
+}
+
+/// A number that the panel states: in the text that has `part`, behind `after`.
+fn stated(harness: &Harness<'_, LumenApp>, part: &str, after: &str) -> f64 {
+    let nodes = harness.query_all_by_label_contains(part);
     let mut texts = nodes.filter_map(|node| node.accesskit_node().label().or(node.accesskit_node().value()));
     let text = texts.next().unwrap();
-    let number = |after: &str| -> f64 {
-        let rest = &text[text.find(after).unwrap() + after.len()..];
-        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
-        rest[..end].parse().unwrap()
-    };
+    let rest = &text[text.find(after).unwrap() + after.len()..];
+    let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+    rest[..end].parse().unwrap()
+}
+
+/// What the panel says of the filter's half gain: its eigenvalue and the length of the waves in mm.
+fn half_gain(harness: &Harness<'_, LumenApp>) -> (f64, f64) {
+    let number = |after: &str| stated(harness, "Half gain at", after);
     (number("k = "), number("waves of "))
 }
 
@@ -271,6 +261,70 @@ fn the_panel_says_where_the_filter_cuts_and_the_words_move_with_the_sliders() {
     assert!(wider > 2.0 * k && shorter < length / 1.4, "{k} {length} became {wider} {shorter}");
     type_into(&mut harness, "Iterations value", "0");
     assert!(harness.query_by_label_contains("Half gain at").is_none(), "nothing is smoothed");
+}
+
+#[test]
+fn the_terms_add_up_on_the_curve_and_laplacian_smoothing_stands_beside_it() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    harness.get_by_label("Response").click();
+    harness.run_steps(10);
+    assert!(!says(&harness, "terms 0 to"), "all of them are the curve itself");
+    harness.get_by_role_and_label(Role::Slider, "Terms").scroll_to_me();
+    harness.run_steps(12);
+    press_at(&mut harness, "Terms", 0.25);
+    let last = stated(&harness, "terms 0 to", "terms 0 to ");
+    assert!((15.0..35.0).contains(&last), "{last} of 100 at a quarter of the way");
+    // What is left of the sum of c_n T_n(cos t), where T_n(cos t) = cos(n t), t from 0 to a right angle.
+    let farthest = |last: f64| {
+        let filter = Filter::new(&harness.state().state().settings.smoothing);
+        let rest: Vec<(i32, f64)> = (0..).zip(filter.coefficients).skip(last as usize + 1).collect();
+        let left = |part: i32| -> f64 {
+            let angle = f64::from(part) / 2000.0 * std::f64::consts::FRAC_PI_2;
+            rest.iter().map(|(n, c)| c * (f64::from(*n) * angle).cos()).sum()
+        };
+        (0..=2000).map(|part| 100.0 * left(part).abs()).fold(0.0, f64::max)
+    };
+    let (few, fewer) = (farthest(last), farthest(0.0));
+    assert!((stated(&harness, "terms 0 to", "up to ") / few - 1.0).abs() < 0.02, "{few}");
+    type_into(&mut harness, "Terms value", "0");
+    assert!((stated(&harness, "terms 0 to 0 of 100", "up to ") / fewer - 1.0).abs() < 0.02 && fewer > few, "{fewer}");
+    type_into(&mut harness, "Terms value", "100");
+    assert!(!says(&harness, "terms 0 to"));
+
+    harness.get_by_role_and_label(Role::CheckBox, "Laplacian beside it").scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_role_and_label(Role::CheckBox, "Laplacian beside it").click();
+    harness.run_steps(3);
+    // The thinnest vessel and the edges, measured after the deviation.
+    let measures = |harness: &Harness<'_, LumenApp>| {
+        let report = &harness.state().state().document.as_ref()?.measured.as_ref()?.report;
+        let lumen = report.smoothed_shape.as_ref()?.smallest_lumen?;
+        Some((report.smoothing_response?.edge_length_mm, lumen.diameter_mm))
+    };
+    while measures(&harness).is_none() {
+        harness.step();
+    }
+    memory.borrow_mut().runs = false;
+    harness.run_steps(2);
+    let (edge, diameter) = measures(&harness).unwrap();
+    // 100 passes at a half; 1 - J0(edge / radius), by Bessel's integral.
+    let left = |edges: f64| {
+        let cosines = (0..720).map(|i| (edges * (std::f64::consts::PI * f64::from(i) / 720.0).sin()).cos());
+        let k = 1.0 - cosines.sum::<f64>() / 720.0;
+        (1.0 - k / 2.0).powi(100)
+    };
+    let becomes = stated(&harness, "Laplacian passes", "becomes ");
+    assert!((becomes - diameter * left(2.0 * edge / diameter)).abs() < 0.011, "{becomes} of {diameter}");
+    assert!(becomes < 0.9 * diameter, "it shrinks");
+    // A wave of 30 mm.
+    type_into(&mut harness, "Wave value", "30");
+    let of_wave = stated(&harness, "Laplacian passes", "= 0.5: ");
+    assert!((of_wave - 100.0 * left(std::f64::consts::TAU * edge / 30.0)).abs() < 0.2, "{of_wave} %");
+    // The wave around it lies below this pass band: what the paper's filter leaves alone.
+    type_into(&mut harness, "Pass band value", "0.5");
+    let by_sinc = stated(&harness, "Laplacian passes", "windowed sinc ");
+    assert!((by_sinc / diameter - 1.0).abs() < 0.03, "{by_sinc} of {diameter}");
 }
 
 #[test]
@@ -306,19 +360,6 @@ fn the_feature_angle_is_set() {
 }
 
 #[test]
-fn another_piece_is_chosen_in_the_list() {
-    let mut harness = open();
-    harness.get_by_role_and_label(Role::ComboBox, "Piece").click();
-    harness.run_steps(2);
-    harness.get_by_label("All pieces").click();
-    settle(&mut harness);
-    assert_eq!(harness.state().state().settings.keep, Keep::All);
-    let document = harness.state().state().document.as_ref().unwrap();
-    let all = document.opened.triangles.len();
-    assert_eq!(document.levels.as_ref().unwrap().1.triangles.len(), all);
-}
-
-#[test]
 fn undo_and_redo_walk_through_the_settings() {
     let mut harness = open();
     press_at(&mut harness, "Reduction", 0.2);
@@ -331,235 +372,4 @@ fn undo_and_redo_walk_through_the_settings() {
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(2);
     assert_eq!(harness.state().state().settings, moved);
-}
-
-#[test]
-fn a_broken_file_gets_a_sentence_and_what_was_open_stays() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    let before = shown(&harness);
-    let broken = PlatformEvent::Chosen { name: "scan.stl".to_owned(), bytes: vec![0; 50] };
-    memory.borrow_mut().events.push_back(broken);
-    harness.run_steps(10);
-    let state = harness.state().state();
-    let notice = state.notice.as_ref().expect("a sentence");
-    assert!(notice.is_error && notice.text.starts_with("scan.stl: ") && notice.text.ends_with('.'), "{notice:?}");
-    assert_eq!(shown(&harness), before);
-    assert!(harness.query_by_label_contains("scan.stl").is_some());
-}
-
-#[test]
-fn the_shown_level_is_saved_in_every_format_and_reads_back() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    for format in ["STL", "PLY", "OBJ", "GLB"] {
-        harness.get_by_role_and_label(Role::Button, "Save").click();
-        harness.run_steps(3);
-        harness.get_by_label(&format!("{format}...")).click();
-        harness.run_steps(10);
-        let (name, bytes) = memory.borrow_mut().offered.pop().expect("a file is offered");
-        assert_eq!(name, format!("abdominal-aorta-{}.{}", shown(&harness), format.to_lowercase()));
-        let read = lumen::io::read(&bytes, &name, &lumen::io::ImportOptions::default()).unwrap();
-        assert_eq!(read.report.triangles, shown(&harness));
-    }
-}
-
-#[test]
-fn a_unit_chosen_for_a_file_is_that_of_this_file_alone_and_stays_with_it() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    let mesh = harness.state().state().document.as_ref().unwrap().shown_mesh().unwrap();
-    let bytes = lumen::io::write(&mesh, None, lumen::io::Format::Stl).unwrap();
-    let chosen = || PlatformEvent::Chosen { name: "scan.stl".to_owned(), bytes: bytes.clone() };
-    let unit = |harness: &Harness<'_, LumenApp>| harness.state().state().document.as_ref().unwrap().import.unit;
-    harness.get_by_role_and_label(Role::Button, "Open in").click();
-    harness.run_steps(3);
-    harness.get_by_label("cm...").click();
-    harness.run_steps(3);
-    assert_eq!(memory.borrow().asked, 1);
-    memory.borrow_mut().events.push_back(chosen());
-    harness.run_steps(3);
-    settle(&mut harness);
-    assert_eq!(unit(&harness), lumen::io::Unit::Centimetre);
-    let size = |mesh: &lumen::mesh::TriMesh| mesh.bounds().diagonal();
-    let opened = harness.state().state().document.as_ref().unwrap().opened.clone();
-    assert!((size(&opened) / size(&mesh) - 10.0).abs() < 1e-3);
-    // The engine is started again, and the file read again: as it was.
-    memory.borrow_mut().engine_failure = Some("no memory".to_owned());
-    harness.run_steps(3);
-    settle(&mut harness);
-    let again = harness.state().state().document.as_ref().unwrap();
-    assert!(again.import.unit == lumen::io::Unit::Centimetre && size(&again.opened) == size(&opened));
-    // Given up, or over: the next file says for itself.
-    memory.borrow_mut().events.push_back(chosen());
-    harness.run_steps(3);
-    settle(&mut harness);
-    assert_eq!(unit(&harness), lumen::io::Unit::Millimetre);
-}
-
-#[test]
-fn only_a_surface_that_knows_the_patient_is_seen_from_the_patients_sides() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    let has = |harness: &mut Harness<'_, LumenApp>, side: &str| {
-        harness.get_by_role_and_label(Role::Button, "View").click();
-        harness.run_steps(3);
-        let has = harness.query_by_label(side).is_some();
-        harness.key_press(Key::Escape);
-        harness.run_steps(3);
-        has
-    };
-    assert!(has(&mut harness, "Superior") && !has(&mut harness, "Top"), "the sample knows its axes");
-    let mesh = harness.state().state().document.as_ref().unwrap().shown_mesh().unwrap();
-    let bytes = lumen::io::write(&mesh, None, lumen::io::Format::Stl).unwrap();
-    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "scan.stl".to_owned(), bytes });
-    harness.run_steps(3);
-    settle(&mut harness);
-    assert!(has(&mut harness, "Top") && !has(&mut harness, "Superior"), "an STL file says nothing");
-}
-
-#[test]
-fn the_open_button_and_its_key_ask_for_a_file() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    harness.get_by_role_and_label(Role::Button, "Open...").click();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::O);
-    harness.run_steps(2);
-    assert_eq!(memory.borrow().asked, 2);
-}
-
-#[test]
-fn the_coronary_sample_opens_from_the_menu() {
-    let mut harness = open();
-    harness.get_by_role_and_label(Role::Button, "Sample").click();
-    harness.run_steps(3);
-    harness.get_by_label_contains("oronary").click();
-    harness.run_steps(3);
-    settle(&mut harness);
-    assert_ne!(harness.state().state().document.as_ref().unwrap().levels.as_ref().unwrap().1.triangles.len(), 74_307);
-}
-
-#[test]
-fn cancel_goes_back_to_the_last_result() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    let before = harness.state().state().settings.clone();
-    memory.borrow_mut().slice = std::time::Duration::ZERO;
-    press_at(&mut harness, "Iterations", 0.1);
-    assert_ne!(harness.state().state().settings, before);
-    assert!(harness.state().state().is_busy());
-    harness.get_by_role_and_label(Role::Button, "Cancel").click();
-    harness.run_steps(3);
-    assert_eq!(harness.state().state().settings, before);
-    assert!((7_429..=7_430).contains(&shown(&harness)));
-}
-
-#[test]
-fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    let before = shown(&harness);
-    memory.borrow_mut().slice = std::time::Duration::ZERO;
-    harness.get_by_role_and_label(Role::Button, "Sample").click();
-    harness.run_steps(3);
-    harness.get_by_label_contains("oronary").click();
-    harness.run_steps(20);
-    assert!(harness.query_by_label_contains("Smoothing").is_some(), "it is read, and on its way");
-    assert_eq!(shown(&harness), before);
-    harness.get_by_role_and_label(Role::Button, "Cancel").click();
-    harness.run_steps(5);
-    let state = harness.state().state();
-    assert!(state.opening().is_none());
-    assert!(state.notice.as_ref().is_some_and(|notice| notice.text.contains("cancelled")));
-    assert_eq!(state.document.as_ref().unwrap().name, "Abdominal aorta");
-    memory.borrow_mut().slice = std::time::Duration::from_millis(50);
-    press_at(&mut harness, "Iterations", 0.1);
-    settle(&mut harness);
-    assert!((7_429..=7_430).contains(&shown(&harness)), "the engine works on the aorta again");
-}
-
-#[test]
-fn an_engine_that_stops_is_started_again_and_nothing_is_lost() {
-    let (mut harness, memory) = app(DESKTOP);
-    settle(&mut harness);
-    let before = shown(&harness);
-    memory.borrow_mut().engine_failure = Some("out of memory".to_owned());
-    harness.run_steps(2);
-    assert_eq!(memory.borrow().engines, 2);
-    assert!(harness.state().state().notice.as_ref().is_some_and(|notice| notice.text.contains("out of memory")));
-    assert_eq!(shown(&harness), before);
-    harness.run_steps(50);
-    press_at(&mut harness, "Iterations", 0.1);
-    settle(&mut harness);
-    let state = harness.state().state();
-    assert_eq!(state.document.as_ref().unwrap().measured.as_ref().unwrap().report.settings, state.settings);
-}
-
-#[test]
-fn theme_help_and_about_open_and_close() {
-    let mut harness = open();
-    let dark = harness.ctx.theme();
-    harness.get_by_role_and_label(Role::Button, "Theme").click();
-    harness.run_steps(2);
-    assert_ne!(harness.ctx.theme(), dark);
-    harness.get_by_role_and_label(Role::Button, "About").click();
-    harness.run_steps(3);
-    assert!(harness.query_by_label_contains("MIT or Apache-2.0").is_some());
-    assert!(harness.query_by_label("Not for clinical decisions.").is_some());
-    harness.get_by_role_and_label(Role::Button, "Close").click();
-    harness.run_steps(3);
-    assert!(harness.query_by_label_contains("MIT or Apache-2.0").is_none());
-    harness.key_press(Key::F1);
-    harness.run_steps(3);
-    assert!(harness.query_by_label("Keys and gestures").is_some());
-}
-
-#[test]
-fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() {
-    let mut harness = open();
-    // What comes in the background changes the panel, and must not come between two pictures.
-    safe_percent(&mut harness);
-    let picture = harness.render().unwrap();
-    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
-    harness.drag_at(view.center());
-    harness.run_steps(2);
-    harness.hover_at(view.center() + egui::vec2(80.0, 0.0));
-    harness.run_steps(2);
-    harness.drop_at(view.center() + egui::vec2(80.0, 0.0));
-    harness.run_steps(2);
-    let turned = harness.render().unwrap();
-    assert_ne!(picture.as_raw(), turned.as_raw());
-    harness.key_down(Key::B);
-    harness.run_steps(2);
-    let before = harness.render().unwrap();
-    assert_ne!(before.as_raw(), turned.as_raw());
-    harness.key_up(Key::B);
-    harness.run_steps(2);
-    assert_eq!(harness.render().unwrap().as_raw(), turned.as_raw());
-    // A slider that was moved keeps the focus.
-    harness.get_by_role_and_label(Role::Slider, "Pass band").focus();
-    harness.run_steps(2);
-    let focused = harness.render().unwrap();
-    harness.key_down(Key::B);
-    harness.run_steps(2);
-    assert_ne!(harness.render().unwrap().as_raw(), focused.as_raw());
-}
-
-#[test]
-fn everything_is_there_on_a_phone() {
-    let (mut harness, _) = app([390.0, 844.0]);
-    settle(&mut harness);
-    for (role, name) in [
-        (Role::Button, "Open..."),
-        (Role::Button, "Menu"),
-        (Role::Image, "Shaded view"),
-        (Role::Image, "Wireframe view"),
-    ] {
-        let rect = harness.get_by_role_and_label(role, name).rect();
-        assert!(rect.left() >= 0.0 && rect.right() <= 390.0 && rect.bottom() <= 844.0, "{name} at {rect:?}");
-    }
-    let (shaded, wireframe) =
-        ["Shaded view", "Wireframe view"].map(|name| harness.get_by_role_and_label(Role::Image, name).rect()).into();
-    assert!(shaded.bottom() <= wireframe.top() + 1.0, "the views stack");
 }

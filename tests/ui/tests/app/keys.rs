@@ -11,7 +11,7 @@ use lumen::pipeline::settings::Target;
 use lumen::trial::setup::Input;
 use lumen::trial::summary::Summary;
 use lumen_ui_tests::told::{App, DESKTOP, asked, choose, on, press, says};
-use lumen_ui_tests::{app, app_at, hide, settle};
+use lumen_ui_tests::{app, app_at, hide, settle, settle_wholly};
 
 fn escape(harness: &mut App) {
     harness.key_press(Key::Escape);
@@ -101,6 +101,9 @@ fn escape_cancels_what_is_going_on_before_it_closes_the_trial_and_leaves_the_com
     assert!(harness.state().state().opening().is_none() && harness.state().trial().is_open());
     // Another engine takes up the surface that is shown.
     memory.borrow_mut().slice = Duration::from_millis(50);
+    // Escape would cancel what it does in the background.
+    settle_wholly(&mut harness);
+    harness.run_steps(10);
     settle(&mut harness);
     assert!(harness.state().trial().is_open());
     escape(&mut harness);

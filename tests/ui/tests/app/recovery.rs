@@ -9,7 +9,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Source;
 use lumen::io::{Format, write};
 use lumen::phantom::{Sample, generate};
-use lumen::pipeline::settings::{Settings, Target};
+use lumen::pipeline::settings::{Keep, Settings, Target};
 use lumen::sharing::{SharedSettings, write_settings};
 use lumen_ui_tests::{Kept, Memory, dying_page, page, settle};
 
@@ -93,7 +93,7 @@ fn a_surface_is_kept_only_where_that_is_asked_for_and_forgotten_with_all_else() 
     let (mut harness, memory) = page(DESKTOP, Kept::default());
     settle(&mut harness);
     tell(&mut harness, &memory, file("right.stl"));
-    choose(&mut harness, "Keep this surface on this device");
+    choose(&mut harness, "Keep opened surfaces on this device");
     harness.run_steps(12);
     let kept = memory.borrow().kept.clone().unwrap();
     assert_eq!(
@@ -119,23 +119,147 @@ fn a_surface_that_ends_the_program_is_not_brought_back_again() {
     let (mut harness, memory) = page(DESKTOP, Kept::default());
     settle(&mut harness);
     tell(&mut harness, &memory, file("bad.stl"));
-    choose(&mut harness, "Keep this surface on this device");
+    choose(&mut harness, "Keep opened surfaces on this device");
     harness.run_steps(12);
     let kept = memory.borrow().kept.clone().unwrap();
-    let (harness, memory) = dying_page(DESKTOP, kept);
-    let kept = memory.borrow().kept.clone().unwrap();
-    drop(harness);
-    let (mut harness, _) = page(DESKTOP, kept);
+    let died = |kept| {
+        let (harness, memory) = dying_page(DESKTOP, kept);
+        drop(harness);
+        memory.borrow().kept.clone().unwrap()
+    };
+    // Whoever is impatient reloads once.
+    let kept = died(kept);
+    assert!(kept.surface.is_some());
+    let kept = died(kept);
+    let (mut harness, memory) = page(DESKTOP, kept);
     settle(&mut harness);
     assert_eq!(name(&harness), Sample::Aorta.label());
-    assert!(notice(&harness).starts_with("bad.stl was open before."), "{}", notice(&harness));
+    let said =
+        "bad.stl was open before. The program has ended twice while it was being opened, so it is kept here no longer.";
+    assert!(notice(&harness).starts_with(said), "{}", notice(&harness));
+    assert!(memory.borrow().kept.as_ref().unwrap().surface.is_none());
+}
+
+#[test]
+fn a_surface_that_is_shown_may_be_reloaded_as_often_as_one_likes() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file("again.stl"));
+    choose(&mut harness, "Keep opened surfaces on this device");
+    harness.run_steps(12);
+    for _ in 0..4 {
+        let kept = memory.borrow().kept.clone().unwrap();
+        let (mut harness, again) = page(DESKTOP, kept);
+        settle(&mut harness);
+        harness.run_steps(12);
+        assert_eq!(name(&harness), "again.stl");
+        memory.borrow_mut().kept = again.borrow().kept.clone();
+    }
+}
+
+#[test]
+fn no_surface_stays_that_no_session_asks_for() {
+    let bytes = Some(("left.stl".to_owned(), vessel(4000)));
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file("left.stl"));
+    harness.run_steps(12);
+    let not_kept = memory.borrow().kept.clone().unwrap().text;
+    for text in [None, Some("[1]".to_owned()), not_kept] {
+        let (_, memory) = page(DESKTOP, Kept { text: text.clone(), surface: bytes.clone() });
+        assert!(memory.borrow().kept.as_ref().unwrap().surface.is_none(), "{text:?}");
+    }
+}
+
+#[test]
+fn the_bytes_of_another_file_do_not_come_back_under_a_name() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file("second.stl"));
+    choose(&mut harness, "Keep opened surfaces on this device");
+    harness.run_steps(12);
+    // The browser had no room for the second.
+    let text = memory.borrow().kept.clone().unwrap().text;
+    let (mut harness, memory) = page(DESKTOP, Kept { text, surface: Some(("first.stl".to_owned(), vessel(5000))) });
+    settle(&mut harness);
+    assert_eq!(name(&harness), Sample::Aorta.label());
+    assert!(notice(&harness).starts_with("second.stl was open before."), "{}", notice(&harness));
+    assert!(memory.borrow().kept.as_ref().unwrap().surface.is_none());
+}
+
+#[test]
+fn the_piece_that_was_kept_is_kept_again() {
+    // Two vessels side by side, the second the smaller.
+    let pieces = || {
+        let (mut both, small) = (generate(Sample::Aorta, 5000).unwrap(), generate(Sample::Aorta, 3000).unwrap());
+        let first = both.positions.len() as u32;
+        both.triangles.extend(small.triangles.iter().map(|corners| corners.map(|vertex| first + vertex)));
+        both.positions.extend(small.positions.into_iter().map(|mut at| {
+            at.x += 500.0;
+            at
+        }));
+        PlatformEvent::Chosen { name: "two.stl".to_owned(), bytes: write(&both, None, Format::Stl).unwrap() }
+    };
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, pieces());
+    let settings = Settings { keep: Keep::Component(1), ..Settings::default() };
+    let text = write_settings(&SharedSettings { unit: None, settings: settings.clone() });
+    let chosen = PlatformEvent::Chosen { name: "settings.json".to_owned(), bytes: text.into_bytes() };
+    tell(&mut harness, &memory, chosen);
+    assert_eq!(harness.state().state().settings.keep, Keep::Component(1));
+    harness.run_steps(12);
+
+    // The sample that stands in has no such piece, and another reload comes before the file.
+    let mut kept = memory.borrow().kept.clone().unwrap();
+    for _ in 0..2 {
+        let (mut harness, memory) = page(DESKTOP, kept.clone());
+        settle(&mut harness);
+        assert_eq!(harness.state().state().settings.keep, Keep::Largest);
+        harness.run_steps(12);
+        kept = memory.borrow().kept.clone().unwrap();
+    }
+    let (mut harness, memory) = page(DESKTOP, kept);
+    settle(&mut harness);
+    tell(&mut harness, &memory, pieces());
+    assert_eq!(harness.state().state().settings, settings);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(harness.state().state().settings.keep, Keep::Largest);
+}
+
+#[test]
+fn what_is_forgotten_is_not_written_again_by_a_turn_of_the_camera() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file("secret.stl"));
+    harness.run_steps(12);
+    choose(&mut harness, "Forget what is kept here");
+    harness.key_press(Key::Num3);
+    harness.run_steps(12);
+    assert!(memory.borrow().kept.as_ref().unwrap().text.is_none());
+    tell(&mut harness, &memory, file("next.stl"));
+    harness.run_steps(12);
+    assert!(memory.borrow().kept.as_ref().unwrap().text.as_ref().unwrap().contains("next.stl"));
 }
 
 #[test]
 fn what_no_version_has_written_is_passed_over() {
-    for text in ["", "{}", "[1]", r#"{"version":9,"surface":null}"#] {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, settings_at(700));
+    harness.run_steps(12);
+    let written = memory.borrow().kept.clone().unwrap().text.unwrap();
+    let newer = written.replacen("\"version\":1", "\"version\":9", 1);
+    assert_ne!(newer, written);
+    let rate = |text: &str| {
         let (mut harness, _) = page(DESKTOP, Kept { text: Some(text.to_owned()), surface: None });
         settle(&mut harness);
         assert_eq!(name(&harness), Sample::Aorta.label(), "{text}");
+        harness.state().state().settings.target
+    };
+    assert_eq!(rate(&written), Target::Reduction(700));
+    for text in ["", "{}", "[1]", &newer] {
+        assert_eq!(rate(text), Target::default(), "{text}");
     }
 }

@@ -1,11 +1,25 @@
 //! Settings for others: what a link says to whoever follows it, and the settings file.
 
-use lumen::app::PlatformEvent;
-use lumen::pipeline::settings::{Settings, Target};
+use egui_kittest::Harness;
+use lumen::app::{LumenApp, PlatformEvent};
+use lumen::io::Unit;
+use lumen::phantom::Sample;
+use lumen::pipeline::settings::{Keep, Settings, Target};
 use lumen::sharing::{Digest, Link, SharedSettings, SharedSurface, write_settings};
 use lumen_ui_tests::{Kept, page, settle};
 
 use crate::recovery::{choose, notice, settings_at, tell, vessel};
+
+/// A link to a surface, as the platform reports it.
+fn link(surface: SharedSurface, unit: Option<Unit>, settings: Settings) -> PlatformEvent {
+    let link = Link { surface, shared: SharedSettings { unit, settings } };
+    PlatformEvent::Linked { fragment: format!("#{}", link.fragment()) }
+}
+
+/// The unit that the numbers of the open file were taken in.
+fn unit(harness: &Harness<'_, LumenApp>) -> Unit {
+    harness.state().state().document.as_ref().unwrap().import.unit
+}
 
 const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
@@ -50,6 +64,66 @@ fn a_link_is_copied_and_says_to_another_whether_it_is_the_same_file() {
     tell(&mut harness, &memory, PlatformEvent::Linked { fragment });
     assert_eq!(harness.state().state().settings, half());
     assert_eq!(notice(&harness), "The settings of the link are in force.");
+}
+
+#[test]
+fn the_unit_of_a_link_counts_whenever_it_is_followed() {
+    let bytes = vessel(4000);
+    let to = SharedSurface::File(Digest::of(&bytes).short());
+    let same = "This is what the link belongs to: you see the same.";
+    // Followed before the file, which was in another unit here the time before.
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file(&bytes));
+    tell(&mut harness, &memory, link(to, Some(Unit::Centimetre), half()));
+    assert_eq!((unit(&harness), &*notice(&harness)), (Unit::Centimetre, same));
+    harness.run_steps(12);
+    let kept = memory.borrow().kept.clone().unwrap();
+    for (asked, expected) in [(Some(Unit::Metre), Unit::Metre), (None, Unit::Millimetre)] {
+        let (mut harness, memory) = page(DESKTOP, kept.clone());
+        settle(&mut harness);
+        tell(&mut harness, &memory, link(to, asked, half()));
+        tell(&mut harness, &memory, file(&bytes));
+        assert_eq!((unit(&harness), &*notice(&harness)), (expected, same));
+    }
+    // Followed with the file open: one after the other.
+    for (asked, expected) in [(Some(Unit::Metre), Unit::Metre), (None, Unit::Millimetre)] {
+        tell(&mut harness, &memory, link(to, asked, half()));
+        assert_eq!((unit(&harness), &*notice(&harness)), (expected, same));
+        assert_eq!(harness.state().state().settings, half());
+    }
+}
+
+#[test]
+fn the_piece_of_a_link_is_asked_of_its_own_surface_alone() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    let settings = Settings { keep: Keep::Component(40_000), ..half() };
+    let to = SharedSurface::File(Digest::of(b"another").short());
+    tell(&mut harness, &memory, link(to, None, settings.clone()));
+    assert_eq!(harness.state().state().settings, half());
+    assert!(notice(&harness).starts_with("This link belongs to a file"), "{}", notice(&harness));
+    // Nor does its own surface have a piece of that number.
+    tell(&mut harness, &memory, link(SharedSurface::Sample(Sample::Aorta), None, settings));
+    assert_eq!(harness.state().state().settings, half());
+    assert_eq!(notice(&harness), "The settings of the link are in force.");
+}
+
+#[test]
+fn a_link_to_a_sample_counts_more_than_the_file_that_comes_back() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, file(&vessel(4000)));
+    choose(&mut harness, "Keep opened surfaces on this device");
+    harness.run_steps(12);
+    let kept = memory.borrow().kept.clone().unwrap();
+    let (mut harness, memory) = page(DESKTOP, kept);
+    // The address is read before the store answers.
+    memory.borrow_mut().events.push_front(link(SharedSurface::Sample(Sample::Coronary), None, half()));
+    harness.run_steps(2);
+    settle(&mut harness);
+    assert_eq!(harness.state().state().document.as_ref().unwrap().name, Sample::Coronary.label());
+    assert_eq!(notice(&harness), "This is what the link belongs to: you see the same.");
 }
 
 #[test]

@@ -1,0 +1,32 @@
+### Was die App für die Akten schreibt: Berichte, Bilder und Drehungen.
+
+## Einträge im Menü zum Speichern
+
+record-report-pdf = Bericht (PDF)...
+record-report-pdf-help = Urteil, Zahlen, Einstellungen, Gefäße, Bilder und Kurven, zum Drucken
+record-report-html = Bericht (Webseite)...
+record-report-html-help = Dasselbe in einer Datei für den Browser, die sonst nichts braucht
+record-name-file = Dateiname im Bericht
+record-name-file-help = Sonst steht im Bericht nur die Prüfsumme der Datei: Namen können die von Patienten sein
+record-picture = Bild (PNG)
+record-pixels = { $count } Pixel...
+record-pixels-help = Die längere Seite des Bildes
+record-clear = Hintergrund transparent
+record-clear-help = Nichts hinter der Oberfläche, um sie über anderes zu legen
+record-turntable = Drehung (APNG)...
+record-turntable-help = Die Oberfläche dreht sich einmal, als bewegtes Bild; die Farben sind die der Ansicht
+
+## Was gezeichnet wird
+
+record-drawing-report = Bericht
+record-drawing-picture = Bild
+record-drawing-turntable = Drehung
+
+## Was daraus wurde
+
+record-nothing = Es gibt noch nichts zu speichern.
+record-cancelled = Abgebrochen.
+record-cannot-draw = Es lässt sich nicht zeichnen: { $why }.
+record-not-drawn = Es wurde nicht gezeichnet: { $why }.
+record-device-gone = Es wurde nicht gezeichnet: Das Grafikgerät ist weggefallen.
+record-error-too-large = dieses Grafikgerät zeichnet Bilder von höchstens { $limit } Pixeln je Richtung

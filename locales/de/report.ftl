@@ -1,0 +1,103 @@
+### Berichte: was auf der Seite für die Akten steht (PDF und Webseite).
+
+report-title = Gefäßoberfläche
+report-not-clinical = Nicht für klinische Entscheidungen.
+report-page = Seite { $page } von { $count }
+
+## Überschriften
+
+report-file = Datei
+report-settings = Einstellungen
+report-numbers = Zahlen
+report-by-hand = Von Hand gemessen
+report-stretches = Enger und weiter als beiderseits davon
+
+## Die Datei
+
+report-fingerprint = Prüfsumme (SHA-256)
+report-no-fingerprint = keine: nicht aus einer Datei
+report-format = Format
+report-format-in = { $format }, in { $unit }
+report-opened = Geöffnet
+report-counts = { $triangles } Dreiecke in { $pieces ->
+    [one] einem Stück
+   *[other] { $pieces } Stücken
+}
+report-size = Größe
+report-size-mm = { $x } × { $y } × { $z } mm
+report-axes = Achsen
+report-axes-unknown = unbekannt
+
+## Einstellungen
+
+report-keep = Behalten
+report-keep-largest = das größte Stück
+report-keep-piece = Stück { $number }
+report-keep-all = alle Stücke
+report-mending = Reparatur
+report-no-mending = keine
+report-lumen-taken = Lumen einer Wand genommen
+report-welded = bis { $most } mm verschweißt
+report-split = Flächen getrennt
+report-filled = Löcher bis { $most } mm gefüllt
+report-smoothing = Glättung
+report-no-smoothing = keine
+report-filter = Durchlassband { $band }, { $count ->
+    [one] 1 Iteration
+   *[other] { $count } Iterationen
+}, { $window }
+report-preset = { $preset }: { $filter }
+report-no-crossings = ohne Schnitte
+report-volume-held = Volumen erhalten
+report-reduction = Reduktion
+report-target-reduction = { $percent } % der Dreiecke
+report-target-triangles = auf { $count } Dreiecke
+report-target-deviation = innerhalb von { $most } mm
+report-method = Verfahren
+report-allowed = Zulässige Kaliberänderung
+
+## Zahlen
+
+report-triangles = Dreiecke
+report-triangles-of = { $left } von { $all }
+report-from-smoothed = Abweichung (geglättet)
+report-from-opened = Abweichung (geöffnet)
+report-distance = im Mittel { $mean } mm, höchstens { $most } mm
+report-volume-change = Volumenänderung
+report-area-change = Flächenänderung
+report-half-gain = Halbe Verstärkung
+report-crossing = Selbstschnitte
+report-smallest-lumen = Engstes Lumen
+report-measured = Gefäße gemessen
+report-measured-part = { $percent } % ihrer Länge
+report-output-fingerprint = Oberflächen-Prüfsumme
+
+## Spalten und Zellen
+
+report-calibre = Kaliber
+report-radius = Radius wie geöffnet, mm
+report-diameter = Durchmesser
+report-by-area = Fläche
+report-diameter-mm = Durchmesser, mm
+report-at-mm = Bei, mm
+report-diameter-of = { $diameter } von { $reference }
+report-measure = Messung
+report-found = Wert
+report-made-on = Gemessen an
+report-middle = Mitte, mm
+report-point = ({ $x }; { $y }; { $z })
+report-at = Bei ({ $x }; { $y }; { $z }) mm.
+
+## Kurven
+
+report-response = Was die Glättung von einer Welle lässt
+report-wave-length = Länge einer Welle, mm
+report-eigenvalue = Eigenwert
+report-left = Rest
+report-left-curve = Rest
+report-pass-band = Durchlassband
+
+## Warum es kein Bild gibt
+
+report-error-size = ein Bild von { $width } × { $height } Pixeln kam mit { $bytes } Byte
+report-error-png = das Bild lässt sich nicht schreiben: { $why }

@@ -1,0 +1,34 @@
+### What leaves the app for the record: reports, pictures and turntables.
+
+## Entries of the menu of what can be saved
+
+record-report-pdf = Report (PDF)...
+record-report-pdf-help = Verdict, numbers, settings, vessels, pictures and curves, to print
+record-report-html = Report (web page)...
+record-report-html-help = The same in one file for a browser, which needs nothing else
+record-name-file = Name the file in reports
+record-name-file-help = Otherwise a report has the file's fingerprint alone: names may be those of patients
+record-picture = Picture (PNG)
+# The longer side of a picture: 960 pixels...
+record-pixels = { $count } pixels...
+record-pixels-help = The longer side of the picture
+record-clear = Transparent background
+record-clear-help = Nothing behind the surface, to lay it over something else
+record-turntable = Turntable (APNG)...
+record-turntable-help = The surface turning once, as a picture that moves; the colours are those of the view
+
+## What is being drawn, before the part of it that is done, in percent: one word
+
+record-drawing-report = Report
+record-drawing-picture = Picture
+record-drawing-turntable = Turntable
+
+## What came of it
+
+record-nothing = There is nothing to save yet.
+record-cancelled = Cancelled.
+record-cannot-draw = It cannot be drawn: { $why }.
+record-not-drawn = It was not drawn: { $why }.
+record-device-gone = It was not drawn: the device went away.
+# Said after a colon; a full stop follows.
+record-error-too-large = this graphics device draws pictures of at most { $limit } pixels each way

@@ -1,0 +1,108 @@
+### Reports: what stands on the page for the record (PDF and web page). The names of rows are narrow in the PDF: some 22 letters; the heads of columns some 10.
+
+report-title = Vessel surface
+report-not-clinical = Not for clinical decisions.
+report-page = Page { $page } of { $count }
+
+## Heads of the parts
+
+report-file = File
+report-settings = Settings
+report-numbers = Numbers
+report-by-hand = Measured by hand
+report-stretches = Narrower and wider than on either side
+
+## The file: the names of rows, and what stands in them
+
+report-fingerprint = Fingerprint (SHA-256)
+report-no-fingerprint = none: not from a file
+report-format = Format
+# A format and the unit of lengths: STL, in mm.
+report-format-in = { $format }, in { $unit }
+report-opened = Opened
+report-counts = { $triangles } triangles in { $pieces ->
+    [one] one piece
+   *[other] { $pieces } pieces
+}
+report-size = Size
+report-size-mm = { $x } x { $y } x { $z } mm
+report-axes = Axes
+report-axes-unknown = unknown
+
+## Settings
+
+# The pieces of the surface that are kept.
+report-keep = Kept
+report-keep-largest = the largest piece
+report-keep-piece = piece { $number }
+report-keep-all = all pieces
+report-mending = Mending
+report-no-mending = none
+report-lumen-taken = the lumen of a wall taken
+report-welded = welded to { $most } mm
+# Sheets of triangles that meet in one edge or vertex.
+report-split = sheets split
+report-filled = holes up to { $most } mm filled
+report-smoothing = Smoothing
+report-no-smoothing = none
+report-filter = pass band { $band }, { $count } iterations, { $window }
+# A preset, and what it stands for.
+report-preset = { $preset }: { $filter }
+report-no-crossings = no crossings
+report-volume-held = volume held
+report-reduction = Reduction
+report-target-reduction = { $percent } % of the triangles
+report-target-triangles = to { $count } triangles
+report-target-deviation = within { $most } mm
+report-method = Method
+report-allowed = Allowed change of calibre
+
+## Numbers
+
+report-triangles = Triangles
+report-triangles-of = { $left } of { $all }
+report-from-smoothed = Deviation from smoothed
+report-from-opened = Deviation from opened
+report-distance = { $mean } mm mean, { $most } mm at most
+report-volume-change = Change of volume
+report-area-change = Change of area
+report-half-gain = Half gain of smoothing
+report-crossing = Triangles that cross
+report-smallest-lumen = Smallest lumen
+report-measured = Vessels measured
+report-measured-part = { $percent } % of their length
+report-output-fingerprint = Surface's fingerprint
+
+## Heads of columns, and cells
+
+report-calibre = Calibre
+report-radius = Radius as opened, mm
+report-diameter = Diameter
+report-by-area = By area
+report-diameter-mm = Diameter, mm
+report-at-mm = At, mm
+# The least or largest diameter of a stretch, and the reference.
+report-diameter-of = { $diameter } of { $reference }
+report-measure = Measure
+report-found = Found
+# On which surface it was measured.
+report-made-on = Made on
+report-middle = Middle, mm
+report-point = ({ $x }, { $y }, { $z })
+# After a finding: where it is.
+report-at = At ({ $x }, { $y }, { $z }) mm.
+
+## Curves: titles, axes and legends, short
+
+report-response = What smoothing leaves of a wave
+report-wave-length = Length of a wave, mm
+report-eigenvalue = Eigenvalue
+# What is left of a wave: an axis, and the curve.
+report-left = Left
+report-left-curve = left
+report-pass-band = pass band
+
+## Why there is no picture: said after a colon, a full stop follows
+
+report-error-size = a picture of { $width } x { $height } pixels came with { $bytes } bytes
+report-error-png = the picture cannot be written: { $why }

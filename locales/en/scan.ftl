@@ -1,0 +1,254 @@
+### Scans and masks: their panel and views, what can be wrong with their files, and what the browser says of files.
+
+## The panel
+
+# The title of the panel, in large letters.
+scan-title = Scan
+scan-what = The surface is made where values reach the threshold, or of a label; then it is smoothed and reduced.
+# What a scan of several files is called; also a part of file names.
+scan-name = Scan
+scan-format = Format
+scan-voxels = Voxels
+scan-voxels-help = Columns, rows and slices
+scan-spacing = Spacing
+scan-spacing-help = Between columns, rows and slices
+scan-values = Values
+# $unit is empty, or a space and "HU".
+scan-values-range = { $low } to { $high }{ $unit }
+scan-threshold = Threshold
+scan-threshold-help = What has this value and more is the vessel; contrast-filled vessels in CT have 150 to 500 HU.
+# For assistive tools.
+scan-histogram = Histogram, with the threshold
+# Which label of the mask is the vessel.
+scan-vessel = Vessel
+scan-vessel-help = Which label of the mask is the vessel
+scan-vessel-label = Label of the vessel
+scan-label = Label { $label }
+scan-all-labels = All labels
+# The part of the scan that is looked at.
+scan-box = Box
+scan-box-help = Only these voxels are looked at: what lies outside, such as bone, is left out
+# The axes of the grid.
+scan-columns = Columns
+scan-rows = Rows
+scan-slices = Slices
+scan-box-ends = The first and the last, from 0
+# For assistive tools; $axis is one of the three axes, as it stands within a sentence.
+scan-last-of = Last of { $axis }
+scan-first-of = First of { $axis }
+scan-whole = Whole scan
+# Before buttons with the three axes: which way the slice lies.
+scan-across = Across
+scan-across-help = Which way the slice that is shown lies
+scan-slice = Slice
+scan-preview = Preview
+scan-preview-help = The surface at reduced resolution
+scan-triangles = { $count } triangles
+# $block is, for example, 2 x 2 x 2.
+scan-preview-coarse = The preview has one voxel for each { $block }, where anything in these is inside: thin vessels look wider than they are.
+scan-cancel = Cancel
+# The key that does it.
+scan-cancel-help = Esc
+scan-make = Make the surface
+scan-make-help = At full resolution, and open it
+scan-close = Close the scan
+
+## What is being done: in the panel, and in the bar before a percentage
+
+scan-fetching = The part of Lumen that reads scans is still being fetched
+scan-reading = Reading the scan
+scan-surveying = Counting values
+scan-making = Making the surface
+# For assistive tools.
+scan-progress = Progress of the scan
+scan-engine-stopped = The scan's engine has stopped ({ $reason }): open the scan again.
+
+## The views of a scan
+
+scan-preview-view = Preview of the surface
+scan-preview-made = The preview is being made
+scan-preview-not-drawn = The preview cannot be drawn: { $why }.
+scan-no-device = There is no graphics device to draw with.
+scan-slice-view = Slice of the scan
+scan-slice-number = Slice { $number }
+
+## Slices behind the surface
+
+scan-slices-title = Slices of the scan
+scan-across-columns = Across columns
+scan-across-rows = Across rows
+scan-across-slices = Across slices
+# The planes of the patient.
+scan-sagittal = Sagittal
+scan-coronal = Coronal
+scan-axial = Axial
+scan-plane-help = Show this plane of the scan behind the surface; the keys 1 to 6 look at it from its front
+scan-slice-place = { $slice } of { $count }, { $mm } mm
+scan-slice-place-help = Which slice, and how far it is from the first
+scan-plane-slider-help = Moves the plane through the scan
+# For assistive tools; $plane is one of the six above.
+scan-plane-slice = { $plane } slice
+scan-outline = Outline of the surface
+scan-outline-help = Where the plane cuts the surface that is shown; it should run along the border of the vessel
+scan-keep = Keep the scan for slices ({ $mb } MB)
+scan-keep-help = The scan stays in memory, with what has read it, so that its slices can be shown behind the surface
+
+## The window of values: what is black and white in a slice
+
+scan-window = Window
+scan-window-help = The values that are black and white
+scan-window-name = Window of values
+scan-window-vessels = Vessels
+scan-window-soft = Soft tissue
+scan-window-bone = Bone
+scan-window-most = Most values
+scan-window-all = All values
+# Neither of those that have a name.
+scan-window-own = Own
+scan-level-width = Level, width
+scan-level-width-help = The value half way between black and white, and how far these are apart
+scan-width = Width of the window
+scan-level = Level of the window
+
+## Presets of the threshold: each follows its value, "180 for arteries", and stands alone as help
+
+scan-preset-little = for vessels with little contrast
+scan-preset-arteries = for arteries
+scan-preset-aorta = for the aorta and the coronary arteries
+
+## Why there is no surface, preview or slice
+
+scan-none-open = No scan is open yet.
+scan-no-slice = There is no such slice.
+scan-nothing-chosen = This is a scan with values from { $low } to { $high }: say at which threshold its surface is to be made (contrast-filled vessels in CT: { $presets }).
+scan-outside-range = No surface lies at the threshold { $threshold }: the values go from { $low } to { $high }.
+# $known is one of the two below.
+scan-no-label = There is no label { $label } in the volume; { $known }.
+scan-known-range = it is a scan with values from { $low } to { $high }
+scan-known-labels = it has { $labels }
+# $size is, for example, 512 x 512 x 800.
+scan-outside-box = The box holds nothing of the volume, which has { $size } voxels.
+scan-slice-too-large = A slice has { $points } voxels, of which { $limit } can be worked on: set a box around the vessels.
+scan-one-side = There is no surface within the box: all of it lies on one side.
+scan-too-many-triangles = The surface has more than { $limit } triangles, most of them noise or bone: raise the threshold or set a box around the vessels.
+
+## Why a volume has no place
+
+# $why is one of the four below.
+scan-no-place = The volume cannot be placed in the patient: { $why }.
+scan-no-points = { $size } points make no volume
+scan-no-spacing = a distance of { $spacing } mm between its points is none that a scan has
+scan-no-directions = the directions of its axes span no space
+scan-no-origin = its origin is not a place in a body
+scan-points = The volume has { $points } points and { $samples } numbers for them.
+
+## Why a file was not opened
+
+scan-no-volume = "{ $name }" is not a volume that Lumen knows: it opens NIfTI, NRRD, MetaImage and VTI files and series of DICOM.
+scan-data-elsewhere = The { $format } header keeps its numbers in the file "{ $name }": open both together.
+scan-too-large = The volume is too large: its numbers take { $bytes } bytes, and Lumen can take { $limit }.
+scan-volume-memory = There is not enough memory for the { $bytes } bytes of the volume.
+scan-no-memory = There is not enough memory here to read { $mb } MB.
+scan-file-gone = The file is not there any more.
+# What the system says of it follows.
+scan-unreadable = cannot read { $path }
+
+## What a file says that looks odd
+
+scan-silent = The { $format } file does not say which way the patient lies: the axes are unknown.
+scan-silent-format = { $format } does not say which way the patient lies: the axes are unknown.
+scan-unknown-unit = The unit of length of the { $format } file, { $unit }, is not known: it is taken as mm.
+
+## What is wrong with a file: each stands as $problem in a message of errors.ftl, behind "The ... file is broken:"
+
+# What is counted, in "announces 300 bytes and holds 240".
+scan-bytes = bytes
+scan-packed = it announces { $needed } bytes, more than its { $bytes } compressed bytes can hold: it is cut short or damaged
+scan-packed-damaged = its compressed data are cut short or damaged
+# $word is in quotation marks.
+scan-no-number = { $word } stands where a number should
+scan-header-endless = its header does not end with an empty line
+scan-header-lacks = its header has no "{ $key }"
+scan-header-none = its header is none
+scan-not-numbers = "{ $key }" is not { $count } numbers
+scan-no-data-file = its header does not say where the numbers are ({ $key })
+scan-axes = it has { $axes } axes
+scan-dicom-header = a file ends within its header
+scan-dicom-damaged = the elements of a file are damaged
+scan-dicom-cut-short = a file ends within one of its elements
+scan-dicom-pixels = a slice has fewer pixels than rows times columns
+scan-dicom-jpeg = the JPEG picture of a slice is damaged, or of a kind that is not read
+scan-dicom-jpeg-size = the JPEG picture of a slice is not of the size that the file says
+scan-dicom-no-directions = it does not say which way its slices lie
+scan-dicom-no-spacing = it does not say how far apart its pixels are
+scan-dicom-no-places = it does not say where its slices are
+scan-dicom-no-slice = none of its files holds a slice in shades of grey
+scan-dicom-single = it holds a single slice, and a surface takes two or more
+scan-vti-wrong = "{ $name }" is wrong
+scan-vti-no-element = it has no element "{ $name }"
+scan-vti-no-points = it does not say how many points there are
+scan-vti-no-array = it has no array of one number a point
+
+## What is not read: each stands as $feature in a message of errors.ftl, "The ... file uses ..., which Lumen does not read."
+
+scan-dimensions = other than three dimensions
+scan-more-dimensions = more than three dimensions
+scan-number-type = numbers of type { $kind }
+scan-file-a-slice = a file for each slice
+scan-encoding = the encoding { $name }
+scan-numbers-a-voxel = several numbers a voxel
+scan-dicom-deflated = a deflated data set
+scan-dicom-jpeg-ls = JPEG-LS compression
+scan-dicom-jpeg-2000 = JPEG 2000 compression
+scan-dicom-compression = a compression that is not known
+scan-dicom-bits = { $bits } bits a pixel
+scan-vti-pieces = several pieces
+
+## What is said of a series of DICOM
+
+# $why is a sentence with its full stop.
+scan-dicom-unreadable = { $count ->
+    [one] One slice cannot be read and is left out. { $why }
+   *[other] { $count } slices cannot be read and are left out. { $why }
+}
+scan-dicom-same-place = { $count } slices lie at the place of another: of each place the first is taken.
+# $count is all series, $others all but one of them.
+scan-dicom-series = { $others ->
+    [one] The files hold { $count } series: the one with most slices, { $taken }, is taken, and { $slices } of the other are left out.
+   *[other] The files hold { $count } series: the one with most slices, { $taken }, is taken, and { $slices } of { $others } others are left out.
+}
+scan-dicom-no-slices = { $count } files hold no slice in shades of grey and are left out.
+scan-dicom-gap = The slices are not evenly apart: mostly { $usual } mm, but { $there } mm between slices { $below } and { $above }; some may be missing, and the surface is stretched there.
+scan-dicom-squeeze = The slices are not evenly apart: mostly { $usual } mm, but { $there } mm between slices { $below } and { $above }; the surface is pressed together there.
+
+## The browser
+
+scan-part-gone = A file of the scan could not be read; it may have been moved or changed since it was chosen.
+scan-part-memory = The browser has no memory left to read the scan.
+scan-folder-lost = The browser could not read the folder.
+scan-folder-empty = There are no files in the folder.
+scan-file-large = { $name } has { $gb } GB; in the browser Lumen opens surfaces of up to { $limit } GB.
+scan-file-lost = The browser could not read { $name }; it may have been moved or changed since it was chosen.
+scan-file-memory = { $name } has { $mb } MB, for which this browser has no memory left.
+scan-no-dialog = The browser opened no file dialog.
+scan-saved = { $name } was saved.
+scan-both-saved = { $first } and { $second } were saved.
+scan-not-saved = { $name } was not saved: the browser has no memory left for { $mb } MB.
+scan-not-kept = { $name } is not kept: this browser has no room for { $mb } MB.
+scan-not-forgotten = The browser could not be asked to forget the surface: clear this page's data in its settings.
+# For assistive tools: the field that takes what is typed.
+scan-typed = What is typed
+
+# Why an engine has stopped: $reason in the sentence that says so, mostly in brackets.
+scan-not-fetched = its program could not be fetched: { $reason }
+scan-not-handed-over = the files could not be handed over: { $why }
+scan-not-sent = a command could not be sent: { $why }
+scan-not-understood = an answer could not be read: { $why }
+scan-no-worker = no Worker could be started: { $why }
+scan-memory-ends = there is no memory left beyond its { $gb } GB
+scan-message-unread = The message could not be read.
+scan-script-unloaded = The Worker's script could not be loaded.
+# Mostly behind a colon.
+scan-browser-memory = the browser has no memory left for { $mb } MB
+scan-language-not-handed-over = the language could not be handed over: { $why }
+scan-language-failed = The words for { $name } could not be fetched: { $reason }. What is shown stays as it is.

@@ -1,0 +1,126 @@
+### The vessels: what smoothing and reduction made of the calibre of each, in the app and in reports.
+
+# What a vessel is called, also within a sentence: branch 2.
+vessels-branch = branch { $number }
+
+## What can be saved: entries of a menu
+
+vessels-save-vtp = Centrelines (VTP)...
+vessels-save-vtp-help = Of the surface as opened, with the radius of the inscribed ball, as vmtk names its arrays
+vessels-save-csv = Centrelines (CSV)...
+vessels-save-csv-help = Of the surface as opened, a row a place
+vessels-save-calibre = Calibre (CSV)...
+vessels-save-calibre-help = Area and radius as opened, smoothed and reduced, a row a place
+
+## The head of the vessels below the views
+
+vessels-heading = Vessels
+vessels-coming = The vessels are being measured...
+# After the sentence on all vessels, which is of older settings.
+vessels-newer = Newer numbers are on their way.
+vessels-allowed = Allowed change
+vessels-allowed-help = Of the radius of each vessel, from the surface as opened
+vessels-colour = Colour the surface
+vessels-colour-help = How much wider or narrower each vessel is than as opened
+vessels-copy = Copy
+vessels-copy-help = The table as text, a tab between columns
+vessels-save = Save CSV
+vessels-save-help = Area and radius at each place of each vessel
+vessels-back = Back
+vessels-close = Close
+
+## The table: a row a vessel, as narrow as can be
+
+vessels-column-vessel = Vessel
+vessels-column-vessel-help = Click to see the radius along it and to go where it changes most
+vessels-column-verdict = Verdict
+vessels-column-verdict-help = Whether it keeps its calibre as reduced, within the change that is allowed
+vessels-column-reduced = Reduced
+vessels-column-reduced-help = The largest change of its radius, as reduced, from the surface as opened
+vessels-column-smoothed = Smoothed
+vessels-column-smoothed-help = The largest change of its radius, as smoothed, from the surface as opened
+vessels-column-safe = Safe to
+vessels-column-safe-help = The reduction up to which it was seen to keep its calibre
+vessels-column-radius-help = Of the circle of the same area, as opened: mean, and least to largest
+vessels-column-uneven = Uneven
+vessels-column-uneven-help = Where its diameter, as opened, is most narrower or wider than on either side, a quarter at least; over which length
+vessels-column-length = Length, mm
+vessels-column-length-help = Along its centreline
+vessels-column-tortuosity = Tortuosity
+vessels-column-tortuosity-help = Length over the distance of the ends
+vessels-verdict-kept = kept
+vessels-verdict-changed = changed
+vessels-verdict-not-measured = not measured
+# The mean of some radii, the least and the largest.
+vessels-spread = { $mean } ({ $least } to { $largest })
+# As narrow as can be: a stretch of a vessel beside what is on either side of it.
+vessels-narrower = { $percent } % narrower
+vessels-wider = { $percent } % wider
+vessels-narrower-over = { $percent } % narrower over { $length } mm, at { $at } mm
+vessels-wider-over = { $percent } % wider over { $length } mm, at { $at } mm
+# The first line of a table that is copied.
+vessels-table = { $name }, allowed change { $tolerance } %
+
+## Why a vessel is nowhere measured
+
+vessels-too-thin = It is less than two edges wide: too coarse to say.
+vessels-not-closed = Its cross-sections do not close.
+vessels-at-forks = It is too short: all of it lies at forks or ends.
+vessels-at-ends = It is too short: all of it lies at ends or forks.
+
+## The radius along a vessel
+
+vessels-radius-head = Radius along { $name }:
+vessels-radius-along = Radius along { $name }
+# The three surfaces, in a legend.
+vessels-as-opened = as opened
+vessels-smoothed = smoothed
+vessels-reduced = reduced
+vessels-dotted = dotted: ±{ $percent } %
+vessels-no-section = No cross-section of it can be measured.
+vessels-along = Along the vessel, mm
+vessels-radius = Radius, mm
+# Beside the pointer, in three lines.
+vessels-hover =
+    { $surface }
+    { $radius } mm at { $at } mm
+    Click to go there
+
+## What became of them
+
+# In the panel, short.
+vessels-all-kept-short = kept, to { $tolerance } %
+vessels-some-changed-short = { $changed } of { $all } changed
+# A vessel and the change of its radius, signed.
+vessels-place = { $name }: { $percent } %
+vessels-not-here = { $name }: not measured here
+vessels-none = There are no vessels to measure: { $why }.
+vessels-none-measured = No vessel can be measured.
+vessels-all-kept = { $count ->
+    [one] The vessel keeps its calibre to { $tolerance } %.
+   *[other] All { $count } vessels keep their calibre to { $tolerance } %.
+}
+vessels-changed = { $changed } of { $all } vessels change by more than { $tolerance } %.
+vessels-changed-most = { $changed ->
+    [one] { $changed } of { $all } vessels changes by more than { $tolerance } %, { $name } the most: { $by } %.
+   *[other] { $changed } of { $all } vessels change by more than { $tolerance } %, { $name } the most: { $by } %.
+}
+# These three come after the sentences above.
+vessels-little = That is said of { $percent } % of their length: the rest lies at ends or forks or is too coarse.
+vessels-by-smoothing = Smoothing itself changes { $count } of them so much.
+vessels-unknown = { $count ->
+    [one] One is too short or too coarse to be measured.
+   *[other] { $count } are too short or too coarse to be measured.
+}
+
+## Why there are no vessels, or nothing was measured: said after a colon, a full stop follows
+
+vessels-error-no-triangles = the surface has no triangles
+vessels-error-inside-out = the surface is inside out: its triangles face into the vessel
+vessels-error-no-inside = the surface has no inside: of its { $triangles } triangles none faces another
+vessels-error-sheet = the inside of the surface is a thin sheet and no vessel: it takes more than { $balls } balls to fill it. Is it the wall of a vessel, with an inner and an outer side?
+vessels-error-unit = the widest vessel is { $diameter } mm across: the surface is probably not in the unit that it was opened in
+vessels-error-no-centreline = there is no centreline to be square to
+vessels-error-not-closed = the wall is not closed around the centreline there: the surface is open or folded in that plane
+vessels-error-no-fork = no vessel divides: an angle can be measured between three places
+vessels-error-short = a branch of this fork is too short to have a direction of its own

@@ -1,0 +1,32 @@
+### Ce qui sort de l'application pour le dossier : rapports, images et rotations.
+
+## Entrées du menu d'enregistrement
+
+record-report-pdf = Rapport (PDF)...
+record-report-pdf-help = Verdict, valeurs, réglages, vaisseaux, images et courbes, à imprimer
+record-report-html = Rapport (page web)...
+record-report-html-help = La même chose en un fichier pour navigateur, qui n'a besoin de rien d'autre
+record-name-file = Nom du fichier au rapport
+record-name-file-help = Sinon, le rapport ne porte que l'empreinte du fichier : un nom peut être celui d'un patient
+record-picture = Image (PNG)
+record-pixels = { $count } pixels...
+record-pixels-help = Le plus long côté de l'image
+record-clear = Fond transparent
+record-clear-help = Rien derrière la surface, pour la poser sur autre chose
+record-turntable = Rotation (APNG)...
+record-turntable-help = La surface fait un tour, en image animée ; les couleurs sont celles de la vue
+
+## Ce qui est en cours de dessin
+
+record-drawing-report = Rapport
+record-drawing-picture = Image
+record-drawing-turntable = Rotation
+
+## Ce qu'il en est advenu
+
+record-nothing = Il n'y a encore rien à enregistrer.
+record-cancelled = Annulé.
+record-cannot-draw = Dessin impossible : { $why }.
+record-not-drawn = Le dessin n'a pas abouti : { $why }.
+record-device-gone = Le dessin n'a pas abouti : le périphérique graphique a disparu.
+record-error-too-large = ce périphérique graphique dessine des images d'au plus { $limit } pixels dans chaque sens

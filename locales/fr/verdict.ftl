@@ -1,0 +1,103 @@
+### Le verdict sur un résultat au-dessus des vues, ce qui aide, et ce que le panneau, la ligne de commande et les rapports en répètent.
+
+## Le bandeau au-dessus des vues
+
+verdict-safe = Apte à la simulation
+verdict-nothing-wrong = Aucun défaut trouvé
+verdict-not-measured = Non mesuré
+verdict-coming = Mesure en cours...
+verdict-to-look-at = { $count ->
+    [one] { $count } point à vérifier
+   *[other] { $count } points à vérifier
+}
+verdict-follows = Le calibre et la forme suivent.
+verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : modifier un réglage pour continuer.
+verdict-what-to-do = Que faire
+verdict-more = { $count ->
+    [one] { $count } autre
+   *[other] { $count } autres
+}
+verdict-notes = { $count ->
+    [one] { $count } remarque
+   *[other] { $count } remarques
+}
+verdict-show-vessels = Voir vaisseaux
+verdict-show-vessels-help = Ce que chacun est devenu, et où (V)
+verdict-remedy-help = Aiderait ; peut être annulé
+verdict-show-place = Voir
+verdict-show-place-help = Va à l'endroit en question
+
+## Ce qui aiderait : sur des boutons
+
+verdict-reduce-to = Réduire à { $percent } %
+verdict-read-in = Lire en { $unit }
+verdict-take-lumen = Prendre la lumière
+verdict-fill = Combler
+verdict-split = Séparer
+verdict-no-crossings = Sans croisement
+
+## Constats sur le fichier
+
+verdict-wall = La surface est une paroi à deux faces, épaisse de { $thickness } mm.
+verdict-holes = { $count ->
+    [one] La paroi a un trou de { $diameter } mm.
+   *[other] La paroi a { $count } trous, le plus grand de { $diameter } mm.
+}
+verdict-crowded = { $count ->
+    [one] En { $count } arête ou point se rejoignent des surfaces qui devraient être séparées.
+   *[other] En { $count } arêtes et points se rejoignent des surfaces qui devraient être séparées.
+}
+
+## Constats sur les vaisseaux pincés
+
+verdict-pinched-first = Un vaisseau de { $before } mm est pincé, dès { $percent } %.
+verdict-lost-first = Un vaisseau de { $before } mm est perdu, dès { $percent } %.
+verdict-pinched-at-first = Un vaisseau de { $before } mm est pincé en ({ $x } ; { $y } ; { $z }), dès { $percent } %
+verdict-lost-at-first = Un vaisseau de { $before } mm est perdu en ({ $x } ; { $y } ; { $z }), dès { $percent } %
+verdict-pinched-to = Un vaisseau de { $before } mm est pincé à { $after } mm en ({ $x } ; { $y } ; { $z }).
+verdict-lost-at = Un vaisseau de { $before } mm est perdu en ({ $x } ; { $y } ; { $z }).
+verdict-worst-of = C'est le pire de { $count } endroits.
+
+## Constats sur le lissage, le volume et les triangles
+
+verdict-all-but-shut = Un vaisseau est presque fermé en ({ $x } ; { $y } ; { $z }) : il en reste { $diameter } mm.
+verdict-drawn-shut = Le lissage a fermé un vaisseau en ({ $x } ; { $y } ; { $z }) : il enlève les ondes de moins de { $wave } mm, le tour d'un vaisseau de { $around } mm. Une bande passante plus large garde ouverts les vaisseaux fins.
+verdict-volume-changed = Le volume a changé de { $change } % : { $cause }.
+verdict-volume-narrow = la bande passante est trop étroite pour des vaisseaux aussi fins
+verdict-volume-few = si peu de triangles ne portent pas cette forme
+verdict-volume-adapt = « Adapter au calibre » (--smoothing auto) le préserve.
+verdict-volume-put-back = Le volume n'est pas préservé à 0,01 % près : des sommets ont été remis en place pour qu'aucun triangle n'en croise d'autres.
+verdict-volume-none = Le volume n'a pas pu être préservé, car la surface n'en renferme aucun : elle est lissée comme sans cette contrainte.
+verdict-volume-thin = Le volume n'a pas pu être préservé, car des vaisseaux aussi fins se déchireraient ou gonfleraient avec cette bande passante : la surface est lissée comme sans cette contrainte.
+verdict-crossing = { $count ->
+    [one] { $count } triangle en croise d'autres.
+   *[other] { $count } triangles en croisent d'autres.
+}
+verdict-crossing-before = { $count ->
+    [one] { $count } triangle en croise d'autres ; { $before } avant la réduction.
+   *[other] { $count } triangles en croisent d'autres ; { $before } avant la réduction.
+}
+verdict-few-iterations = Trop peu d'itérations pour cette bande passante : il en faut davantage pour lisser.
+verdict-shortfall-topology = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage fermerait une extrémité ouverte ou pincerait un vaisseau
+verdict-shortfall-geometry = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage replierait la surface sur elle-même
+verdict-shortfall-complex = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : le reste se trouve sur des arêtes de plus de deux triangles, qui restent telles quelles
+
+## Étiquettes près de l'anneau autour de l'endroit d'un constat
+
+verdict-place-hole = Trou
+verdict-place-here = Ici
+verdict-place-narrowed = Pincé
+verdict-place-pinched = pincé
+verdict-place-lost = perdu
+verdict-place-shut = Fermé
+
+## Jusqu'où une réduction est sûre : des phrases sans point final
+
+verdict-safe-none-kept = le lissage lui-même change chaque vaisseau mesurable
+verdict-safe-none-measured = aucun vaisseau n'est mesurable
+verdict-safe-changed = À { $rate } %, la { $name } change de { $by } %, en ({ $x } ; { $y } ; { $z })
+verdict-safe-unmeasured = À { $rate } %, la { $name } n'est plus mesurable
+
+## Le filtre
+
+verdict-half-gain = k = { $k } : ondes de { $length }

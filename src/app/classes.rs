@@ -1,0 +1,116 @@
+//! The vertex classes of the level that is shown: as colours, with how many there are of each, and the feature edges and
+//! boundary loops as lines.
+
+use egui::{Align2, Color32, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use glam::Vec3;
+
+use super::assist::name;
+use super::document::Document;
+use super::halo;
+use super::views::{Colours, ViewOptions};
+use crate::language::inner;
+use crate::pipeline::classes::{Class, Classes, Lines};
+use crate::render::{Camera, Colour, ColourMap, label_colour};
+use crate::say;
+
+/// The palette's colour for each class, in the order of [`Class::ALL`]: grey for what is most.
+const COLOURS: [usize; 5] = [7, 5, 0, 1, 2];
+
+/// The classes of the level that is shown, worked out where something asks for them.
+#[derive(Default)]
+pub(super) struct ShownClasses {
+    /// With the document and the level that they are of.
+    found: Option<([u64; 3], Classes)>,
+}
+
+impl ShownClasses {
+    /// Brings them up to the document, if `options` show anything of them.
+    pub(super) fn follow(&mut self, document: Option<&Document>, options: ViewOptions) {
+        let is_asked = options.lines || options.colours == Colours::Classes;
+        let Some(document) = document.filter(|_| is_asked) else {
+            self.found = None;
+            return;
+        };
+        let revision = document.revision;
+        let of = [revision.document, revision.levels, revision.shown];
+        if self.found.as_ref().is_none_or(|(found, _)| *found != of) {
+            self.found = document.classes().map(|classes| (of, classes));
+        }
+    }
+
+    /// The classes, if they were asked for.
+    pub(super) fn found(&self) -> Option<&Classes> {
+        self.found.as_ref().map(|(_, classes)| classes)
+    }
+}
+
+impl Document {
+    /// The classes of the level that is shown.
+    pub fn classes(&self) -> Option<Classes> {
+        let (levels, level) = (&self.levels.as_ref()?.1, &self.shown.as_ref()?.level);
+        Some(Classes::new(levels, level.steps, &level.triangles))
+    }
+}
+
+/// For each node of the level that is shown the number of its colour.
+pub(super) fn labels(document: &Document) -> Option<Vec<f32>> {
+    let number = |class: &Option<Class>| class.map_or(2.0 * ColourMap::UNKNOWN, |class| COLOURS[class as usize] as f32);
+    Some(document.classes()?.by_node.iter().map(number).collect())
+}
+
+/// The colour of a class, where it is written or drawn beside the surface.
+pub(super) fn colour(class: Class) -> Color32 {
+    let Colour([r, g, b]) = label_colour(COLOURS[class as usize]);
+    Color32::from_rgb(r, g, b)
+}
+
+/// Writes beside the view in `rect` how many vertices there are of each class.
+pub(super) fn legend(ui: &Ui, rect: Rect, counts: &[usize; 5]) {
+    const SIDE: f32 = 12.0;
+    const STEP: f32 = 18.0;
+    let (painter, text) = (ui.painter_at(rect), ui.visuals().text_color());
+    let font = FontId::proportional(12.0);
+    let (right, top) = (rect.right() - 12.0, rect.center().y - 0.5 * STEP * counts.len() as f32);
+    halo::text(&painter, pos2(right, top - 6.0), Align2::RIGHT_BOTTOM, &say!("panel-class"), font.clone(), text);
+    let mut said = Vec::new();
+    for (i, (class, &count)) in Class::ALL.into_iter().zip(counts).enumerate() {
+        let corner = pos2(right - SIDE, top + STEP * i as f32);
+        painter.rect_filled(Rect::from_min_size(corner, Vec2::splat(SIDE)), 2.0, colour(class));
+        let words = say!("panel-class-count", class = class.name(), count = count);
+        halo::text(&painter, corner + vec2(-6.0, 0.5 * SIDE), Align2::RIGHT_CENTER, &words, font.clone(), text);
+        said.push(words);
+    }
+    let whole = Rect::from_min_max(pos2(right - 132.0, top - 20.0), pos2(right, top + STEP * counts.len() as f32));
+    let place = ui.interact(whole, ui.scope_id().with("vertex classes"), Sense::hover());
+    name(&place, Role::Label, &say!("panel-classes", classes = inner(&said.join(", "))));
+    place.on_hover_text(say!("panel-classes-help"));
+}
+
+/// Draws feature edges and boundary over the view in `rect`; faintly where the surface turns away from the eye, by its
+/// `normals`.
+pub(super) fn lines(ui: &Ui, rect: Rect, camera: &Camera, document: &Document, lines: &Lines, normals: &[Vec3]) {
+    const BEHIND: f32 = 0.3;
+    let Some((_, levels)) = &document.levels else { return };
+    let (painter, aspect, eye) = (ui.painter_at(rect), rect.width() / rect.height().max(1.0), camera.eye());
+    for (edges, class) in [(&lines.features, Class::InteriorEdge), (&lines.boundary, Class::Boundary)] {
+        let stroke = Stroke::new(2.0, colour(class));
+        for ends in edges {
+            let [Some(a), Some(b)] = ends.map(|node| seen(levels.positions[node as usize], camera, rect, aspect))
+            else {
+                continue;
+            };
+            let is_behind = |&node: &u32| {
+                let towards = eye - levels.positions[node as usize];
+                normals.get(node as usize).is_some_and(|normal| normal.dot(towards) < 0.0)
+            };
+            let faint = if ends.iter().all(is_behind) { BEHIND } else { 1.0 };
+            painter.line_segment([a, b], Stroke::new(stroke.width, stroke.color.gamma_multiply(faint)));
+        }
+    }
+}
+
+/// Where a place in mm is seen in the view in `rect`, whose width over its height is `aspect`.
+pub(super) fn seen(at: Vec3, camera: &Camera, rect: Rect, aspect: f32) -> Option<egui::Pos2> {
+    let at = camera.project(at, aspect)?;
+    Some(rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0))
+}

@@ -1,0 +1,98 @@
+//! The card of a lesson: what its step tells, what to look at, its question, and the way back and on.
+
+use egui::{Button, Label, RichText, ScrollArea, Ui};
+
+use super::{Action, Given, Step};
+use crate::app::action::Action as Ask;
+use crate::app::assist::heading;
+use crate::app::icon::{self, Icon};
+use crate::say;
+
+/// No line is longer, in points: for the eye.
+const WIDEST: f32 = 760.0;
+
+/// Room for the title beside the buttons, in points.
+const ROOMY: f32 = 480.0;
+
+/// Room for a link beside the title, in points.
+const NARROWEST: f32 = 260.0;
+
+/// Shows the card of the step that is given.
+pub(in crate::app) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<Ask>) {
+    let mut ask = |wanted: bool, action: Action| {
+        if wanted {
+            asked.push(Ask::Lesson(action));
+        }
+    };
+    let count = given.lesson.steps.len();
+    let place = say!("lesson-place", title = &given.lesson.title, step = given.step + 1, count = count);
+    let place = RichText::new(place).weak();
+    let has_room = ui.available_width() > ROOMY;
+    let step = &given.lesson.steps[given.step];
+    ui.horizontal(|ui| {
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let close = icon::button(ui, Icon::Close, true, &say!("lesson-close"), &say!("lesson-close-help"));
+            ask(close.clicked(), Action::Close);
+            let is_last = given.step + 1 == count;
+            let next =
+                ui.add_enabled(!is_last, Button::new(say!("lesson-next"))).on_hover_text(say!("lesson-next-help"));
+            ask(next.clicked(), Action::Go(given.step + 1));
+            let back = ui
+                .add_enabled(given.step > 0, Button::new(say!("lesson-back")))
+                .on_hover_text(say!("lesson-back-help"));
+            ask(back.clicked(), Action::Go(given.step.saturating_sub(1)));
+            let again = ui.button(say!("lesson-again")).on_hover_text(say!("lesson-again-help"));
+            ask(again.clicked(), Action::Go(given.step));
+            if has_links && given.name.is_some() && ui.available_width() > NARROWEST {
+                let copy = ui.button(say!("lesson-copy-link")).on_hover_text(say!("lesson-copy-link-help"));
+                ask(copy.clicked(), Action::CopyLink);
+            }
+            if has_room {
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                    ui.add(Label::new(place.clone()).truncate());
+                });
+            }
+        });
+    });
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        if !has_room {
+            wrapped(ui, place);
+        }
+        match &step.question {
+            // Side by side where there is room: a question below the fold is not asked.
+            Some(question) if ui.available_width() > WIDEST => ui.columns(2, |columns| {
+                told(&mut columns[0], step);
+                asks(&mut columns[1], question, given.is_answered, &mut ask);
+            }),
+            question => {
+                ui.set_max_width(ui.available_width().min(WIDEST));
+                told(ui, step);
+                if let Some(question) = question {
+                    asks(ui, question, given.is_answered, &mut ask);
+                }
+            }
+        }
+    });
+}
+
+fn wrapped(ui: &mut Ui, text: RichText) {
+    ui.add(Label::new(text).wrap());
+}
+
+fn told(ui: &mut Ui, step: &Step) {
+    heading(ui, &step.title);
+    wrapped(ui, RichText::new(&step.text));
+    if !step.look.is_empty() {
+        wrapped(ui, RichText::new(say!("lesson-look", what = &step.look)).strong());
+    }
+}
+
+fn asks(ui: &mut Ui, (question, answer): &(String, String), is_answered: bool, ask: &mut impl FnMut(bool, Action)) {
+    wrapped(ui, RichText::new(question).strong());
+    if is_answered {
+        wrapped(ui, RichText::new(answer));
+    } else {
+        let show = ui.button(say!("lesson-show-answer")).on_hover_text(say!("lesson-show-answer-help"));
+        ask(show.clicked(), Action::Answer);
+    }
+}

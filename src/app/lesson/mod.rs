@@ -1,0 +1,276 @@
+//! Lessons: short ones that come with Lumen, and those that a teacher writes. A step of a lesson says something, sets the
+//! app as a hand would, by [`Action`](super::Action)s, and may ask a question before it answers it.
+
+mod card;
+mod format;
+mod glossary;
+
+use std::collections::VecDeque;
+
+pub(super) use self::card::show;
+pub use self::format::{Lesson, LessonError, Show, Step, Trial};
+pub(super) use self::glossary::glossary;
+use super::action::Action as Ask;
+use super::collapses;
+use super::deviation::Deviating;
+use super::reveal::Reveal;
+use super::state::State;
+use super::views::{Colours, ViewOptions};
+use super::{trial, vessels};
+use crate::engine::Source;
+use crate::language::Key;
+use crate::pipeline::settings::Settings;
+use crate::say;
+
+/// What a lesson's file ends in.
+pub const ENDING: &str = "lesson";
+
+/// Something of the lessons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Begin the lesson of this name, of those that come with Lumen.
+    Open(&'static str),
+    /// Choose the file of a lesson.
+    Choose,
+    /// Go to this step, from 0.
+    Go(usize),
+    /// Show the answer.
+    Answer,
+    /// Copy a link to this step.
+    CopyLink,
+    /// Leave the lesson.
+    Close,
+    /// Show or hide the words that are used.
+    Glossary,
+}
+
+/// The lessons that come with Lumen: name in a link, title, and the text of its file.
+pub(super) const LESSONS: [(&str, Key, Key); 6] = [
+    ("stair-steps", Key("lesson-stair-steps"), Key("lesson-stair-steps-text")),
+    ("pass-band", Key("lesson-pass-band"), Key("lesson-pass-band-text")),
+    ("windows", Key("lesson-windows"), Key("lesson-windows-text")),
+    ("shrinkage", Key("lesson-shrinkage"), Key("lesson-shrinkage-text")),
+    ("decimation", Key("lesson-decimation"), Key("lesson-decimation-text")),
+    ("wire", Key("lesson-wire"), Key("lesson-wire-text")),
+];
+
+/// The lesson that is given, if one is.
+#[derive(Default)]
+pub struct Lessons {
+    open: Option<Given>,
+    /// What waits for the surface or the trial that a step has asked for.
+    waiting: VecDeque<Ask>,
+}
+
+/// A lesson that is given.
+#[derive(Clone, Debug)]
+pub struct Given {
+    /// The lesson.
+    pub lesson: Lesson,
+    /// Its name in a link, if it came with Lumen.
+    pub name: Option<&'static str>,
+    /// The step that is shown, from 0.
+    pub step: usize,
+    /// Whether its answer is shown.
+    pub is_answered: bool,
+}
+
+/// What of the app a step has to know before it sets it.
+#[derive(Clone, Copy)]
+pub(super) struct Now<'a> {
+    pub(super) state: &'a State,
+    pub(super) options: ViewOptions,
+    pub(super) in_trial: bool,
+    pub(super) are_vessels_open: bool,
+    pub(super) are_collapses_open: bool,
+}
+
+impl Lessons {
+    /// The lesson that is given.
+    pub fn given(&self) -> Option<&Given> {
+        self.open.as_ref()
+    }
+
+    /// Takes the lesson of this name.
+    pub(super) fn open(&mut self, name: &str) -> Result<(), String> {
+        let Some(&(name, _, text)) = LESSONS.iter().find(|(known, ..)| *known == name) else {
+            let names: Vec<&str> = LESSONS.iter().map(|(name, ..)| *name).collect();
+            return Err(say!("lesson-no-such", names = names.join(", ")));
+        };
+        self.take(text.say().as_bytes(), Some(name)).map_err(|error| error.to_string())
+    }
+
+    /// Says the lesson that is given anew, if it came with Lumen: another language is spoken.
+    pub(super) fn speak(&mut self) {
+        let Some(given) = &mut self.open else { return };
+        let text = LESSONS.iter().find(|(known, ..)| given.name == Some(known)).map(|(_, _, text)| text.say());
+        // All of them have the same steps, which a test sees to.
+        if let Some(lesson) = text.and_then(|text| Lesson::read(text.as_bytes()).ok()) {
+            given.lesson = lesson;
+        }
+    }
+
+    /// Takes the lesson of a file.
+    pub(super) fn take(&mut self, bytes: &[u8], name: Option<&'static str>) -> Result<(), LessonError> {
+        let lesson = Lesson::read(bytes)?;
+        self.open = Some(Given { lesson, name, step: 0, is_answered: false });
+        Ok(())
+    }
+
+    /// Leaves the lesson.
+    pub(super) fn close(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Shows the answer.
+    pub(super) fn answer(&mut self) {
+        if let Some(given) = &mut self.open {
+            given.is_answered = true;
+        }
+    }
+
+    /// Goes to a step, and says what is to be done for it at once; the rest waits.
+    pub(super) fn go(&mut self, step: usize, now: Now<'_>) -> Vec<Ask> {
+        let Some(given) = &mut self.open else { return Vec::new() };
+        given.step = step.min(given.lesson.steps.len() - 1);
+        given.is_answered = false;
+        let Step { sample, settings, view, show, trial, .. } = &given.lesson.steps[given.step];
+        let shows = |what: Show| show.contains(&what);
+        let mut asked = Vec::new();
+        let goes_on = *trial != Trial::Off && sample.is_none() && settings.is_none();
+        if now.in_trial && !goes_on {
+            asked.push(Ask::ToggleTrial);
+        }
+        if now.state.comparison.is_open() {
+            asked.push(Ask::Compare);
+        }
+        if let Some(settings) = settings {
+            let keep = now.state.settings.keep;
+            asked.push(Ask::Set(Box::new(Settings { keep, ..settings.clone() })));
+        }
+        let open = now.state.document.as_ref().map(|document| &document.source);
+        let is_open = |sample| matches!(open, Some(Source::Sample { sample: open, .. }) if *open == sample);
+        asked.extend(sample.filter(|&sample| !is_open(sample)).map(Ask::Sample));
+        asked.push(Ask::Show(options(now.options, show)));
+        if now.are_vessels_open != shows(Show::Vessels) {
+            asked.push(Ask::Vessels(vessels::Action::Toggle));
+        }
+        if now.are_collapses_open != shows(Show::Collapses) {
+            asked.push(Ask::Collapses(collapses::Action::Toggle));
+        }
+        self.waiting.clear();
+        self.waiting.extend(view.map(Ask::View));
+        if *trial != Trial::Off && !(now.in_trial && goes_on) {
+            self.waiting.push_back(Ask::ToggleTrial);
+        }
+        if *trial == Trial::Autopilot {
+            self.waiting.push_back(Ask::Trial(trial::Action::Autopilot));
+        }
+        asked
+    }
+
+    /// The next thing that has waited: for the level of the settings, or for the wire to be in.
+    pub(super) fn next(&mut self, has_level: bool, trial: &trial::Trial) -> Option<Ask> {
+        match self.waiting.front()? {
+            Ask::Trial(_) if !trial.is_open() => {
+                // It was refused, or taken off.
+                self.waiting.pop_front();
+                None
+            }
+            Ask::Trial(_) => self.waiting.pop_front_if(|_| trial.is_on()),
+            _ => self.waiting.pop_front_if(|_| has_level),
+        }
+    }
+}
+
+/// The options with just what a step shows.
+fn options(now: ViewOptions, show: &[Show]) -> ViewOptions {
+    let shows = |what: Show| show.contains(&what);
+    let deviation = Colours::Deviation(Deviating::default());
+    let maps = [(Show::Deviation, deviation), (Show::Calibre, Colours::Calibre), (Show::Classes, Colours::Classes)];
+    ViewOptions {
+        flat: shows(Show::Flat),
+        raking: shows(Show::Raking),
+        lines: shows(Show::Lines),
+        before: shows(Show::Before),
+        reveal: if shows(Show::Split) { Reveal::On } else { Reveal::Off },
+        colours: maps.into_iter().find(|(what, _)| shows(*what)).map_or(Colours::None, |(_, colours)| colours),
+        ..now
+    }
+}
+
+/// Whether a file is a lesson, by its name.
+pub(super) fn is_lesson(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case(ENDING))
+}
+
+/// The lesson that a link names, its step from 0, and the rest of the link, if it has any.
+pub(super) fn in_link(fragment: &str) -> Option<(String, usize, String)> {
+    let pairs = || fragment.trim_start_matches('#').split('&');
+    let value = |key: &str| pairs().find_map(|pair| pair.strip_prefix(key)?.strip_prefix('='));
+    let name = value("lesson")?.to_owned();
+    let step = value("step").and_then(|step| step.parse::<usize>().ok()).map_or(0, |step| step.saturating_sub(1));
+    let is_rest = |pair: &&str| !(pair.starts_with("lesson=") || pair.starts_with("step="));
+    let rest: Vec<&str> = pairs().filter(is_rest).collect();
+    Some((name, step, rest.join("&")))
+}
+
+/// What a link to a step says.
+pub(super) fn fragment(name: &str, step: usize) -> String {
+    format!("lesson={name}&step={}", step + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::{Language, built_in, speak};
+
+    #[test]
+    fn the_six_lessons_can_be_read_and_are_called_as_the_menu_says() {
+        for (name, title, text) in LESSONS {
+            let lesson = Lesson::read(text.say().as_bytes()).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(lesson.title, title.say());
+            assert!((3..=5).contains(&lesson.steps.len()), "{name} is short");
+            assert!(lesson.steps.iter().any(|step| step.question.is_some()), "{name} asks something");
+            assert!(lesson.steps[0].sample.is_some(), "{name} begins with a surface that everybody has");
+            for step in &lesson.steps {
+                assert!(!step.text.is_empty() && step.settings.is_some(), "{name}: {}", step.title);
+            }
+        }
+    }
+
+    #[test]
+    fn a_lesson_sets_the_app_the_same_in_all_languages() {
+        // What a step sets, and which of its words it has.
+        let settings = |step: &Step| {
+            let Step { title, text, look, question, sample, settings, view, show, trial } = step.clone();
+            let has = [title.is_empty(), text.is_empty(), look.is_empty(), question.is_none()];
+            (has, sample, settings, view, show, trial)
+        };
+        let read = |language| {
+            speak(language, built_in(language).unwrap());
+            LESSONS.map(|(name, title, text)| {
+                let lesson = Lesson::read(text.say().as_bytes());
+                let lesson = lesson.unwrap_or_else(|error| panic!("{name} in {language:?}: {error}"));
+                assert_eq!(lesson.title, title.say());
+                lesson.steps.iter().map(settings).collect::<Vec<_>>()
+            })
+        };
+        let english = read(Language::English);
+        for language in Language::ALL {
+            assert_eq!(read(language), english, "{language:?}");
+        }
+        speak(Language::English, &[]);
+    }
+
+    #[test]
+    fn a_link_names_a_lesson_and_a_step() {
+        assert_eq!(in_link("#lesson=shrinkage&step=2"), Some(("shrinkage".to_owned(), 1, String::new())));
+        assert_eq!(in_link(&fragment("wire", 2)), Some(("wire".to_owned(), 2, String::new())));
+        assert_eq!(
+            in_link("lesson=wire&v=1&sample=aorta"),
+            Some(("wire".to_owned(), 0, "v=1&sample=aorta".to_owned()))
+        );
+        assert_eq!(in_link("#v=1&sample=aorta"), None);
+    }
+}

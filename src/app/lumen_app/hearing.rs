@@ -1,0 +1,189 @@
+//! What the app hears of platform and engines, and what it sends on.
+
+use super::{LISTEN, LumenApp};
+use crate::app::action::Action;
+use crate::app::platform::PlatformEvent;
+use crate::app::scan::{self, Told};
+use crate::app::sharing::{self, Sharing};
+use crate::app::state::{Effect, State};
+use crate::app::{keys, large, lesson, recovery, verdict};
+use crate::say;
+
+impl LumenApp {
+    /// Hears what platform and engines have to say, deaths among it.
+    pub(super) fn listen(&mut self, ctx: &egui::Context) {
+        while let Some(event) = self.platform.poll() {
+            match event {
+                PlatformEvent::Chosen { name, bytes } if is_log(&name) => {
+                    self.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
+                }
+                PlatformEvent::Chosen { name, bytes } if sharing::is_settings(&name) => {
+                    Sharing::take_file(&name, &bytes, &mut self.state, self.platform.link());
+                }
+                PlatformEvent::Chosen { name, bytes } if lesson::is_lesson(&name) => {
+                    match self.lessons.take(&bytes, None) {
+                        Ok(()) => self.act(Action::Lesson(lesson::Action::Go(0)), ctx),
+                        Err(error) => self.state.warn(&say!("app-open-failed", name = name, why = error.to_string())),
+                    }
+                }
+                PlatformEvent::Chosen { name, bytes } => {
+                    self.leave_scan();
+                    // What was asked for last counts.
+                    self.sharing.before_file(&mut self.state);
+                    self.recovery.before_file(&name, &mut self.state);
+                    let limit = self.platform.memory_limit();
+                    let warning = limit.and_then(|limit| large::warning(&name, &bytes, limit));
+                    self.state.open_file(name, bytes, self.platform.link());
+                    if let Some(warning) = warning {
+                        self.state.tell(&warning);
+                    }
+                }
+                PlatformEvent::Linked { fragment } => self.follow_link(&fragment, ctx),
+                PlatformEvent::Restored(file) => {
+                    self.recovery.restored(file, &mut self.state, &mut *self.platform);
+                }
+                PlatformEvent::Texts { language, texts } => {
+                    match self.speech.take_texts(language, texts, &mut *self.platform) {
+                        Ok(()) => self.lessons.speak(),
+                        Err(sentence) => self.state.warn(&sentence),
+                    }
+                    ctx.request_repaint();
+                }
+                PlatformEvent::Scan { files } => {
+                    if let Some(link) = self.platform.scans() {
+                        self.scans.read(files, link);
+                    }
+                }
+                PlatformEvent::Saved { message } => self.tell_saved(&message),
+                PlatformEvent::Failed { message } => self.state.warn(&message),
+            }
+        }
+        while let Some(event) = self.platform.link().poll() {
+            match self.state.receive(event) {
+                Some(Effect::Opened) => {
+                    self.look_next = true;
+                    if let Some(link) = self.platform.scans() {
+                        let source = self.state.document.as_ref().map(|document| &document.source);
+                        self.scans.surface_opened(source, link);
+                    }
+                    self.recovery.opened(&mut self.state, &mut *self.platform);
+                    self.sharing.opened(&mut self.state, self.platform.link());
+                    self.vessels.selected = None;
+                    self.measuring.leave_surface();
+                    self.views.collapses.stop();
+                    self.views.options.leave_surface();
+                    self.trial.leave_surface(self.platform.trial());
+                }
+                Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
+                None => {}
+            }
+        }
+        if let Some(reason) = self.platform.link().failure() {
+            self.state.engine_failed(&reason, self.platform.link());
+        }
+        while let Some(event) = self.platform.trial().poll() {
+            if let Some(log) = self.trial.receive(event, self.platform.trial()) {
+                self.platform.offer_pair(log, ctx);
+            }
+        }
+        if let Some(reason) = self.platform.trial().failure() {
+            let sentence = self.trial.engine_failed(&reason, self.platform.trial());
+            self.state.warn(&sentence);
+        }
+        self.listen_to_scans();
+    }
+
+    /// Follows a link: to settings, to a lesson, or to both.
+    pub(super) fn follow_link(&mut self, fragment: &str, ctx: &egui::Context) {
+        let Some((name, step, rest)) = lesson::in_link(fragment) else {
+            return self.sharing.follow(fragment, &mut self.state, self.platform.link());
+        };
+        if !rest.is_empty() {
+            self.sharing.follow(&rest, &mut self.state, self.platform.link());
+        }
+        match self.lessons.open(&name) {
+            Ok(()) => self.act(Action::Lesson(lesson::Action::Go(step)), ctx),
+            Err(sentence) => self.state.warn(&sentence),
+        }
+    }
+
+    /// Says that a file was saved, and what of the result is to be looked at.
+    pub(super) fn tell_saved(&mut self, message: &str) {
+        let verdict = self.state.document.as_ref().map(|document| verdict::verdict(&self.state, document));
+        match verdict.filter(|verdict| verdict.is_safe == Some(false)) {
+            Some(verdict) => self.state.saved(&format!("{message} {}", verdict.in_short())),
+            None => self.state.saved(message),
+        }
+    }
+
+    /// Hears what the engine of scans has to say.
+    pub(super) fn listen_to_scans(&mut self) {
+        while let Some(link) = self.platform.scans()
+            && let Some(event) = link.poll()
+        {
+            match self.scans.receive(event, link) {
+                Some(Told::Made(source)) => self.state.open(source, self.platform.link()),
+                Some(Told::Refused(sentence)) => self.state.warn(&sentence),
+                Some(Told::Stopped) => self.state.tell(&say!("app-scan-cancelled")),
+                None => {}
+            }
+        }
+        if let Some(link) = self.platform.scans()
+            && let Some(reason) = link.failure()
+        {
+            link.give_up();
+            let sentence = self.scans.engine_failed(&reason);
+            self.state.warn(&sentence);
+        }
+    }
+
+    /// Sends on what was done and heard.
+    pub(super) fn follow(&mut self, ctx: &egui::Context) {
+        // What is played is one step to undo.
+        let is_held = keys::moves_control(ctx) || self.views.collapses.is_playing();
+        self.state.follow(is_held, self.platform.link());
+        self.record.follow(&mut self.state, self.platform.link());
+        let now = recovery::Now {
+            state: &self.state,
+            trial: &self.trial,
+            camera: &self.views.camera,
+            language: self.speech.chosen(),
+        };
+        self.recovery.follow(now, &mut *self.platform, ctx);
+        let State { document, settings, .. } = &self.state;
+        let has_level = self.state.has_level();
+        self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
+        self.trial.next_row(self.platform.trial());
+        if let Some(link) = self.platform.scans() {
+            self.scans.follow(link);
+        }
+        // A gamepad tells nothing by itself.
+        let has_gamepad = self.trial.is_in_hand() && self.platform.gamepad().is_some();
+        if has_gamepad
+            || self.trial.is_moving()
+            || self.trial.is_driven()
+            || self.trial.has_device().0
+            || self.state.is_busy()
+            || self.record.progress().is_some()
+            || self.views.collapses.is_playing()
+            || self.trial.is_busy()
+            || self.scans.opening().is_some()
+            || self.scans.is_open()
+            || self.scans.awaits_slice()
+        {
+            ctx.request_repaint_after(LISTEN);
+        }
+    }
+
+    /// Closes the scan that is shown: a surface takes its place.
+    pub(super) fn leave_scan(&mut self) {
+        if let Some(link) = self.platform.scans().filter(|_| self.scans.is_open()) {
+            self.scans.act(scan::Action::Close, link);
+        }
+    }
+}
+
+/// Whether a file is the log of a trial.
+fn is_log(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case("csv"))
+}

@@ -1,0 +1,290 @@
+//! The app, frame by frame: it hears platform and engines (`hearing`), shows controls and views (`layout`), and does what
+//! they ask for (`acting`).
+
+mod acting;
+mod hearing;
+mod layout;
+
+use std::time::Duration;
+
+use egui::{Key, Modifiers, Ui};
+
+use super::drawer::Drawer;
+use super::keys::{self, Keys};
+use super::lesson::Lessons;
+use super::measure::Measuring;
+use super::paint_guard::PaintGuard;
+use super::platform::Platform;
+use super::presenter::Presenter;
+use super::record::{self, Record};
+use super::recovery::{self, Recovery};
+use super::scan::{ScanView, Scans};
+use super::sharing::Sharing;
+use super::sheets::{self, Sheet};
+use super::speech::Speech;
+use super::state::State;
+use super::trial::{self, Trial, TrialView};
+use super::vessels::Vessels;
+use super::views::{NO_MEMORY, Views};
+use super::{collapses, compare, theme};
+use crate::haptics::safety::Halt;
+use crate::haptics::service::DeviceCommand;
+use crate::render::{Camera, DeviceHealth, Fault};
+use crate::say;
+
+/// Below this width in points the views stack and the panel becomes a sheet at the bottom.
+const NARROW: f32 = 720.0;
+
+/// How often the engine is listened to while it works and nothing else moves.
+const LISTEN: Duration = Duration::from_millis(16);
+
+/// The app.
+pub struct LumenApp {
+    /// The window that it is in.
+    ctx: egui::Context,
+    /// What is known of its device.
+    health: DeviceHealth,
+    state: State,
+    views: Views,
+    compare: compare::CompareView,
+    trial: Trial,
+    trial_view: TrialView,
+    vessels: Vessels,
+    measuring: Measuring,
+    lessons: Lessons,
+    record: Record,
+    recovery: Recovery,
+    sharing: Sharing,
+    speech: Speech,
+    scans: Scans,
+    scan_view: ScanView,
+    platform: Box<dyn Platform>,
+    sheet: Option<Sheet>,
+    presenter: Presenter,
+    drawer: Drawer,
+    /// Whether a field was typed into at the end of the frame before.
+    was_typing: bool,
+    /// The views find a new surface when they are next shown: their shape is known by then.
+    look_next: bool,
+}
+
+impl LumenApp {
+    /// The app, with what was open before, or a sample.
+    pub fn new(
+        ctx: &egui::Context,
+        render_state: Option<&egui_wgpu::RenderState>,
+        mut platform: Box<dyn Platform>,
+    ) -> Self {
+        let mut state = State::default();
+        let mut trial = Trial::new();
+        // Before anything is said.
+        let speech = Speech::begin(recovery::language(&mut *platform), &mut *platform);
+        let recovery = Recovery::begin(&mut state, &mut trial, &mut *platform);
+        let mut app = Self {
+            ctx: ctx.clone(),
+            health: DeviceHealth::default(),
+            state,
+            views: Views::new(None),
+            compare: compare::CompareView::new(None),
+            trial,
+            trial_view: TrialView::new(None),
+            vessels: Vessels::default(),
+            measuring: Measuring::default(),
+            lessons: Lessons::default(),
+            record: Record::default(),
+            recovery,
+            sharing: Sharing::default(),
+            speech,
+            scans: Scans::default(),
+            scan_view: ScanView::default(),
+            platform,
+            sheet: None,
+            presenter: Presenter::default(),
+            drawer: Drawer::default(),
+            was_typing: false,
+            look_next: false,
+        };
+        if !app.platform.prefers_less_motion() {
+            app.views.divider.sweep();
+        }
+        app.enter(ctx, render_state);
+        app
+    }
+
+    /// Goes on in another window, with another device: what is open, the settings, their history, the camera, the trial
+    /// and how the controls stand stay as they are, and what was on the old device is made again.
+    pub fn resume(&mut self, ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>) {
+        let memory = self.ctx.memory(Clone::clone);
+        ctx.memory_mut(|now| *now = memory);
+        self.platform.enter(ctx);
+        self.trial.restart_clock();
+        self.enter(ctx, render_state);
+        self.state.tell(&say!("app-graphics-restarted"));
+    }
+
+    fn enter(&mut self, ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>) {
+        theme::apply(ctx);
+        theme::suit(ctx, self.platform.has_finger(), !self.platform.prefers_less_motion());
+        self.ctx = ctx.clone();
+        self.health = render_state.map_or_else(DeviceHealth::default, |state| {
+            let ctx = ctx.clone();
+            DeviceHealth::watch(&state.device, move || ctx.request_repaint())
+        });
+        ctx.add_plugin(PaintGuard(self.health.clone()));
+        self.views.set_device(render_state);
+        self.compare = compare::CompareView::new(render_state);
+        self.trial_view.set_device(render_state);
+        self.record.set_device(render_state);
+        self.scan_view.set_device(render_state);
+    }
+
+    /// Lets go of the device and of all that stands on it, before it is replaced.
+    pub fn leave(&mut self) {
+        self.views.set_device(None);
+        self.compare = compare::CompareView::new(None);
+        self.trial_view.set_device(None);
+        self.record.set_device(None);
+        self.scan_view.set_device(None);
+    }
+
+    /// Why the device has to be replaced, if it has to be.
+    pub fn device_end(&self) -> Option<Fault> {
+        self.health.end()
+    }
+
+    /// What is known of the device, for whoever hears of its end before it does.
+    pub fn device_health(&self) -> &DeviceHealth {
+        &self.health
+    }
+
+    /// Gives up what is on a device whose memory is full, and says so. It is tried again with what is shown next.
+    fn heed_memory(&mut self) {
+        if self.health.take_full() {
+            self.views.refuse(self.state.document.as_ref().map(|document| document.revision));
+            self.compare.refuse();
+            self.trial_view.refuse();
+            self.record.act(record::Action::Cancel, &mut self.state, &self.views, crate::render::Style::LIGHT);
+            self.scan_view.refuse();
+            self.state.warn(&NO_MEMORY.say());
+        }
+    }
+
+    /// Whether the hand on the keys can be followed: see [`Platform::has_attention`].
+    pub fn has_attention(&self) -> bool {
+        self.platform.has_attention()
+    }
+
+    /// What the app knows.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What the app knows of the trial.
+    pub fn trial(&self) -> &Trial {
+        &self.trial
+    }
+
+    /// The lesson that is given.
+    pub fn lessons(&self) -> &Lessons {
+        &self.lessons
+    }
+
+    /// The collapses, one by one.
+    pub fn collapses(&self) -> &collapses::Collapses {
+        &self.views.collapses
+    }
+
+    /// From where the surface is looked at.
+    pub fn camera(&self) -> &Camera {
+        &self.views.camera
+    }
+
+    /// How many pictures of the trial were drawn since its views were shown.
+    pub fn trial_draws(&self) -> u64 {
+        self.trial_view.draws()
+    }
+
+    /// Whether the trial's views stand in the device's memory.
+    pub fn trial_holds_memory(&self) -> bool {
+        self.trial_view.holds_memory()
+    }
+}
+
+impl eframe::App for LumenApp {
+    /// Before each frame, and alone while the window is minimised or its tab hidden: what is heard does not wait for
+    /// eyes, and no hand that nobody sees is on the wire.
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.listen(ctx);
+        let was_left = self.platform.was_left();
+        let is_hidden = was_left || ctx.input(|input| !input.raw.focused || input.viewport().visible() == Some(false));
+        if self.trial.follow_device(self.platform.devices(), is_hidden) {
+            self.trial.act(trial::Action::Pause, None, self.platform.trial());
+        }
+        let (now_ms, gamepad) = (1000.0 * ctx.input(|input| input.time), self.platform.gamepad());
+        if let Some(strength) = self.trial.follow_rumble(now_ms, gamepad, is_hidden) {
+            self.platform.rumble(strength);
+        }
+        if let Some(tone) = self.trial.follow_sound(now_ms, self.platform.has_sound(), is_hidden) {
+            self.platform.sound(tone);
+        }
+        if ctx.input(|input| input.viewport().visible() == Some(false)) {
+            self.trial.follow_hand(ctx, Keys::Views, None, self.platform.trial());
+            self.follow(ctx);
+        }
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        if let Some(end) = self.health.end() {
+            // Nothing can be drawn any more, and calls to the device may panic. A call that was refused is a mistake in
+            // here, which tests should not pass over.
+            debug_assert!(!matches!(end, Fault::Refused(_)), "{end}");
+            return;
+        }
+        self.heed_memory();
+        self.views.follow_flight(&ctx, !self.platform.prefers_less_motion());
+        // Before sheets, lists and fields: whoever presses it because a device pushes wants that to end.
+        if self.trial.has_device().1 && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            let stop = DeviceCommand::Halt(Halt::Stopped);
+            self.act_on_trial(trial::Action::Device(trial::DeviceAsk::Command(stop)), &ctx);
+        }
+        let dropped = ctx.input(|input| input.raw.dropped_files.clone());
+        if !dropped.is_empty() {
+            // The unit was chosen for a file of the dialog.
+            self.state.next_unit = None;
+            self.platform.read_dropped(dropped, &ctx);
+        }
+        self.presenter.hear(&ctx);
+        let keys = Keys::of(&ctx, self.sheet.is_some(), self.was_typing);
+        // A control that has the focus is pressed by Space.
+        let has_space = !self.trial.is_open() && ctx.memory(|memory| memory.focused().is_none());
+        let by_key =
+            keys == Keys::Views && ctx.input(|input| input.key_down(Key::B) || has_space && input.key_down(Key::Space));
+        self.views.show_before = by_key || self.views.before_is_held || self.views.options.before;
+        let is_narrow = ui.available_width() < NARROW;
+        self.controls(ui, is_narrow);
+        self.take_keys(ui, keys);
+        // Before the views: they are of this frame.
+        self.state.show_level();
+        self.follow_lesson(&ctx);
+        let now_s = ctx.input(|input| input.time);
+        let played = self.views.collapses_follow(self.state.document.as_ref(), now_s);
+        if self.views.is_flying() {
+            ctx.request_repaint();
+        }
+        self.act_on_all(played, &ctx);
+        self.state.show_level();
+        self.centre(ui, is_narrow);
+        let gamepad = self.platform.gamepad();
+        self.trial.follow_hand(&ctx, keys, gamepad, self.platform.trial());
+        if let Some(sheet) = self.sheet {
+            let is_done = sheets::show(ui, sheet, self.trial.is_open());
+            if is_done || keys::pressed(ui, Modifiers::NONE, Key::F1) {
+                self.sheet = None;
+            }
+        }
+        self.presenter.show(&ctx);
+        self.was_typing = ctx.text_edit_focused();
+        self.follow(&ctx);
+    }
+}

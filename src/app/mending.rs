@@ -1,0 +1,261 @@
+//! Mending in the panel: what is wrong with the surface as the file has it, a way to each place, and what is done about it.
+
+use egui::{Color32, DragValue, Rect, Role, Shape, Stroke, Ui, pos2};
+
+use super::action::Action;
+use super::assist::name;
+use super::control::reads_comma;
+use super::document::Document;
+use super::row::{number, remark, row};
+use super::state::State;
+use super::views::{ViewOptions, Views};
+use crate::language::{Key, decimal, grouped, inner};
+use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
+use crate::pipeline::settings::{Keep, Settings};
+use crate::render::Camera;
+use crate::say;
+
+/// A fault of the surface that is open: its kind, and which of them is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FaultShown {
+    /// All of these are marked.
+    pub kind: FaultKind,
+    /// The one that was gone to.
+    pub index: u16,
+}
+
+/// Height of what is seen around a fault, in times its size, and in mm at least.
+const AROUND: f32 = 6.0;
+const LEAST_MM: f32 = 5.0;
+/// What is proposed where nothing is known: holes up to 5 mm, open edges within a hundredth of a mm.
+const FILL_MM: f64 = 5.0;
+const WELD_MM: f64 = 0.01;
+
+/// Shows the section: folded where there is nothing to mend and nothing is mended.
+pub(super) fn section(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
+    let Some(document) = &state.document else { return };
+    let counts = document.faults.as_ref().map(|found| found.counts);
+    let is_open = counts.is_some_and(|counts| is_faulty(&counts)) || !state.settings.mending.is_off();
+    let header = egui::CollapsingHeader::new(say!("panel-mending")).default_open(is_open);
+    // Another surface, or news of this one, folds or unfolds it anew.
+    header.id_salt(("mending", document.revision.document, is_open)).show(ui, |ui| {
+        match &counts {
+            Some(counts) => faults(ui, document, counts, views, asked),
+            None => remark(ui, &say!("panel-faults-sought")),
+        }
+        let mut settings = state.settings.clone();
+        choices(ui, &mut settings.mending, counts.as_ref());
+        if settings != state.settings {
+            asked.push(set(settings));
+        }
+        done(ui, state, document);
+    });
+}
+
+/// Whether there is something to mend.
+fn is_faulty(counts: &FaultCounts) -> bool {
+    counts.non_manifold_edges + counts.non_manifold_vertices + counts.holes > 0 || counts.wall.is_some()
+}
+
+/// Other settings; a piece that is kept by its number may be another one then, so the largest is.
+fn set(mut settings: Settings) -> Action {
+    if matches!(settings.keep, Keep::Component(_)) {
+        settings.keep = Keep::Largest;
+    }
+    Action::Set(Box::new(settings))
+}
+
+/// What is wrong, with a way to each place.
+fn faults(ui: &mut Ui, document: &Document, counts: &FaultCounts, views: &Views, asked: &mut Vec<Action>) {
+    if !is_faulty(counts) {
+        remark(ui, &say!("panel-faults-none"));
+    }
+    let rows = [
+        (FaultKind::Hole, counts.holes, say!("panel-holes"), say!("panel-holes-help")),
+        (FaultKind::Edge, counts.non_manifold_edges, say!("panel-edges"), say!("panel-edges-help")),
+        (FaultKind::Vertex, counts.non_manifold_vertices, say!("panel-points"), say!("panel-points-help")),
+        (FaultKind::VesselEnd, counts.vessel_ends, say!("panel-ends"), say!("panel-ends-help")),
+    ];
+    for (kind, count, what, help) in rows.into_iter().filter(|&(_, count, ..)| count > 0) {
+        let counted = match counts.largest_hole_mm.filter(|_| kind == FaultKind::Hole) {
+            Some(mm) => say!("panel-holes-count", count = count, size = decimal(mm, 1)),
+            None => grouped(count),
+        };
+        row(ui, &what, &help, |ui| {
+            let shown = show_button(ui, document, kind, &what, views, asked);
+            ui.label(shown.unwrap_or(counted));
+        });
+    }
+    if let Some(wall) = counts.wall {
+        let thick = say!("panel-wall-thickness", thickness = decimal(wall.thickness_mm, 2));
+        number(ui, &say!("panel-wall"), &thick, &say!("panel-wall-help"));
+    }
+    let import = &document.import;
+    for (what, count, help) in [
+        (Key("panel-dropped"), import.degenerate_triangles, Key("panel-dropped-help")),
+        (Key("panel-double"), import.duplicate_triangles, Key("panel-double-help")),
+        (Key("panel-turned"), import.reoriented_triangles, Key("panel-turned-help")),
+        (Key("panel-turned-pieces"), import.components_turned, Key("panel-turned-pieces-help")),
+    ] {
+        if count > 0 {
+            number(ui, &what.say(), &grouped(count), &help.say());
+        }
+    }
+}
+
+/// Marks the faults of a kind and goes to the first, then to the next; which of how many is looked at, if one is.
+fn show_button(
+    ui: &mut Ui,
+    document: &Document,
+    kind: FaultKind,
+    what: &str,
+    views: &Views,
+    asked: &mut Vec<Action>,
+) -> Option<String> {
+    let places: Vec<&FaultPlace> = of_kind(document, kind).collect();
+    let shown = views.options.fault.filter(|shown| shown.kind == kind).map(|shown| usize::from(shown.index));
+    let next = shown.map_or(0, |index| (index + 1) % places.len().max(1));
+    let position = shown.map(|index| say!("panel-of", count = index + 1, all = places.len()));
+    let (words, spoken) = match shown {
+        Some(_) => (say!("panel-fault-next"), say!("panel-fault-next-of", faults = inner(what))),
+        None => (say!("panel-show"), say!("panel-fault-show", faults = inner(what))),
+    };
+    let response = ui.button(words).on_hover_text(say!("panel-fault-show-help"));
+    name(&response, Role::Button, &spoken);
+    if response.clicked()
+        && let Some(place) = places.get(next)
+    {
+        let fault = Some(FaultShown { kind, index: next as u16 });
+        asked.push(Action::Show(ViewOptions { fault, ..views.options }));
+        let height_mm = (AROUND * place.size_mm).max(LEAST_MM);
+        asked.push(Action::GoTo { at_mm: place.at_mm, height_mm, label: label(place) });
+    }
+    position
+}
+
+fn of_kind(document: &Document, kind: FaultKind) -> impl Iterator<Item = &FaultPlace> {
+    document.faults.iter().flat_map(|found| &found.places).filter(move |place| place.kind == kind)
+}
+
+fn label(place: &FaultPlace) -> String {
+    match place.kind {
+        FaultKind::Edge => say!("panel-edge-place"),
+        FaultKind::Vertex => say!("panel-point-place"),
+        FaultKind::Hole => say!("panel-hole-place", size = decimal(place.size_mm, 1)),
+        FaultKind::VesselEnd => say!("panel-end-place", size = decimal(place.size_mm, 1)),
+    }
+}
+
+/// What is to be mended.
+fn choices(ui: &mut Ui, mending: &mut Mending, counts: Option<&FaultCounts>) {
+    let whole = counts.and_then(|counts| counts.largest_hole_mm).map(Mending::filling);
+    let fill = Length {
+        words: &say!("panel-fill"),
+        help: &say!("panel-fill-help"),
+        range: Mending::FILL_MM,
+        proposed: whole.unwrap_or(FILL_MM),
+        digits: 1,
+    };
+    fill.show(ui, &mut mending.fill_mm);
+    let weld = Length {
+        words: &say!("panel-weld"),
+        help: &say!("panel-weld-help"),
+        range: Mending::WELD_MM,
+        proposed: WELD_MM,
+        digits: 4,
+    };
+    weld.show(ui, &mut mending.weld_mm);
+    ui.horizontal_wrapped(|ui| {
+        let split = ui.checkbox(&mut mending.split, say!("panel-split"));
+        split.on_hover_text(say!("panel-split-help"));
+        let lumen = ui.checkbox(&mut mending.lumen, say!("panel-lumen"));
+        lumen.on_hover_text(say!("panel-lumen-help"));
+    });
+}
+
+/// A length that is on or off.
+struct Length<'a> {
+    words: &'a str,
+    help: &'a str,
+    range: std::ops::RangeInclusive<f64>,
+    /// When it is switched on.
+    proposed: f64,
+    digits: usize,
+}
+
+impl Length<'_> {
+    fn show(&self, ui: &mut Ui, value: &mut Option<f64>) {
+        ui.horizontal(|ui| {
+            let mut is_on = value.is_some();
+            if ui.checkbox(&mut is_on, self.words).on_hover_text(self.help.to_owned()).changed() {
+                *value = is_on.then_some(self.proposed);
+            }
+            let mut shown = value.unwrap_or(self.proposed);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let field = reads_comma(DragValue::new(&mut shown), self.digits == 0)
+                    .range(self.range.clone())
+                    .speed(self.proposed / 50.0)
+                    .max_decimals(self.digits)
+                    .suffix(" mm")
+                    .update_while_editing(false);
+                let response = ui.add_enabled(is_on, field).on_hover_text(say!("panel-type"));
+                name(&response, Role::SpinButton, &say!("panel-value", name = self.words));
+                if response.changed() && is_on {
+                    *value = Some(shown);
+                }
+            });
+        });
+    }
+}
+
+/// What was mended under the settings in force.
+fn done(ui: &mut Ui, state: &State, document: &Document) {
+    let report = document.measured.as_ref().map(|measured| &measured.report);
+    let Some(report) = report.filter(|report| report.settings.mending == state.settings.mending) else { return };
+    let Some(done) = &report.mending else { return };
+    let parts = [
+        (done.vertices_welded, say!("panel-mended-welded", count = done.vertices_welded)),
+        (done.edges_split, say!("panel-mended-edges", count = done.edges_split)),
+        (done.vertices_split, say!("panel-mended-vertices", count = done.vertices_split)),
+        (done.duplicates_left_out, say!("panel-mended-double", count = done.duplicates_left_out)),
+        (done.holes_filled, say!("panel-mended-holes", count = done.holes_filled)),
+        (done.wall_triangles_left_out, say!("panel-mended-wall", count = done.wall_triangles_left_out)),
+    ];
+    let parts: Vec<String> = parts.into_iter().filter(|&(count, _)| count > 0).map(|(_, words)| words).collect();
+    if !parts.is_empty() {
+        remark(ui, &format!("{}.", parts.join(", ")));
+    }
+    for sentence in report.mending_warnings() {
+        remark(ui, &sentence);
+    }
+}
+
+/// Draws the faults of the kind that is shown over a view.
+pub(super) fn marks(ui: &Ui, rect: Rect, camera: &Camera, document: &Document, shown: FaultShown) {
+    const RADIUS: f32 = 4.0;
+    let colour: Color32 = ui.visuals().error_fg_color;
+    let painter = ui.painter_at(rect);
+    let aspect = rect.width() / rect.height().max(1.0);
+    let seen = |at: [f32; 3]| {
+        let at = camera.project(at.into(), aspect)?;
+        Some(rect.center() + egui::vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0))
+    };
+    for place in of_kind(document, shown.kind) {
+        let line: Option<Vec<egui::Pos2>> = place.line.iter().map(|&at| seen(at)).collect();
+        match line {
+            Some(line) if line.len() > 2 => {
+                painter.add(Shape::closed_line(line, Stroke::new(2.0, colour)));
+            }
+            Some(line) if line.len() == 2 => {
+                painter.line_segment([line[0], line[1]], Stroke::new(3.0, colour));
+                painter.circle_filled(pos2((line[0].x + line[1].x) / 2.0, (line[0].y + line[1].y) / 2.0), 2.5, colour);
+            }
+            Some(_) => {
+                if let Some(at) = seen(place.at_mm) {
+                    painter.circle_filled(at, RADIUS, colour);
+                }
+            }
+            None => {}
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! What leaves the app for the record: reports, pictures and turntables. What they show is drawn here, a picture a frame of
+//! the window; the files are made by the engine, so that no frame waits for them.
+
+mod action;
+mod job;
+mod menu;
+
+use super::document::Document;
+use super::state::State;
+use super::views::Views;
+use crate::engine::Link;
+use crate::say;
+
+pub use action::Action;
+use job::Job;
+pub(super) use menu::menu;
+
+/// What is being drawn, and what a user has chosen for it.
+#[derive(Default)]
+pub(super) struct Record {
+    device: Option<egui_wgpu::RenderState>,
+    job: Option<Job>,
+    chosen: Chosen,
+}
+
+/// What a user has chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Chosen {
+    /// Whether a report bears the name of the file.
+    pub(super) names_file: bool,
+    /// Whether there is nothing behind the surface in pictures.
+    pub(super) is_clear: bool,
+}
+
+impl Record {
+    /// Takes another device; what was being drawn on the old one is given up.
+    pub(super) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
+        self.device = device.cloned();
+        self.job = None;
+    }
+
+    /// What a user has chosen.
+    pub(super) fn chosen(&self) -> Chosen {
+        self.chosen
+    }
+
+    /// What is being drawn, and the part of it that is done; `None` for nothing.
+    pub(super) fn progress(&self) -> Option<(String, f32)> {
+        self.job.as_ref().map(Job::progress)
+    }
+
+    /// Does what is asked for.
+    pub(super) fn act(&mut self, action: Action, state: &mut State, views: &Views, style: crate::render::Style) {
+        match action {
+            Action::NameFile(names_file) => self.chosen.names_file = names_file,
+            Action::Clear(is_clear) => self.chosen.is_clear = is_clear,
+            Action::Cancel => self.cancel(state),
+            Action::Report(_) | Action::Picture(_) | Action::Turntable => {
+                self.cancel(state);
+                let Some(document) = state.document.as_ref().filter(|document| document.shown.is_some()) else {
+                    state.tell(&say!("record-nothing"));
+                    return;
+                };
+                let begun = self.begin(action, state, document, views, style);
+                match begun {
+                    Ok(job) => self.job = Some(job),
+                    Err(sentence) => state.warn(&sentence),
+                }
+            }
+        }
+    }
+
+    fn begin(
+        &self,
+        action: Action,
+        state: &State,
+        document: &Document,
+        views: &Views,
+        style: crate::render::Style,
+    ) -> Result<Job, String> {
+        let device = self.device.as_ref().ok_or_else(|| say!("compare-no-device"))?;
+        let begun = match action {
+            Action::Report(format) => Job::report(device, document, state.settings.keep, format, self.chosen),
+            Action::Picture(scale) => Job::picture(device, document, views, style, scale, self.chosen),
+            _ => Job::turntable(device, document, state.settings.keep, views, style),
+        };
+        begun.map_err(|error| say!("record-cannot-draw", why = error.to_string()))
+    }
+
+    fn cancel(&mut self, state: &mut State) {
+        if let Some(job) = self.job.take() {
+            if let Some(name) = job.asked_for() {
+                state.forget_file(name);
+            }
+            state.tell(&say!("record-cancelled"));
+        }
+    }
+
+    /// To be called each frame: takes what was drawn and draws what comes next.
+    pub(super) fn follow(&mut self, state: &mut State, link: &mut dyn Link) {
+        let Some(job) = &mut self.job else { return };
+        match job.advance(state, link) {
+            Ok(true) => self.job = None,
+            Ok(false) => {}
+            Err(sentence) => {
+                self.cancel(state);
+                state.warn(&sentence);
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What the engine says, and what it changes.
+
+use super::{Effect, Engine, State, Step};
+use crate::app::document::Document;
+use crate::engine::{Event, Work};
+use crate::pipeline::settings::Settings;
+use crate::say;
+
+impl State {
+    /// Hears what the engine has to say. Events that belong to a surface which was given up are passed over.
+    pub fn receive(&mut self, event: Event) -> Option<Effect> {
+        match event {
+            Event::Opened(opened) => self.receive_opened(*opened),
+            Event::OpenFailed { id, name, message } => {
+                let at = self.opening.iter().position(|opening| opening.id == id);
+                let is_shown = matches!(self.engine, Engine::Loaded | Engine::Loading) && id == self.generation;
+                if at.is_some() || is_shown {
+                    if let Some(at) = at {
+                        self.opening.remove(at);
+                    }
+                    if self.opening.is_empty() {
+                        self.work = None;
+                    }
+                    if is_shown {
+                        self.engine = Engine::Empty;
+                        self.is_cancelling = false;
+                        self.comparison.stop(&say!("app-not-opened-again"));
+                    }
+                    let why = sentence(&message);
+                    let text = match self.document {
+                        Some(_) => say!("app-open-failed-kept", name = name, why = why),
+                        None => say!("app-open-failed", name = name, why = why),
+                    };
+                    self.warn(&text);
+                }
+            }
+            Event::Mended { mesh } => {
+                if let Some(document) = self.worked_on() {
+                    document.set_mended(mesh);
+                }
+            }
+            Event::Faults(found) => {
+                if let Some(document) = self.worked_on() {
+                    document.faults = Some(found);
+                }
+            }
+            Event::Pieces { labels, components } => {
+                if let Some(document) = self.worked_on() {
+                    document.set_pieces(labels, components);
+                }
+            }
+            // The comparison may have been given up meanwhile.
+            Event::Progress { work: Work::Comparing, .. } if !self.comparison.is_busy() => {}
+            Event::Progress { work, fraction } => self.work = Some((work, fraction)),
+            Event::Compared(compared) => {
+                self.comparison.receive(*compared);
+                self.rest();
+            }
+            Event::Differed(differed) => {
+                self.comparison.receive_difference(*differed);
+                self.rest();
+            }
+            Event::Averaged(averaged) => {
+                let is_awaited = self.averaging.is_some_and(|(id, _)| id == averaged.id);
+                if let Some(document) = self.document.as_mut().filter(|_| is_awaited) {
+                    document.set_averaged(Some(averaged));
+                }
+            }
+            Event::NotCompared { id, index, message } => {
+                self.comparison.receive_failure(id, index, &sentence(&message));
+                self.rest();
+            }
+            Event::Reduced(reduced) => {
+                let target = self.settings.target;
+                let arrived = self.arrive();
+                if let Some(document) = &mut self.document {
+                    document.set_levels(*reduced, target);
+                }
+                return arrived;
+            }
+            Event::Measured { generation, complete, report, deviation } => {
+                if complete {
+                    self.failures = 0;
+                    // Numbers of older settings, or of the surface before, end no work on newer ones.
+                    if self.opening.is_empty() && generation == self.generation {
+                        self.work = None;
+                        self.rest();
+                    }
+                }
+                if let Some(document) = &mut self.document {
+                    document.set_measured(generation, *report, deviation);
+                    // Of an older bound too: the view follows the slider as fast as levels are found.
+                    if self.settings.target.deviation_mm().is_some() {
+                        document.show_found();
+                    }
+                }
+            }
+            Event::Deviated(deviated) => {
+                if let Some(document) = self.document.as_mut().filter(|_| self.engine == Engine::Loaded) {
+                    document.set_deviated(deviated);
+                }
+            }
+            Event::Carried(carried) => {
+                if let Some(document) = self.document.as_mut().filter(|_| self.engine == Engine::Loaded) {
+                    document.set_carried(carried);
+                }
+            }
+            Event::Certified(calibre) => {
+                if let Some(document) = self.document.as_mut().filter(|_| self.engine == Engine::Loaded) {
+                    document.set_calibre(*calibre);
+                }
+            }
+            Event::Cancelled { generation, settings } => self.receive_cancelled(generation, settings),
+            Event::Written { name, bytes, left_out } => {
+                self.forget_file(&name);
+                if let Some(sentence) = &left_out {
+                    self.tell(sentence);
+                }
+                self.left_out = left_out;
+                return Some(Effect::Offer { name, bytes });
+            }
+            Event::NotWritten { name, message } => {
+                self.forget_file(&name);
+                self.warn(&say!("app-not-saved", name = name, why = sentence(&message)));
+            }
+            Event::Failed { message } => {
+                self.work = None;
+                self.comparison.forget_request();
+                self.warn(&sentence(&message));
+            }
+        }
+        None
+    }
+
+    /// The surface that the engine works on.
+    fn worked_on(&mut self) -> Option<&mut Document> {
+        let incoming = self.opening.iter_mut().filter_map(|opening| opening.document.as_mut()).next_back();
+        incoming.or(self.document.as_mut())
+    }
+
+    fn receive_cancelled(&mut self, generation: u64, settings: Settings) {
+        self.generation = generation;
+        self.is_cancelling = false;
+        self.is_stopped = true;
+        self.work = None;
+        if settings != self.settings {
+            self.tell(&say!("app-cancelled-result-stands"));
+        }
+        if let Some(document) = &mut self.document {
+            document.show(settings.target);
+        }
+        self.settings = settings.clone();
+        self.history.replace(&Step { settings: settings.clone(), measures: self.measures.clone() });
+        self.sent = settings;
+    }
+}
+
+/// `text` with a capital and a full stop.
+fn sentence(text: &str) -> String {
+    let text = text.trim();
+    let mut letters = text.chars();
+    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    let end = if text.ends_with(['.', '!', '?']) { "" } else { "." };
+    format!("{first}{}{end}", letters.as_str())
+}

@@ -1,0 +1,96 @@
+//! What is opened, and how it takes the place of what was open: only once it has something to show.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::{Effect, Engine, Notice, Opening, State};
+use crate::app::document::Document;
+use crate::engine::{Command, Link, Opened, Source, Work};
+use crate::io::{ImportOptions, Unit};
+use crate::phantom::Sample;
+use crate::pipeline::settings::{Keep, Settings};
+
+impl State {
+    /// Opens the file `name`. What is open stays until the new surface is there.
+    pub fn open_file(&mut self, name: String, bytes: Vec<u8>, link: &mut dyn Link) {
+        let options = ImportOptions { unit: self.next_unit.take() };
+        self.open(Source::File { name, bytes: Arc::new(bytes), options }, link);
+    }
+
+    /// Opens a sample.
+    pub fn open_sample(&mut self, sample: Sample, link: &mut dyn Link) {
+        self.open(Source::sample(sample), link);
+    }
+
+    /// Opens a surface, of all of which the largest piece is kept.
+    pub fn open(&mut self, source: Source, link: &mut dyn Link) {
+        self.wake(link);
+        self.number += 1;
+        let id = self.number;
+        let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
+        link.send(Command::Open { id, source: source.clone(), settings: settings.clone() });
+        self.opening.push(Opening { id, source, settings, document: None });
+        self.work = Some((Work::Reading, 0.0));
+        self.notice = None;
+    }
+
+    /// Opens the file that is shown again, with its numbers in `unit`, or for `None` in that of its format. Samples have
+    /// theirs.
+    pub fn set_unit(&mut self, unit: Option<Unit>, link: &mut dyn Link) {
+        if let Some(Source::File { name, bytes, .. }) = self.document.as_ref().map(|document| &document.source) {
+            let options = ImportOptions { unit };
+            let source = Source::File { name: name.clone(), bytes: bytes.clone(), options };
+            self.open(source, link);
+        }
+    }
+
+    /// The name of the surface that is on its way in.
+    pub fn opening(&self) -> Option<Cow<'_, str>> {
+        self.opening.last().map(|opening| opening.source.label())
+    }
+
+    pub(super) fn receive_opened(&mut self, opened: Opened) {
+        self.engine = Engine::Loaded;
+        // Others were read again by a new engine, and are shown already.
+        if let Some(at) = self.opening.iter().position(|opening| opening.id == opened.id) {
+            // The engine gives up what it was asked for before.
+            self.opening.drain(..at);
+            let opening = &mut self.opening[0];
+            opening.document = Some(Document::new(opening.source.clone(), opened));
+        } else if let Some(document) = &mut self.document
+            && document.digest == opened.digest
+            && document.opened != opened.mesh
+        {
+            // What was mended before the engine stopped is mended again.
+            document.set_mended(opened.mesh);
+        }
+    }
+
+    /// The surface that was on its way in takes the place of the one that is open.
+    pub(super) fn arrive(&mut self) -> Option<Effect> {
+        let at = self.opening.iter().rposition(|opening| opening.document.is_some())?;
+        let Opening { id, settings, document, .. } = self.opening.drain(..=at).next_back()?;
+        let document = document?;
+        // Pieces are numbered in one surface only.
+        self.settings.keep = Keep::Largest;
+        // What was measured belongs to the surface that is closed.
+        self.measures = Arc::default();
+        self.history.change_all(|step| {
+            step.settings.keep = Keep::Largest;
+            step.measures = Arc::default();
+        });
+        self.generation = id;
+        self.is_stopped = false;
+        // What was moved meanwhile follows.
+        self.sent = settings;
+        self.is_cancelling = false;
+        // That another file could not be opened meanwhile is not to be lost.
+        if self.notice.as_ref().is_none_or(|notice| !notice.is_error) {
+            let warning = document.import.warnings_now().into_iter().next();
+            self.notice = warning.map(|text| Notice { text, is_error: false });
+        }
+        self.shows_averaged = false;
+        self.document = Some(document);
+        Some(Effect::Opened)
+    }
+}

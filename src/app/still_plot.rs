@@ -1,0 +1,24 @@
+//! A plot that stands still: it shows all that it has, and leaves drag, scroll and zoom to what it is in; and the marks of its axes.
+
+use std::ops::RangeInclusive;
+
+use egui::Vec2;
+use egui_plot::{GridMark, Plot};
+
+use crate::language::decimal;
+
+/// The plot, without what moves it and without margins.
+pub(super) fn still(plot: Plot<'_>) -> Plot<'_> {
+    plot.allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_axis_zoom_drag(false)
+        .allow_double_click_reset(false)
+        .set_margin_fraction(Vec2::ZERO)
+}
+
+/// A mark of an axis, with as many decimals as the step to the next has.
+pub(super) fn tick(mark: GridMark, _: &RangeInclusive<f64>) -> String {
+    decimal(mark.value, -mark.step_size.log10().round() as usize)
+}

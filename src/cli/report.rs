@@ -1,0 +1,94 @@
+//! `lumen report`: a page for the record, as PDF or as a web page.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::{Context, Result};
+use clap::Args;
+
+use super::optimise::advance;
+use super::scan::ScanOptions;
+use super::settings::SettingsOptions;
+use super::{interrupt, misuse, pictures, places, row, source, write_whole};
+use crate::io::{Axes, Format};
+use crate::pipeline::deviation::REPORT_SAMPLES;
+use crate::pipeline::report::{DISCLAIMER, Report};
+use crate::pipeline::run::Pipeline;
+use crate::pipeline::settings::Settings;
+use crate::pipeline::verdict::{Verdict, rate};
+use crate::report::{Document, Picture, ReportFormat, Subject};
+
+/// Writes a page for the record.
+#[derive(Debug, Args)]
+pub struct WriteReport {
+    /// A surface file, or sample:aorta, sample:coronary; or a scan or a mask
+    file: String,
+    #[command(flatten)]
+    scan: ScanOptions,
+    /// Where to write: .pdf or .html
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// What the page is called; the name of the file is not on it, because that may be a patient's
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// Leave the pictures out
+    #[arg(long)]
+    no_pictures: bool,
+    #[command(flatten)]
+    settings: SettingsOptions,
+}
+
+impl WriteReport {
+    /// Runs the pipeline and writes the page.
+    pub(super) fn run(&self) -> Result<()> {
+        let name = self.output.to_string_lossy();
+        let format =
+            ReportFormat::from_name(&name).unwrap_or_else(|| misuse(format!("{name} does not end in .pdf or .html")));
+        let inputs = [Path::new(&self.file)].into_iter().chain(self.settings.file());
+        places::check(inputs, [("the report".to_owned(), &*self.output)]);
+        let asked = self.settings.asked()?;
+        interrupt::listen()?;
+        let (imported, digest) = source::read_known(&self.file, asked.unit, &self.scan)?;
+        let import = imported.report.clone();
+        let settings = asked.shared.settings.clone();
+        let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
+        pipeline = if asked.wants_safe { pipeline.with_safe() } else { pipeline.with_certificate() };
+        advance(&mut pipeline)?;
+        if asked.wants_safe {
+            let percent = pipeline.safe().and_then(|safe| safe.percent);
+            let target = rate(percent.context("no reduction can be called safe")?);
+            pipeline.set(Settings { target, ..pipeline.settings().clone() })?;
+            advance(&mut pipeline)?;
+        }
+        let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
+        report.axes = import.axes;
+        let verdict = Verdict::of_run(&report, &import, Format::from_name(&self.file).is_some());
+        let drawn = if self.no_pictures { Vec::new() } else { self.pictures(&pipeline, import.axes)? };
+        let subject = Subject {
+            title: self.title.as_deref(),
+            digest,
+            import: &import,
+            report: &report,
+            verdict: &verdict,
+            measures: &[],
+        };
+        let document = Document::new(&subject, drawn);
+        write_whole(&self.output, &format.write(&document))?;
+        row("verdict", verdict.in_short());
+        row("pictures", document.pictures.len());
+        row("written to", self.output.display());
+        println!("{DISCLAIMER}");
+        Ok(())
+    }
+
+    /// The pictures; where there can be none, a line says so.
+    fn pictures(&self, pipeline: &Pipeline, axes: Axes) -> Result<Vec<Picture>> {
+        match pictures::of(pipeline, axes) {
+            Ok(drawn) => drawn.iter().map(|(caption, pixels)| Ok(Picture::new(caption, pixels)?)).collect(),
+            Err(why) => {
+                eprintln!("lumen: warning: the report is without pictures: {why:#}");
+                Ok(Vec::new())
+            }
+        }
+    }
+}

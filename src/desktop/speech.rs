@@ -1,0 +1,23 @@
+//! What the threads speak: each as the window does.
+
+use std::sync::{Mutex, PoisonError};
+
+use crate::language::{self, Language};
+
+/// What the window speaks.
+static SPOKEN: Mutex<Language> = Mutex::new(Language::English);
+
+/// Lets every thread speak a language from the next time on that it calls [`follow`].
+pub(super) fn set(language: Language) {
+    *SPOKEN.lock().unwrap_or_else(PoisonError::into_inner) = language;
+}
+
+/// Lets this thread speak as the window does.
+pub(super) fn follow() {
+    let wanted = *SPOKEN.lock().unwrap_or_else(PoisonError::into_inner);
+    if wanted != language::spoken()
+        && let Some(texts) = language::built_in(wanted)
+    {
+        language::speak(wanted, texts);
+    }
+}

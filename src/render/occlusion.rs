@@ -1,0 +1,181 @@
+//! Ambient occlusion: where walls stand close together less light comes in, so folds and forks are darker.
+//!
+//! In screen space, after Mittring ("Finding next gen", 2007) in the form of McGuire et al. ("The Alchemy screen-space
+//! ambient obscurance algorithm", 2011): around each pixel what rises above its tangent plane within reach closes it.
+//! Depth is drawn once more for that, at half the size and with one sample a pixel, since WebGL2 reads no multisampled
+//! depth; it is bound as plain floats, with a sampler that filters nothing. The pattern of the samples is the same
+//! in every picture. Surfaces alone are darkened, never what is behind them.
+
+use std::sync::OnceLock;
+
+use super::buffer::draw;
+use super::kind::{Drawable, Look};
+use super::pipeline::{PipelineParts, scene_shader};
+use super::scene::{SceneBindings, SceneLayout};
+use super::texture::{attachment, begin, whole};
+use super::{Style, ViewTarget};
+
+/// What openness is kept in: 0 closed, 1 open.
+const OPENNESS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// Multiplies what is there with what is drawn.
+const MULTIPLY: wgpu::BlendComponent = wgpu::BlendComponent {
+    src_factor: wgpu::BlendFactor::Dst,
+    dst_factor: wgpu::BlendFactor::Zero,
+    operation: wgpu::BlendOperation::Add,
+};
+
+/// What a target has for it, made when it is first wanted there.
+#[derive(Debug)]
+pub(super) struct Gathered {
+    depth: wgpu::TextureView,
+    openness: wgpu::TextureView,
+}
+
+impl Gathered {
+    fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        let half = size.map(|side| side.div_ceil(2));
+        let texture =
+            |label, format| whole(&attachment(device, label, half, 1, format, wgpu::TextureUsages::TEXTURE_BINDING));
+        Self {
+            depth: texture("occlusion, depth", ViewTarget::DEPTH_FORMAT),
+            openness: texture("occlusion, openness", OPENNESS),
+        }
+    }
+}
+
+/// Darkens what is closed in. Its pipelines are made when they are first wanted.
+#[derive(Debug, Default)]
+pub(super) struct Occlusion(OnceLock<Parts>);
+
+#[derive(Debug)]
+struct Parts {
+    depth: wgpu::RenderPipeline,
+    gather: wgpu::RenderPipeline,
+    shade: wgpu::RenderPipeline,
+    group: wgpu::BindGroupLayout,
+    nearest: wgpu::Sampler,
+}
+
+impl Occlusion {
+    /// Whether these are darkened: never under a colour map, whose colours are read as values.
+    pub(super) fn is_wanted(style: &Style, drawables: &[Drawable<'_>]) -> bool {
+        style.occlusion && style.map.is_none() && drawables.iter().any(is_shaded)
+    }
+
+    /// Finds out how open each pixel of a view is, before the view is drawn; gives what [`Self::shade`] takes.
+    pub(super) fn gather(
+        &self,
+        device: &wgpu::Device,
+        layout: &SceneLayout,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &ViewTarget,
+        bindings: &SceneBindings,
+        drawables: &[Drawable<'_>],
+    ) -> wgpu::BindGroup {
+        let parts = self.0.get_or_init(|| Parts::new(device, layout));
+        let gathered = target.attachments.gathered.get_or_init(|| Gathered::new(device, target.size()));
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("occlusion, depth"),
+            color_attachments: &[],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &gathered.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        bindings.set(&mut pass, 0);
+        for drawable in drawables {
+            if is_shaded(drawable) {
+                draw(&mut pass, &parts.depth, &[&drawable.surface.positions], &drawable.surface.triangles);
+            }
+        }
+        drop(pass);
+        let mut pass = begin(encoder, "occlusion", &gathered.openness, wgpu::Color::WHITE);
+        bindings.set(&mut pass, 0);
+        // What is drawn into cannot be read: depth stands in its place.
+        pass.set_bind_group(2, &parts.bind(device, &gathered.depth, &gathered.depth), &[]);
+        pass.set_pipeline(&parts.gather);
+        pass.draw(0..3, 0..1);
+        drop(pass);
+        parts.bind(device, &gathered.depth, &gathered.openness)
+    }
+
+    /// Darkens the surfaces that are drawn so far; the scene must be bound.
+    pub(super) fn shade(&self, pass: &mut wgpu::RenderPass<'_>, gathered: &wgpu::BindGroup) {
+        let Some(parts) = self.0.get() else { return };
+        pass.set_bind_group(2, gathered, &[]);
+        pass.set_pipeline(&parts.shade);
+        pass.draw(0..3, 0..1);
+    }
+}
+
+fn is_shaded(drawable: &Drawable<'_>) -> bool {
+    matches!(drawable.look, Look::Shaded | Look::Flat)
+}
+
+impl Parts {
+    fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
+        let texture = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
+        let entry = |(binding, ty)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        };
+        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("occlusion"),
+            entries: &[(0, texture), (1, texture), (2, sampler)].map(entry),
+        });
+        let module = scene_shader!(device, "occlusion.wgsl");
+        let depth = PipelineParts {
+            vertex: "vertex_depth",
+            fragment: "fragment_depth",
+            attributes: &[wgpu::VertexFormat::Float32x3],
+            depth_alone: true,
+            ..PipelineParts::new("occlusion, depth", &module)
+        };
+        let gather = PipelineParts {
+            fragment: "fragment_gather",
+            plain: Some(OPENNESS),
+            group: Some(&group),
+            ..PipelineParts::new("occlusion, gather", &module)
+        };
+        let shade = PipelineParts {
+            fragment: "fragment_shade",
+            // It lies in the far plane: before it is what was drawn, and the background is not.
+            depth_compare: wgpu::CompareFunction::Less,
+            depth_write: false,
+            blend: Some(wgpu::BlendState { color: MULTIPLY, alpha: MULTIPLY }),
+            group: Some(&group),
+            ..PipelineParts::new("occlusion, shade", &module)
+        };
+        Self {
+            depth: layout.pipeline(device, &depth),
+            gather: layout.pipeline(device, &gather),
+            shade: layout.pipeline(device, &shade),
+            group,
+            nearest: device.create_sampler(&wgpu::SamplerDescriptor::default()),
+        }
+    }
+
+    fn bind(&self, device: &wgpu::Device, depth: &wgpu::TextureView, openness: &wgpu::TextureView) -> wgpu::BindGroup {
+        let texture =
+            |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("occlusion"),
+            layout: &self.group,
+            entries: &[
+                texture(0, depth),
+                texture(1, openness),
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.nearest) },
+            ],
+        })
+    }
+}

@@ -1,0 +1,151 @@
+//! Slices of a scan among the surfaces: a picture of greys on a parallelogram, seen from both sides.
+//!
+//! The middles of its outer pixels lie in the corners, so that each value is shown where the voxel lies. A picture with more
+//! pixels than a texture of the device may have is thinned.
+
+use std::sync::OnceLock;
+
+use bytemuck::cast_slice;
+use glam::{Vec2, Vec3};
+
+use super::buffer::{GrowingBuffer, draw};
+use super::error::SurfaceError;
+use super::pipeline::{PipelineParts, scene_shader};
+use super::scene::SceneLayout;
+use super::texture::whole;
+
+/// A slice in GPU memory.
+#[derive(Debug)]
+pub struct GpuSlice {
+    greys: wgpu::TextureView,
+    positions: GrowingBuffer,
+    at: GrowingBuffer,
+    triangles: GrowingBuffer,
+}
+
+impl GpuSlice {
+    /// A slice of `size` pixels, the first axis running fastest, 0 black and 255 white; `corners` in mm around it: the first
+    /// pixel, the last along the first axis, the last of all, the last along the second axis.
+    ///
+    /// # Errors
+    /// Where there is not a grey for each pixel, no pixel at all, or the device does not allow a buffer.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        size: [usize; 2],
+        pixels: &[u8],
+        corners: [Vec3; 4],
+    ) -> Result<Self, SurfaceError> {
+        let expected = size[0] * size[1];
+        if expected == 0 || pixels.len() != expected {
+            return Err(SurfaceError::Count { what: "pixels", expected, found: pixels.len() });
+        }
+        let most = device.limits().max_texture_dimension_2d as usize;
+        let step = size[0].max(size[1]).div_ceil(most.max(1)).max(1);
+        let thinned = size.map(|side| side.div_ceil(step));
+        let rows = pixels.chunks_exact(size[0]).step_by(step);
+        let texels: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step).copied()).collect();
+        let [width, height] = thinned.map(|side| side as u32);
+        let extent = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("slice"),
+            size: extent,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::R8Unorm,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width), rows_per_image: None };
+        queue.write_texture(texture.as_image_copy(), &texels, layout, extent);
+
+        // From middle to middle.
+        let first = Vec2::new(0.5 / width as f32, 0.5 / height as f32);
+        let last = |axis: usize| ((size[axis] - 1) as f32 / step as f32 + 0.5) / thinned[axis] as f32;
+        let (right, bottom) = (last(0), last(1));
+        let at = [first, Vec2::new(right, first.y), Vec2::new(right, bottom), Vec2::new(first.x, bottom)];
+        let buffer = |label, usage| GrowingBuffer::new(label, usage);
+        let mut slice = Self {
+            greys: whole(&texture),
+            positions: buffer("slice, positions", wgpu::BufferUsages::VERTEX),
+            at: buffer("slice, places", wgpu::BufferUsages::VERTEX),
+            triangles: buffer("slice, triangles", wgpu::BufferUsages::INDEX),
+        };
+        slice.positions.write(device, queue, cast_slice(&corners))?;
+        slice.at.write(device, queue, cast_slice(&at))?;
+        slice.triangles.write(device, queue, cast_slice(&[0_u32, 1, 2, 0, 2, 3]))?;
+        Ok(slice)
+    }
+}
+
+/// Draws slices. Its pipeline is made when there is one.
+#[derive(Debug, Default)]
+pub(super) struct Slices(OnceLock<Parts>);
+
+#[derive(Debug)]
+struct Parts {
+    pipeline: wgpu::RenderPipeline,
+    group: wgpu::BindGroupLayout,
+    bilinear: wgpu::Sampler,
+}
+
+impl Slices {
+    /// Draws them; the scene must be bound.
+    pub(super) fn draw(
+        &self,
+        device: &wgpu::Device,
+        layout: &SceneLayout,
+        pass: &mut wgpu::RenderPass<'_>,
+        slices: &[&GpuSlice],
+    ) {
+        for slice in slices {
+            let parts = self.0.get_or_init(|| Parts::new(device, layout));
+            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("slice"),
+                layout: &parts.group,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&slice.greys) },
+                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&parts.bilinear) },
+                ],
+            });
+            pass.set_bind_group(2, &group, &[]);
+            draw(pass, &parts.pipeline, &[&slice.positions, &slice.at], &slice.triangles);
+        }
+    }
+}
+
+impl Parts {
+    fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
+        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        };
+        let texture = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("slice"),
+            entries: &[entry(0, texture), entry(1, sampler)],
+        });
+        let module = scene_shader!(device, "slice.wgsl");
+        let parts = PipelineParts {
+            attributes: &[wgpu::VertexFormat::Float32x3, wgpu::VertexFormat::Float32x2],
+            group: Some(&group),
+            ..PipelineParts::new("slice", &module)
+        };
+        let pipeline = layout.pipeline(device, &parts);
+        let bilinear = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("slice"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..wgpu::SamplerDescriptor::default()
+        });
+        Self { pipeline, group, bilinear }
+    }
+}

@@ -1,0 +1,308 @@
+//! What stands in a report, as plain data, whatever it is written as.
+
+use std::cmp::Reverse;
+
+use super::picture::Picture;
+use super::plot::{Plot, radius, response};
+use crate::io::{Axes, ImportReport};
+use crate::language::{decimal, exact, grouped, inner, signed};
+use crate::pipeline::report::Report;
+use crate::pipeline::settings::{Keep, Mending, Method, Preset, Settings, Smoothing, Target};
+use crate::pipeline::verdict::Verdict;
+use crate::say;
+use crate::sharing::Digest;
+use crate::sharing::measures::Measure;
+use crate::vessel::certificate::{BranchCalibre, OnSurface, Verdict as Calibre, measured_percent};
+
+/// Vessels whose radius is drawn: those that are narrower or wider somewhere, or change most.
+const DRAWN: usize = 3;
+
+/// What a report is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// What it is called: a name that the user has chosen, for names of files and scans can be those of patients.
+    pub title: Option<&'a str>,
+    /// By what the file is known; none of a sample or a scan.
+    pub digest: Option<Digest>,
+    /// What was found when it was opened.
+    pub import: &'a ImportReport,
+    /// All numbers.
+    pub report: &'a Report,
+    /// The verdict.
+    pub verdict: &'a Verdict,
+    /// What a user has measured.
+    pub measures: &'a [Measure],
+}
+
+/// A name and what it is.
+pub type Row = (String, String);
+
+/// A table: heads, then rows of as many cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// What stands in the columns.
+    pub heads: Vec<String>,
+    /// The cells; the first of a row is a name.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// A report.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Document {
+    /// What it is called.
+    pub title: String,
+    /// The version of Lumen, and what it is not for.
+    pub line: String,
+    /// What the file is.
+    pub file: Vec<Row>,
+    /// What it was made with.
+    pub settings: Vec<Row>,
+    /// What came of it.
+    pub numbers: Vec<Row>,
+    /// The verdict in a few words.
+    pub head: String,
+    /// Whether a trial may rest on it, as far as that is known.
+    pub is_safe: Option<bool>,
+    /// What is said of the vessels, then the findings, the weightiest first.
+    pub findings: Vec<String>,
+    /// The calibre of the vessels.
+    pub vessels: Table,
+    /// Where they are narrower or wider than on either side.
+    pub stretches: Table,
+    /// What a user has measured.
+    pub measures: Table,
+    /// The surface, with a caption each; or none.
+    pub pictures: Vec<Picture>,
+    /// The filter, and the radii of some vessels.
+    pub plots: Vec<Plot>,
+}
+
+impl Document {
+    /// A report on a run that is over, with these pictures.
+    pub fn new(subject: &Subject<'_>, pictures: Vec<Picture>) -> Self {
+        let Subject { title, report, verdict, .. } = *subject;
+        let branches = report.branches.as_deref().unwrap_or_default();
+        let mut plots: Vec<Plot> =
+            response(&report.settings.smoothing, report.smoothing_response.as_ref()).into_iter().collect();
+        plots.extend(drawn(branches).into_iter().filter_map(radius));
+        let findings = verdict.findings.iter().map(|finding| {
+            let at = finding.place.as_ref().map(|place| place.at_mm.map(|at| decimal(at, 1)));
+            match at.filter(|at| !names_place(&finding.text, at)) {
+                Some([x, y, z]) => format!("{} {}", finding.text, say!("report-at", x = x, y = y, z = z)),
+                None => finding.text.clone(),
+            }
+        });
+        // Where they change that is a finding already.
+        let calibre =
+            verdict.calibre.clone().filter(|text| verdict.findings.iter().all(|finding| finding.text != *text));
+        Self {
+            title: title.map_or_else(|| say!("report-title"), str::to_owned),
+            line: format!("Lumen {}. {}", report.lumen, say!("report-not-clinical")),
+            file: file(subject),
+            settings: settings(&report.settings),
+            numbers: numbers(report),
+            head: verdict.head.clone(),
+            is_safe: verdict.is_safe,
+            findings: calibre.into_iter().chain(findings).collect(),
+            vessels: vessels(branches),
+            stretches: stretches(branches),
+            measures: measures(subject.measures),
+            pictures,
+            plots,
+        }
+    }
+}
+
+/// Whether a text says already that it is of this place.
+fn names_place(text: &str, at: &[String; 3]) -> bool {
+    text.contains("at (") || (text.contains('(') && at.iter().all(|number| text.contains(number.as_str())))
+}
+
+/// A place, whose numbers are in mm.
+fn point(at: [f64; 3]) -> String {
+    let [x, y, z] = at.map(|number| decimal(number, 1));
+    say!("report-point", x = x, y = y, z = z)
+}
+
+/// The vessels whose radius is drawn: of those that can be measured over most of their length, first what is not as it was.
+fn drawn(branches: &[BranchCalibre]) -> Vec<&BranchCalibre> {
+    let mut all: Vec<&BranchCalibre> = branches.iter().filter(|branch| branch.stations_counted > 0).collect();
+    let key = |branch: &&BranchCalibre| {
+        let is_kept = branch.verdict != Calibre::Changed;
+        (branch.variations.is_empty(), is_kept, Reverse(branch.stations_counted))
+    };
+    all.sort_by_key(key);
+    all.truncate(DRAWN);
+    all
+}
+
+fn file(subject: &Subject<'_>) -> Vec<Row> {
+    let Subject { digest, import, report, .. } = *subject;
+    let bounds = import.bounds_mm.size();
+    let opened = &report.opened;
+    let fingerprint = digest.map_or_else(|| say!("report-no-fingerprint"), |digest| digest.to_string());
+    let [x, y, z] = [bounds.x, bounds.y, bounds.z].map(|length| decimal(length, 1));
+    vec![
+        (say!("report-fingerprint"), fingerprint),
+        (
+            say!("report-format"),
+            say!("report-format-in", format = import.format.to_string(), unit = import.unit.to_string()),
+        ),
+        (say!("report-opened"), say!("report-counts", triangles = opened.triangles, pieces = opened.components)),
+        (say!("report-size"), say!("report-size-mm", x = x, y = y, z = z)),
+        (
+            say!("report-axes"),
+            if report.axes == Axes::Unknown { say!("report-axes-unknown") } else { report.axes.to_string() },
+        ),
+    ]
+}
+
+/// What was mended, on request.
+fn mending(asked: Mending) -> String {
+    let Mending { weld_mm, split, fill_mm, lumen } = asked;
+    let parts = [
+        lumen.then(|| say!("report-lumen-taken")),
+        weld_mm.map(|mm| say!("report-welded", most = exact(mm))),
+        split.then(|| say!("report-split")),
+        fill_mm.map(|mm| say!("report-filled", most = exact(mm))),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    if parts.is_empty() { say!("report-no-mending") } else { parts.join(", ") }
+}
+
+/// What was smoothed with.
+fn filter(smoothing: &Smoothing) -> String {
+    if smoothing.iterations == 0 {
+        return say!("report-no-smoothing");
+    }
+    let (band, count, window) = (smoothing.pass_band, smoothing.iterations, smoothing.window.name());
+    let parts = [
+        Some(say!("report-filter", band = band, count = count, window = window)),
+        smoothing.adapt.then(|| say!("compare-adapted")),
+        smoothing.guard.then(|| say!("report-no-crossings")),
+        smoothing.preserve_volume.then(|| say!("report-volume-held")),
+    ];
+    let filter = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    match Preset::of(smoothing) {
+        Some(preset) => say!("report-preset", preset = inner(&preset.label()), filter = filter),
+        None => filter,
+    }
+}
+
+fn settings(settings: &Settings) -> Vec<Row> {
+    let Settings { keep, mending, smoothing, decimation, target, tolerance_percent } = settings;
+    let keep = match keep {
+        Keep::Largest => say!("report-keep-largest"),
+        Keep::Component(number) => say!("report-keep-piece", number = number.to_string()),
+        Keep::All => say!("report-keep-all"),
+    };
+    let target = match target {
+        Target::Reduction(_) => say!("report-target-reduction", percent = decimal(target.percent(1), 1)),
+        Target::Triangles(count) => say!("report-target-triangles", count = count),
+        Target::Deviation(_) => say!("report-target-deviation", most = exact(target.deviation_mm().unwrap_or(0.0))),
+    };
+    let angle = (decimation.method == Method::Schroeder)
+        .then(|| say!("compare-feature-angle", degrees = decimation.feature_angle));
+    let method = [
+        Some(decimation.method.name().to_owned()),
+        angle,
+        decimation.spare_thin.then(|| say!("compare-thin-spared")),
+        decimation.keep_labels.then(|| say!("compare-labels-kept")),
+    ];
+    vec![
+        (say!("report-keep"), keep),
+        (say!("report-mending"), self::mending(*mending)),
+        (say!("report-smoothing"), filter(smoothing)),
+        (say!("report-reduction"), target),
+        (say!("report-method"), method.into_iter().flatten().collect::<Vec<_>>().join(", ")),
+        (say!("report-allowed"), format!("{} %", exact(*tolerance_percent))),
+    ]
+}
+
+fn numbers(report: &Report) -> Vec<Row> {
+    let (left, all) = (report.output.triangles, report.after_connectivity.triangles);
+    let mut rows = vec![
+        (say!("report-triangles"), say!("report-triangles-of", left = left, all = all)),
+        (say!("report-reduction"), format!("{} %", decimal(report.reduction_percent, 1))),
+    ];
+    let mut add = |name: String, value: Option<String>| rows.extend(value.map(|value| (name, value)));
+    let distance = |of: crate::pipeline::deviation::Deviation| {
+        say!("report-distance", mean = decimal(of.mean, 4), most = decimal(of.max, 3))
+    };
+    let change = |percent: f64| format!("{} %", signed(percent, 2));
+    add(say!("report-from-smoothed"), report.deviation_mm.map(distance));
+    add(say!("report-from-opened"), report.deviation_from_original_mm.map(distance));
+    add(say!("report-volume-change"), report.volume_change_percent.map(change));
+    add(say!("report-area-change"), report.area_change_percent.map(change));
+    add(say!("report-half-gain"), report.smoothing_response.and_then(|response| response.half_gain_text()));
+    let shape = report.output_shape.as_ref();
+    add(say!("report-crossing"), shape.map(|shape| grouped(shape.self_intersecting_faces)));
+    let lumen = shape.and_then(|shape| shape.smallest_lumen);
+    add(say!("report-smallest-lumen"), lumen.map(|lumen| format!("{} mm", decimal(lumen.diameter_mm, 2))));
+    let measured = measured_percent(report.branches.as_deref().unwrap_or_default());
+    add(say!("report-measured"), measured.map(|part| say!("report-measured-part", percent = decimal(part, 0))));
+    add(say!("report-output-fingerprint"), Some(report.output_fingerprint.clone()));
+    rows
+}
+
+fn vessels(branches: &[BranchCalibre]) -> Table {
+    let none = || "–".to_owned();
+    let change =
+        |of: &OnSurface| of.largest_change.map_or_else(none, |found| format!("{} %", signed(found.percent, 1)));
+    let row = |branch: &BranchCalibre| {
+        vec![
+            branch.label(),
+            branch.verdict.label().say(),
+            change(&branch.smoothed),
+            change(&branch.reduced),
+            branch.opened.radius_mm.map_or_else(none, |radius| radius.text()),
+            decimal(branch.length_mm, 1),
+            branch.tortuosity.map_or_else(none, |tortuosity| decimal(tortuosity, 2)),
+        ]
+    };
+    let heads = vec![
+        say!("vessels-column-vessel"),
+        say!("report-calibre"),
+        say!("vessels-column-smoothed"),
+        say!("vessels-column-reduced"),
+        say!("report-radius"),
+        say!("vessels-column-length"),
+        say!("vessels-column-tortuosity"),
+    ];
+    Table { heads, rows: branches.iter().map(row).collect() }
+}
+
+fn stretches(branches: &[BranchCalibre]) -> Table {
+    let each = branches.iter().flat_map(|branch| branch.variations.iter().map(move |found| (branch, found)));
+    let row = |(branch, found): (&BranchCalibre, &crate::vessel::variation::Variation)| {
+        let [diameter, reference] = [found.diameter_mm, found.reference_mm].map(|mm| decimal(mm, 2));
+        vec![
+            branch.label(),
+            found.degree(),
+            format!("{} %", decimal(found.area_percent, 0)),
+            found.reduced_degree_percent.map_or("–".to_owned(), |degree| format!("{} %", decimal(degree, 0))),
+            say!("report-diameter-of", diameter = diameter, reference = reference),
+            decimal(found.length_mm, 1),
+            format!("{} {}", decimal(found.abscissa_mm, 1), point(found.at_mm.map(f64::from))),
+        ]
+    };
+    let heads = vec![
+        say!("vessels-column-vessel"),
+        say!("report-diameter"),
+        say!("report-by-area"),
+        say!("vessels-column-reduced"),
+        say!("report-diameter-mm"),
+        say!("vessels-column-length"),
+        say!("report-at-mm"),
+    ];
+    Table { heads, rows: each.map(row).collect() }
+}
+
+fn measures(measures: &[Measure]) -> Table {
+    let row = |measure: &Measure| {
+        let at = measure.extent().0;
+        vec![measure.name.clone(), measure.value(), measure.made(), point(at.as_dvec3().to_array())]
+    };
+    let heads = vec![say!("report-measure"), say!("report-found"), say!("report-made-on"), say!("report-middle")];
+    Table { heads, rows: measures.iter().map(row).collect() }
+}

@@ -1,0 +1,203 @@
+//! A report as one HTML file: style inside, pictures as `data:` addresses, plots as SVG; no script, and nothing from
+//! anywhere else, which its own Content-Security-Policy says too. It is light or dark as the reader is, and prints on A4.
+
+use std::fmt::Write as _;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+use super::document::{Document, Row, Table};
+use super::plot::{Ink, Plot};
+use crate::language::spoken;
+use crate::say;
+
+const STYLE: &str = "\
+:root{color-scheme:light dark;--ink:#1d252c;--weak:#5c6770;--line:#d5dbe0;--ground:#fff;--accent:#0b6e8a;--bad:#b3261e}\
+@media(prefers-color-scheme:dark){:root{--ink:#e6eaed;--weak:#a0abb4;--line:#3a444c;--ground:#14191d;--accent:#5cc3de;--bad:#ff8a80}}\
+body{font:14px/1.45 system-ui,sans-serif;font-variant-numeric:tabular-nums;color:var(--ink);background:var(--ground);\
+max-width:880px;margin:24px auto;padding:0 16px}\
+h1{font-size:22px;margin:0}h2{font-size:15px;margin:20px 0 6px}p{margin:4px 0}.weak{color:var(--weak)}\
+.verdict{border-left:4px solid var(--weak);padding:4px 12px;margin:16px 0}.safe{border-color:var(--accent)}.grave{border-color:var(--bad)}\
+.columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(260px,1fr));gap:0 24px}\
+table{border-collapse:collapse;width:100%;font-size:13px}td,th{text-align:left;padding:2px 8px 2px 0;vertical-align:top;\
+border-bottom:1px solid var(--line)}th{font-weight:600}.facts td:first-child{color:var(--weak)}.facts td{overflow-wrap:anywhere}\
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(180px,1fr));gap:8px}figure{margin:0}img,svg{width:100%;height:auto}\
+figcaption{font-size:12px;color:var(--weak)}.wide{overflow-x:auto}svg text{fill:var(--weak);font-size:11px}\
+@media print{@page{size:A4;margin:12mm}body{margin:0;max-width:none;font-size:11px}table{font-size:10px}\
+h2,figure,tr{break-inside:avoid}.pictures{grid-template-columns:repeat(4,1fr)}}";
+
+/// The report as a page.
+pub(super) fn write(document: &Document) -> String {
+    let mut page = String::new();
+    let (title, language) = (escaped(&document.title), spoken().tag());
+    let _ = write!(
+        page,
+        "<!doctype html>\n<html lang=\"{language}\"><head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';img-src data:;style-src 'unsafe-inline'\">\
+         <title>{title}</title><style>{STYLE}</style></head><body>\n<h1>{title}</h1><p class=\"weak\">{}</p>\n",
+        escaped(&document.line)
+    );
+    let class = match document.is_safe {
+        Some(true) => "verdict safe",
+        Some(false) => "verdict grave",
+        None => "verdict",
+    };
+    let _ = write!(page, "<section class=\"{class}\"><strong>{}</strong>", escaped(&document.head));
+    for finding in &document.findings {
+        let _ = write!(page, "<p>{}</p>", escaped(finding));
+    }
+    page += "</section>\n";
+    if !document.pictures.is_empty() {
+        page += "<div class=\"pictures\">";
+        for picture in &document.pictures {
+            let (caption, png) = (escaped(&picture.caption), STANDARD.encode(&picture.png));
+            let (width, height) = (picture.width, picture.height);
+            let _ = write!(
+                page,
+                "<figure><img width=\"{width}\" height=\"{height}\" alt=\"{caption}\" src=\"data:image/png;base64,{png}\">\
+                 <figcaption>{caption}</figcaption></figure>"
+            );
+        }
+        page += "</div>\n";
+    }
+    page += "<div class=\"columns\">";
+    facts(&mut page, &say!("report-file"), &document.file);
+    facts(&mut page, &say!("report-settings"), &document.settings);
+    facts(&mut page, &say!("report-numbers"), &document.numbers);
+    page += "</div>\n<div class=\"columns\">";
+    for plot in &document.plots {
+        let _ = write!(page, "<figure><h2>{}</h2>", escaped(&plot.title));
+        svg(&mut page, plot);
+        page += "</figure>";
+    }
+    page += "</div>\n";
+    table(&mut page, &say!("report-by-hand"), &document.measures);
+    table(&mut page, &say!("report-stretches"), &document.stretches);
+    table(&mut page, &say!("vessels-heading"), &document.vessels);
+    let _ = write!(page, "<p class=\"weak\">{}</p>\n</body></html>\n", escaped(&document.line));
+    page
+}
+
+/// Text that is nothing but text, in elements and in attributes.
+fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => safe += "&amp;",
+            '<' => safe += "&lt;",
+            '>' => safe += "&gt;",
+            '"' => safe += "&quot;",
+            '\'' => safe += "&#39;",
+            letter if letter.is_control() => safe.push(' '),
+            letter => safe.push(letter),
+        }
+    }
+    safe
+}
+
+fn facts(page: &mut String, head: &str, rows: &[Row]) {
+    let _ = write!(page, "<section><h2>{}</h2><table class=\"facts\">", escaped(head));
+    for (name, value) in rows {
+        let _ = write!(page, "<tr><td>{}</td><td>{}</td></tr>", escaped(name), escaped(value));
+    }
+    *page += "</table></section>";
+}
+
+fn table(page: &mut String, head: &str, table: &Table) {
+    if table.rows.is_empty() {
+        return;
+    }
+    let _ = write!(page, "<h2>{}</h2><div class=\"wide\"><table><thead><tr>", escaped(head));
+    for head in &table.heads {
+        let _ = write!(page, "<th scope=\"col\">{}</th>", escaped(head));
+    }
+    *page += "</tr></thead><tbody>";
+    for row in &table.rows {
+        *page += "<tr>";
+        for cell in row {
+            let _ = write!(page, "<td>{}</td>", escaped(cell));
+        }
+        *page += "</tr>";
+    }
+    *page += "</tbody></table></div>\n";
+}
+
+/// Where the axes stand in a picture of 420 by 200.
+const LEFT: f64 = 44.0;
+const RIGHT: f64 = 412.0;
+const TOP: f64 = 18.0;
+const BOTTOM: f64 = 160.0;
+
+fn svg(page: &mut String, plot: &Plot) {
+    let x = |value: f64| LEFT + (RIGHT - LEFT) * plot.x.part(value);
+    let y = |value: f64| BOTTOM - (BOTTOM - TOP) * plot.y.part(value);
+    let _ = write!(page, "<svg viewBox=\"0 0 420 200\" role=\"img\" aria-label=\"{}\">", escaped(&plot.title));
+    let frame = format!("M{LEFT} {TOP}V{BOTTOM}H{RIGHT}");
+    let _ = write!(page, "<path d=\"{frame}\" fill=\"none\" stroke=\"var(--line)\"/>");
+    for (at, name) in &plot.x.marks {
+        let _ = write!(page, "<text x=\"{:.1}\" y=\"174\" text-anchor=\"middle\">{}</text>", x(*at), escaped(name));
+    }
+    for (at, name) in &plot.y.marks {
+        let (x, y) = (LEFT - 6.0, y(*at) + 4.0);
+        let _ = write!(page, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"end\">{}</text>", escaped(name));
+    }
+    let middle = (LEFT + RIGHT) / 2.0;
+    let _ = write!(page, "<text x=\"{middle}\" y=\"192\" text-anchor=\"middle\">{}</text>", escaped(&plot.x.label));
+    let _ = write!(page, "<text x=\"2\" y=\"11\">{}</text>", escaped(&plot.y.label));
+    let mut legend = RIGHT;
+    for curve in &plot.curves {
+        let ink = colour(curve.ink);
+        let dash = if curve.is_dashed { " stroke-dasharray=\"4 3\"" } else { "" };
+        let _ = write!(page, "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"{ink}\"{dash} points=\"");
+        for &[a, b] in &curve.points {
+            let _ = write!(page, "{:.1},{:.1} ", x(a), y(b));
+        }
+        *page += "\"/>";
+        if !curve.name.is_empty() {
+            let name = escaped(&curve.name);
+            let _ =
+                write!(page, "<text x=\"{legend:.0}\" y=\"11\" text-anchor=\"end\" style=\"fill:{ink}\">{name}</text>");
+            legend -= 7.0 * curve.name.chars().count() as f64 + 8.0;
+        }
+    }
+    *page += "</svg>";
+}
+
+fn colour(ink: Ink) -> &'static str {
+    match ink {
+        Ink::Accent => "var(--accent)",
+        Ink::Text => "var(--ink)",
+        Ink::Weak => "var(--weak)",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::{Language, built_in, speak};
+
+    #[test]
+    fn the_page_is_in_the_language_that_is_spoken_and_says_so() {
+        let document = Document {
+            title: "A".to_owned(),
+            line: "B".to_owned(),
+            file: Vec::new(),
+            settings: Vec::new(),
+            numbers: Vec::new(),
+            head: "C".to_owned(),
+            is_safe: None,
+            findings: Vec::new(),
+            vessels: Table::default(),
+            stretches: Table::default(),
+            measures: Table::default(),
+            pictures: Vec::new(),
+            plots: Vec::new(),
+        };
+        assert!(write(&document).contains("<html lang=\"en\">"));
+        speak(Language::German, built_in(Language::German).unwrap());
+        let page = write(&document);
+        speak(Language::English, &[]);
+        assert!(page.contains("<html lang=\"de\">") && page.contains("<h2>Einstellungen</h2>"), "{page}");
+    }
+}

@@ -1,0 +1,137 @@
+//! `lumen report`: what others read of the page.
+
+use super::program::{Folder, json, lumen, succeed};
+
+/// The text of a PDF, page by page, as another's reader finds it.
+fn text_of(path: &str) -> Vec<String> {
+    let pdf = lopdf::Document::load(path).unwrap();
+    pdf.get_pages().into_keys().map(|page| pdf.extract_text(&[page]).unwrap()).collect()
+}
+
+/// With its line breaks as spaces.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A tube of 6 mm along x with so much left of its radius at the middle, as OBJ in a unit of so many mm.
+fn tube(left: f64, unit: f64) -> String {
+    let (sides, rings) = (48, 160);
+    let mut text = String::new();
+    for ring in 0..=rings {
+        let x = 60.0 * f64::from(ring) / f64::from(rings);
+        let radius = 3.0 * (1.0 - (1.0 - left) * (-(x - 30.0) * (x - 30.0) / 32.0).exp());
+        for side in 0..sides {
+            let angle = (f64::from(side) + f64::from(ring % 2) / 2.0) / f64::from(sides) * std::f64::consts::TAU;
+            let [x, y, z] = [x, radius * angle.cos(), radius * angle.sin()].map(|mm| mm / unit);
+            text += &format!("v {x} {y} {z}\n");
+        }
+    }
+    let at = |ring: i32, side: i32| ring * sides + side % sides + 1;
+    for (ring, side) in (0..rings).flat_map(|ring| (0..sides).map(move |side| (ring, side))) {
+        let (a, b, c, d) = (at(ring, side), at(ring, side + 1), at(ring + 1, side), at(ring + 1, side + 1));
+        let [e, f] = if ring % 2 == 0 { [[a, b, c], [b, d, c]] } else { [[a, b, d], [a, d, c]] };
+        for [i, j, k] in [e, f] {
+            text += &format!("f {i} {j} {k}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn the_pdf_of_a_stenosis_can_be_searched_and_names_no_file() {
+    let folder = Folder::new("report-pdf");
+    let (file, out) = (folder.file("Doe_Jane.obj"), folder.file("a.pdf"));
+    std::fs::write(&file, tube(0.3, 1.0)).unwrap();
+    let told = succeed(&["report", &file, "-o", &out, "--title", "Case 12", "--no-pictures", "--reduction", "60"]);
+    assert!(told.contains("verdict"), "{told}");
+    let pages = text_of(&out);
+    let text = flat(&pages.join(" "));
+    // `sha256sum` says the same.
+    let sum = std::process::Command::new("sha256sum").arg(&file).output().unwrap();
+    let sum = String::from_utf8(sum.stdout).unwrap();
+    assert!(text.replace(' ', "").contains(sum.split(' ').next().unwrap()), "{text}");
+    for part in
+        ["Case 12", "Not for clinical decisions", "pass band 0.01", "branch 1", "narrower", "Numbers", "Page 1 of 1"]
+    {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert!(!text.contains("Doe"), "{text}");
+    let degree = text.split(" % narrower").next().unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap();
+    assert!((degree - 70.0).abs() <= 2.0, "{degree}");
+    assert!(std::fs::metadata(&out).unwrap().len() < 60_000);
+    // The same again gives the same.
+    let again = folder.file("b.pdf");
+    succeed(&["report", &file, "-o", &again, "--title", "Case 12", "--no-pictures", "--reduction", "60"]);
+    assert_eq!(std::fs::read(&out).unwrap(), std::fs::read(&again).unwrap());
+}
+
+#[test]
+fn names_are_text_in_the_web_page_and_nothing_comes_from_elsewhere() {
+    let folder = Folder::new("report-html");
+    let (file, out) = (folder.file("a.obj"), folder.file("a.html"));
+    std::fs::write(&file, tube(1.0, 1.0)).unwrap();
+    let title = "<script>alert(1)</script>\" onload='x' & <img src=x>";
+    succeed(&["report", &file, "-o", &out, "--title", title, "--no-pictures", "--reduction", "60"]);
+    let page = std::fs::read_to_string(&out).unwrap();
+    assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;&quot; onload=&#39;x&#39; &amp; &lt;img src=x&gt;"));
+    for foreign in ["<script", "<img", "http:", "https:", "url(", "@import", "<link", "<iframe", "narrower"] {
+        assert!(!page.to_lowercase().contains(foreign), "{foreign}");
+    }
+    assert!(page.contains("Not for clinical decisions.") && page.contains("<svg"));
+}
+
+#[test]
+fn a_report_is_a_pdf_or_a_web_page() {
+    let folder = Folder::new("report-usage");
+    let output = lumen(&["report", "sample:aorta", "-o", &folder.file("a.txt")]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn many_vessels_go_on_over_pages_each_with_the_head_of_the_table() {
+    let folder = Folder::new("report-pages");
+    let out = folder.file("a.pdf");
+    succeed(&["report", "sample:coronary", "-o", &out, "--no-pictures"]);
+    let pages = text_of(&out);
+    let heads = pages.iter().filter(|page| flat(page).contains("Radius as opened, mm")).count();
+    assert!(!pages.is_empty() && heads >= pages.len() - 1, "{} pages, {heads} heads", pages.len());
+    for (i, page) in pages.iter().enumerate() {
+        assert!(flat(page).contains(&format!("Page {} of {}", i + 1, pages.len())));
+        assert!(flat(page).contains("Not for clinical decisions."));
+    }
+}
+
+#[test]
+#[cfg(feature = "gui")]
+fn pictures_are_in_both_where_there_is_something_to_draw_with() {
+    let folder = Folder::new("report-pictures");
+    for (name, mark) in [("a.pdf", &b"/Predictor 15"[..]), ("a.html", &b"data:image/png;base64,"[..])] {
+        let out = folder.file(name);
+        let told = succeed(&["report", "sample:aorta", "-o", &out]);
+        let bytes = std::fs::read(&out).unwrap();
+        let found = bytes.windows(mark.len()).filter(|part| part == &mark).count();
+        assert!(told.contains(&format!("pictures                    {found}")), "{told}");
+        assert!(found == 4, "{found} pictures: a graphics device is needed, such as Debian's mesa-vulkan-drivers");
+    }
+}
+
+#[test]
+fn the_numbers_of_a_run_repeat_the_verdict_with_its_remedies() {
+    let folder = Folder::new("report-verdict");
+    let (file, out, numbers) = (folder.file("a.obj"), folder.file("a.stl"), folder.file("a.json"));
+    std::fs::write(&file, tube(1.0, 10.0)).unwrap();
+    let told = succeed(&["optimise", &file, "-o", &out, "--report", &numbers, "--reduction", "60"]);
+    let verdict = &json(&numbers)["verdict"];
+    assert_eq!(verdict["is_safe"], false);
+    assert!(told.contains(verdict["head"].as_str().unwrap()), "{told}");
+    let first = &verdict["findings"][0];
+    assert!(first["is_grave"] == true && first["text"].as_str().unwrap().contains("unusual"), "{first}");
+    assert_eq!(
+        (&first["remedies"][0]["words"], &first["remedies"][0]["change"]["unit"]),
+        (&"Read in cm".into(), &"cm".into())
+    );
+    // In its own unit nothing is to be looked at.
+    succeed(&["optimise", &file, "--unit", "cm", "-o", &out, "--report", &numbers, "--reduction", "60"]);
+    let verdict = &json(&numbers)["verdict"];
+    assert_eq!((&verdict["is_safe"], &verdict["head"]), (&true.into(), &"Safe to simulate on".into()));
+}

@@ -1,0 +1,142 @@
+//! The main screens on a phone, a tablet, a laptop and a large screen: nothing lies over something else, and nothing is cut
+//! off.
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+use lumen::app::PlatformEvent;
+use lumen::language::{self, Language};
+use lumen::say;
+use lumen_ui_tests::told::{App, FIRST, at_entry, frame, now, press, ready, tell};
+use lumen_ui_tests::{app, in_hand, settle_wholly, tube};
+
+use crate::targets::{overlapping, targets, words};
+
+/// Width and height in points, and whether a finger points there.
+type Screen = ([f32; 2], bool);
+
+const PHONE: Screen = ([390.0, 844.0], true);
+const TABLET: Screen = ([768.0, 1024.0], true);
+const LAPTOP: Screen = ([1280.0, 800.0], false);
+const LARGE: Screen = ([1920.0, 1080.0], false);
+
+/// Tries the main screens in every language, on a small surface.
+fn is_laid_out(screen: Screen) {
+    for language in Language::ALL {
+        language::speak(language, language::built_in(language).unwrap());
+        is_laid_out_in(language, screen);
+    }
+    language::speak(Language::English, &[]);
+}
+
+fn is_laid_out_in(language: Language, screen: Screen) {
+    let (size, has_finger) = screen;
+    let (mut harness, memory) = if has_finger { in_hand(size, 0.25, false) } else { app(size) };
+    let bytes = tube(4.0, 60.0, 0.8);
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "tube.obj".to_owned(), bytes });
+    harness.run_steps(10);
+    settle_wholly(&mut harness);
+    let views = [&*say!("views-shaded"), &say!("views-wireframe")];
+    let told = |what: &str| format!("{what} in {language:?}");
+    check(&harness, &told("as it starts"), screen, &views);
+    for (key, what) in [(Key::V, "the vessels"), (Key::M, "the measures")] {
+        harness.key_press(key);
+        harness.run_steps(4);
+        check(&harness, &told(what), screen, &views);
+    }
+    harness.key_press(Key::M);
+    harness.run_steps(4);
+    let trial = say!("app-trial");
+    if harness.query_by_role_and_label(Role::Button, &trial).is_none() {
+        press(&mut harness, &say!("app-menu"));
+    }
+    press(&mut harness, &trial);
+    tell(&mut harness, &memory, [ready(FIRST), now(FIRST, at_entry()), now(FIRST, frame())]);
+    let views = [&*say!("trial-view"), &say!("trial-fluoroscopy-view"), &say!("trial-tip-view")];
+    check(&harness, &told("the trial"), screen, &views);
+    press(&mut harness, &say!("trial-large-name"));
+    assert_eq!(overlapping(&harness), [""; 0], "the large fluoroscopy of {size:?} in {language:?}");
+}
+
+/// Asserts that the views, the panel and the bars lie side by side in the window, and that what can be hit is whole in them.
+fn check(harness: &App, what: &str, ([width, height], has_finger): Screen, views: &[&str]) {
+    let what = format!("{what}, {width} x {height}");
+    let views: Vec<_> = views
+        .iter()
+        .copied()
+        .filter_map(|view| harness.query_by_role_and_label(Role::Image, view).map(|node| (view, node.rect())))
+        .collect();
+    assert!(!views.is_empty(), "{what}: no view");
+    let window = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, height));
+    let top = harness.get_by_role_and_label(Role::Button, &say!("app-open")).rect();
+    for (i, (name, view)) in views.iter().enumerate() {
+        assert!(window.contains_rect(*view) && view.top() > top.bottom(), "{what}: {name} at {view}");
+        assert!(view.width() > 100.0 && view.height() > 60.0, "{what}: {name} at {view} is tiny");
+        for (other, rect) in &views[i + 1..] {
+            let common = view.intersect(*rect);
+            assert!(common.width().min(common.height()) <= 1.0, "{what}: {name} at {view} over {other} at {rect}");
+        }
+    }
+    assert_eq!(overlapping(harness), [""; 0], "{what}: over one another");
+    let beyond = |node: &egui_kittest::Node<'_>| node.rect().left() < -0.5 || node.rect().right() > width + 0.5;
+    let cut: Vec<_> = targets(harness).iter().filter(|&node| beyond(node)).map(words).collect();
+    assert_eq!(cut, [""; 0], "{what}: beyond the window");
+    // What stands in the panel at the left does not reach into the views.
+    let border = views[0].1.left();
+    let status = height - if has_finger { 57.0 } else { 41.0 };
+    let is_of_panel = |rect: egui::Rect| {
+        let is_of_bars = rect.top() < top.bottom() || rect.bottom() > status && rect.top() < height;
+        rect.left() < border - 1.0 && !is_of_bars
+    };
+    let nodes = targets(harness).into_iter().chain(harness.query_all_by_role(Role::Label));
+    let wide: Vec<_> = nodes
+        .filter(|node| is_of_panel(node.rect()) && node.rect().right() > border + 0.5)
+        .map(|node| words(&node))
+        .collect();
+    assert!(border < 1.0 || wide.is_empty(), "{what}: from the panel into the views: {wide:?}");
+}
+
+#[test]
+fn on_a_phone() {
+    is_laid_out(PHONE);
+}
+
+#[test]
+fn on_a_tablet() {
+    is_laid_out(TABLET);
+}
+
+#[test]
+fn on_a_laptop() {
+    is_laid_out(LAPTOP);
+}
+
+#[test]
+fn on_a_large_screen() {
+    is_laid_out(LARGE);
+}
+
+/// A bar that is higher by a pixel with progress in it than with a notice moves both views, and what is drawn in them, with
+/// every piece of work.
+#[test]
+fn the_views_stay_where_they_are_while_work_is_told() {
+    for (size, has_finger) in [PHONE, LAPTOP] {
+        let (mut harness, _) = if has_finger { in_hand(size, 0.25, false) } else { app(size) };
+        let mut seen = std::collections::BTreeSet::new();
+        let (mut working, mut idle) = (0, 0);
+        while idle < 3 {
+            harness.step();
+            if let Some(view) = harness.query_by_role_and_label(Role::Image, "Shaded view") {
+                let rect = view.rect();
+                seen.insert([rect.top(), rect.bottom()].map(|y| (y * 100.0).round() as i64));
+            }
+            let is_working = harness.query_by_role_and_label(Role::ProgressIndicator, "Progress").is_some();
+            working += usize::from(is_working);
+            let document = harness.state().state().document.as_ref();
+            let is_measured = document.is_some_and(|document| document.measured.is_some());
+            idle += usize::from(is_measured && !is_working);
+            assert!(working < 4000, "the engine does not come to an end");
+        }
+        assert!(working > 0 && seen.len() == 1, "{size:?}: {working} frames of work, the view at {seen:?}");
+    }
+}

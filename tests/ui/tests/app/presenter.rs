@@ -1,0 +1,61 @@
+//! Presenter mode: larger letters, no panel, keys and pointer shown; all of it goes again.
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lumen::app::LumenApp;
+use lumen_ui_tests::{app, says, settle};
+
+fn picture(harness: &mut Harness<'_, LumenApp>) -> Vec<[u8; 4]> {
+    harness.render().unwrap().pixels().map(|pixel| pixel.0).collect()
+}
+
+/// How many pixels of the page are not as they were.
+fn changed(before: &[[u8; 4]], harness: &mut Harness<'_, LumenApp>) -> usize {
+    before.iter().zip(picture(harness)).filter(|(a, b)| *a != b).count()
+}
+
+fn has_panel(harness: &Harness<'_, LumenApp>) -> bool {
+    harness.query_by_role_and_label(Role::Slider, "Reduction").is_some()
+}
+
+#[test]
+fn letters_grow_the_panel_goes_and_escape_brings_all_back() {
+    for size in [[1280.0, 800.0], [390.0, 844.0]] {
+        let (mut harness, _) = app(size);
+        settle(&mut harness);
+        let zoom = harness.ctx.zoom_factor();
+        harness.key_press(Key::P);
+        harness.run_steps(4);
+        let state = harness.state().state();
+        let (told, work) = (state.notice.as_ref().map(|notice| notice.text.clone()), state.work);
+        assert!(says(&harness, "P or Esc ends it"), "{told:?} {work:?} at {size:?}");
+        assert!(!has_panel(&harness));
+        assert!((harness.ctx.zoom_factor() / zoom - 1.4).abs() < 1e-3);
+        assert!(harness.query_by_role_and_label(Role::Image, "Shaded view").is_some());
+        harness.key_press(Key::Escape);
+        harness.run_steps(4);
+        assert!(has_panel(&harness) && (harness.ctx.zoom_factor() - zoom).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_key_is_shown_and_goes_again_and_the_pointer_has_a_halo() {
+    let (mut harness, _) = app([1280.0, 800.0]);
+    settle(&mut harness);
+    harness.key_press(Key::P);
+    harness.run_steps(20);
+    let before = picture(&mut harness);
+    // A key that does nothing else.
+    harness.key_press(Key::J);
+    harness.run_steps(2);
+    let shown = changed(&before, &mut harness);
+    assert!(shown > 300, "{shown} pixels");
+    harness.run_steps(20);
+    let gone = changed(&before, &mut harness);
+    assert!(gone * 10 < shown, "{gone} of {shown} pixels");
+    harness.hover_at(egui::pos2(500.0, 300.0));
+    harness.run_steps(2);
+    assert!(changed(&before, &mut harness) > 300);
+}

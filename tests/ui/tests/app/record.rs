@@ -1,0 +1,138 @@
+//! Reports, pictures and turntables from the menu, as others read them.
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lumen::app::LumenApp;
+use lumen_ui_tests::{Memory, app, says, settle_wholly};
+
+const DESKTOP: [f32; 2] = [1280.0, 800.0];
+const PHONE: [f32; 2] = [390.0, 844.0];
+
+type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
+
+fn opened(size: [f32; 2]) -> (Harness<'static, LumenApp>, Shared) {
+    let (mut harness, memory) = app(size);
+    settle_wholly(&mut harness);
+    (harness, memory)
+}
+
+fn menu(harness: &mut Harness<'_, LumenApp>) {
+    harness.get_by_role_and_label(Role::Button, "Save").click();
+    harness.run_steps(3);
+}
+
+fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run_steps(3);
+}
+
+/// The file that is offered next, after some frames.
+fn offered(harness: &mut Harness<'_, LumenApp>, memory: &Shared) -> (String, Vec<u8>) {
+    for _ in 0..400 {
+        if let Some(file) = memory.borrow_mut().offered.pop() {
+            return file;
+        }
+        harness.step();
+    }
+    panic!("no file is offered");
+}
+
+fn info(bytes: &[u8]) -> png::Reader<std::io::Cursor<&[u8]>> {
+    png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap()
+}
+
+#[test]
+fn the_menu_repeats_the_verdict_and_gives_a_report_in_both_forms() {
+    for size in [DESKTOP, PHONE] {
+        let (mut harness, memory) = opened(size);
+        menu(&mut harness);
+        assert!(says(&harness, "Safe to simulate on. All"));
+        click(&mut harness, "Report (PDF)...");
+        let (name, pdf) = offered(&mut harness, &memory);
+        assert_eq!(name, "abdominal-aorta-report.pdf");
+        let count = |mark: &[u8]| pdf.windows(mark.len()).filter(|part| *part == mark).count();
+        assert!(pdf.starts_with(b"%PDF-1.7") && count(b"/Predictor 15") == 4);
+        menu(&mut harness);
+        click(&mut harness, "Report (web page)...");
+        let (name, page) = offered(&mut harness, &memory);
+        assert_eq!(name, "abdominal-aorta-report.html");
+        let page = String::from_utf8(page).unwrap();
+        assert!(page.contains("Not for clinical decisions") && page.contains("Safe to simulate on"));
+        assert_eq!(page.matches("data:image/png;base64,").count(), 4);
+        assert!(!["<script", "http:", "https:", "url("].iter().any(|foreign| page.contains(foreign)));
+        assert!(!page.contains("Abdominal aorta"), "no name that nobody asked for");
+    }
+}
+
+#[test]
+fn a_picture_is_as_large_as_asked_and_can_have_nothing_behind_it() {
+    let (mut harness, memory) = opened(DESKTOP);
+    menu(&mut harness);
+    click(&mut harness, "Picture (PNG)");
+    click(&mut harness, "1920 pixels...");
+    let (name, bytes) = offered(&mut harness, &memory);
+    assert_eq!(name, "abdominal-aorta.png");
+    let found = info(&bytes);
+    assert_eq!(found.info().width.max(found.info().height), 1920);
+    assert_eq!(found.info().color_type, png::ColorType::Rgb);
+    menu(&mut harness);
+    click(&mut harness, "Picture (PNG)");
+    click(&mut harness, "Transparent background");
+    menu_again(&mut harness);
+    click(&mut harness, "960 pixels...");
+    let (_, bytes) = offered(&mut harness, &memory);
+    let mut found = info(&bytes);
+    assert_eq!(found.info().color_type, png::ColorType::Rgba);
+    let mut pixels = vec![0; found.output_buffer_size().unwrap()];
+    found.next_frame(&mut pixels).unwrap();
+    let (width, height) = (found.info().width as usize, found.info().height as usize);
+    let alpha = |x: usize, y: usize| pixels[4 * (y * width + x) + 3];
+    assert_eq!([alpha(0, 0), alpha(width - 1, height - 1)], [0, 0], "nothing in the corners");
+    // The scale stands below on the left, that it is not for clinical decisions on the right, the axes above that.
+    let ink = |x: std::ops::Range<usize>, y: std::ops::Range<usize>| {
+        y.flat_map(|y| x.clone().map(move |x| (x, y))).filter(|&(x, y)| alpha(x, y) > 128).count()
+    };
+    let (right, foot) = (width - 12, height - 12);
+    assert!(ink(12..60, foot - 12..foot) >= 48, "the bar's line is there");
+    assert!(ink(right - 150..right, foot - 14..foot) > 200 && ink(right - 70..right, 12..82) > 60);
+    let whole = pixels.chunks_exact(4).filter(|pixel| pixel[3] == 255).count();
+    assert!(whole * 50 > width * height, "{whole} pixels are wholly surface");
+}
+
+/// Opens the menu of pictures where a choice has closed it.
+fn menu_again(harness: &mut Harness<'_, LumenApp>) {
+    if harness.query_by_label("960 pixels...").is_none() {
+        menu(harness);
+        click(harness, "Picture (PNG)");
+    }
+}
+
+#[test]
+fn a_turntable_turns_once_and_can_be_cancelled() {
+    let (mut harness, memory) = opened(DESKTOP);
+    menu(&mut harness);
+    click(&mut harness, "Turntable (APNG)...");
+    assert!(says(&harness, "Turntable"));
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert!(says(&harness, "Cancelled."));
+    harness.run_steps(60);
+    assert!(memory.borrow().offered.is_empty());
+    menu(&mut harness);
+    click(&mut harness, "Turntable (APNG)...");
+    let (name, bytes) = offered(&mut harness, &memory);
+    assert_eq!(name, "abdominal-aorta-turntable.png");
+    let mut found = info(&bytes);
+    assert_eq!(found.info().animation_control().unwrap().num_frames, 48);
+    let mut frames = Vec::new();
+    for _ in 0..48 {
+        let mut pixels = vec![0; found.output_buffer_size().unwrap()];
+        found.next_frame(&mut pixels).unwrap();
+        frames.push(pixels);
+    }
+    assert!(frames[0] != frames[12] && frames[12] != frames[24] && frames[24] != frames[36]);
+    assert!(bytes.len() < 8_000_000, "{} bytes", bytes.len());
+    println!("the turntable takes {} bytes", bytes.len());
+}

@@ -1,0 +1,148 @@
+//! Lessons, and the lecture of `docs/teaching.md`, played as it stands there.
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lumen::app::{LumenApp, PlatformEvent};
+use lumen::pipeline::settings::{Settings, Target};
+use lumen_ui_tests::{Kept, app, page, says, settle};
+
+use crate::recovery::{notice, tell};
+
+const DESKTOP: [f32; 2] = [1280.0, 800.0];
+
+/// Clicks the control that is called so, once it is there; scrolls to it first.
+pub(crate) fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
+    const ROLES: [Role; 4] = [Role::Button, Role::CheckBox, Role::DisclosureTriangle, Role::MenuItem];
+    for _ in 0..200 {
+        let role = ROLES.into_iter().find(|role| harness.query_all_by_role_and_label(*role, label).next().is_some());
+        let Some(role) = role else {
+            harness.step();
+            continue;
+        };
+        if let Some(node) = harness.query_all_by_role_and_label(role, label).last() {
+            node.scroll_to_me();
+        }
+        harness.run_steps(12);
+        if let Some(node) = harness.query_all_by_role_and_label(role, label).last() {
+            node.click();
+        }
+        harness.run_steps(3);
+        return;
+    }
+    panic!("there is no \"{label}\" to click");
+}
+
+/// Waits until a text is shown.
+fn see(harness: &mut Harness<'_, LumenApp>, text: &str) {
+    for _ in 0..2000 {
+        if says(harness, text) {
+            return;
+        }
+        harness.step();
+    }
+    panic!("\"{text}\" is never shown");
+}
+
+fn menu(harness: &mut Harness<'_, LumenApp>, entry: &str) {
+    click(harness, "Learn");
+    click(harness, entry);
+}
+
+#[test]
+fn the_lecture_can_be_given_as_it_is_written() {
+    let script = include_str!("../../../../docs/teaching.md");
+    let lines: Vec<&str> = script.lines().filter(|line| line.starts_with("- ")).collect();
+    assert!(lines.len() > 30, "the script is there");
+    let (mut harness, memory) = app(DESKTOP);
+    memory.borrow_mut().trial_runs = true;
+    settle(&mut harness);
+    for line in lines {
+        if let Some(path) = line.strip_prefix("- Click: ") {
+            path.split(" > ").for_each(|label| click(&mut harness, label));
+        } else if let Some(text) = line.strip_prefix("- See: ") {
+            see(&mut harness, text);
+        } else {
+            panic!("neither clicked nor seen: {line}");
+        }
+    }
+    assert!(harness.state().lessons().given().is_none());
+    assert!(harness.state().trial().is_open(), "the wire is on the screen");
+}
+
+#[test]
+fn every_step_of_every_lesson_sets_the_app_and_can_be_gone_back_to() {
+    let (mut harness, _) = app(DESKTOP);
+    settle(&mut harness);
+    for lesson in ["Stair-steps", "Pass band", "Iterations and windows", "Shrinkage", "What decimation keeps"] {
+        menu(&mut harness, lesson);
+        let given = harness.state().lessons().given().unwrap().clone();
+        assert_eq!(given.lesson.title, lesson);
+        for (i, step) in given.lesson.steps.iter().enumerate() {
+            settle(&mut harness);
+            assert_eq!(harness.state().lessons().given().unwrap().step, i);
+            assert_eq!(Some(&harness.state().state().settings), step.settings.as_ref(), "{lesson}, {}", step.title);
+            let words = &step.title;
+            assert!(says(&harness, words), "{words}");
+            if i + 1 < given.lesson.steps.len() {
+                click(&mut harness, "Next");
+            }
+        }
+        click(&mut harness, "Back");
+        let before = &given.lesson.steps[given.lesson.steps.len() - 2];
+        assert_eq!(Some(&harness.state().state().settings), before.settings.as_ref());
+    }
+    // While the engine works, Esc cancels that.
+    settle(&mut harness);
+    for _ in 0..4 {
+        harness.key_press(Key::Escape);
+        harness.run_steps(2);
+    }
+    assert!(harness.state().lessons().given().is_none(), "Esc leaves the lesson");
+}
+
+#[test]
+fn a_teacher_opens_a_lesson_of_his_own_and_is_told_what_is_wrong_with_it() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle(&mut harness);
+    let file = |text: &str| PlatformEvent::Chosen { name: "Mine.Lesson".to_owned(), bytes: text.into() };
+    let text =
+        "lumen lesson 1\ntitle: Mine\nstep: Half\ntext: Half of it.\nsettings: reduction=50\nask: Why?\nanswer: So.\n";
+    tell(&mut harness, &memory, file(text));
+    assert!(says(&harness, "Mine, 1 of 1") && says(&harness, "Half of it."));
+    assert_eq!(harness.state().state().settings.target, Target::Reduction(500));
+    assert!(!says(&harness, "So."));
+    click(&mut harness, "Show the answer");
+    assert!(says(&harness, "So."));
+    click(&mut harness, "Undo");
+    settle(&mut harness);
+    assert_eq!(harness.state().state().settings, Settings::default(), "a step is one to undo");
+    tell(&mut harness, &memory, file(&text.replace("reduction=50", "reduction=5000")));
+    assert!(notice(&harness).starts_with("Mine.Lesson: Line 5 of the lesson:"), "{}", notice(&harness));
+    assert!(says(&harness, "Mine, 1 of 1"), "what was given stays");
+}
+
+#[test]
+fn a_link_leads_to_a_step_and_a_step_gives_a_link() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#lesson=shrinkage&step=2".to_owned() });
+    assert!(says(&harness, "Shrinkage, 2 of 4") && says(&harness, "A thin vessel is a short wave"));
+    click(&mut harness, "Copy link");
+    assert_eq!(notice(&harness), "The link to this step was copied.");
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#lesson=nothing".to_owned() });
+    assert!(notice(&harness).starts_with("There is no lesson of that name; there are stair-steps,"));
+}
+
+#[test]
+fn the_words_are_explained_and_the_papers_named() {
+    let (mut harness, _) = app(DESKTOP);
+    settle(&mut harness);
+    menu(&mut harness, "Glossary");
+    assert!(says(&harness, "Two vertices may become one only if"));
+    click(&mut harness, "Close");
+    assert!(!says(&harness, "Two vertices may become one only if"), "the sheet is closed");
+    click(&mut harness, "About");
+    assert!(says(&harness, "Mesh Optimization of Vessel Surface Model"));
+}

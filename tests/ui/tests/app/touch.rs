@@ -1,0 +1,344 @@
+//! A phone, held in the hand: what a finger does that a mouse does not.
+
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use lumen::app::{LumenApp, PlatformEvent};
+use lumen_ui_tests::told::{put_on, wait};
+use lumen_ui_tests::{app, in_hand, phone, settle, settle_wholly};
+
+use crate::recovery::tell;
+use crate::scans::ball;
+use crate::targets::fits_a_finger;
+use crate::teaching::click;
+
+const PHONE: [f32; 2] = [390.0, 844.0];
+
+type App = Harness<'static, LumenApp>;
+
+fn finger(harness: &App, phase: TouchPhase, pos: Pos2) {
+    let (device_id, id) = (TouchDeviceId(1), TouchId(1));
+    harness.event(Event::Touch { device_id, id, phase, pos, force: None });
+}
+
+/// Puts a finger down, moves it in ten steps and takes it up again. As browsers have it, it is a pointer too.
+fn swipe(harness: &mut App, from: Pos2, way: Vec2) {
+    finger(harness, TouchPhase::Start, from);
+    harness.hover_at(from);
+    harness.drag_at(from);
+    harness.run_steps(1);
+    for step in 1..=10 {
+        let at = from + way * (step as f32 / 10.0);
+        finger(harness, TouchPhase::Move, at);
+        harness.hover_at(at);
+        harness.run_steps(1);
+    }
+    finger(harness, TouchPhase::End, from + way);
+    harness.drop_at(from + way);
+    harness.run_steps(3);
+}
+
+#[test]
+fn a_finger_that_goes_up_over_a_slider_scrolls_and_one_that_goes_aside_moves_it() {
+    let (mut harness, _) = app(PHONE);
+    settle(&mut harness);
+    let place = |harness: &App, role| harness.get_by_role_and_label(role, "Pass band").rect();
+    let before = harness.state().state().settings.clone();
+    let slider = place(&harness, Role::Slider);
+    // Not on the knob, and not straight: where the value would be another.
+    swipe(&mut harness, slider.lerp_inside(vec2(0.8, 0.5)), vec2(20.0, -120.0));
+    assert_eq!(harness.state().state().settings, before, "the value stays");
+    let moved = place(&harness, Role::Slider).top() - slider.top();
+    assert!((-121.0..=-90.0).contains(&moved), "it scrolled by {moved}");
+    let field = harness.get_by_role_and_label(Role::SpinButton, "Pass band value").rect();
+    swipe(&mut harness, field.center(), vec2(0.0, 60.0));
+    assert_eq!(harness.state().state().settings, before, "so does that of the field");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().settings, before, "there is nothing to undo");
+
+    let slider = place(&harness, Role::Slider);
+    swipe(&mut harness, slider.lerp_inside(vec2(0.5, 0.5)), vec2(100.0, 20.0));
+    let after = harness.state().state().settings.clone();
+    assert!(after.smoothing.pass_band > 2.0 * before.smoothing.pass_band, "{:?}", after.smoothing);
+    assert!((place(&harness, Role::Slider).top() - slider.top()).abs() < 1.0, "it stands still");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().settings, before, "one step to undo");
+}
+
+#[test]
+fn a_mouse_moves_the_slider_whichever_way_it_goes() {
+    let (mut harness, _) = app(PHONE);
+    settle(&mut harness);
+    let before = harness.state().state().settings.clone();
+    let slider = harness.get_by_role_and_label(Role::Slider, "Pass band").rect();
+    let from = slider.lerp_inside(vec2(0.8, 0.5));
+    harness.drag_at(from);
+    harness.run_steps(1);
+    harness.hover_at(from - vec2(0.0, 60.0));
+    harness.run_steps(1);
+    harness.drop_at(from - vec2(0.0, 60.0));
+    harness.run_steps(2);
+    assert!(harness.state().state().settings.smoothing.pass_band > before.smoothing.pass_band);
+}
+
+#[test]
+fn the_title_of_a_lesson_is_whole() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#lesson=windows&step=2".to_owned() });
+    let given = harness.state().lessons().given().expect("a lesson").clone();
+    let title = format!("{}, 2 of {}", given.lesson.title, given.lesson.steps.len());
+    let font = egui::FontId::proportional(14.0);
+    let width = harness.ctx.fonts_mut(|fonts| fonts.layout_no_wrap(title.clone(), font, egui::Color32::WHITE).size().x);
+    let rect = harness.get_by_role_and_label(Role::Label, &title).rect();
+    assert!(rect.width() >= width - 1.0 && rect.left() >= 0.0 && rect.right() <= PHONE[0], "{rect} of {width}");
+}
+
+#[test]
+fn the_pads_lie_under_the_thumbs() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    put_on(&mut harness, &memory);
+    let place = |pad| harness.get_by_role_and_label(Role::Slider, pad).rect();
+    let (feed, roll) = (place("Feed pad"), place("Roll pad"));
+    for (pad, reach) in [(feed, feed.left()), (roll, PHONE[0] - roll.right())] {
+        assert!(reach <= 24.0 && PHONE[1] - pad.bottom() <= 88.0, "{pad} is not in a corner");
+        assert!(pad.height() >= 44.0 && pad.width() >= 120.0, "{pad}");
+    }
+    assert!(feed.right() <= roll.left());
+}
+
+#[test]
+fn one_view_is_large_and_a_tab_or_a_swipe_above_it_goes_to_the_other() {
+    let (mut harness, _) = phone();
+    settle(&mut harness);
+    let view =
+        |harness: &App, name: &'static str| harness.query_by_role_and_label(Role::Image, name).map(|node| node.rect());
+    let is_shaded = |harness: &App| match (view(harness, "Shaded view"), view(harness, "Wireframe view")) {
+        (Some(_), None) => true,
+        (None, Some(_)) => false,
+        other => panic!("not one view: {other:?}"),
+    };
+    let large = view(&harness, "Shaded view").expect("a view");
+    assert!(is_shaded(&harness) && large.width() > 380.0 && large.height() > 200.0, "{large}");
+    harness.get_by_role_and_label(Role::Button, "Wireframe").click();
+    harness.run_steps(3);
+    assert!(!is_shaded(&harness), "by its tab");
+    assert_eq!(view(&harness, "Wireframe view"), Some(large));
+    let strip = harness.get_by_role_and_label(Role::Button, "Wireframe").rect().center();
+    swipe(&mut harness, strip, vec2(120.0, 0.0));
+    assert!(is_shaded(&harness), "by a swipe to the right");
+    swipe(&mut harness, strip, vec2(-120.0, 0.0));
+    assert!(!is_shaded(&harness), "by a swipe to the left");
+    let camera = *harness.state().camera();
+    swipe(&mut harness, large.center(), vec2(120.0, 0.0));
+    assert!(!is_shaded(&harness) && camera.rotation != harness.state().camera().rotation, "a swipe in the view turns");
+}
+
+#[test]
+fn the_panel_is_drawn_up_and_down_and_rests_at_three_heights() {
+    let (mut harness, _) = phone();
+    settle(&mut harness);
+    let place = |harness: &App| harness.get_by_label_contains("Panel height").rect();
+    let rests = |harness: &App, at: &str| harness.query_by_label(&format!("Panel height: {at}")).is_some();
+    let has = |harness: &App, slider: &'static str| harness.query_by_role_and_label(Role::Slider, slider).is_some();
+    let half = place(&harness);
+    assert!(rests(&harness, "half") && half.height() >= 44.0 && half.width() > 300.0, "{half}");
+    swipe(&mut harness, half.center(), vec2(0.0, -200.0));
+    let full = place(&harness);
+    assert!(rests(&harness, "full") && full.top() < half.top() - 150.0, "{half} became {full}");
+    swipe(&mut harness, full.center(), vec2(0.0, 450.0));
+    let low = place(&harness);
+    assert!(rests(&harness, "low") && low.top() > half.top() + 100.0, "{half} became {low}");
+    // What it peeks at is in sight, and works.
+    assert!(!has(&harness, "Iterations"));
+    let slider = harness.get_by_role_and_label(Role::Slider, "Reduction").rect();
+    assert!(slider.top() > low.bottom() && slider.bottom() < PHONE[1] - 56.0, "{slider} above the status");
+    let before = harness.state().state().settings.target;
+    swipe(&mut harness, slider.lerp_inside(vec2(0.8, 0.5)), vec2(-100.0, 0.0));
+    let document = harness.state().state().document.as_ref().unwrap();
+    let count = document.shown.as_ref().unwrap().level.triangles.len();
+    assert!(harness.state().state().settings.target != before && count > 20_000, "{count}");
+    // By keys, and by taps.
+    harness.get_by_label_contains("Panel height").focus();
+    harness.run_steps(2);
+    for (key, at) in [(Key::ArrowUp, "half"), (Key::ArrowUp, "full"), (Key::ArrowUp, "full"), (Key::ArrowDown, "half")]
+    {
+        harness.key_press(key);
+        harness.run_steps(2);
+        assert!(rests(&harness, at), "{key:?} to {at}");
+    }
+    for at in ["full", "low", "half"] {
+        harness.get_by_label_contains("Panel height").click();
+        harness.run_steps(2);
+        assert!(rests(&harness, at), "a tap to {at}");
+    }
+    assert!((place(&harness).top() - half.top()).abs() < 1.0 && has(&harness, "Iterations"));
+}
+
+#[test]
+fn every_target_is_as_large_as_a_fingertip() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    fits_a_finger(&harness, "as it starts");
+    harness.get_by_role_and_label(Role::Button, "Menu").click();
+    harness.run_steps(3);
+    fits_a_finger(&harness, "the menu");
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    harness.get_by_role_and_label(Role::Button, "Open in").click();
+    harness.run_steps(3);
+    fits_a_finger(&harness, "the units of a file");
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    put_on(&mut harness, &memory);
+    fits_a_finger(&harness, "the trial");
+}
+
+#[test]
+fn so_is_every_target_over_vessels_measures_and_what_is_saved() {
+    let (mut harness, _) = phone();
+    settle_wholly(&mut harness);
+    harness.get_by_role_and_label(Role::Button, "Save").click();
+    harness.run_steps(3);
+    fits_a_finger(&harness, "what can be saved");
+    let last = harness.get_by_role_and_label(Role::Button, "Settings...").rect();
+    assert!(last.height() >= 44.0 && harness.query_by_role_and_label(Role::Button, "Report (PDF)...").is_some());
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+
+    harness.key_press(Key::V);
+    harness.run_steps(4);
+    assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some());
+    fits_a_finger(&harness, "the vessels");
+
+    harness.key_press(Key::M);
+    harness.run_steps(4);
+    click(&mut harness, "Diameter");
+    if let Some(focused) = harness.ctx.memory(egui::Memory::focused) {
+        harness.ctx.memory_mut(|memory| memory.surrender_focus(focused));
+    }
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    assert_eq!(harness.state().state().measures.len(), 1, "there is one to be listed");
+    click(&mut harness, "Clip plane");
+    assert!(harness.query_by_role_and_label(Role::Button, "Flip").is_some());
+    fits_a_finger(&harness, "the measures");
+    let delete = harness.get_by_label_contains("Delete ").rect();
+    assert!(delete.right() <= PHONE[0] - 16.0, "{delete} is not cut off");
+}
+
+#[test]
+fn so_is_every_target_of_a_lesson_the_collapses_and_the_folds_of_the_panel() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    for fold in ["Response", "Error against triangles", "Mending"] {
+        click(&mut harness, fold);
+        fits_a_finger(&harness, fold);
+    }
+    tell(&mut harness, &memory, PlatformEvent::Linked { fragment: "#lesson=decimation&step=1".to_owned() });
+    wait(&mut harness, |harness| harness.query_by_role_and_label(Role::Button, "One on").is_some());
+    assert!(harness.state().lessons().given().is_some() && harness.state().collapses().is_open());
+    fits_a_finger(&harness, "a lesson and the collapses");
+}
+
+#[test]
+fn so_is_every_target_of_a_comparison() {
+    let (mut harness, _) = phone();
+    settle(&mut harness);
+    harness.key_press(Key::C);
+    harness.run_steps(3);
+    settle(&mut harness);
+    assert!(harness.query_all_by_label_contains("Remove ").count() >= 2, "there are cells");
+    fits_a_finger(&harness, "the comparison");
+}
+
+#[test]
+fn so_is_every_target_of_a_scan() {
+    let (mut harness, memory) = phone();
+    settle(&mut harness);
+    memory.borrow_mut().events.push_back(ball("AnatomicalOrientation = RAI\n"));
+    harness.run_steps(40);
+    assert!(harness.query_by_role_and_label(Role::Button, "Make the surface").is_some());
+    let slice = harness.get_by_role_and_label(Role::Slider, "Slice").rect();
+    assert!(slice.height() >= 44.0 && slice.right() <= PHONE[0], "{slice}");
+    fits_a_finger(&harness, "a scan");
+}
+
+/// Scrolls to the slider of the pass band and flicks a finger up over the place that `from` finds there.
+fn flick(harness: &mut App, from: fn(&App) -> Pos2) {
+    harness.get_by_role_and_label(Role::Slider, "Pass band").scroll_to_me();
+    harness.run_steps(12);
+    let from = from(harness);
+    swipe(harness, from, vec2(0.0, -240.0));
+}
+
+/// How far the panel goes up in each of so many times 0.2 s.
+fn goes_on(harness: &mut App, times: usize) -> Vec<f32> {
+    let top = |harness: &App| harness.get_by_role_and_label(Role::Slider, "Pass band").rect().top();
+    let mut way = || {
+        let before = top(harness);
+        harness.run_steps(12);
+        before - top(harness)
+    };
+    (0..times).map(|_| way()).collect()
+}
+
+/// On a slider, and on words beside it.
+const PLACES: [fn(&App) -> Pos2; 2] = [
+    |harness| harness.get_by_role_and_label(Role::Slider, "Pass band").rect().lerp_inside(vec2(0.8, 0.5)),
+    |harness| harness.get_by_role_and_label(Role::Label, "Pass band").rect().center(),
+];
+
+/// Seconds between two frames: a finger has its speed of a tenth of a second.
+const FRAME_S: f32 = 1.0 / 60.0;
+
+#[test]
+fn a_flick_scrolls_on_and_slows_down_over_a_slider_as_elsewhere_and_a_finger_stops_it() {
+    let (mut harness, _) = in_hand(PHONE, FRAME_S, true);
+    settle(&mut harness);
+    let before = harness.state().state().settings.clone();
+    for place in PLACES {
+        flick(&mut harness, place);
+        let ways = goes_on(&mut harness, 5);
+        assert!(ways[0] > 30.0, "{ways:?}");
+        // Speeds fall to 1/e in half a second, as lists on a phone have it (0.998 a millisecond).
+        for pair in ways[..4].windows(2) {
+            let part = pair[1] / pair[0];
+            assert!((part - (-0.4f32).exp()).abs() < 0.1, "{part} of it, in {ways:?}");
+        }
+        let ways = goes_on(&mut harness, 25);
+        assert_eq!(ways[24], 0.0, "it comes to rest: {ways:?}");
+
+        flick(&mut harness, place);
+        let held = harness.get_by_label_contains("Panel height").rect().center_bottom() + vec2(0.0, 60.0);
+        finger(&harness, TouchPhase::Start, held);
+        harness.hover_at(held);
+        harness.drag_at(held);
+        harness.run_steps(1);
+        assert_eq!(goes_on(&mut harness, 1), [0.0], "it stops under a finger");
+        // Taken off aside, it has tapped nothing.
+        let aside = held - vec2(0.0, 30.0);
+        finger(&harness, TouchPhase::Move, aside);
+        harness.hover_at(aside);
+        harness.run_steps(1);
+        finger(&harness, TouchPhase::End, aside);
+        harness.drop_at(aside);
+        harness.run_steps(120);
+    }
+    assert_eq!(harness.state().state().settings, before, "nothing was set");
+}
+
+#[test]
+fn where_less_motion_is_asked_for_a_flick_ends_with_the_finger() {
+    let (mut harness, _) = in_hand(PHONE, FRAME_S, false);
+    settle(&mut harness);
+    for place in PLACES {
+        flick(&mut harness, place);
+        assert_eq!(goes_on(&mut harness, 1), [0.0]);
+    }
+}

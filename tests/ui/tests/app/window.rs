@@ -1,0 +1,99 @@
+//! The window: its sheets and bar, how its views turn, and what becomes of it when it is narrow.
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+use lumen_ui_tests::{app, settle};
+
+use crate::controls::{open, safe_percent};
+
+#[test]
+fn theme_help_and_about_open_and_close() {
+    let mut harness = open();
+    let dark = harness.ctx.theme();
+    harness.get_by_role_and_label(Role::Button, "Theme").click();
+    harness.run_steps(2);
+    assert_ne!(harness.ctx.theme(), dark);
+    harness.get_by_role_and_label(Role::Button, "About").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("MIT or Apache-2.0").is_some());
+    assert!(harness.query_by_label("Not for clinical decisions.").is_some());
+    harness.get_by_role_and_label(Role::Button, "Close").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("MIT or Apache-2.0").is_none());
+    harness.key_press(Key::F1);
+    harness.run_steps(3);
+    assert!(harness.query_by_label("Keys and gestures").is_some());
+}
+
+#[test]
+fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() {
+    let mut harness = open();
+    // What comes in the background changes the panel, and must not come between two pictures.
+    safe_percent(&mut harness);
+    let picture = harness.render().unwrap();
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+    harness.drag_at(view.center());
+    harness.run_steps(2);
+    harness.hover_at(view.center() + egui::vec2(80.0, 0.0));
+    harness.run_steps(2);
+    harness.drop_at(view.center() + egui::vec2(80.0, 0.0));
+    harness.run_steps(2);
+    let turned = harness.render().unwrap();
+    assert_ne!(picture.as_raw(), turned.as_raw());
+    harness.key_down(Key::B);
+    harness.run_steps(2);
+    let before = harness.render().unwrap();
+    assert_ne!(before.as_raw(), turned.as_raw());
+    harness.key_up(Key::B);
+    harness.run_steps(2);
+    assert_eq!(harness.render().unwrap().as_raw(), turned.as_raw());
+    // A slider that was moved keeps the focus.
+    harness.get_by_role_and_label(Role::Slider, "Pass band").focus();
+    harness.run_steps(2);
+    let focused = harness.render().unwrap();
+    harness.key_down(Key::B);
+    harness.run_steps(2);
+    assert_ne!(harness.render().unwrap().as_raw(), focused.as_raw());
+}
+
+#[test]
+fn everything_is_there_on_a_phone() {
+    let (mut harness, _) = app([390.0, 844.0]);
+    settle(&mut harness);
+    for (role, name) in [
+        (Role::Button, "Open..."),
+        (Role::Button, "Menu"),
+        (Role::Image, "Shaded view"),
+        (Role::Image, "Wireframe view"),
+    ] {
+        let rect = harness.get_by_role_and_label(role, name).rect();
+        assert!(rect.left() >= 0.0 && rect.right() <= 390.0 && rect.bottom() <= 844.0, "{name} at {rect:?}");
+    }
+    let (shaded, wireframe) =
+        ["Shaded view", "Wireframe view"].map(|name| harness.get_by_role_and_label(Role::Image, name).rect()).into();
+    assert!(shaded.bottom() <= wireframe.top() + 1.0, "the views stack");
+}
+
+#[test]
+fn whatever_the_width_every_button_of_the_bar_is_in_the_window_or_in_the_menu() {
+    for width in [360.0, 719.0, 721.0, 768.0, 900.0, 1024.0, 1109.0, 1111.0, 1280.0] {
+        let (mut harness, _) = app([width, 800.0]);
+        settle(&mut harness);
+        if let Some(menu) = harness.query_by_role_and_label(Role::Button, "Menu") {
+            menu.click();
+            harness.run_steps(3);
+        }
+        for label in
+            ["Open...", "Sample", "Save", "Compare", "Trial", "Vessels", "Measure", "View", "Learn", "Help", "About"]
+        {
+            let found: Vec<_> = harness.query_all_by_label(label).map(|node| node.rect()).collect();
+            let is_there = |rect: &egui::Rect| rect.left() >= 0.0 && rect.right() <= width && rect.bottom() <= 800.0;
+            assert!(found.iter().any(is_there), "{label} at {width}: {found:?}");
+        }
+        let top = harness.query_all_by_role(Role::Button).map(|node| node.rect()).filter(|rect| rect.top() < 40.0);
+        for rect in top {
+            assert!(rect.right() <= width, "{rect:?} at {width}");
+        }
+    }
+}
