@@ -241,7 +241,7 @@ test("without a device the virtual one holds the wire, its axes are remembered, 
   const sounded = () => page.evaluate(() => globalThis.sounded);
   assert.deepEqual(await sounded(), [], "nothing sounds before it is turned on");
   await find(page, "checkbox", "Sound of the force");
-  await page.keyboard.down("Shift");
+  // Slowly: a fast wire may be at its target before a slow machine has drawn it often enough to shake.
   await page.keyboard.down("w");
   const heard = await eventually(shakes, (all) => all.length > 0, { timeout: 60_000, what: "a shake" });
   for (const { kind, duration, strongMagnitude, weakMagnitude } of heard) {
@@ -263,6 +263,5 @@ test("without a device the virtual one holds the wire, its axes are remembered, 
   assert.equal((await shakes()).length, count, "nothing after it");
   assert.equal(await page.evaluate(() => globalThis.shaken.at(-1)), "reset");
   await page.keyboard.up("w");
-  await page.keyboard.up("Shift");
   assert.deepEqual(wrong, []);
 });

@@ -221,10 +221,11 @@ impl eframe::App for LumenApp {
             self.trial.act(trial::Action::Pause, None, self.platform.trial());
         }
         let (now_ms, gamepad) = (1000.0 * ctx.input(|input| input.time), self.platform.gamepad());
-        if let Some(strength) = self.trial.follow_rumble(now_ms, gamepad, is_hidden) {
+        let (shake, tone) = self.trial.follow_force(now_ms, gamepad, self.platform.has_sound(), is_hidden);
+        if let Some(strength) = shake {
             self.platform.rumble(strength);
         }
-        if let Some(tone) = self.trial.follow_sound(now_ms, self.platform.has_sound(), is_hidden) {
+        if let Some(tone) = tone {
             self.platform.sound(tone);
         }
         if ctx.input(|input| input.viewport().visible() == Some(false)) {

@@ -272,33 +272,32 @@ impl Trial {
         self.device.act(ask, devices);
     }
 
-    /// How strongly a gamepad is to shake from `now_ms` on, 0 to 1, where it has to be told; in a hidden window it is still.
-    pub(in crate::app) fn follow_rumble(
+    /// How strongly a gamepad is to shake from `now_ms` on, 0 to 1, and what is to sound (where `has_sound`), each where it
+    /// has to be told; in a hidden window a gamepad is still and nothing sounds.
+    pub(in crate::app) fn follow_force(
         &mut self,
         now_ms: f64,
         gamepad: Option<Gamepad>,
+        has_sound: bool,
         is_hidden: bool,
-    ) -> Option<f64> {
+    ) -> (Option<f64>, Option<Tone>) {
         if is_hidden {
             self.rumble.halt(Halt::Hidden);
         } else if !self.is_open() {
             self.rumble.halt(Halt::NotArmed);
         }
-        let felt = self.felt();
-        self.rumble.follow(now_ms, gamepad.is_some_and(|pad| pad.can_rumble), felt)
+        let felt = self.take_felt();
+        let shake = self.rumble.follow(now_ms, gamepad.is_some_and(|pad| pad.can_rumble), felt);
+        (shake, self.sound.follow(now_ms, has_sound, felt.filter(|_| !is_hidden)))
     }
 
-    /// What is to sound from `now_ms` on, where that has to be told; in a hidden window nothing does.
-    pub(in crate::app) fn follow_sound(&mut self, now_ms: f64, is_offered: bool, is_hidden: bool) -> Option<Tone> {
-        let felt = self.felt().filter(|_| !is_hidden);
-        self.sound.follow(now_ms, is_offered, felt)
-    }
-
-    /// What the hand holds at the guide, while one does.
-    fn felt(&self) -> Option<Felt> {
+    /// The most that the hand has held at the guide since it was last asked, while one does.
+    fn take_felt(&mut self) -> Option<Felt> {
         let is_by_hand = self.is_in_hand() && self.run().is_some_and(|run| !run.autopilot);
-        let frame = self.frame().filter(|_| is_by_hand)?;
-        Some(Felt { step: frame.step, force: [frame.push_n, frame.torque_n_mm] })
+        let run = &mut self.session_mut()?.run;
+        let force = run.take_strongest();
+        let step = run.frame.as_ref().filter(|_| is_by_hand)?.step;
+        Some(Felt { step, force })
     }
 
     /// Hears how the haptic device is; in a hidden window its force ends. Says whether the trial has to be paused, or has to go

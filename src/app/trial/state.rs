@@ -131,6 +131,9 @@ pub struct Run {
     pub(super) frame: Option<Frame>,
     /// Counts up with every frame in which the wire is another than in the one before.
     pictures: u64,
+    /// The largest force in N and torque in N mm at the guide since they were last asked for: several frames may come between
+    /// two pictures.
+    strongest: [f64; 2],
     /// What the wall has felt, in the order in which it was told.
     pub(super) felt: Vec<Touch>,
     /// The largest forces.
@@ -375,11 +378,46 @@ impl Run {
     pub(super) fn show(&mut self, frame: Frame) {
         let is_same = |before: &Frame| (before.step, &before.nodes) == (frame.step, &frame.nodes);
         self.pictures += u64::from(!self.frame.as_ref().is_some_and(is_same));
+        for (most, force) in self.strongest.iter_mut().zip([frame.push_n, frame.torque_n_mm]) {
+            // What is no number stays, for the guard to see.
+            if !(*most >= force.abs() || most.is_nan()) {
+                *most = force.abs();
+            }
+        }
         self.frame = Some(frame);
+    }
+
+    /// The largest force in N and torque in N mm at the guide since this was last asked, or those of now.
+    pub(super) fn take_strongest(&mut self) -> [f64; 2] {
+        let now = self.frame.as_ref().map_or([0.0; 2], |frame| [frame.push_n.abs(), frame.torque_n_mm.abs()]);
+        std::mem::replace(&mut self.strongest, now)
     }
 }
 
 /// What of a document its level comes from.
 pub(super) fn taken_from(document: &Document) -> Revision {
     Revision { measured: 0, opened: 0, ..document.revision }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_felt_between_two_pictures_is_the_most_that_came() {
+        let mut run = Run::default();
+        let mut feel = |forces: &[[f64; 2]]| {
+            forces.iter().for_each(|&[push_n, torque_n_mm]| {
+                run.show(Frame { push_n, torque_n_mm, ..Frame::default() });
+            });
+            run.take_strongest()
+        };
+        assert_eq!(feel(&[]), [0.0; 2]);
+        assert_eq!(feel(&[[0.01, 0.0], [-0.03, 0.2], [0.02, -0.1]]), [0.03, 0.2], "a pull is felt as well as a push");
+        assert_eq!(feel(&[]), [0.02, 0.1], "what was last holds on");
+        assert_eq!(feel(&[[0.001, 0.0]]), [0.02, 0.1], "from then on");
+        assert_eq!(feel(&[]), [0.001, 0.0]);
+        assert!(feel(&[[f64::NAN, 0.0], [0.01, 0.0]])[0].is_nan(), "what is no number is not passed over");
+        assert_eq!(feel(&[]), [0.01, 0.0]);
+    }
 }
