@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
 import { atEntry, settled } from "./app.mjs";
-import { frames, launch, npm, openApp, press } from "./browser.mjs";
+import { COARSE, frames, launch, npm, openApp, press } from "./browser.mjs";
 
 const axe = createRequire(`${npm}/`)("axe-core").source;
 
@@ -24,7 +24,7 @@ async function isAccessible(page, screen) {
 }
 
 test("every screen passes axe", { timeout: 300_000 }, async (t) => {
-  const { page } = await openApp(t, browser);
+  const { page } = await openApp(t, browser, { context: COARSE });
   await settled(page);
   await isAccessible(page, "as it starts");
   for (const sheet of ["Help", "About"]) {

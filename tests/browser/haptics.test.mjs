@@ -6,7 +6,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { atEntry, atRest, fed, inserted, settled } from "./app.mjs";
-import { dist, eventually, frames, launch, openApp, press, started, texts, twin } from "./browser.mjs";
+import { COARSE, dist, eventually, frames, launch, openApp, press, started, texts, twin } from "./browser.mjs";
 
 const beside = (name) => readFile(new URL(name, import.meta.url), "utf8");
 const fake = (await beside("fake-hid.js")).replace(/^/, `const COLLECTIONS = ${await beside("../haptics/feeder-collections.json")};\n`);
@@ -65,6 +65,7 @@ function loudspeaker() {
 async function openTrial(t, more = [], mock = fake) {
   const worker = await readFile(`${dist}/worker.js`, "utf8");
   const opened = await openApp(t, browser, {
+    context: COARSE,
     before: async (page) => {
       await page.addInitScript(mock);
       for (const script of more) await page.addInitScript(script);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { atEntry, atRest, fed, settled, workersOn } from "./app.mjs";
-import { eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { COARSE, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 /** How long the autopilot may take. */
 const LIMIT = 120_000;
@@ -22,7 +22,7 @@ const told = (page, pattern, what, timeout = 60_000) =>
   );
 
 test("the autopilot steers the wire to the target, and the log is saved", { timeout: 4 * LIMIT }, async (t) => {
-  const { page, wrong } = await openApp(t, browser);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE });
   await settled(page);
   assert.equal(workersOn(page, "trial").length, 0, "no Worker before it is needed");
 
@@ -70,7 +70,7 @@ test("the autopilot steers the wire to the target, and the log is saved", { time
 });
 
 test("keys drive the wire while they are held", async (t) => {
-  const { page, wrong } = await openApp(t, browser);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE });
   await settled(page);
   await press(page, "button", "Trial");
   const start = await atEntry(page);
