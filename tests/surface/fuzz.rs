@@ -8,13 +8,13 @@ use lumen::io::import_mesh;
 use lumen::mesh::{TriMesh, self_intersections};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Keep, Settings, Target};
+use lumen::pipeline::settings::{Keep, Settings, Smoothing, Target, Window};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use crate::crossings::crossing_faces;
 use crate::promises::{check, settings};
-use crate::tangles::tangles;
+use crate::tangles::{Fault, Tangle, tangles};
 
 /// Most faults of a surface.
 const FAULTS: usize = 12;
@@ -84,4 +84,36 @@ fn a_bound_on_the_deviation_is_kept() {
             _ => Ok(()),
         }
     });
+}
+
+/// Two vertices of an open tube are welded, and its wall folds beside the cut: beyond the fold it looks the same way again
+/// and hangs together with what is before the fold, the other way around. Found by seed 1.
+#[test]
+fn what_looks_the_same_way_beyond_a_fold_is_not_run_into() {
+    let tangle = Tangle {
+        rings: 10,
+        sides: 4,
+        is_closed: false,
+        noise: 0.4,
+        seed: 3_749_145_477,
+        faults: vec![Fault::WeldVertices([1_306_669_233, 1_326_262_705])],
+    };
+    let mut settings = Settings { keep: Keep::All, ..Settings::default() };
+    settings.smoothing = Smoothing {
+        window: Window::Blackman,
+        pass_band: 0.036_858_785_175_070_88,
+        iterations: 10,
+        adapt: false,
+        guard: false,
+        ..settings.smoothing
+    };
+    settings.decimation.feature_angle = 156.774_266_082_557_25;
+    let mesh = Arc::new(import_mesh(tangle.mesh(), "tangle").mesh);
+    let mut pipeline = Pipeline::new(mesh, settings.clone()).with_samples(1);
+    for count in (14..=72).rev() {
+        pipeline.set(Settings { target: Target::Triangles(count), ..settings.clone() }).unwrap();
+        pipeline.finish().unwrap();
+        let level = &pipeline.reduced().unwrap().mesh;
+        assert_eq!(crossing_faces(level), 0, "at {} triangles", level.triangles.len());
+    }
 }

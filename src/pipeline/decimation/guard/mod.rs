@@ -300,6 +300,9 @@ impl Guard {
         if self.found.is_empty() && axis.is_some() {
             return true;
         }
+        if axis.is_some() {
+            self.gather_beyond_folds(rings, planned);
+        }
         if self.found.len() > MOST_NEAR {
             return false;
         }
@@ -329,6 +332,26 @@ impl Guard {
         self.effort += others.len() * old.len();
         let before = Crossings::between(&old, &others);
         after.is_within(&before)
+    }
+
+    /// Where `found` has a triangle at a vertex of a collapse's rim, the surface folds there, and what looks the same way
+    /// beyond the fold is no part of the sheet: it adds all triangles at that vertex. The fold itself may share an edge with
+    /// what runs through it, by which the two never cross.
+    fn gather_beyond_folds(&mut self, rings: &Rings, planned: &Planned) {
+        let Planned { v, u, .. } = *planned;
+        let centres = if planned.other.is_some() { &[v, u][..] } else { &[v] };
+        let rim = centres.iter().flat_map(|&centre| rings.around(centre)).map(|&entry| neighbour(entry));
+        let known = self.found.len();
+        for slot in rim.filter(|slot| !centres.contains(slot)) {
+            if self.found[..known].iter().any(|corners| corners.contains(&slot)) {
+                let beyond = rings.pairs(slot).filter(|pair| !pair.iter().any(|other| centres.contains(other)));
+                self.found.extend(beyond.map(|[a, b]| turned([slot, a, b])));
+            }
+        }
+        if self.found.len() > known {
+            self.found.sort_unstable();
+            self.found.dedup();
+        }
     }
 
     /// Puts into `found` the triangles of the leaves in `near` that reach into the box of a collapse and do not go with
