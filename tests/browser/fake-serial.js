@@ -1,5 +1,5 @@
 // The open feeder behind `navigator.serial`, as a browser without WebHID would have it: in the page, where it can be asked
-// for, and in the Worker, where its bytes go. A script for either; FEEDER has the report descriptor's bytes and what Chromium
+// for, and in the Worker, where its bytes go. A script for either, after fake-feeder.js; FEEDER has the report descriptor's bytes and what Chromium
 // tells of it (for the reports' lengths). States and user activation are enforced as Web Serial says; the frames are taken
 // apart here by docs/haptic-device.md, without the app's code. What the device sends is cut where no frame ends.
 //
@@ -11,11 +11,7 @@
   const now = () => performance.timeOrigin + performance.now();
   const [INPUT, OUTPUT, SET, GET, DESCRIPTOR, REFUSED] = [1, 2, 3, 4, 5, 6];
 
-  const lengths = {};
-  for (const report of FEEDER.collections[0].outputReports) {
-    const bits = report.items.reduce((sum, item) => sum + item.reportSize * item.reportCount, 0);
-    lengths[report.reportId] = Math.ceil(bits / 8);
-  }
+  const lengths = reportLengths(FEEDER.collections[0].outputReports);
 
   const crc = (bytes) => {
     let sum = 0xffff;
@@ -63,11 +59,7 @@
     listens = false;
     readable = null;
     writable = null;
-    /** Where the hand has the axes, -32767 to 32767, and where it takes them by when. */
-    at = [0, 0];
-    way = null;
-    effects = new Set();
-    loaded = [0, 2, 0, 0];
+    feeder = new FakeFeeder();
     #reads = null;
     #writes = null;
     #frame = [];
@@ -107,7 +99,8 @@
       if (!this.isOpen) throw new DOMException("The port is closed.", "InvalidStateError");
       if (dataTerminalReady && !this.listens) {
         this.listens = true;
-        this.tick();
+        const report = () => this.#send(pack(INPUT, 1, new Uint8Array(this.feeder.input().buffer)));
+        this.feeder.tick(() => this.listens, report);
       }
     }
 
@@ -140,47 +133,19 @@
       const { kind, id, data } = heard;
       if (kind === OUTPUT) {
         if (data.length !== lengths[id]) channel.postMessage({ wrong: heard });
-        if (id === 5) this.effects.delete(data[0]);
-        if (id === 6 && data[0] === 4) this.effects.clear();
+        this.feeder.hear(id, data);
         channel.postMessage({ heard: { id, bytes: data, at: now() } });
       } else if (kind === SET && id === 0x11 && data.length === 3) {
-        const index = [1, 2, 3, 4].find((free) => !this.effects.has(free));
-        this.loaded = index ? [index, 1, 0, 0] : [0, 2, 0, 0];
-        if (index) this.effects.add(index);
+        this.feeder.load();
         this.#send(pack(SET, id));
       } else if (kind === GET && id === 0x12) {
-        this.#send(pack(GET, id, this.loaded));
+        this.#send(pack(GET, id, this.feeder.loaded));
       } else if (kind === DESCRIPTOR) {
         this.#send(pack(DESCRIPTOR, id, FEEDER.descriptor.slice(56 * id, 56 * id + 56)));
       } else {
         channel.postMessage({ wrong: heard });
         this.#send(pack(REFUSED, id));
       }
-    }
-
-    /** Sends a report for each ms that has passed. */
-    tick() {
-      let last = performance.now();
-      const again = () => {
-        if (!this.listens) return;
-        const due = Math.min(20, Math.floor(performance.now() - last));
-        last += due;
-        for (let i = 0; i < due; i++) this.report();
-        setTimeout(again, 1);
-      };
-      again();
-    }
-
-    report() {
-      if (this.way) {
-        const part = Math.min(1, (performance.now() - this.way.from) / this.way.ms);
-        this.at = this.at.map((_, i) => Math.round(this.way.start[i] + (this.way.end[i] - this.way.start[i]) * part));
-        if (part === 1) this.way = null;
-      }
-      const data = new DataView(new ArrayBuffer(5));
-      data.setInt16(1, this.at[0], true);
-      data.setInt16(3, this.at[1], true);
-      this.#send(pack(INPUT, 1, new Uint8Array(data.buffer)));
     }
   }
 
@@ -216,7 +181,7 @@
       if ("isOpen" in data) globalThis.fakeSerial.isOpen = data.isOpen;
       return;
     }
-    if (data.go) port.way = { from: performance.now(), ms: data.ms, start: port.at, end: data.go.map((part) => Math.round(32767 * part)) };
+    if (data.go) port.feeder.go(data.go, data.ms);
     if ("plug" in data) plug(data.plug);
   };
   if (isPage) {
@@ -224,7 +189,6 @@
       heard: [],
       wrong: [],
       isOpen: false,
-      /** Moves the hand to these parts of half of the axes' ways, -1 to 1, within so many ms. */
       go: (feed, roll, ms) => channel.postMessage({ go: [feed, roll], ms }),
       plug: (is) => (channel.postMessage({ plug: is }), plug(is)),
     };

@@ -9,15 +9,16 @@ import { atEntry, atRest, fed, inserted, settled } from "./app.mjs";
 import { COARSE, dist, eventually, frames, launch, openApp, press, started, texts, twin } from "./browser.mjs";
 
 const beside = (name) => readFile(new URL(name, import.meta.url), "utf8");
-const fake = (await beside("fake-hid.js")).replace(/^/, `const COLLECTIONS = ${await beside("../haptics/feeder-collections.json")};\n`);
+const [feeder, collections] = [await beside("fake-feeder.js"), await beside("../haptics/feeder-collections.json")];
+const fake = [`const COLLECTIONS = ${collections};`, feeder, await beside("fake-hid.js")].join("\n");
 
 /** The feeder at a serial port, in a browser without WebHID: its descriptor's bytes are those of the app's source. */
 async function bySerial() {
   const source = await beside("../../src/haptics/feeder.rs");
   const table = source.slice(source.indexOf("DESCRIPTOR: &[u8]")).replace(/\/\/.*/g, "");
   const descriptor = (table.match(/0x[0-9A-F]{2}\b/g) ?? []).map(Number);
-  const feeder = `const FEEDER = { collections: ${await beside("../haptics/feeder-collections.json")}, descriptor: ${JSON.stringify(descriptor)} };`;
-  return `${feeder}\n${await beside("fake-serial.js")}`;
+  const known = `const FEEDER = { collections: ${collections}, descriptor: ${JSON.stringify(descriptor)} };`;
+  return [known, feeder, await beside("fake-serial.js")].join("\n");
 }
 
 let browser;

@@ -17,6 +17,11 @@ use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, Machine, TrialEngine};
 use lumen::render::Fault;
 
+/// A window on a desktop, in points.
+pub const DESKTOP: [f32; 2] = [1280.0, 800.0];
+/// That of a phone.
+pub const PHONE: [f32; 2] = [390.0, 844.0];
+
 /// What the test sees of the platform.
 #[derive(Default)]
 pub struct Memory {
@@ -423,6 +428,16 @@ fn is_settled(state: &State) -> bool {
             .is_some_and(|measured| !measured.deviation.is_empty() && measured.generation == state.generation())
     });
     is_measured && !state.is_busy()
+}
+
+/// Presses the pointer's button at a place, moves the pointer, and lets the button go.
+pub fn drag(harness: &mut Harness<'_, LumenApp>, from: egui::Pos2, by: egui::Vec2) {
+    harness.drag_at(from);
+    harness.run_steps(2);
+    harness.hover_at(from + by);
+    harness.run_steps(2);
+    harness.drop_at(from + by);
+    harness.run_steps(2);
 }
 
 /// Lets the app look after itself `times` times as eframe does while the window is minimised or its tab hidden: no

@@ -13,12 +13,8 @@ use lumen::trial::route::{PlaceName, WayEnd};
 use lumen::trial::setup::{Entry, Setup};
 use lumen::trial::summary::Summary;
 
+pub use crate::{DESKTOP, PHONE, says};
 use crate::{Memory, app, settle};
-
-/// A window on a desktop, in points.
-pub const DESKTOP: [f32; 2] = [1280.0, 800.0];
-/// That of a phone.
-pub const PHONE: [f32; 2] = [390.0, 844.0];
 
 /// The app under test.
 pub type App = Harness<'static, LumenApp>;
@@ -86,11 +82,6 @@ pub fn wait(harness: &mut App, is_so: impl Fn(&App) -> bool) {
         harness.step();
     }
     panic!("it does not come to be");
-}
-
-/// Whether some text of the app has this in it.
-pub fn says(harness: &App, text: &str) -> bool {
-    harness.query_all_by_label_contains(text).next().is_some()
 }
 
 /// A way through the middle of the sample.

@@ -340,18 +340,23 @@ impl Guard {
     fn gather_beyond_folds(&mut self, rings: &Rings, planned: &Planned) {
         let Planned { v, u, .. } = *planned;
         let centres = if planned.other.is_some() { &[v, u][..] } else { &[v] };
-        let rim = centres.iter().flat_map(|&centre| rings.around(centre)).map(|&entry| neighbour(entry));
-        let known = self.found.len();
-        for slot in rim.filter(|slot| !centres.contains(slot)) {
-            if self.found[..known].iter().any(|corners| corners.contains(&slot)) {
-                let beyond = rings.pairs(slot).filter(|pair| !pair.iter().any(|other| centres.contains(other)));
-                self.found.extend(beyond.map(|[a, b]| turned([slot, a, b])));
-            }
+        let mut rim: Vec<u32> =
+            centres.iter().flat_map(|&centre| rings.around(centre)).map(|&entry| neighbour(entry)).collect();
+        rim.retain(|slot| !centres.contains(slot));
+        rim.sort_unstable();
+        let corners = self.found.iter().flatten().copied();
+        let mut folds: Vec<u32> = corners.filter(|slot| rim.binary_search(slot).is_ok()).collect();
+        folds.sort_unstable();
+        folds.dedup();
+        if folds.is_empty() {
+            return;
         }
-        if self.found.len() > known {
-            self.found.sort_unstable();
-            self.found.dedup();
+        for &slot in &folds {
+            let beyond = rings.pairs(slot).filter(|pair| !pair.iter().any(|other| centres.contains(other)));
+            self.found.extend(beyond.map(|[a, b]| turned([slot, a, b])));
         }
+        self.found.sort_unstable();
+        self.found.dedup();
     }
 
     /// Puts into `found` the triangles of the leaves in `near` that reach into the box of a collapse and do not go with

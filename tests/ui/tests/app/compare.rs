@@ -9,10 +9,7 @@ use lumen::app::compare::{Arrangement, Cell, Made, Outcome};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::paper;
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{app, says, settle, settle_wholly};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
-const PHONE: [f32; 2] = [390.0, 844.0];
+use lumen_ui_tests::{DESKTOP, PHONE, app, drag, says, settle, settle_wholly};
 
 fn press(harness: &mut Harness<'_, LumenApp>, button: &str) {
     harness.get_by_role_and_label(Role::Button, button).click();
@@ -178,12 +175,7 @@ fn all_pictures_turn_together_and_go_with_the_theme_and_the_arrangement() {
     };
     let first = look(&mut harness);
     let middle = places[1].center();
-    harness.drag_at(middle);
-    harness.run_steps(2);
-    harness.hover_at(middle + egui::vec2(60.0, 0.0));
-    harness.run_steps(2);
-    harness.drop_at(middle + egui::vec2(60.0, 0.0));
-    harness.run_steps(2);
+    drag(&mut harness, middle, egui::vec2(60.0, 0.0));
     let turned = look(&mut harness);
     assert!(first.iter().zip(&turned).all(|(a, b)| a != b), "one camera for all");
     assert_eq!(harness.state().state().settings.target, Target::Reduction(900), "a drag is no click");
@@ -351,12 +343,7 @@ fn who_has_moved_the_camera_is_left_where_he_looks() {
     memory.borrow_mut().runs = false;
     press(&mut harness, "Compare");
     let middle = harness.query_all_by_role(Role::RadioButton).next().unwrap().rect().center();
-    harness.drag_at(middle);
-    harness.run_steps(2);
-    harness.hover_at(middle + egui::vec2(60.0, 0.0));
-    harness.run_steps(2);
-    harness.drop_at(middle + egui::vec2(60.0, 0.0));
-    harness.run_steps(2);
+    drag(&mut harness, middle, egui::vec2(60.0, 0.0));
     let chosen = *harness.state().camera();
     memory.borrow_mut().runs = true;
     settle(&mut harness);

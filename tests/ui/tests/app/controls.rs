@@ -7,9 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::filter::Filter;
 use lumen::pipeline::settings::{Method, Target, Window};
-use lumen_ui_tests::{app, says, settle};
-
-pub(crate) const DESKTOP: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, app, says, settle};
 
 pub(crate) fn open() -> Harness<'static, LumenApp> {
     let (mut harness, _) = app(DESKTOP);

@@ -6,9 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::pipeline::deviation::Deviation;
-use lumen_ui_tests::{app, says, settle};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, app, says, settle};
 
 /// The numbers: from the smoothed surface, and from the one that was opened.
 fn numbers(harness: &Harness<'_, LumenApp>) -> [Deviation; 2] {

@@ -9,12 +9,10 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::decimation::Fate;
 use lumen::pipeline::progressive::Level;
 use lumen::pipeline::settings::Target;
-use lumen_ui_tests::{app, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, app, says, settle, tube};
 
 use crate::recovery::tell;
 use crate::teaching::click;
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
 fn level(harness: &Harness<'_, LumenApp>) -> Level {
     harness.state().state().document.as_ref().unwrap().shown.as_ref().unwrap().level.clone()

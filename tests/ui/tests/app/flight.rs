@@ -6,9 +6,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::render::Camera;
-use lumen_ui_tests::{moving_app, settle};
+use lumen_ui_tests::{DESKTOP, moving_app, settle};
 
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
 /// Seconds between two frames.
 const FRAME_S: f32 = 1.0 / 20.0;
 

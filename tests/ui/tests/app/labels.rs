@@ -6,9 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::render::{Colour, contrast};
-use lumen_ui_tests::{app, settle_wholly};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, app, settle_wholly};
 
 /// The contrast of the brightest and the darkest pixel in a part of the window.
 fn contrast_in(harness: &mut Harness<'_, LumenApp>, part: Rect) -> f32 {

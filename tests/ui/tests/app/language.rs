@@ -6,9 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::language::{self, Key as Message, Language};
-use lumen_ui_tests::{Kept, app, in_hand, page, says, settle};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, Kept, app, in_hand, page, says, settle};
 
 /// Chooses a language, in a window that has these words for its menu and the languages.
 fn choose(harness: &mut Harness<'_, LumenApp>, [view, language]: [&str; 2], choice: &str) {

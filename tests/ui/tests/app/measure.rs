@@ -12,10 +12,7 @@ use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Preset, Settings, Target};
 use lumen::sharing::measures::{Found, MadeOn, Measure};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{Memory, app, says, settle, settle_wholly, tube};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
-const PHONE: [f32; 2] = [390.0, 844.0];
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, says, settle, settle_wholly, tube};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 

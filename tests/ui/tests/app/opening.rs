@@ -6,9 +6,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{DESKTOP, app, settle};
 
-use crate::controls::{DESKTOP, open, press_at, shown};
+use crate::controls::{open, press_at, shown};
 
 #[test]
 fn another_piece_is_chosen_in_the_list() {

@@ -5,10 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{Memory, app, says, settle_wholly};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
-const PHONE: [f32; 2] = [390.0, 844.0];
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, says, settle_wholly};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 

@@ -11,9 +11,7 @@ use lumen::io::{Format, write};
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::settings::{Keep, Settings, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{Kept, Memory, dying_page, page, settle};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, Kept, Memory, dying_page, page, settle};
 
 /// A vessel as the bytes of a file.
 pub(crate) fn vessel(triangles: usize) -> Vec<u8> {

@@ -6,9 +6,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::settings::Keep;
-use lumen_ui_tests::{app, moving_app, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, drag, moving_app, settle, settle_wholly};
 
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
 /// The line in the shaded view.
 const LINE: &str = "Divider between as opened and now";
 /// That in the wireframe view.
@@ -93,11 +92,7 @@ fn the_line_is_moved_by_pointer_and_by_keys() {
     let before = *harness.state().camera();
     let line = harness.get_by_role_and_label(Role::Slider, LINE).rect().center();
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
-    harness.drag_at(line);
-    harness.hover_at(line + egui::vec2(view.width() / 4.0, 0.0));
-    harness.run_steps(2);
-    harness.drop_at(line + egui::vec2(view.width() / 4.0, 0.0));
-    harness.run_steps(2);
+    drag(&mut harness, line, egui::vec2(view.width() / 4.0, 0.0));
     assert_eq!(at(&harness), 70.0);
     harness.get_by_role_and_label(Role::Slider, LINE).focus();
     harness.run_steps(2);

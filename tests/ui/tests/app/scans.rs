@@ -11,11 +11,10 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::scan::NamedFile;
 use lumen::io::{Axes, Format, ImportOptions, read, write};
 use lumen::phantom::{Sample, generate};
-use lumen_ui_tests::{Kept, Memory, app, page, says, settle};
+use lumen_ui_tests::{DESKTOP, Kept, Memory, app, page, says, settle};
 
 use crate::recovery::{choose, tell};
 
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
 const SIZE: usize = 48;
 
 /// A ball of 15 mm in the middle of 48 voxels of 1 mm along each axis, 500 HU and more in it, in MetaImage.

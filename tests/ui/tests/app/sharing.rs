@@ -6,7 +6,7 @@ use lumen::io::Unit;
 use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Keep, Settings, Target};
 use lumen::sharing::{Digest, Link, SharedSettings, SharedSurface, write_settings};
-use lumen_ui_tests::{Kept, page, settle};
+use lumen_ui_tests::{DESKTOP, Kept, page, settle};
 
 use crate::recovery::{choose, notice, settings_at, tell, vessel};
 
@@ -20,8 +20,6 @@ fn link(surface: SharedSurface, unit: Option<Unit>, settings: Settings) -> Platf
 fn unit(harness: &Harness<'_, LumenApp>) -> Unit {
     harness.state().state().document.as_ref().unwrap().import.unit
 }
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
 fn half() -> Settings {
     Settings { target: Target::Reduction(500), ..Settings::default() }

@@ -6,9 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::settings::Target;
-use lumen_ui_tests::{app, settle, settle_wholly};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, app, settle, settle_wholly};
 
 fn target(harness: &Harness<'_, LumenApp>) -> Target {
     harness.state().state().settings.target

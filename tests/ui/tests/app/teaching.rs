@@ -6,11 +6,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
-use lumen_ui_tests::{Kept, app, page, says, settle};
+use lumen_ui_tests::{DESKTOP, Kept, app, page, says, settle};
 
 use crate::recovery::{notice, tell};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
 /// Clicks the control that is called so, once it is there; scrolls to it first.
 pub(crate) fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {

@@ -6,14 +6,12 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen_ui_tests::told::{put_on, wait};
-use lumen_ui_tests::{app, in_hand, phone, settle, settle_wholly};
+use lumen_ui_tests::{PHONE, app, in_hand, phone, settle, settle_wholly};
 
 use crate::recovery::tell;
 use crate::scans::ball;
 use crate::targets::fits_a_finger;
 use crate::teaching::click;
-
-const PHONE: [f32; 2] = [390.0, 844.0];
 
 type App = Harness<'static, LumenApp>;
 

@@ -10,11 +10,9 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{Memory, app, phone, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, Memory, app, phone, says, settle, settle_wholly, tube};
 
 use crate::targets::fits_a_finger;
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 

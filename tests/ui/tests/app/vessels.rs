@@ -8,9 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{app, says, settle, tube};
-
-const DESKTOP: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, app, says, settle, tube};
 
 /// What the level makes of the vessels, once that is known: it comes after the other numbers.
 fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {

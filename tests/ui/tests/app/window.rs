@@ -3,7 +3,7 @@
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app, drag, settle};
 
 use crate::controls::{open, safe_percent};
 
@@ -33,12 +33,7 @@ fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() 
     safe_percent(&mut harness);
     let picture = harness.render().unwrap();
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
-    harness.drag_at(view.center());
-    harness.run_steps(2);
-    harness.hover_at(view.center() + egui::vec2(80.0, 0.0));
-    harness.run_steps(2);
-    harness.drop_at(view.center() + egui::vec2(80.0, 0.0));
-    harness.run_steps(2);
+    drag(&mut harness, view.center(), egui::vec2(80.0, 0.0));
     let turned = harness.render().unwrap();
     assert_ne!(picture.as_raw(), turned.as_raw());
     harness.key_down(Key::B);

@@ -10,7 +10,7 @@ use lumen::trial::setup::Input;
 use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, PHONE, asked, at_entry, frame, id_of_start, now, on, press, ready, says, start, tell,
 };
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app, drag, settle};
 
 use super::picture;
 
@@ -130,21 +130,14 @@ fn the_fluoroscopy_is_the_large_picture_on_demand_with_the_others_over_it() {
     assert!(vessel.width() < 0.4 * large.width() && vessel.width() > 200.0, "{vessel}");
     // What is dragged in the strip is the strip's.
     let arm = |harness: &App| (harness.state().trial().carm.lao, harness.state().trial().carm.cran);
-    let drag = |harness: &mut App, from: egui::Pos2| {
-        harness.drag_at(from);
-        harness.run_steps(2);
-        harness.hover_at(from + egui::vec2(60.0, 0.0));
-        harness.run_steps(2);
-        harness.drop_at(from + egui::vec2(60.0, 0.0));
-        harness.run_steps(2);
-    };
+    let aside = egui::vec2(60.0, 0.0);
     let (camera, before) = (*harness.state().camera(), arm(&harness));
-    drag(&mut harness, vessel.center());
+    drag(&mut harness, vessel.center(), aside);
     let turned = *harness.state().camera();
     assert!(turned.rotation != camera.rotation && arm(&harness) == before);
-    drag(&mut harness, tip.center());
+    drag(&mut harness, tip.center(), aside);
     assert!(*harness.state().camera() == turned && arm(&harness) == before);
-    drag(&mut harness, large.left_center() + egui::vec2(100.0, 60.0));
+    drag(&mut harness, large.left_center() + egui::vec2(100.0, 60.0), aside);
     assert!(*harness.state().camera() == turned && arm(&harness) != before);
     for key in [Key::F, Key::F, Key::Escape] {
         let is_large = harness.state().trial().carm.is_large;
