@@ -4,7 +4,6 @@
 //!
 //! By its licence (Ubuntu Font Licence 1.0, 2c) what was changed is called "derivative" and what of. `write-fonts` could
 //! do it too, for a minute of compiling in every profile.
-
 //!
 //! Puts together what the program says in English, without comments and empty lines: a sixth of it.
 

@@ -4,6 +4,15 @@ import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { extname, join, normalize, sep } from "node:path";
 
+/**
+ * The page's own policy, as a header: hosts are told to send it (xtask/src/package/headers.rs), and Workers have no other. It
+ * forbids them more than the plainest host does, and nothing else differs.
+ */
+async function policy(folder) {
+  const page = await readFile(join(folder, "index.html"), "utf8");
+  return page.match(/http-equiv="Content-Security-Policy" content="([^"]+)"/)[1];
+}
+
 /** The path dist/ is served under. */
 export const PREFIX = "/some/where/lumen/";
 
@@ -25,6 +34,7 @@ const MEDIA_TYPES = {
  */
 export async function serve(folder, { slow = 0, headers = {}, files = {} } = {}) {
   const asked = [];
+  const told = { "Content-Security-Policy": await policy(folder), "Cache-Control": "no-store", ...headers };
   const server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
     const name = normalize(path.slice(PREFIX.length) || "index.html");
@@ -36,8 +46,8 @@ export async function serve(folder, { slow = 0, headers = {}, files = {} } = {})
     try {
       const body = (await files[name]?.body) ?? (await readFile(join(folder, name)));
       const type = files[name]?.type ?? MEDIA_TYPES[extname(name)] ?? "application/octet-stream";
-      // No policy, no length, no caching: the plainest host there is.
-      response.writeHead(200, { "Content-Type": type, "Cache-Control": "no-store", ...headers });
+      // No length, no caching, no compression.
+      response.writeHead(200, { "Content-Type": type, ...told });
       if (slow > 0 && type === "application/wasm") await trickle(response, body, slow);
       else response.end(body);
     } catch {

@@ -84,6 +84,7 @@ fn check(path: &Path, [non_manifold, duplicates, open_edges]: [usize; 3]) -> Res
     let found = faults(&mesh);
     assert_eq!(found.non_manifold_edges.len(), non_manifold);
     assert!(found.doubles.len() <= duplicates, "{} beside {duplicates}", found.doubles.len());
+    assert_eq!(found.doubles.is_empty(), duplicates == 0);
     let rims: usize = found.holes.iter().map(|hole| hole.rim.len()).sum();
     assert!(rims <= open_edges, "{rims} of {open_edges} open edges");
     if non_manifold == 0 {

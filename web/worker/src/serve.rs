@@ -4,7 +4,7 @@
 //! to itself brings it back at once; a timer would make it wait for 4 ms each time, and is for an engine that keeps
 //! pace with the clock and has time to spare.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::rc::Rc;
 use std::time::Duration;
 
@@ -109,7 +109,8 @@ pub struct Again {
     from: MessagePort,
     to: MessagePort,
     scope: DedicatedWorkerGlobalScope,
-    work: RefCell<js_sys::Function>,
+    /// What is called. None yet is no empty function: making one is forbidden where a host tells Workers the page's policy.
+    work: OnceCell<js_sys::Function>,
     is_sent: Cell<bool>,
     timer: Cell<Option<i32>>,
 }
@@ -118,13 +119,13 @@ impl Again {
     fn new(scope: &DedicatedWorkerGlobalScope) -> Result<Self, JsValue> {
         let channel = MessageChannel::new()?;
         let (from, to, scope) = (channel.port1(), channel.port2(), scope.clone());
-        Ok(Self { from, to, scope, work: RefCell::default(), is_sent: Cell::new(false), timer: Cell::new(None) })
+        Ok(Self { from, to, scope, work: OnceCell::new(), is_sent: Cell::new(false), timer: Cell::new(None) })
     }
 
     /// Calls `work` from now on.
     fn begin(&self, work: &js_sys::Function) {
         self.to.set_onmessage(Some(work));
-        *self.work.borrow_mut() = work.clone();
+        self.work.get_or_init(|| work.clone());
     }
 
     /// The Worker is back.
@@ -146,8 +147,8 @@ impl Again {
 
     fn after(&self, rest: Duration) -> Result<(), JsValue> {
         let ms = rest.as_secs_f64() * 1000.0;
-        let work = self.work.borrow();
-        let timer = self.scope.set_timeout_with_callback_and_timeout_and_arguments_0(&work, ms as i32)?;
+        let work = self.work.get().ok_or("the Worker has not begun")?;
+        let timer = self.scope.set_timeout_with_callback_and_timeout_and_arguments_0(work, ms as i32)?;
         if let Some(older) = self.timer.replace(Some(timer)) {
             self.scope.clear_timeout_with_handle(older);
         }

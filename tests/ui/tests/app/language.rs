@@ -129,6 +129,7 @@ fn in_every_language_the_buttons_of_the_bar_lie_side_by_side_in_the_window() {
                 assert!(rect.left() >= right && rect.right() <= width, "{spoken:?}, {width}, {has_finger}: {rect}");
                 right = rect.right();
             }
+            assert!(right > 0.0, "{spoken:?}, {width}, {has_finger}: no button was found");
         }
     }
     language::speak(Language::English, &[]);
