@@ -33,7 +33,7 @@ lesson-settings-twice = Zeile { $line } der Lektion: „{ $name }“ steht zweim
 lesson-settings-unknown = Zeile { $line } der Lektion: „{ $name }“ bedeutet hier nichts.
 lesson-settings-value = Zeile { $line } der Lektion: „{ $value }“ ist kein Wert für „{ $key }“.
 lesson-settings-range = Zeile { $line } der Lektion ist nicht zu verwenden: { $error }.
-lesson-settings-other = Zeile { $line } der Lektion: { $error }
+lesson-settings-long = Zeile { $line } der Lektion: die Einstellungen sind zu lang.
 
 ## Die Lektionen
 

@@ -33,7 +33,7 @@ lesson-settings-twice = Line { $line } of the lesson: It says "{ $name }" twice.
 lesson-settings-unknown = Line { $line } of the lesson: It says "{ $name }", which means nothing here.
 lesson-settings-value = Line { $line } of the lesson: It cannot be read: "{ $value }" is no value for "{ $key }".
 lesson-settings-range = Line { $line } of the lesson: It cannot be used: { $error }.
-lesson-settings-other = Line { $line } of the lesson: { $error }
+lesson-settings-long = Line { $line } of the lesson: the settings are too long.
 
 ## The lessons
 

@@ -33,7 +33,7 @@ lesson-settings-twice = Ligne { $line } de la leçon : « { $name } » y est 
 lesson-settings-unknown = Ligne { $line } de la leçon : « { $name } » ne veut rien dire ici.
 lesson-settings-value = Ligne { $line } de la leçon : « { $value } » n'est pas une valeur pour « { $key } ».
 lesson-settings-range = La ligne { $line } de la leçon ne peut pas servir : { $error }.
-lesson-settings-other = Ligne { $line } de la leçon : { $error }
+lesson-settings-long = Ligne { $line } de la leçon : les réglages sont trop longs.
 
 ## Les leçons
 

@@ -24,6 +24,7 @@ use crate::language::{Key, decimal, grouped, signed};
 use crate::pipeline::report::Report;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Keep, Method, Preset, Settings, Smoothing, Target, Window, reduction_percent};
+use crate::pipeline::verdict;
 use crate::say;
 
 /// A step of the method: shows its controls, and says what they ask for.
@@ -381,7 +382,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
         help += &say!("panel-safe-changed", count = changed);
     }
     let percent = safe.and_then(|safe| safe.percent);
-    let wanted = percent.map(|percent| Target::Reduction((percent * 10.0).round() as u32));
+    let wanted = percent.map(verdict::rate);
     row(ui, &say!("panel-safe"), &help, |ui| {
         let go =
             ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new(say!("panel-go-there")));

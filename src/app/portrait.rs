@@ -160,7 +160,7 @@ pub(super) fn camera(bounds: &Bounds, axes: Axes, aspect: f32) -> Camera {
 pub(super) const SIZE: [u32; 2] = [640, 720];
 
 /// What is written over the pictures of a report, four of which stand in a row: letters of twice the size can be read there.
-pub(super) fn report_marks(axes: Axes) -> Marks {
+fn report_marks(axes: Axes) -> Marks {
     Marks { axes, scale: 2.0, theme: egui::Theme::Light, alone: None }
 }
 
@@ -181,12 +181,14 @@ impl Shown {
     /// In their order.
     pub(super) const ALL: [Self; 4] = [Self::Opened, Self::Reduced, Self::Wireframe, Self::Colours];
 
-    /// How the surface looks.
-    pub(super) fn look(self) -> Look {
-        match self {
-            Self::Wireframe => Look::Wireframe,
-            Self::Opened | Self::Reduced | Self::Colours => Look::Shaded,
-        }
+    /// How it is drawn on white, seen by `camera`; `map` is what the colours mean, `axes` which way the patient lies.
+    pub(super) fn pose(self, camera: Camera, map: Option<ColourMap>, axes: Axes) -> Pose {
+        let look = if self == Self::Wireframe { Look::Wireframe } else { Look::Shaded };
+        let map = map.filter(|_| self == Self::Colours);
+        // It would darken colours that the legend explains, and lines have nothing to be darkened by.
+        let occlusion = matches!(self, Self::Opened | Self::Reduced);
+        let style = Style { map, occlusion, ..Style::LIGHT };
+        Pose { camera, size: SIZE, look, style, behind: Behind::White, marks: report_marks(axes) }
     }
 
     /// What it shows; `colours` is what the colours mean.
@@ -235,11 +237,11 @@ pub use native::report_pictures;
 /// What needs to wait for the device.
 #[cfg(not(target_arch = "wasm32"))]
 mod native {
-    use super::{Behind, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, report_marks};
+    use super::{Portrait, SIZE, Shown, camera, meaning, pixels};
     use crate::app::compare::figure::{FigureError, Studio};
     use crate::io::Axes;
     use crate::mesh::TriMesh;
-    use crate::render::{ColourMap, Picture, Style};
+    use crate::render::{ColourMap, Picture};
     use crate::report::Pixels;
 
     /// The four pictures of a report, with their captions, drawn without a window: of the surface as opened, and of the
@@ -261,16 +263,12 @@ mod native {
         let seen = camera(&reduced.bounds(), axes, SIZE[0] as f32 / SIZE[1] as f32);
         let mut pictures = Vec::new();
         for shown in Shown::ALL {
-            let is_coloured = shown == Shown::Colours;
-            if is_coloured && map.is_none() {
+            if shown == Shown::Colours && map.is_none() {
                 continue;
             }
-            let scalars = deviation.map(|(scalars, _)| scalars).filter(|_| is_coloured);
+            let scalars = deviation.map(|(scalars, _)| scalars).filter(|_| shown == Shown::Colours);
             portrait.seat(if shown == Shown::Opened { opened } else { reduced }, scalars)?;
-            let style = Style { map: map.filter(|_| is_coloured), ..Style::LIGHT };
-            let marks = report_marks(axes);
-            let pose = Pose { camera: seen, size: SIZE, look: shown.look(), style, behind: Behind::White, marks };
-            let picture = Picture::read_now(&portrait.draw(&pose), device, queue)?;
+            let picture = Picture::read_now(&portrait.draw(&shown.pose(seen, map, axes)), device, queue)?;
             let colours = map.as_ref().map_or(String::new(), |map| meaning(map, false));
             pictures.push((shown.caption(&colours), pixels(picture)));
         }

@@ -22,10 +22,10 @@ use crate::pipeline::report::{DISCLAIMER, Report, UnitReport};
 use crate::pipeline::results::Adapted;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::safe::Safe;
-use crate::pipeline::settings::{Settings, Target};
+use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
-use crate::pipeline::verdict::{Finding, Verdict};
+use crate::pipeline::verdict::{Finding, Verdict, rate};
 use crate::sharing::{SharedSettings, write_settings};
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
@@ -100,15 +100,7 @@ impl Outputs<'_> {
         } else if self.prints_branches || self.report.is_some() || self.branches_csv.is_some() {
             pipeline = pipeline.with_certificate();
         }
-        advance(&mut pipeline)?;
-        if asked.wants_safe {
-            let safe = pipeline.safe().context("the search for the safe rate ended without a result")?;
-            let why = safe.refused.as_deref().unwrap_or_default();
-            let percent = safe.percent.with_context(|| format!("no reduction can be called safe: {why}"))?;
-            let target = Target::Reduction((percent * 10.0).round() as u32);
-            pipeline.set(Settings { target, ..pipeline.settings().clone() })?;
-            advance(&mut pipeline)?;
-        }
+        run_through(&mut pipeline, asked.wants_safe, advance)?;
         if let Some(path) = self.branches_csv {
             let certified = pipeline.certified().context("the calibre was not measured")?;
             let certified = certified.as_ref().map_err(|error| anyhow!("there is no calibre to write: {error}"))?;
@@ -305,6 +297,23 @@ pub(super) fn told_with_remedies(finding: &Finding) -> String {
     let help: Vec<&str> = finding.remedies.iter().map(|remedy| &*remedy.words).collect();
     let help = if help.is_empty() { String::new() } else { format!(" Would help: {}.", help.join(", ")) };
     format!("{}{at}{help}", finding.text)
+}
+
+/// Lets `advance` run the pipeline to its end; with `wants_safe` once more, to the rate that it has found to be safe.
+pub(super) fn run_through(
+    pipeline: &mut Pipeline,
+    wants_safe: bool,
+    advance: fn(&mut Pipeline) -> Result<()>,
+) -> Result<()> {
+    advance(pipeline)?;
+    if !wants_safe {
+        return Ok(());
+    }
+    let safe = pipeline.safe().context("the search for the safe rate ended without a result")?;
+    let why = safe.refused.as_deref().unwrap_or_default();
+    let percent = safe.percent.with_context(|| format!("no reduction can be called safe: {why}"))?;
+    pipeline.set(Settings { target: rate(percent), ..pipeline.settings().clone() })?;
+    advance(pipeline)
 }
 
 /// Runs all stages and shows how far they are, on standard error.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::Args;
 
-use super::optimise::advance;
+use super::optimise::{advance, run_through};
 use super::scan::ScanOptions;
 use super::settings::SettingsOptions;
 use super::{interrupt, misuse, pictures, places, row, source, write_whole};
@@ -14,8 +14,7 @@ use crate::io::{Axes, Format};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::run::Pipeline;
-use crate::pipeline::settings::Settings;
-use crate::pipeline::verdict::{Verdict, rate};
+use crate::pipeline::verdict::Verdict;
 use crate::report::{Document, Picture, ReportFormat, Subject};
 
 /// Writes a page for the record.
@@ -53,13 +52,7 @@ impl WriteReport {
         let settings = asked.shared.settings.clone();
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
         pipeline = if asked.wants_safe { pipeline.with_safe() } else { pipeline.with_certificate() };
-        advance(&mut pipeline)?;
-        if asked.wants_safe {
-            let percent = pipeline.safe().and_then(|safe| safe.percent);
-            let target = rate(percent.context("no reduction can be called safe")?);
-            pipeline.set(Settings { target, ..pipeline.settings().clone() })?;
-            advance(&mut pipeline)?;
-        }
+        run_through(&mut pipeline, asked.wants_safe, advance)?;
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.axes = import.axes;
         let verdict = Verdict::of_run(&report, &import, Format::from_name(&self.file).is_some());

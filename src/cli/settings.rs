@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use super::misuse;
 use super::source::UnitOption;
 use crate::pipeline::settings::{Decimation, Keep, Mending, Method, Preset, Settings, Smoothing, Target, Window};
+use crate::pipeline::verdict::rate;
 use crate::sharing::{self, SharedSettings};
 
 /// What is made of a surface. An option that is given counts for more than the settings file.
@@ -130,7 +131,7 @@ impl SettingsOptions {
         let target = match (self.triangles, self.max_deviation, self.reduction) {
             (Some(count), ..) => Target::Triangles(count),
             (None, Some(bound), _) => Target::Deviation(bound),
-            (None, None, Some(Reduction::Percent(percent))) => Target::Reduction((percent * 10.0).round() as u32),
+            (None, None, Some(Reduction::Percent(percent))) => rate(percent),
             (None, None, Some(Reduction::Safe)) => Target::default(),
             (None, None, None) => begun.target,
         };

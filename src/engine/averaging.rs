@@ -77,17 +77,12 @@ mod tests {
     use crate::engine::{Command, Engine, Source};
     use crate::io::Axes;
     use crate::mesh::Vec3;
-    use crate::mesh::shapes::{icosphere, tube};
+    use crate::mesh::shapes::{icosphere, joined, tube};
     use crate::pipeline::settings::Settings;
 
     /// A tube of 3 mm beside a smaller sphere.
     fn surface() -> TriMesh {
-        let mut mesh = tube(24, 60, 60.0, |_| 3.0);
-        let sphere = icosphere(2, 2.0, Vec3::new(20.0, 0.0, 0.0));
-        let first = mesh.positions.len() as u32;
-        mesh.positions.extend(sphere.positions);
-        mesh.triangles.extend(sphere.triangles.iter().map(|corners| corners.map(|v| v + first)));
-        mesh
+        joined(&[tube(24, 60, 60.0, |_| 3.0), icosphere(2, 2.0, Vec3::new(20.0, 0.0, 0.0))])
     }
 
     fn averaged(keep: Keep, passes: u32) -> (Averaged, TriMesh) {

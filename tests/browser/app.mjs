@@ -106,6 +106,24 @@ async function differing(page, view, from) {
   return differences.filter((difference) => difference > least).length / scale ** 2;
 }
 
+/** Pixels of a picture that are not as the ones at its left edge. */
+export async function drawn(page, control) {
+  const { width, height, data } = await picture(page, control);
+  let count = 0;
+  for (let y = 8; y < height - 8; y++) {
+    const ground = (y * width + 8) * 4;
+    for (let x = 8; x < width - 8; x++) {
+      const at = (y * width + x) * 4;
+      if (Math.abs(data[at] - data[ground]) + Math.abs(data[at + 2] - data[ground + 2]) > 48) count++;
+    }
+  }
+  return count;
+}
+
+/** Waits until the app says something. */
+export const says = (page, pattern, more = {}) =>
+  eventually(() => texts(page), (all) => all.some((text) => pattern.test(text)), { what: `a sentence like ${pattern}`, ...more });
+
 /** How much wire is in, in cm, as the trial's panel has it, or null. */
 export async function inserted(page) {
   const text = (await texts(page)).find((text) => /^[\d.]+ cm$/.test(text));

@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { grouped, settled } from "./app.mjs";
-import { eventually, frames, launch, openApp, picture, press, texts, twin } from "./browser.mjs";
+import { drawn, grouped, settled } from "./app.mjs";
+import { eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 /** Table II of the paper at the rates of its Figure 7. */
 const PRINTED = [66_875, 7_430, 743];
@@ -19,20 +19,6 @@ const compared = (page, count) =>
     ({ all, busy }) => !busy && all.filter((text) => text === "From original").length === count,
     { timeout: 180_000, what: `the numbers of ${count} cells` },
   ).then(({ all }) => all);
-
-/** Whether anything is drawn in a cell: pixels that are not as the one in its corner. */
-async function drawn(page, cell) {
-  const { width, height, data } = await picture(page, cell);
-  let count = 0;
-  for (let y = 8; y < height - 8; y++) {
-    const ground = (y * width + 8) * 4;
-    for (let x = 8; x < width - 8; x++) {
-      const at = (y * width + x) * 4;
-      if (Math.abs(data[at] - data[ground]) + Math.abs(data[at + 2] - data[ground + 2]) > 48) count++;
-    }
-  }
-  return count;
-}
 
 test("six settings are compared, and a click takes one", async (t) => {
   const { page, wrong } = await openApp(t, browser);

@@ -5,8 +5,8 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { atEntry, atRest, fed, inserted, settled } from "./app.mjs";
-import { COARSE, dist, eventually, frames, launch, openApp, press, started, texts, twin } from "./browser.mjs";
+import { atEntry, atRest, fed, inserted, says, settled } from "./app.mjs";
+import { COARSE, dist, eventually, frames, launch, openApp, press, started, twin } from "./browser.mjs";
 
 const beside = (name) => readFile(new URL(name, import.meta.url), "utf8");
 const [feeder, collections] = [await beside("fake-feeder.js"), await beside("../haptics/feeder-collections.json")];
@@ -106,7 +106,6 @@ const isStart = ({ id, bytes }) => id === 4 && bytes[1] < 3;
 const isStop = ({ id, bytes }) => (id === 4 && bytes[1] === 3) || (id === 6 && bytes[0] === 3);
 const heard = (page) => page.evaluate(() => globalThis.fakeHid.heard);
 const there = (page, name) => twin(page, "button", name).waitFor({ state: "attached", timeout: 60_000 });
-const shows = (page, pattern, what) => eventually(() => texts(page), (all) => all.some((text) => pattern.test(text)), { what });
 
 test("a device is paired, feeds the wire, pushes back once armed, and is stopped", { timeout: 300_000 }, async (t) => {
   const { page, wrong } = await openTrial(t);
@@ -156,16 +155,16 @@ test("leaving the window ends the force at once, unplugging pauses the trial, pl
   await atRest(page, 300);
   const later = (await heard(page)).slice(count);
   assert.equal(later.slice(later.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
-  await shows(page, /ended as the window was left/, "why");
+  await says(page, /ended as the window was left/, { what: "why" });
 
   await page.evaluate(() => globalThis.fakeHid.plug(false));
-  await shows(page, /no longer there/, "that it is gone");
-  await shows(page, /^Paused/, "the trial, which waits");
+  await says(page, /no longer there/, { what: "that it is gone" });
+  await says(page, /^Paused/, { what: "the trial, which waits" });
 
   const [before, start] = [(await heard(page)).length, await inserted(page)];
   await page.evaluate(() => globalThis.fakeHid.plug(true));
   await there(page, "Arm force...");
-  await shows(page, /holds the wire again; its force is not armed/, "that it is back");
+  await says(page, /holds the wire again; its force is not armed/, { what: "that it is back" });
   // What it did while it was out is not made up for; from here on it feeds, and is not pushed.
   await page.evaluate(() => globalThis.fakeHid.go(1, 0, 1000));
   await fed(page, start, 0.5);
@@ -175,7 +174,7 @@ test("leaving the window ends the force at once, unplugging pauses the trial, pl
 test("by serial the feeder is paired, feeds, pushes back once armed, is unplugged and plugged in, and let go", { timeout: 300_000 }, async (t) => {
   const { page, wrong } = await openTrial(t, [], await bySerial());
   const serial = (more) => page.evaluate(`globalThis.fakeSerial.${more}`);
-  await shows(page, /reaches the open feeder alone, by serial/, "what this browser reaches");
+  await says(page, /reaches the open feeder alone, by serial/, { what: "what this browser reaches" });
   await choose(page, "Pair by serial...");
   await there(page, "Arm force...");
   assert.equal((await serial("heard")).filter(isStart).length, 0, "no effect is started before it is armed");
@@ -196,12 +195,12 @@ test("by serial the feeder is paired, feeds, pushes back once armed, is unplugge
   assert.equal(all.slice(all.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
 
   await serial("plug(false)");
-  await shows(page, /no longer there/, "that it is gone");
-  await shows(page, /^Paused/, "the trial, which waits");
+  await says(page, /no longer there/, { what: "that it is gone" });
+  await says(page, /^Paused/, { what: "the trial, which waits" });
   const [before, out] = [(await serial("heard")).length, await inserted(page)];
   await serial("plug(true)");
   await there(page, "Arm force...");
-  await shows(page, /holds the wire again; its force is not armed/, "that it is back");
+  await says(page, /holds the wire again; its force is not armed/, { what: "that it is back" });
   await serial("go(1, 0, 1000)");
   await fed(page, out, 0.5);
   assert.equal((await serial("heard")).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
@@ -261,7 +260,7 @@ test("without a device the virtual one holds the wire, its axes are remembered, 
   const ending = tones[tones.findIndex(isPitch) + 1];
   assert(ending.what === "loudness" && ending.value === 0 && Math.abs(ending.from - 0.1) < 1e-9, "each tone ends by itself");
   await page.evaluate(() => dispatchEvent(new Event("blur")));
-  await shows(page, /ended as the window was left/, "why it is still");
+  await says(page, /ended as the window was left/, { what: "why it is still" });
   const count = (await shakes()).length;
   await frames(page, 30);
   assert.equal((await shakes()).length, count, "nothing after it");

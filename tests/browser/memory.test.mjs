@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, openFile, settled, shownTriangles, workersOn } from "./app.mjs";
+import { REDUCTION, openFile, says, settled, shownTriangles, workersOn } from "./app.mjs";
 import { COARSE, dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
@@ -31,9 +31,6 @@ function limitArrays() {
 function failFiles() {
   Blob.prototype.arrayBuffer = () => Promise.reject(new RangeError("Array buffer allocation failed"));
 }
-
-const says = (page, pattern) =>
-  eventually(() => texts(page), (all) => all.some((text) => pattern.test(text)), { what: `a sentence like ${pattern}` });
 
 /** The app reacts to a slider and shows another level. */
 async function works(page, percent) {

@@ -9,7 +9,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
-import { grouped, openFile, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
+import { grouped, openFile, says, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
 import { COARSE, dist, eventually, frames, inSight, launch, openApp, press, program, started, texts, twin } from "./browser.mjs";
 import { SIZE, THRESHOLD, dicom, metaimage, nifti } from "./scans.mjs";
 
@@ -40,9 +40,6 @@ async function trianglesOf(path) {
   await run(program, ["surface", path, "--threshold", String(THRESHOLD), "-o", surface]);
   return stlTriangles(await readFile(surface));
 }
-
-const says = (page, pattern) =>
-  eventually(() => texts(page), (all) => all.some((text) => pattern.test(text)), { what: `a sentence like ${pattern}` });
 
 /** Waits until a scan is open. */
 const scanIsOpen = (page) => says(page, new RegExp(`^${SIZE.join(" x ")}$`));

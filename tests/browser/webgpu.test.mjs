@@ -2,41 +2,27 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { atEntry, fed, settled, silhouette, views } from "./app.mjs";
-import { WEBGPU, contextKind, eventually, frames, launch, openApp, picture, press, texts, twin } from "./browser.mjs";
+import { atEntry, drawn, fed, settled, silhouette, views } from "./app.mjs";
+import { WEBGPU, contextKind, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch(WEBGPU)));
 after(() => browser.close());
 
 test("the app draws with WebGPU where there is one, and with WebGL2 when it is asked to", async (t) => {
-  const drawn = {};
+  const pixels = {};
   for (const [query, expected] of [["", "webgpu"], ["?renderer=webgl", "webgl2"]]) {
     const { page, wrong } = await openApp(t, browser, { query });
     await settled(page);
     assert.equal(await contextKind(page), expected);
-    drawn[expected] = await silhouette(page, views.shaded(page));
+    pixels[expected] = await silhouette(page, views.shaded(page));
     assert.deepEqual(wrong, []);
     await page.close();
   }
-  t.diagnostic(`pixels of the silhouette: ${JSON.stringify(drawn)}`);
-  assert(drawn.webgpu > 10_000, "there is something to see");
-  assert(Math.abs(drawn.webgpu - drawn.webgl2) <= 0.01 * drawn.webgl2, "both draw the same");
+  t.diagnostic(`pixels of the silhouette: ${JSON.stringify(pixels)}`);
+  assert(pixels.webgpu > 10_000, "there is something to see");
+  assert(Math.abs(pixels.webgpu - pixels.webgl2) <= 0.01 * pixels.webgl2, "both draw the same");
 });
-
-/** Pixels of a picture that are not as the ones at its left edge. */
-async function drawn(page, control) {
-  const { width, height, data } = await picture(page, control);
-  let count = 0;
-  for (let y = 8; y < height - 8; y++) {
-    const ground = (y * width + 8) * 4;
-    for (let x = 8; x < width - 8; x++) {
-      const at = (y * width + x) * 4;
-      if (Math.abs(data[at] - data[ground]) + Math.abs(data[at + 2] - data[ground + 2]) > 48) count++;
-    }
-  }
-  return count;
-}
 
 test("with WebGPU settings are compared", async (t) => {
   const { page, wrong } = await openApp(t, browser);

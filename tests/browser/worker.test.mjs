@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, atEntry, openFile, save, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
+import { REDUCTION, atEntry, openFile, save, says, settled, shownTriangles, stlTriangles, workersOn } from "./app.mjs";
 import { COARSE, dragTo, eventually, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
@@ -17,9 +17,6 @@ const kill = (worker) =>
       throw new Error("injected");
     });
   });
-
-const says = (page, pattern) =>
-  eventually(() => texts(page), (all) => all.some((text) => pattern.test(text)), { what: `a sentence like ${pattern}` });
 
 /** A square of 2 n^2 triangles, as OBJ. */
 function sheet(n) {

@@ -285,9 +285,9 @@ fn of_settings(line: usize, error: &LinkError) -> String {
         LinkError::Unknown(name) => say!("lesson-settings-unknown", line = line, name = name),
         LinkError::Value { key, value } => say!("lesson-settings-value", line = line, key = *key, value = value),
         LinkError::Range(error) => say!("lesson-settings-range", line = line, error = error.to_string()),
-        // Of a whole link, as a rule.
+        // The last two are of a whole link.
         LinkError::Long(_) | LinkError::Newer { .. } | LinkError::Missing(_) => {
-            say!("lesson-settings-other", line = line, error = error.to_string().replacen("The link", "It", 1))
+            say!("lesson-settings-long", line = line)
         }
     }
 }

@@ -81,6 +81,8 @@ pub(super) struct Now<'a> {
     pub(super) state: &'a State,
     pub(super) options: ViewOptions,
     pub(super) in_trial: bool,
+    /// Whether the autopilot steers the trial.
+    pub(super) has_autopilot: bool,
     pub(super) are_vessels_open: bool,
     pub(super) are_collapses_open: bool,
 }
@@ -160,10 +162,12 @@ impl Lessons {
         }
         self.waiting.clear();
         self.waiting.extend(view.map(Ask::View));
-        if *trial != Trial::Off && !(now.in_trial && goes_on) {
+        let stays = now.in_trial && goes_on;
+        if *trial != Trial::Off && !stays {
             self.waiting.push_back(Ask::ToggleTrial);
         }
-        if *trial == Trial::Autopilot {
+        // The action turns it on or off; a trial begins without it.
+        if *trial != Trial::Off && (*trial == Trial::Autopilot) != (stays && now.has_autopilot) {
             self.waiting.push_back(Ask::Trial(trial::Action::Autopilot));
         }
         asked
@@ -186,14 +190,19 @@ impl Lessons {
 /// The options with just what a step shows.
 fn options(now: ViewOptions, show: &[Show]) -> ViewOptions {
     let shows = |what: Show| show.contains(&what);
-    let deviation = Colours::Deviation(Deviating::default());
-    let maps = [(Show::Deviation, deviation), (Show::Calibre, Colours::Calibre), (Show::Classes, Colours::Classes)];
+    let deviation = Deviating::default();
+    let maps = [
+        (Show::Deviation, Colours::Deviation(deviation)),
+        (Show::Calibre, Colours::Calibre),
+        (Show::Classes, Colours::Classes),
+    ];
     ViewOptions {
         flat: shows(Show::Flat),
         raking: shows(Show::Raking),
         lines: shows(Show::Lines),
         before: shows(Show::Before),
         reveal: if shows(Show::Split) { Reveal::On } else { Reveal::Off },
+        deviation,
         colours: maps.into_iter().find(|(what, _)| shows(*what)).map_or(Colours::None, |(_, colours)| colours),
         ..now
     }
@@ -237,6 +246,27 @@ mod tests {
                 assert!(!step.text.is_empty() && step.settings.is_some(), "{name}: {}", step.title);
             }
         }
+    }
+
+    #[test]
+    fn the_autopilot_is_turned_on_once_and_off_where_the_wire_goes_into_the_hand() {
+        let step = |trial: &str| format!("step: {trial}\ntext: What is told.\ntrial: {trial}\n\n");
+        let text = format!("lumen lesson 1\ntitle: Steps\n\n{}{}{}", step("autopilot"), step("autopilot"), step("on"));
+        let mut lessons = Lessons::default();
+        lessons.take(text.as_bytes(), None).unwrap();
+        let (state, options) = (State::default(), ViewOptions::default());
+        let mut turns = |step: usize, in_trial: bool, has_autopilot: bool| {
+            let (are_vessels_open, are_collapses_open) = (false, false);
+            let now = Now { state: &state, options, in_trial, has_autopilot, are_vessels_open, are_collapses_open };
+            lessons.go(step, now);
+            lessons.waiting.iter().filter(|ask| matches!(ask, Ask::Trial(trial::Action::Autopilot))).count()
+        };
+        assert_eq!(turns(0, false, false), 1, "a trial begins without it");
+        assert_eq!(turns(1, true, true), 0, "it goes on");
+        assert_eq!(turns(1, true, false), 1);
+        assert_eq!(turns(2, true, true), 1, "off");
+        assert_eq!(turns(2, true, false), 0);
+        assert_eq!(turns(2, false, false), 0);
     }
 
     #[test]

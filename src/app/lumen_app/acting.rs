@@ -219,6 +219,7 @@ impl LumenApp {
                     state: &self.state,
                     options: self.views.options,
                     in_trial: self.trial.is_open(),
+                    has_autopilot: self.trial.run().is_some_and(|run| run.autopilot),
                     are_vessels_open: self.vessels.is_open,
                     are_collapses_open: self.views.collapses.is_open(),
                 };

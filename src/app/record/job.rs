@@ -14,7 +14,7 @@ use crate::app::arrays;
 use crate::app::deviation::Deviating;
 use crate::app::document::Document;
 use crate::app::portrait::{
-    Alone, Behind, Marks, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, report_marks, without_ground,
+    Alone, Behind, Marks, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, without_ground,
 };
 use crate::app::scene::{colour_map, coloured, scalars};
 use crate::app::state::State;
@@ -112,17 +112,12 @@ impl Job {
         let map = colour_map(document, colours);
         let level = level(document);
         let shot = |shown: Shown| {
-            let is_coloured = shown == Shown::Colours;
             let seat = match shown {
                 Shown::Opened => (kept(document, keep), None),
                 Shown::Reduced | Shown::Wireframe => (level.clone(), None),
                 Shown::Colours => (level.clone(), scalars(document, colours).map(|scalars| scalars.as_ref().into())),
             };
-            // It would darken colours that the legend explains, and lines have nothing to be darkened by.
-            let occlusion = matches!(shown, Shown::Opened | Shown::Reduced);
-            let style = Style { map: map.filter(|_| is_coloured), occlusion, ..Style::LIGHT };
-            let marks = report_marks(document.import.axes);
-            let pose = Pose { camera: seen, size: SIZE, look: shown.look(), style, behind: Behind::White, marks };
+            let pose = shown.pose(seen, map, document.import.axes);
             let meaning = map.as_ref().map_or(String::new(), |map| meaning(map, colours == Colours::Calibre));
             Shot { seat: Some(seat), pose, caption: shown.caption(&meaning) }
         };

@@ -159,16 +159,20 @@ impl MendTask {
         self.mesh = mesh;
     }
 
+    fn topology(&self) -> Topology {
+        Topology::new(self.mesh.positions.len(), &self.mesh.triangles)
+    }
+
     /// Makes windings agree, and pieces face outwards, where they can.
     fn orient(&mut self) {
         let pieces = components(self.mesh.positions.len(), &self.mesh.triangles);
-        let mut topology = Topology::new(self.mesh.positions.len(), &self.mesh.triangles);
+        let mut topology = self.topology();
         let mut orientable = vec![true; pieces.count()];
         if !topology.is_consistent() {
             let made = winding::make_consistent(&mut self.mesh.triangles, &topology, &pieces);
             self.report.reoriented_triangles += made.reversed;
             orientable = made.orientable;
-            topology = Topology::new(self.mesh.positions.len(), &self.mesh.triangles);
+            topology = self.topology();
         }
         self.report.components_turned += winding::turn_outward(&mut self.mesh, &topology, &pieces, &orientable);
     }
@@ -213,7 +217,10 @@ impl MendTask {
                     Before::Fill => (Step::BeginFill, 0.65),
                 }
             }
-            Step::BeginLumen if lumen => (Step::Lumen(Box::new(WallTask::new(&self.mesh, true))), 0.25),
+            // Where its sides do not agree there is no wall to be found, as `Faults` finds none.
+            Step::BeginLumen if lumen && self.topology().is_consistent() => {
+                (Step::Lumen(Box::new(WallTask::new(&self.mesh, true))), 0.25)
+            }
             Step::BeginLumen => (Step::Split, 0.5),
             Step::Lumen(mut task) => match task.advance(&self.mesh, budget) {
                 Progress::Working(fraction) => (Step::Lumen(task), 0.25 + 0.25 * fraction),

@@ -88,7 +88,7 @@ mod tests {
     use super::super::DecimationTask;
     use super::*;
     use crate::mesh::arrays::{Scalar, Values};
-    use crate::mesh::shapes::tube;
+    use crate::mesh::shapes::{square, tube};
     use crate::pipeline::progressive::ProgressiveMesh;
     use crate::pipeline::settings::{Decimation, Method, Target};
     use crate::pipeline::task::Task;
@@ -116,15 +116,6 @@ mod tests {
         Array::new("RegionId", On::Triangle, 1, numbers)
     }
 
-    /// A square of `n` by `n` cells of 1 mm, each of two triangles.
-    fn square(n: u32) -> TriMesh {
-        let at = |i: u32, j: u32| i + (n + 1) * j;
-        let positions = (0..=n).flat_map(|j| (0..=n).map(move |i| Vec3::new(i as f32, j as f32, 0.0))).collect();
-        let cells = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
-        let cut = |(i, j)| [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]];
-        TriMesh { positions, triangles: cells.flat_map(cut).collect() }
-    }
-
     /// Whether the triangles of a level lie on one side each, by `side` of a point: negative, positive, or 0 on the border.
     fn are_apart(level: &TriMesh, side: impl Fn(Vec3) -> f32) -> bool {
         level.triangles.iter().all(|corners| {
@@ -140,7 +131,7 @@ mod tests {
 
     #[test]
     fn a_straight_border_in_a_plane_stays_where_it_is() {
-        let mesh = square(40);
+        let mesh = square(40, 40.0, 0.0);
         let middle = |t: &[u32; 3]| t.iter().map(|&v| mesh.positions[v as usize].x).sum::<f32>() / 3.0;
         let found = labels(of_triangles(mesh.triangles.iter().map(|t| f32::from(middle(t) > 17.0)).collect()), &mesh);
         for method in Method::ALL {
@@ -182,7 +173,7 @@ mod tests {
 
     #[test]
     fn where_three_labels_meet_the_vertex_stays_and_none_is_lost() {
-        let mesh = square(30);
+        let mesh = square(30, 30.0, 0.0);
         let part = |t: &[u32; 3]| {
             let [x, y] = [0, 1].map(|axis| t.iter().map(|&v| mesh.positions[v as usize][axis]).sum::<f32>() / 3.0);
             if x > 12.0 { 2.0 } else { f32::from(y > 9.0) }
@@ -198,7 +189,7 @@ mod tests {
 
     #[test]
     fn what_is_no_label_and_one_label_alone_make_no_border() {
-        let mesh = square(2);
+        let mesh = square(2, 2.0, 0.0);
         let numbers =
             Array::new("Area", On::Triangle, 1, Values::from_floats(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]));
         assert_eq!(labels_of(&mesh, &[numbers]), None);

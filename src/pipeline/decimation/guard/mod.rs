@@ -94,6 +94,18 @@ pub(super) struct Planned<'a> {
     pub(super) other: Option<(&'a Star, usize)>,
 }
 
+impl Planned<'_> {
+    /// The slots whose triangles go, or are others afterwards.
+    fn centres(&self) -> impl Iterator<Item = u32> {
+        std::iter::once(self.v).chain(self.other.is_some().then_some(self.u))
+    }
+
+    /// Whether a slot is one of these.
+    fn is_centre(&self, slot: u32) -> bool {
+        slot == self.v || self.other.is_some() && slot == self.u
+    }
+}
+
 impl Guard {
     /// Starts over the surface as it is now; [`Self::advance`] goes on. It `is_closed` if it is one piece without a
     /// boundary and without a cut.
@@ -338,11 +350,9 @@ impl Guard {
     /// beyond the fold is no part of the sheet: it adds all triangles at that vertex. The fold itself may share an edge with
     /// what runs through it, by which the two never cross.
     fn gather_beyond_folds(&mut self, rings: &Rings, planned: &Planned) {
-        let Planned { v, u, .. } = *planned;
-        let centres = if planned.other.is_some() { &[v, u][..] } else { &[v] };
+        let around = planned.centres().flat_map(|centre| rings.around(centre));
         let mut rim: Vec<u32> =
-            centres.iter().flat_map(|&centre| rings.around(centre)).map(|&entry| neighbour(entry)).collect();
-        rim.retain(|slot| !centres.contains(slot));
+            around.map(|&entry| neighbour(entry)).filter(|&slot| !planned.is_centre(slot)).collect();
         rim.sort_unstable();
         let corners = self.found.iter().flatten().copied();
         let mut folds: Vec<u32> = corners.filter(|slot| rim.binary_search(slot).is_ok()).collect();
@@ -352,7 +362,7 @@ impl Guard {
             return;
         }
         for &slot in &folds {
-            let beyond = rings.pairs(slot).filter(|pair| !pair.iter().any(|other| centres.contains(other)));
+            let beyond = rings.pairs(slot).filter(|pair| !pair.iter().any(|&other| planned.is_centre(other)));
             self.found.extend(beyond.map(|[a, b]| turned([slot, a, b])));
         }
         self.found.sort_unstable();
@@ -369,15 +379,13 @@ impl Guard {
         (low, high): (Vec3A, Vec3A),
         axis: Option<Vec3A>,
     ) {
-        let Planned { v, u, .. } = *planned;
-        let moves = planned.other.is_some();
         self.found.clear();
         self.alike.clear();
         for &leaf in near {
             if self.found.len().max(self.alike.len()) > 4 * MOST_NEAR {
                 break;
             }
-            for &s in self.leaves.slots(leaf).iter().filter(|&&s| s != v && !(moves && s == u)) {
+            for &s in self.leaves.slots(leaf).iter().filter(|&&s| !planned.is_centre(s)) {
                 let p = rings.at(s);
                 let reach = Vec3A::splat(self.leaves.reaches[leaf as usize]);
                 if (p.cmpgt(high + reach) | p.cmplt(low - reach)).any() {
@@ -386,7 +394,7 @@ impl Guard {
                 for [a, b] in rings.pairs(s) {
                     let (q, r) = (rings.at(a), rings.at(b));
                     let apart = p.min(q).min(r).cmpgt(high) | p.max(q).max(r).cmplt(low);
-                    if apart.any() || [a, b].contains(&v) || moves && [a, b].contains(&u) {
+                    if apart.any() || planned.is_centre(a) || planned.is_centre(b) {
                         continue;
                     }
                     if axis.is_none_or(|axis| !faces([p, q, r], axis)) {
@@ -398,8 +406,8 @@ impl Guard {
             }
         }
         if let Some(axis) = axis.filter(|_| !self.alike.is_empty()) {
-            let of = if moves { &[v, u][..] } else { &[v] };
-            self.sheet.follow(rings, of, axis, (low, high));
+            let of: Vec<u32> = planned.centres().collect();
+            self.sheet.follow(rings, &of, axis, (low, high));
             self.found.extend(self.alike.iter().filter(|triangle| !self.sheet.has_triangle(triangle)));
         }
         self.found.sort_unstable();
