@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::assist::name;
 use super::document::Document;
 use super::halo;
-use super::views::{Colours, ViewOptions};
+use super::views::{Colours, ViewOptions, seen};
 use crate::language::inner;
 use crate::pipeline::classes::{Class, Classes, Lines};
 use crate::render::{Camera, Colour, ColourMap, label_colour};
@@ -91,12 +91,11 @@ pub(super) fn legend(ui: &Ui, rect: Rect, counts: &[usize; 5]) {
 pub(super) fn lines(ui: &Ui, rect: Rect, camera: &Camera, document: &Document, lines: &Lines, normals: &[Vec3]) {
     const BEHIND: f32 = 0.3;
     let Some((_, levels)) = &document.levels else { return };
-    let (painter, aspect, eye) = (ui.painter_at(rect), rect.width() / rect.height().max(1.0), camera.eye());
+    let (painter, eye) = (ui.painter_at(rect), camera.eye());
     for (edges, class) in [(&lines.features, Class::InteriorEdge), (&lines.boundary, Class::Boundary)] {
         let stroke = Stroke::new(2.0, colour(class));
         for ends in edges {
-            let [Some(a), Some(b)] = ends.map(|node| seen(levels.positions[node as usize], camera, rect, aspect))
-            else {
+            let [Some(a), Some(b)] = ends.map(|node| seen(levels.positions[node as usize], camera, rect)) else {
                 continue;
             };
             let is_behind = |&node: &u32| {
@@ -107,10 +106,4 @@ pub(super) fn lines(ui: &Ui, rect: Rect, camera: &Camera, document: &Document, l
             painter.line_segment([a, b], Stroke::new(stroke.width, stroke.color.gamma_multiply(faint)));
         }
     }
-}
-
-/// Where a place in mm is seen in the view in `rect`, whose width over its height is `aspect`.
-pub(super) fn seen(at: Vec3, camera: &Camera, rect: Rect, aspect: f32) -> Option<egui::Pos2> {
-    let at = camera.project(at, aspect)?;
-    Some(rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0))
 }

@@ -7,9 +7,9 @@ use egui::{Button, Color32, Label, Rect, ScrollArea, Shape, Stroke, Ui};
 use glam::Vec3;
 
 use super::action::Action as Ask;
-use super::classes::seen;
 use super::document::Document;
 use super::state::State;
+use super::views::seen;
 use crate::language::{decimal, inner};
 use crate::pipeline::classes::{Class, Classes};
 use crate::pipeline::decimation::{Fate, Ways};
@@ -198,8 +198,8 @@ impl Collapses {
     /// then what fills it.
     pub(super) fn marks(&self, ui: &Ui, rect: Rect, camera: &Camera, document: &Document) {
         let (Some(shown), Some((_, levels))) = (&self.shown, &document.levels) else { return };
-        let (painter, aspect) = (ui.painter_at(rect), rect.width() / rect.height().max(1.0));
-        let at = |node: u32| seen(levels.positions[node as usize], camera, rect, aspect);
+        let painter = ui.painter_at(rect);
+        let at = |node: u32| seen(levels.positions[node as usize], camera, rect);
         let (accent, ink) = (ui.visuals().hyperlink_color, ui.visuals().text_color());
         let line = |[a, b]: [u32; 2], stroke: Stroke| {
             if let (Some(a), Some(b)) = (at(a), at(b)) {

@@ -11,6 +11,7 @@ use super::document::Document;
 use super::halo;
 use super::overlay::{self, Legend};
 use super::theme;
+use super::views::seen;
 use crate::language::decimal;
 use crate::mesh::{Vec3, used_vertices};
 use crate::pipeline::deviation::Deviation;
@@ -183,8 +184,7 @@ pub(super) fn pin(ui: &Ui, rect: Rect, camera: &Camera, document: &Document, sho
     let deviation = document.deviation_of(shown).filter(|deviation| deviation.max > 0.0)?;
     // The point of the level.
     let place: Vec3 = deviation.max_at_mm[1].into();
-    let seen = camera.project(place, rect.width() / rect.height().max(1.0))?;
-    let foot = rect.center() + vec2(seen.x * rect.width() / 2.0, -seen.y * rect.height() / 2.0);
+    let foot = seen(place, camera, rect)?;
     if !rect.shrink(4.0).contains(foot) {
         return None;
     }

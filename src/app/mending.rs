@@ -8,7 +8,7 @@ use super::control::reads_comma;
 use super::document::Document;
 use super::row::{number, remark, row};
 use super::state::State;
-use super::views::{ViewOptions, Views};
+use super::views::{ViewOptions, Views, seen};
 use crate::language::{Key, decimal, grouped, inner};
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
 use crate::pipeline::settings::{Keep, Settings};
@@ -235,11 +235,7 @@ pub(super) fn marks(ui: &Ui, rect: Rect, camera: &Camera, document: &Document, s
     const RADIUS: f32 = 4.0;
     let colour: Color32 = ui.visuals().error_fg_color;
     let painter = ui.painter_at(rect);
-    let aspect = rect.width() / rect.height().max(1.0);
-    let seen = |at: [f32; 3]| {
-        let at = camera.project(at.into(), aspect)?;
-        Some(rect.center() + egui::vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0))
-    };
+    let seen = |at: [f32; 3]| seen(at.into(), camera, rect);
     for place in of_kind(document, shown.kind) {
         let line: Option<Vec<egui::Pos2>> = place.line.iter().map(|&at| seen(at)).collect();
         match line {

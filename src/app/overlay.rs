@@ -3,6 +3,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
+use super::views::seen;
 use super::{arrays, halo};
 use crate::io::Axes;
 use crate::language::{Key, decimal, grouped};
@@ -90,8 +91,9 @@ pub(super) fn scale_and_axes(ui: &Ui, rect: Rect, camera: &Camera, axes: Axes) {
 
 /// A ring around a place, and what there is to say of it.
 pub(super) fn ring(ui: &Ui, rect: Rect, camera: &Camera, at: Vec3, label: &str, colour: Color32) {
-    let Some(at) = camera.project(at, rect.width() / rect.height().max(1.0)) else { return };
-    ring_at(ui, rect, rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0), label, colour);
+    if let Some(at) = seen(at, camera, rect) {
+        ring_at(ui, rect, at, label, colour);
+    }
 }
 
 /// The same around a point of the window; none where it is not in `rect`.

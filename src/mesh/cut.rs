@@ -74,6 +74,14 @@ pub fn cut(positions: &[Vec3], triangles: &[[u32; 3]], at: DVec3, normal: DVec3)
     outlines
 }
 
+/// The pieces of these outlines one by one, in the triangles' order, through `point` (mm) across `normal`, of any length; none
+/// where that is 0.
+pub fn cut_pieces(positions: &[Vec3], triangles: &[[u32; 3]], point: Vec3, normal: Vec3) -> Vec<[Vec3; 2]> {
+    let (at, normal) = (point.as_dvec3(), normal.as_dvec3().normalize_or_zero());
+    let passages = triangles.iter().filter_map(|triangle| passage(positions, triangle, at, normal));
+    passages.map(|passage| passage.points.map(DVec3::as_vec3)).collect()
+}
+
 fn passage(positions: &[Vec3], triangle: &[u32; 3], at: DVec3, normal: DVec3) -> Option<Passage> {
     let mut heights = [0.0; 3];
     for (height, &v) in heights.iter_mut().zip(triangle) {
@@ -277,5 +285,33 @@ mod tests {
         let points = vec![corner(0.0, 0.0), corner(4.0, 0.0), corner(4.0, 3.0), corner(1.0, 1.5), corner(0.0, 3.0)];
         let [least, largest] = Outline { points, is_closed: true }.widths(DVec3::Z);
         assert!((least - 3.0).abs() < 1e-12 && (largest - 5.0).abs() < 1e-12, "{least} {largest}");
+    }
+
+    #[test]
+    fn the_pieces_of_a_sphere_are_a_closed_circle() {
+        let centre = Vec3::new(3.0, -2.0, 100.0);
+        let sphere = icosphere(4, 10.0, centre);
+        let normal = Vec3::new(1.0, 2.0, -2.0) / 3.0;
+        let pieces = cut_pieces(&sphere.positions, &sphere.triangles, centre + 6.0 * normal, normal * 7.0);
+        let length: f32 = pieces.iter().map(|[a, b]| a.distance(*b)).sum();
+        // A circle of 8 mm.
+        assert!((length / (16.0 * std::f32::consts::PI) - 1.0).abs() < 0.01, "{length}");
+        let mut ends: Vec<[u32; 3]> = pieces.as_flattened().iter().map(|p| p.to_array().map(f32::to_bits)).collect();
+        for p in pieces.as_flattened() {
+            assert!(((*p - centre).dot(normal) - 6.0).abs() < 1e-4, "in the plane");
+            assert!((p.distance(centre) - 10.0).abs() < 0.05, "on the sphere");
+        }
+        ends.sort_unstable();
+        assert!(ends.chunks(2).all(|pair| pair[0] == pair[1]), "each end is another's beginning");
+    }
+
+    #[test]
+    fn a_plane_through_vertices_has_a_piece_in_each_triangle_once() {
+        let positions = [Vec3::ZERO, Vec3::X, Vec3::new(0.0, 1.0, 1.0), Vec3::new(0.0, 1.0, -1.0)];
+        // The first two lie in the plane: only the triangle below it crosses, along them.
+        let pieces = cut_pieces(&positions, &[[0, 1, 2], [1, 0, 3]], Vec3::ZERO, Vec3::Z);
+        assert_eq!(pieces.len(), 1);
+        assert!(pieces[0].contains(&Vec3::ZERO) && pieces[0].contains(&Vec3::X));
+        assert!(cut_pieces(&positions, &[[0, 1, 2]], Vec3::ZERO, Vec3::ZERO).is_empty());
     }
 }

@@ -23,7 +23,6 @@ mod inside;
 mod measures;
 pub mod mending;
 mod nearest;
-mod outline;
 mod patch;
 mod planes;
 mod ray;
@@ -47,7 +46,7 @@ pub use capsule::{PointFoot, SegmentFoot};
 pub use closest_point::distance_to_triangle;
 pub(crate) use closest_point::foot_on_triangle;
 pub use components::{Components, components};
-pub use cut::{Outline, cut};
+pub use cut::{Outline, cut, cut_pieces};
 pub use glam::Vec3;
 pub use hausdorff::{Beyond, Reach, TOLERANCE};
 pub use index_build::IndexBuild;
@@ -57,7 +56,6 @@ pub use measures::{
     Measures, measures, measures_within, oriented_loops, surface_area, triangle_area, volume, volume_of,
 };
 pub use nearest::{Nearest, SurfaceIndex};
-pub use outline::outline;
 pub(crate) use refit::Refitting;
 pub use roughness::{Roughness, roughness};
 pub(crate) use roughness::{bends, summarise_bends};

@@ -115,6 +115,13 @@ impl Topology {
         row(&self.triangle_offsets, &self.triangle_lists, v)
     }
 
+    /// The triangles on the edge between two vertices, of `triangles` that this was made of. Looks around the end with fewer of
+    /// them, so that the hub of a large fan costs no more than its rim.
+    pub fn triangles_on<'a>(&'a self, triangles: &'a [[u32; 3]], a: u32, b: u32) -> impl Iterator<Item = u32> + 'a {
+        let (hub, end) = if self.triangles(a).len() <= self.triangles(b).len() { (a, b) } else { (b, a) };
+        self.triangles(hub).iter().copied().filter(move |&t| triangles[t as usize].contains(&end))
+    }
+
     /// Vertices that share an edge with `v`, ascending.
     pub fn neighbours(&self, v: u32) -> &[u32] {
         row(&self.neighbour_offsets, &self.neighbour_lists, v)

@@ -76,16 +76,12 @@ fn sides([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
     [(a, b), (b, c), (c, a)]
 }
 
-/// The other triangle on an edge of `t`, if exactly two are there. Looks around the end with fewer triangles, so
-/// that the hub of a large fan costs no more than its rim.
+/// The other triangle on an edge of `t`, if exactly two are there.
 fn across(triangles: &[[u32; 3]], topology: &Topology, t: usize, from: u32, to: u32) -> Option<usize> {
     if topology.edge(from, to)?.triangles() != 2 {
         return None;
     }
-    let (hub, end) =
-        if topology.triangles(from).len() <= topology.triangles(to).len() { (from, to) } else { (to, from) };
-    let around = topology.triangles(hub).iter();
-    around.map(|&other| other as usize).find(|&other| other != t && triangles[other].contains(&end))
+    topology.triangles_on(triangles, from, to).map(|other| other as usize).find(|&other| other != t)
 }
 
 /// Turns each orientable component that faces inwards; returns how many. Volumes too small to tell which way a

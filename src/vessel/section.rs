@@ -141,16 +141,8 @@ impl Wall<'_> {
 
     /// The triangle on the other side of an edge, if there is one and no more.
     fn across(&self, triangle: u32, from: u32, to: u32) -> Option<u32> {
-        let around = |v: u32| self.topology.triangles(v);
-        // A vertex may have thousands.
-        let (at, other) = if around(from).len() <= around(to).len() { (from, to) } else { (to, from) };
-        let mut found = None;
-        for &t in around(at) {
-            if t != triangle && self.mesh.triangles[t as usize].contains(&other) && found.replace(t).is_some() {
-                return None;
-            }
-        }
-        found
+        let mut others = self.topology.triangles_on(&self.mesh.triangles, from, to).filter(|&t| t != triangle);
+        others.next().filter(|_| others.next().is_none())
     }
 }
 

@@ -2,7 +2,7 @@
 //! line, for oblique grids of either hand.
 
 use lumen::io::volume::Scan;
-use lumen::mesh::{TriMesh, Vec3, outline};
+use lumen::mesh::{TriMesh, Vec3, cut_pieces};
 use lumen::task::Task;
 use lumen::volume::{Axis, Selection, Slice, Surfacing, slice};
 
@@ -95,7 +95,7 @@ fn distance_to(pieces: &[[Vec3; 2]], p: [f64; 3]) -> f64 {
 
 fn cut(mesh: &TriMesh, picture: &Slice) -> Vec<[Vec3; 2]> {
     let [first, across, _, down] = picture.corners.map(|corner| Vec3::from_array(corner.map(|x| x as f32)));
-    outline(&mesh.positions, &mesh.triangles, first, (across - first).cross(down - first))
+    cut_pieces(&mesh.positions, &mesh.triangles, first, (across - first).cross(down - first))
 }
 
 #[test]

@@ -10,6 +10,7 @@ use super::words::{self, Number};
 use crate::app::assist::name;
 use crate::app::halo;
 use crate::app::overlay;
+use crate::app::views::pixels;
 use crate::io::Axes;
 use crate::language::Key;
 use crate::render::{Camera, Style, SurfaceError};
@@ -67,9 +68,7 @@ pub(super) fn pictures(
     for (k, looks) in looks.iter().enumerate() {
         let top = rect.top() + height * k as f32;
         let rect = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), height));
-        let pixels = rect.size() * ui.ctx().pixels_per_point();
-        let size = [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32];
-        let shot = Shot { camera: *manner.camera, size, looks, style: manner.style };
+        let shot = Shot { camera: *manner.camera, size: pixels(ui, rect), looks, style: manner.style };
         let texture = scene.draw(index * PICTURES + k, &made.mesh, manner.scalars, &shot)?;
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);

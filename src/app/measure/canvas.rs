@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
 use crate::app::halo;
+use crate::app::views::seen;
 use crate::mesh::Vec3;
 use crate::render::Camera;
 
@@ -23,8 +24,7 @@ impl<'a> Canvas<'a> {
 
     /// Where a place is in the window; `None` behind the eye.
     pub(super) fn at(&self, place: Vec3) -> Option<Pos2> {
-        let seen = self.camera.project(place, self.rect.width() / self.rect.height().max(1.0))?;
-        Some(self.rect.center() + vec2(seen.x * self.rect.width() / 2.0, -seen.y * self.rect.height() / 2.0))
+        seen(place, self.camera, self.rect)
     }
 
     /// A line through places, on a wider one of the background, so that it stands out of any colour.

@@ -3,12 +3,13 @@
 
 use std::sync::Arc;
 
-use egui::{Color32, Rect, Shape, Stroke, Ui, vec2};
+use egui::{Color32, Rect, Shape, Stroke, Ui};
 use glam::Vec3;
 
 use super::slices::SlicePicture;
 use crate::app::document::{Document, Revision};
-use crate::mesh::outline;
+use crate::app::views::seen;
+use crate::mesh::cut_pieces;
 use crate::pipeline::settings::Keep;
 use crate::render::Camera;
 
@@ -41,11 +42,7 @@ impl Outlines {
         (document, keep, before): (&Document, Keep, bool),
     ) {
         let painter = ui.painter_at(part);
-        let aspect = rect.width() / rect.height().max(1.0);
-        let place = |p: Vec3| {
-            let at = camera.project(p, aspect)?;
-            Some(rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0))
-        };
+        let place = |p: Vec3| seen(p, camera, rect);
         for slice in slices {
             let pieces = self.of(slice, document, keep, before);
             let lines: Vec<[egui::Pos2; 2]> =
@@ -62,7 +59,7 @@ impl Outlines {
         let known = self.0.iter().position(|(known, _)| *known == of);
         let at = known.unwrap_or_else(|| {
             let cut = |positions: &[Vec3], triangles: &[[u32; 3]]| {
-                outline(positions, triangles, slice.corners[0], slice.normal())
+                cut_pieces(positions, triangles, slice.corners[0], slice.normal())
             };
             let pieces = match (&document.levels, &document.shown) {
                 (Some((_, levels)), Some(shown)) if !before => cut(&levels.positions, &shown.level.triangles),

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, ColorImage, Rect, Role, Sense, TextureHandle, Textur
 use super::state::{OpenScan, Picture};
 use crate::app::assist::name;
 use crate::app::compare::{CompareScene, Shot};
-use crate::app::views::{NO_MEMORY, Views, first_view};
+use crate::app::views::{NO_MEMORY, Views, first_view, pixels};
 use crate::app::{halo, overlay, theme};
 use crate::io::Axes;
 use crate::render::{Camera, Look};
@@ -68,9 +68,12 @@ impl ScanView {
             if let (None, false, Some(device)) = (&self.scene, self.is_refused, &self.device) {
                 self.scene = Some(CompareScene::new(device));
             }
-            let pixels = rect.size() * ui.ctx().pixels_per_point();
-            let size = [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32];
-            let shot = Shot { camera: self.camera, size, looks: &[Look::Shaded], style: theme::style(ui.visuals()) };
+            let shot = Shot {
+                camera: self.camera,
+                size: pixels(ui, rect),
+                looks: &[Look::Shaded],
+                style: theme::style(ui.visuals()),
+            };
             match self.scene.as_mut().map(|scene| {
                 scene.keep_only(&std::iter::once(mesh));
                 scene.draw(0, mesh, None, &shot)

@@ -5,6 +5,7 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2
 
 use super::plate::plate;
 use super::state::Session;
+use crate::app::views::seen;
 use crate::app::{halo, overlay};
 use crate::engine::trial::RouteShown;
 use crate::language::decimal;
@@ -30,7 +31,7 @@ pub(super) fn colours(dark: bool) -> [Color32; 2] {
 pub(super) fn show(ui: &Ui, rect: Rect, camera: &Camera, session: &Session) {
     let Session { ready, run, .. } = session;
     let painter = ui.painter_at(rect);
-    let at = |p: Vec3| project(camera, rect, p);
+    let at = |p: Vec3| seen(p, camera, rect);
     let visuals = ui.visuals();
     let accent = visuals.hyperlink_color;
     let way: Vec<Pos2> = ahead(session).iter().filter_map(|&p| at(p.into())).collect();
@@ -107,13 +108,13 @@ fn target(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, route: &Route
         .filter_map(|i| {
             let angle = std::f32::consts::TAU * i as f32 / SIDES as f32;
             let out = u * libm::cosf(angle) + v * libm::sinf(angle);
-            project(camera, rect, end + out * radius.max(1.0) * 1.15)
+            seen(end + out * radius.max(1.0) * 1.15, camera, rect)
         })
         .collect();
     let colour = ui.visuals().hyperlink_color;
     let right = circle.iter().map(|at| at.x).fold(f32::NEG_INFINITY, f32::max);
     painter.add(Shape::line(circle, Stroke::new(2.5, colour)));
-    if let Some(at) = project(camera, rect, end) {
+    if let Some(at) = seen(end, camera, rect) {
         painter.circle_stroke(at, 9.0, Stroke::new(1.5, colour));
         if rect.width() < WRITTEN_OVER {
             return;
@@ -130,10 +131,4 @@ fn legend(painter: &Painter, rect: Rect, visuals: &egui::Visuals, entries: &[(St
         let font = FontId::proportional(12.0);
         halo::text(painter, at + vec2(26.0, 0.0), Align2::LEFT_CENTER, label, font, visuals.text_color());
     }
-}
-
-/// Where a place is in the window.
-fn project(camera: &Camera, rect: Rect, p: Vec3) -> Option<Pos2> {
-    let at = camera.project(p, rect.width() / rect.height().max(1.0))?;
-    Some(rect.center() + vec2(at.x * rect.width() / 2.0, -at.y * rect.height() / 2.0))
 }

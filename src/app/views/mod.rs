@@ -12,7 +12,7 @@ use glam::Vec3;
 
 pub use self::options::{Colours, ViewOptions};
 pub(super) use self::picture::legend;
-pub(super) use self::steering::{first_view, in_view, stand};
+pub(super) use self::steering::{first_view, in_view, pixels, seen, stand};
 use super::action::Action;
 use super::classes::ShownClasses;
 use super::collapses::Collapses;

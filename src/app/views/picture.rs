@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, EventFilter, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, pos2};
 use glam::Vec3;
 
-use super::{Clicked, Colours, Subject, Views, in_view};
+use super::{Clicked, Colours, Subject, Views, in_view, pixels};
 use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::measure::{Measuring, Seen};
@@ -97,7 +97,6 @@ impl Views {
 
     /// What is to be drawn in `rect`, from where the camera is now.
     fn picture(&self, ui: &Ui, rect: Rect, look: Look, document: Option<&Document>, colours: Colours) -> Picture {
-        let pixels = rect.size() * ui.ctx().pixels_per_point();
         let mut style = coloured(theme::style(ui.visuals()), document, colours);
         style.raking = self.options.raking;
         style.occlusion = self.options.occlusion;
@@ -105,7 +104,7 @@ impl Views {
         let corners: Vec<Vec3> = self.slices.iter().flat_map(|slice| slice.corners).collect();
         Picture {
             camera: Camera { bounds: self.camera.bounds.joined(&Bounds::of(&corners)), ..self.camera },
-            size: [pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32],
+            size: pixels(ui, rect),
             look,
             style,
             before: self.show_before,

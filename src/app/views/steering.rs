@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use egui::{PointerButton, Pos2, Rect, Ui, pos2, vec2};
-use glam::{Quat, Vec2};
+use glam::{Quat, Vec2, Vec3};
 
 use super::Views;
 use crate::app::document::Document;
@@ -94,7 +94,19 @@ pub(in crate::app) fn in_view(at: Pos2, rect: Rect) -> Vec2 {
     Vec2::new(v.x, -v.y)
 }
 
-/// The same in that of `rows` pictures, one above the other in `rect`, in which the point is.
+/// Where a place in mm is seen in the view in `rect`; `None` behind the eye.
+pub(in crate::app) fn seen(at: Vec3, camera: &Camera, rect: Rect) -> Option<Pos2> {
+    let at = camera.project(at, rect.width() / rect.height().max(1.0))?;
+    Some(rect.center() + vec2(at.x, -at.y) * rect.size() / 2.0)
+}
+
+/// The size of a view in pixels, no side below one.
+pub(in crate::app) fn pixels(ui: &Ui, rect: Rect) -> [u32; 2] {
+    let size = rect.size() * ui.ctx().pixels_per_point();
+    [size.x.round().max(1.0) as u32, size.y.round().max(1.0) as u32]
+}
+
+/// What [`in_view`] says, in that of `rows` pictures, one above the other in `rect`, in which the point is.
 fn in_row(at: Pos2, rect: Rect, rows: usize) -> Vec2 {
     let height = rect.height() / rows as f32;
     let row = ((at.y - rect.top()) / height).floor().clamp(0.0, rows as f32 - 1.0);

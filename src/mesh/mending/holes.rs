@@ -71,11 +71,7 @@ pub(super) fn edges(rim: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
 
 /// The third corner of the triangle on an open edge.
 pub(super) fn behind(mesh: &TriMesh, topology: &Topology, a: u32, b: u32) -> Option<(u32, u32)> {
-    let around = if topology.triangles(a).len() <= topology.triangles(b).len() { a } else { b };
-    let t = topology.triangles(around).iter().copied().find(|&t| {
-        let corners = mesh.triangles[t as usize];
-        corners.contains(&a) && corners.contains(&b)
-    })?;
+    let t = topology.triangles_on(&mesh.triangles, a, b).next()?;
     let third = mesh.triangles[t as usize].into_iter().find(|&v| v != a && v != b)?;
     Some((t, third))
 }

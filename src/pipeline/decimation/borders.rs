@@ -39,11 +39,10 @@ pub(super) fn border_of(rings: &Rings, v: u32) -> Border {
 
 /// Marks the borders around `v`, which no vertex has left yet, on this side; `labels` has a number for each triangle.
 pub(super) fn mark(rings: &mut Rings, v: u32, mesh: &TriMesh, topology: &Topology, labels: &[u32]) {
-    let triangles = topology.triangles(rings.nodes[v as usize]);
     for i in 0..rings.around(v).len() {
         let other = rings.nodes[neighbour(rings.around(v)[i]) as usize];
-        let mut beside = triangles.iter().filter(|&&t| mesh.triangles[t as usize].contains(&other));
-        if let [Some(&a), Some(&b), None] = [beside.next(), beside.next(), beside.next()]
+        let mut beside = topology.triangles_on(&mesh.triangles, rings.nodes[v as usize], other);
+        if let [Some(a), Some(b), None] = [beside.next(), beside.next(), beside.next()]
             && labels[a as usize] != labels[b as usize]
         {
             rings.set_border(v, i);

@@ -21,7 +21,7 @@ use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::overlay::{self, Legend};
 use crate::app::theme;
-use crate::app::views::{NO_MEMORY, Views, in_view};
+use crate::app::views::{NO_MEMORY, Views, in_view, pixels};
 use crate::engine::trial::RouteShown;
 use crate::language::decimal;
 use crate::mesh::{TriMesh, Vec3};
@@ -275,12 +275,6 @@ impl TrialView {
 /// The wire's radius in mm.
 fn radius(session: &Session) -> f32 {
     session.ready.setup.wire.radius() as f32
-}
-
-/// The size of a view in pixels.
-fn pixels(ui: &Ui, rect: Rect) -> [u32; 2] {
-    let size = rect.size() * ui.ctx().pixels_per_point();
-    [size.x.round().max(1.0) as u32, size.y.round().max(1.0) as u32]
 }
 
 fn image(ui: &Ui, rect: Rect, texture: TextureId) {

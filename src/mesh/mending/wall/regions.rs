@@ -53,9 +53,6 @@ impl Regions {
 /// The triangles that share an edge with `t`.
 pub(super) fn across<'a>(mesh: &'a TriMesh, topology: &'a Topology, t: u32) -> impl Iterator<Item = u32> + 'a {
     let [a, b, c] = mesh.triangles[t as usize];
-    [(a, b), (b, c), (c, a)].into_iter().flat_map(move |(v, w)| {
-        let (hub, end) = if topology.triangles(v).len() <= topology.triangles(w).len() { (v, w) } else { (w, v) };
-        let around = topology.triangles(hub).iter().copied();
-        around.filter(move |&other| other != t && mesh.triangles[other as usize].contains(&end))
-    })
+    let sides = [(a, b), (b, c), (c, a)].into_iter();
+    sides.flat_map(|(v, w)| topology.triangles_on(&mesh.triangles, v, w)).filter(move |&other| other != t)
 }
