@@ -6,7 +6,7 @@ pub mod told;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::App as _;
 use egui_kittest::Harness;
@@ -486,6 +486,23 @@ pub fn settle_wholly(harness: &mut Harness<'_, LumenApp>) {
         harness.step();
     }
     panic!("the background does not come to an end");
+}
+
+/// The file that is offered next: its name and its bytes. How many frames go by before a picture is drawn or a file is made is
+/// the machine's affair, not the app's, so that the wait is by the clock.
+///
+/// # Panics
+/// When there is none within two minutes.
+pub fn offered(harness: &mut Harness<'_, LumenApp>, memory: &Rc<RefCell<Memory>>) -> (String, Vec<u8>) {
+    let begun = Instant::now();
+    while begun.elapsed() < Duration::from_secs(120) {
+        let file = memory.borrow_mut().offered.pop();
+        if let Some(file) = file {
+            return file;
+        }
+        harness.step();
+    }
+    panic!("no file is offered");
 }
 
 /// A tube about the z axis as an OBJ file: its radius, length and edges in the file's unit.

@@ -12,7 +12,7 @@ use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Preset, Settings, Target};
 use lumen::sharing::measures::{Found, MadeOn, Measure};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, says, settle, settle_wholly, tube};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -227,7 +227,7 @@ fn measures_are_named_undone_saved_and_closed_with_their_surface() {
     harness.run_steps(3);
     harness.get_by_label("Settings...").click();
     harness.run_steps(3);
-    let (name, bytes) = memory.borrow_mut().offered.pop().unwrap();
+    let (name, bytes) = offered(&mut harness, &memory);
     let text = String::from_utf8(bytes.clone()).unwrap();
     assert!(text.contains("Neck") && !text.contains("tube"), "what was measured, and never the name of the file");
     let kept = measures(&harness);
@@ -256,11 +256,7 @@ fn the_report_lists_them() {
     harness.get_by_role_and_label(Role::Button, "Save").click();
     harness.run_steps(3);
     harness.get_by_label("Report (web page)...").click();
-    let page = (0..400).find_map(|_| {
-        harness.step();
-        memory.borrow_mut().offered.pop()
-    });
-    let page = String::from_utf8(page.unwrap().1).unwrap();
+    let page = String::from_utf8(offered(&mut harness, &memory).1).unwrap();
     assert!(page.contains("Measured by hand") && page.contains("Ruler 1") && page.contains(&value), "{value}");
 }
 

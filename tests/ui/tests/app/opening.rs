@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, app, settle};
+use lumen_ui_tests::{DESKTOP, app, offered, settle};
 
 use crate::controls::{open, press_at, shown};
 
@@ -46,8 +46,7 @@ fn the_shown_level_is_saved_in_every_format_and_reads_back() {
         harness.get_by_role_and_label(Role::Button, "Save").click();
         harness.run_steps(3);
         harness.get_by_label(&format!("{format}...")).click();
-        harness.run_steps(10);
-        let (name, bytes) = memory.borrow_mut().offered.pop().expect("a file is offered");
+        let (name, bytes) = offered(&mut harness, &memory);
         assert_eq!(name, format!("abdominal-aorta-{}.{}", shown(&harness), format.to_lowercase()));
         let read = lumen::io::read(&bytes, &name, &lumen::io::ImportOptions::default()).unwrap();
         assert_eq!(read.report.triangles, shown(&harness));

@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, says, settle_wholly};
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, says, settle_wholly};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -23,17 +23,6 @@ fn menu(harness: &mut Harness<'_, LumenApp>) {
 fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
     harness.get_by_label(label).click();
     harness.run_steps(3);
-}
-
-/// The file that is offered next, after some frames.
-fn offered(harness: &mut Harness<'_, LumenApp>, memory: &Shared) -> (String, Vec<u8>) {
-    for _ in 0..400 {
-        if let Some(file) = memory.borrow_mut().offered.pop() {
-            return file;
-        }
-        harness.step();
-    }
-    panic!("no file is offered");
 }
 
 fn info(bytes: &[u8]) -> png::Reader<std::io::Cursor<&[u8]>> {

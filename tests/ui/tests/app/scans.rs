@@ -11,7 +11,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::scan::NamedFile;
 use lumen::io::{Axes, Format, ImportOptions, read, write};
 use lumen::phantom::{Sample, generate};
-use lumen_ui_tests::{DESKTOP, Kept, Memory, app, page, says, settle};
+use lumen_ui_tests::{DESKTOP, Kept, Memory, app, offered, page, says, settle};
 
 use crate::recovery::{choose, tell};
 
@@ -107,8 +107,7 @@ fn axes_that_were_chosen_come_back_with_the_file_and_are_turned_on_saving() {
     let mut saved = |axes: &str| {
         choose(&mut harness, axes);
         choose(&mut harness, "STL...");
-        harness.run_steps(10);
-        memory.borrow_mut().offered.pop().expect("a file is offered").1
+        offered(&mut harness, &memory).1
     };
     let (turned, plain) = (saved("Save in LPS"), saved("Save axes as they are"));
     let [turned, plain] = [turned, plain].map(|bytes| read(&bytes, "a.stl", &ImportOptions::default()).unwrap());

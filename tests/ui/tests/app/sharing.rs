@@ -6,7 +6,7 @@ use lumen::io::Unit;
 use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Keep, Settings, Target};
 use lumen::sharing::{Digest, Link, SharedSettings, SharedSurface, write_settings};
-use lumen_ui_tests::{DESKTOP, Kept, page, settle};
+use lumen_ui_tests::{DESKTOP, Kept, offered, page, settle};
 
 use crate::recovery::{choose, notice, settings_at, tell, vessel};
 
@@ -139,7 +139,7 @@ fn settings_are_saved_as_a_file_and_opened_as_one() {
     settle(&mut harness);
     choose(&mut harness, "Settings...");
     let shared = SharedSettings::default();
-    let (name, bytes) = memory.borrow_mut().offered.pop().unwrap();
+    let (name, bytes) = offered(&mut harness, &memory);
     assert!(name.ends_with("-settings.json"), "{name}");
     assert_eq!(String::from_utf8(bytes).unwrap(), write_settings(&shared));
 

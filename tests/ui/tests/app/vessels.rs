@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{DESKTOP, app, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, app, offered, says, settle, tube};
 
 /// What the level makes of the vessels, once that is known: it comes after the other numbers.
 fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {
@@ -102,20 +102,18 @@ fn calibre_and_centrelines_are_saved() {
     harness.key_press(Key::V);
     harness.run_steps(3);
     harness.get_by_role_and_label(Role::Button, "Save CSV").click();
-    harness.run_steps(3);
+    let (table, rows) = offered(&mut harness, &memory);
     harness.get_by_role_and_label(Role::Button, "Save").click();
     harness.run_steps(3);
     harness.get_by_label("Centrelines (VTP)...").click();
-    harness.run_steps(8);
-    let offered = &memory.borrow().offered;
-    let [(table, rows), (lines, xml)] = &offered[..] else { panic!("{} files", offered.len()) };
+    let (lines, xml) = offered(&mut harness, &memory);
     assert_eq!((&**table, &**lines), ("abdominal-aorta-calibre.csv", "abdominal-aorta-centrelines.vtp"));
-    let rows = std::str::from_utf8(rows).unwrap();
+    let rows = std::str::from_utf8(&rows).unwrap();
     let stations: usize = found.branches.iter().map(|branch| branch.abscissas_mm.len()).sum();
     assert_eq!(rows.lines().count(), stations + 1);
     let columns = rows.lines().next().unwrap().split(',').count();
     assert!(rows.lines().all(|row| row.split(',').count() == columns));
-    let xml = std::str::from_utf8(xml).unwrap();
+    let xml = std::str::from_utf8(&xml).unwrap();
     assert!(xml.contains("MaximumInscribedSphereRadius") && xml.contains("GroupIds"));
     assert!(xml.contains(&format!("NumberOfPoints=\"{stations}\"")));
 }
