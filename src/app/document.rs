@@ -1,11 +1,13 @@
 //! The surface that is open, as the app sees it: its pieces, its levels, the numbers.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use crate::engine::{Averaged, Calibre, Carried, Deviated, FaultsFound, Opened, Reduced, Source};
 use crate::io::{Axes, Format, ImportReport};
 use crate::mesh::{Bounds, TriMesh, compacted};
+use crate::pipeline::classes::Classes;
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
@@ -47,6 +49,8 @@ pub struct Shown {
     pub level: Level,
     /// Vertices in use.
     pub vertices: usize,
+    /// The classes of its vertices, once something has asked for them.
+    classes: OnceCell<Classes>,
 }
 
 /// The numbers of a level.
@@ -219,7 +223,7 @@ impl Document {
         let Some((_, levels)) = &self.levels else { return };
         if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
             let vertices = nodes_in_use(&level.triangles, levels.positions.len());
-            self.shown = Some(Shown { level, vertices });
+            self.shown = Some(Shown { level, vertices, classes: OnceCell::new() });
             self.revision.shown += 1;
         }
     }
@@ -327,6 +331,12 @@ impl Document {
         let is_kept = |t: &usize| piece.is_none_or(|piece| self.pieces.labels[*t] == piece);
         let triangles = &self.opened.triangles;
         compacted(positions, (0..triangles.len()).filter(is_kept).map(|t| triangles[t]).collect())
+    }
+
+    /// The classes of the level that is shown, worked out where something first asks for them.
+    pub fn classes(&self) -> Option<&Classes> {
+        let (levels, shown) = (&self.levels.as_ref()?.1, self.shown.as_ref()?);
+        Some(shown.classes.get_or_init(|| Classes::new(levels, shown.level.steps, &shown.level.triangles)))
     }
 
     /// The shown level as a surface of its own.
