@@ -36,6 +36,11 @@ impl Pieces {
         }
     }
 
+    /// Whether triangle `t` of the opened surface is of what `keep` names: each is, until the pieces are known.
+    pub fn keeps(&self, keep: Keep, t: usize) -> bool {
+        self.kept(keep).zip(self.labels.get(t)).is_none_or(|(piece, of)| *of == piece)
+    }
+
     /// Whether what `keep` names is there.
     pub fn has(&self, keep: Keep) -> bool {
         !matches!(keep, Keep::Component(piece) if !self.by_size.contains(&piece))
@@ -327,10 +332,9 @@ impl Document {
     /// leaves them.
     pub fn before(&self, keep: Keep) -> TriMesh {
         let positions = self.averaged(keep).map_or(&self.opened.positions, |averaged| &averaged.positions);
-        let piece = self.pieces.kept(keep).filter(|_| !self.pieces.labels.is_empty());
-        let is_kept = |t: &usize| piece.is_none_or(|piece| self.pieces.labels[*t] == piece);
         let triangles = &self.opened.triangles;
-        compacted(positions, (0..triangles.len()).filter(is_kept).map(|t| triangles[t]).collect())
+        let kept = (0..triangles.len()).filter(|&t| self.pieces.keeps(keep, t));
+        compacted(positions, kept.map(|t| triangles[t]).collect())
     }
 
     /// The classes of the level that is shown, worked out where something first asks for them.
