@@ -65,10 +65,6 @@ measure-flip-help = Leave out the other side
 measure-clip-handle = Clip plane handle
 # $axis is x, y or z.
 measure-across-axis = Across { $axis }
-# The planes of the patient.
-measure-sagittal = Sagittal
-measure-coronal = Coronal
-measure-axial = Axial
 measure-facing = Facing the view
 measure-centreline = Centreline
 # $vessel is the name of a vessel.

@@ -78,7 +78,7 @@ scan-slices-title = Slices of the scan
 scan-across-columns = Across columns
 scan-across-rows = Across rows
 scan-across-slices = Across slices
-# The planes of the patient.
+# The planes of the patient, which a clip plane can be square to as well.
 scan-sagittal = Sagittal
 scan-coronal = Coronal
 scan-axial = Axial

@@ -7,50 +7,14 @@ use glam::Vec3;
 use super::assist::name;
 use super::document::Document;
 use super::halo;
-use super::views::{Colours, ViewOptions, seen};
+use super::views::seen;
 use crate::language::inner;
-use crate::pipeline::classes::{Class, Classes, Lines};
+use crate::pipeline::classes::{Class, Lines};
 use crate::render::{Camera, Colour, ColourMap, label_colour};
 use crate::say;
 
 /// The palette's colour for each class, in the order of [`Class::ALL`]: grey for what is most.
 const COLOURS: [usize; 5] = [7, 5, 0, 1, 2];
-
-/// The classes of the level that is shown, worked out where something asks for them.
-#[derive(Default)]
-pub(super) struct ShownClasses {
-    /// With the document and the level that they are of.
-    found: Option<([u64; 3], Classes)>,
-}
-
-impl ShownClasses {
-    /// Brings them up to the document, if `options` show anything of them.
-    pub(super) fn follow(&mut self, document: Option<&Document>, options: ViewOptions) {
-        let is_asked = options.lines || options.colours == Colours::Classes;
-        let Some(document) = document.filter(|_| is_asked) else {
-            self.found = None;
-            return;
-        };
-        let revision = document.revision;
-        let of = [revision.document, revision.levels, revision.shown];
-        if self.found.as_ref().is_none_or(|(found, _)| *found != of) {
-            self.found = document.classes().map(|classes| (of, classes));
-        }
-    }
-
-    /// The classes, if they were asked for.
-    pub(super) fn found(&self) -> Option<&Classes> {
-        self.found.as_ref().map(|(_, classes)| classes)
-    }
-}
-
-impl Document {
-    /// The classes of the level that is shown.
-    pub fn classes(&self) -> Option<Classes> {
-        let (levels, level) = (&self.levels.as_ref()?.1, &self.shown.as_ref()?.level);
-        Some(Classes::new(levels, level.steps, &level.triangles))
-    }
-}
 
 /// For each node of the level that is shown the number of its colour.
 pub(super) fn labels(document: &Document) -> Option<Vec<f32>> {

@@ -11,7 +11,7 @@ use super::document::Document;
 use super::state::State;
 use super::views::seen;
 use crate::language::{decimal, inner};
-use crate::pipeline::classes::{Class, Classes};
+use crate::pipeline::classes::Class;
 use crate::pipeline::decimation::{Fate, Ways};
 use crate::pipeline::one_collapse::OneCollapse;
 use crate::pipeline::progressive::NEVER;
@@ -54,7 +54,6 @@ pub struct Collapses {
 struct Shown {
     /// Document, levels and level that it is of.
     of: [u64; 3],
-    classes: Classes,
     next: Option<OneCollapse>,
     asked: Option<(u32, Ways)>,
 }
@@ -93,7 +92,7 @@ impl Collapses {
             Action::Why(node) => {
                 let document = state.document.as_ref();
                 if let (Some(shown), Some(document)) = (&mut self.shown, document) {
-                    shown.asked = ways(document, &shown.classes, node, method(state)).map(|ways| (node, ways));
+                    shown.asked = ways(document, node, method(state)).map(|ways| (node, ways));
                 }
             }
         }
@@ -116,12 +115,11 @@ impl Collapses {
         let revision = document.revision;
         let of = [revision.document, revision.levels, revision.shown];
         if self.shown.as_ref().is_none_or(|shown| shown.of != of) {
-            let classes = Classes::new(levels, level.steps, &level.triangles);
             let next = levels.collapse_at(level.steps, &level.triangles);
             if let Some(next) = next.as_ref().filter(|_| !self.stays) {
                 look_at(camera, next, &levels.positions);
             }
-            self.shown = Some(Shown { of, classes, next, asked: None });
+            self.shown = Some(Shown { of, next, asked: None });
         }
         let since_s = now_s - self.playing_s?;
         if self.next().is_none() {
@@ -168,7 +166,8 @@ impl Collapses {
         let (levels, steps, method) = (&levels.1, level.level.steps, method(state));
         match &shown.next {
             Some(next) => {
-                let class = shown.classes.by_node.get(next.gone[0] as usize).copied().flatten();
+                let classes = document.classes();
+                let class = classes.and_then(|classes| *classes.by_node.get(next.gone[0] as usize)?);
                 let (number, all) = (steps + 1, levels.errors.len());
                 let (before, after) = (next.hole.len(), next.patch.len());
                 said.push(if next.gone.len() == 1 {
@@ -246,9 +245,9 @@ fn step(state: &mut State, on: bool) {
     state.settings.target = Target::Triangles(levels.triangles_after(steps) as u32);
 }
 
-fn ways(document: &Document, classes: &Classes, node: u32, method: Method) -> Option<Ways> {
+fn ways(document: &Document, node: u32, method: Method) -> Option<Ways> {
     let (levels, level) = (&document.levels.as_ref()?.1, &document.shown.as_ref()?.level);
-    Ways::new(levels, &level.triangles, classes, node, method)
+    Ways::new(levels, &level.triangles, document.classes()?, node, method)
 }
 
 /// Looks at a collapse from outside, so near that its surroundings are seen.

@@ -1,11 +1,13 @@
 //! The surface that is open, as the app sees it: its pieces, its levels, the numbers.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use crate::engine::{Averaged, Calibre, Carried, Deviated, FaultsFound, Opened, Reduced, Source};
 use crate::io::{Axes, Format, ImportReport};
 use crate::mesh::{Bounds, TriMesh, compacted};
+use crate::pipeline::classes::Classes;
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
@@ -34,6 +36,11 @@ impl Pieces {
         }
     }
 
+    /// Whether triangle `t` of the opened surface is of what `keep` names: each is, until the pieces are known.
+    pub fn keeps(&self, keep: Keep, t: usize) -> bool {
+        self.kept(keep).zip(self.labels.get(t)).is_none_or(|(piece, of)| *of == piece)
+    }
+
     /// Whether what `keep` names is there.
     pub fn has(&self, keep: Keep) -> bool {
         !matches!(keep, Keep::Component(piece) if !self.by_size.contains(&piece))
@@ -47,6 +54,8 @@ pub struct Shown {
     pub level: Level,
     /// Vertices in use.
     pub vertices: usize,
+    /// The classes of its vertices, once something has asked for them.
+    classes: OnceCell<Classes>,
 }
 
 /// The numbers of a level.
@@ -219,7 +228,7 @@ impl Document {
         let Some((_, levels)) = &self.levels else { return };
         if self.shown.as_ref().is_none_or(|shown| shown.level != level) {
             let vertices = nodes_in_use(&level.triangles, levels.positions.len());
-            self.shown = Some(Shown { level, vertices });
+            self.shown = Some(Shown { level, vertices, classes: OnceCell::new() });
             self.revision.shown += 1;
         }
     }
@@ -323,10 +332,15 @@ impl Document {
     /// leaves them.
     pub fn before(&self, keep: Keep) -> TriMesh {
         let positions = self.averaged(keep).map_or(&self.opened.positions, |averaged| &averaged.positions);
-        let piece = self.pieces.kept(keep).filter(|_| !self.pieces.labels.is_empty());
-        let is_kept = |t: &usize| piece.is_none_or(|piece| self.pieces.labels[*t] == piece);
         let triangles = &self.opened.triangles;
-        compacted(positions, (0..triangles.len()).filter(is_kept).map(|t| triangles[t]).collect())
+        let kept = (0..triangles.len()).filter(|&t| self.pieces.keeps(keep, t));
+        compacted(positions, kept.map(|t| triangles[t]).collect())
+    }
+
+    /// The classes of the level that is shown, worked out where something first asks for them.
+    pub fn classes(&self) -> Option<&Classes> {
+        let (levels, shown) = (&self.levels.as_ref()?.1, self.shown.as_ref()?);
+        Some(shown.classes.get_or_init(|| Classes::new(levels, shown.level.steps, &shown.level.triangles)))
     }
 
     /// The shown level as a surface of its own.

@@ -161,9 +161,8 @@ impl Scene {
     fn follow_left_out(&mut self, document: &Document, keep: Keep) -> Result<(), SurfaceError> {
         let of = (document.revision.document, document.revision.opened, keep);
         if self.left_out_of != Some(of) && !document.pieces.labels.is_empty() {
-            let kept = document.pieces.kept(keep);
-            let is_out = |t: usize| kept.is_some_and(|piece| document.pieces.labels[t] != piece);
-            upload(&self.device, &self.queue, &mut self.left_out, &document.opened.filtered(is_out))?;
+            let left_out = document.opened.filtered(|t| !document.pieces.keeps(keep, t));
+            upload(&self.device, &self.queue, &mut self.left_out, &left_out)?;
             self.left_out_of = Some(of);
         }
         Ok(())

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::message::{Averaged, Event};
-use crate::mesh::{Topology, TriMesh, used_vertices};
+use crate::mesh::{Topology, TriMesh};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Keep;
@@ -53,14 +53,9 @@ impl Running {
     fn begin(pipeline: &Pipeline, passes: u32) -> Option<Self> {
         let (entering, found, kept) = (pipeline.entering()?, pipeline.connectivity()?, pipeline.kept()?);
         let (keep, whole) = (pipeline.settings().keep, entering.mesh.clone());
-        let vertices = match found.chosen(keep).ok()? {
+        let vertices = match found.kept_rows(&whole, keep).ok()? {
             None => (0..whole.positions.len() as u32).collect(),
-            Some(piece) => {
-                let of_piece = whole.triangles.iter().zip(&found.labels.of_triangle);
-                let triangles: Vec<[u32; 3]> =
-                    of_piece.filter(|(_, of)| **of == piece).map(|(triangle, _)| *triangle).collect();
-                used_vertices(whole.positions.len(), &triangles)
-            }
+            Some(rows) => rows.vertices,
         };
         let boundary = pipeline.settings().smoothing.boundary;
         let task =

@@ -7,7 +7,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Nearest, Topology, TriMesh};
+use super::{Nearest, Topology, TriMesh, opposite};
 
 /// Closer to a side of its triangle than this, as a barycentric weight, a nearest point counts as on it.
 const ON_SIDE: f32 = 1e-5;
@@ -62,15 +62,8 @@ impl<'a> Sides<'a> {
 
     /// The angle of triangle `t` at its vertex `v`, in radians.
     fn angle(&self, t: u32, v: u32) -> f64 {
-        let [a, b, c] = self.mesh.triangles[t as usize];
-        let [at, one, other] = if a == v {
-            [a, b, c]
-        } else if b == v {
-            [b, c, a]
-        } else {
-            [c, a, b]
-        }
-        .map(|v| self.mesh.positions[v as usize].as_dvec3());
+        let [one, other] = opposite(self.mesh.triangles[t as usize], v);
+        let [at, one, other] = [v, one, other].map(|v| self.mesh.positions[v as usize].as_dvec3());
         let (e, f) = (one - at, other - at);
         libm::atan2(e.cross(f).length(), e.dot(f))
     }

@@ -62,6 +62,7 @@ pub(crate) use roughness::{bends, summarise_bends};
 pub use self_intersections::self_intersections;
 pub(crate) use self_intersections::{Crossing, Indexed};
 pub use shuffle::shuffled;
+pub(crate) use topology::opposite;
 pub use topology::{EdgeCounts, EdgeUse, Topology};
 
 /// A triangle surface. Triangles wind counter-clockwise seen from outside.

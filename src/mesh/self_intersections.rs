@@ -262,6 +262,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::chance::Chance;
     use crate::mesh::shapes::{icosphere, joined, square};
 
     /// Sorts and drops what is there twice.
@@ -323,11 +324,8 @@ mod tests {
     /// Thousands of triangles over vertices of a box: half of all pairs overlap.
     #[test]
     fn triangles_that_all_run_into_each_other_take_a_flag_each() {
-        let mut state = 1u32;
-        let mut next = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            state >> 8
-        };
+        let mut chance = Chance::new(1);
+        let mut next = || (chance.bits() >> 40) as u32;
         let positions: Vec<Vec3> =
             (0..2000).map(|_| Vec3::from([next(), next(), next()].map(|x| x as f32 * 1e-6))).collect();
         let triangles = (0..2000).map(|_| [next() % 2000, next() % 2000, next() % 2000]);

@@ -241,7 +241,8 @@ fn add_ring(ring: &[(u32, EdgeUse)], neighbour_lists: &mut Vec<u32>, edge_uses: 
 }
 
 /// The other two corners of a triangle, in its winding, after corner `v`.
-fn opposite(triangle: [u32; 3], v: u32) -> [u32; 2] {
+#[inline]
+pub(crate) fn opposite(triangle: [u32; 3], v: u32) -> [u32; 2] {
     let [a, b, c] = triangle;
     if a == v {
         [b, c]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::settings::{Keep, SettingsError};
-use crate::mesh::{Bounds, Components, TriMesh, Vec3, components, triangle_area};
+use crate::mesh::{Bounds, Components, TriMesh, Vec3, components, triangle_area, used_vertices};
 
 /// One connected piece.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,6 +16,15 @@ pub struct Component {
     pub area_mm2: f64,
     /// The box around it.
     pub bounds: Bounds,
+}
+
+/// The rows of a surface that are kept, ascending.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct KeptRows {
+    /// Its vertices.
+    pub(crate) vertices: Vec<u32>,
+    /// Its triangles.
+    pub(crate) triangles: Vec<u32>,
 }
 
 /// The pieces of a surface.
@@ -72,6 +81,19 @@ impl Connectivity {
             Some(c) => Arc::new(mesh.filtered(|t| self.labels.of_triangle[t] == c)),
             None => mesh.clone(),
         })
+    }
+
+    /// Which vertices and triangles of `mesh` those of [`Self::kept`] are; `None` where that is the whole surface.
+    ///
+    /// # Errors
+    /// When there is no such component.
+    pub(crate) fn kept_rows(&self, mesh: &TriMesh, keep: Keep) -> Result<Option<KeptRows>, SettingsError> {
+        Ok(self.chosen(keep)?.map(|piece| {
+            let of_triangle = &self.labels.of_triangle;
+            let rows: Vec<u32> = (0..of_triangle.len() as u32).filter(|&t| of_triangle[t as usize] == piece).collect();
+            let triangles: Vec<[u32; 3]> = rows.iter().map(|&t| mesh.triangles[t as usize]).collect();
+            KeptRows { vertices: used_vertices(mesh.positions.len(), &triangles), triangles: rows }
+        }))
     }
 
     /// The piece that `keep` names; `None` where that is the whole surface.

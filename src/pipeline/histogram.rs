@@ -30,27 +30,28 @@ impl Histogram {
         Self { width_mm, inside, outside }
     }
 
-    /// The part of all samples that are farther than `mm`, in percent; within a bin they are taken to be spread evenly.
+    /// The part of all samples that are farther than `mm`, 0 or more, in percent.
     pub fn percent_over(&self, mm: f64) -> f64 {
-        let all: f64 = self.inside.iter().chain(&self.outside).map(|&count| f64::from(count)).sum();
+        let all = self.count();
         if all == 0.0 || self.width_mm <= 0.0 {
             return 0.0;
         }
-        let over = |(i, &count): (usize, &u32)| {
-            let part = (i as f64 + 1.0 - mm / self.width_mm).clamp(0.0, 1.0);
-            f64::from(count) * part
-        };
-        let beyond: f64 =
-            [&self.inside, &self.outside].into_iter().flat_map(|side| side.iter().enumerate().map(over)).sum();
-        100.0 * beyond / all
+        100.0 * (self.count_between(f64::NEG_INFINITY, -mm) + self.count_between(mm, f64::INFINITY)) / all
     }
 
     /// The samples from `from` to `to` mm, negative inside, as a part of all.
     pub fn part_between(&self, from: f64, to: f64) -> f64 {
-        let all: f64 = self.inside.iter().chain(&self.outside).map(|&count| f64::from(count)).sum();
-        if all == 0.0 {
-            return 0.0;
-        }
+        let all = self.count();
+        if all == 0.0 { 0.0 } else { self.count_between(from, to) / all }
+    }
+
+    /// How many samples there are.
+    fn count(&self) -> f64 {
+        self.inside.iter().chain(&self.outside).map(|&count| f64::from(count)).sum()
+    }
+
+    /// How many there are from `from` to `to` mm, negative inside; within a bin they are taken to be spread evenly.
+    fn count_between(&self, from: f64, to: f64) -> f64 {
         let width = self.width_mm.max(f64::MIN_POSITIVE);
         let share = |side: &[u32], from: f64, to: f64| -> f64 {
             let of = |(i, &count): (usize, &u32)| {
@@ -59,7 +60,7 @@ impl Histogram {
             };
             side.iter().enumerate().map(of).sum()
         };
-        (share(&self.outside, from.max(0.0), to) + share(&self.inside, (-to).max(0.0), -from)) / all
+        share(&self.outside, from.max(0.0), to) + share(&self.inside, (-to).max(0.0), -from)
     }
 }
 

@@ -13,6 +13,7 @@ impl Backdrop {
     pub(super) fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
         let module = scene_shader!(device, "backdrop.wgsl");
         let parts = PipelineParts {
+            vertex: "vertex_everywhere",
             depth_compare: wgpu::CompareFunction::Always,
             depth_write: false,
             ..PipelineParts::new("backdrop", &module)

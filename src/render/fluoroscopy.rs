@@ -6,12 +6,12 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::ViewTarget;
 use super::buffer::uniforms;
 use super::target::{Attachments, Target};
 use super::texture::{attachment, begin, whole};
 use super::thickness::ThicknessFormat;
 use super::wire::SHADOW;
+use super::{ViewTarget, binding};
 
 /// Attenuation of the contrast in 1/mm.
 const CONTRAST: f32 = 0.06;
@@ -106,37 +106,15 @@ impl Fluoroscopy {
             picture: [exposure.pulse as f32, NOISE, width, height],
         };
         let buffer = uniforms(device, &self.queue, "exposure", bytemuck::bytes_of(&values));
-        let texture =
-            |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("exposure"),
-            layout: &self.exposure,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
-                texture(1, &sums.thickness),
-                texture(2, &sums.shadow),
-            ],
-        })
+        let [thickness, shadow] = [&sums.thickness, &sums.shadow].map(wgpu::BindingResource::TextureView);
+        binding::group(device, "exposure", &self.exposure, [buffer.as_entire_binding(), thickness, shadow])
     }
 }
 
 fn exposure_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry =
-        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None };
-    let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: wgpu::BufferSize::new(size_of::<ExposureUniforms>() as u64),
-    };
-    let texture = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("exposure"),
-        entries: &[entry(0, uniform), entry(1, texture), entry(2, texture)],
-    })
+    let uniform = binding::uniform(size_of::<ExposureUniforms>(), false);
+    let types = [uniform, binding::texture(false), binding::texture(false)];
+    binding::layout(device, "exposure", wgpu::ShaderStages::FRAGMENT, &types)
 }
 
 fn expose_pipeline(device: &wgpu::Device, exposure: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {

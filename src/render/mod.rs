@@ -6,7 +6,7 @@
 //!   edges and normals. A [`GpuWire`] is written anew every frame (`tube`).
 //! - A kind of drawing is one file with one shader: `backdrop`, `shaded`, `wireframe`, `slice`, `glass`, `wire`, `thickness`,
 //!   `fluoroscopy`. Over the camera and the theme (`scene`) and a paint for each thing drawn (`paint`) it makes its
-//!   pipelines (`pipeline`) and draws from buffers (`buffer`).
+//!   pipelines (`pipeline`), binds what its shader reads (`binding`) and draws from buffers (`buffer`).
 //! - A [`Renderer`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`], by all kinds for surfaces (`kind`), with
 //!   ambient occlusion where that is asked for (`occlusion`).
 //! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel, from its tip, and as a fluoroscope sees it.
@@ -25,6 +25,7 @@
 //! lines have the same visual weight dark on light as light on dark.
 
 mod backdrop;
+mod binding;
 mod buffer;
 mod camera;
 mod colour;

@@ -8,6 +8,7 @@
 
 use std::sync::OnceLock;
 
+use super::binding;
 use super::buffer::draw;
 use super::kind::{Drawable, Look};
 use super::pipeline::{PipelineParts, scene_shader};
@@ -117,22 +118,9 @@ fn is_shaded(drawable: &Drawable<'_>) -> bool {
 
 impl Parts {
     fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
-        let texture = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
-        let entry = |(binding, ty)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty,
-            count: None,
-        };
-        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("occlusion"),
-            entries: &[(0, texture), (1, texture), (2, sampler)].map(entry),
-        });
+        let types = [binding::texture(false), binding::texture(false), sampler];
+        let group = binding::layout(device, "occlusion", wgpu::ShaderStages::FRAGMENT, &types);
         let module = scene_shader!(device, "occlusion.wgsl");
         let depth = PipelineParts {
             vertex: "vertex_depth",
@@ -142,12 +130,14 @@ impl Parts {
             ..PipelineParts::new("occlusion, depth", &module)
         };
         let gather = PipelineParts {
+            vertex: "vertex_everywhere",
             fragment: "fragment_gather",
             plain: Some(OPENNESS),
             group: Some(&group),
             ..PipelineParts::new("occlusion, gather", &module)
         };
         let shade = PipelineParts {
+            vertex: "vertex_everywhere",
             fragment: "fragment_shade",
             // It lies in the far plane: before it is what was drawn, and the background is not.
             depth_compare: wgpu::CompareFunction::Less,
@@ -166,16 +156,8 @@ impl Parts {
     }
 
     fn bind(&self, device: &wgpu::Device, depth: &wgpu::TextureView, openness: &wgpu::TextureView) -> wgpu::BindGroup {
-        let texture =
-            |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("occlusion"),
-            layout: &self.group,
-            entries: &[
-                texture(0, depth),
-                texture(1, openness),
-                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.nearest) },
-            ],
-        })
+        let [depth, openness] = [depth, openness].map(wgpu::BindingResource::TextureView);
+        let nearest = wgpu::BindingResource::Sampler(&self.nearest);
+        binding::group(device, "occlusion", &self.group, [depth, openness, nearest])
     }
 }

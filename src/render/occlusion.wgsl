@@ -37,13 +37,6 @@ fn fragment_depth(in: Solid) {
     }
 }
 
-// One triangle that covers the view, at the far plane.
-@vertex
-fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
-    let corner = vec2(f32(index & 1u), f32(index >> 1u));
-    return vec4(4.0 * corner - 1.0, 0.0, 1.0);
-}
-
 // 0, the far plane, where nothing is drawn.
 fn depth_at(pixel: vec2<i32>) -> f32 {
     let size = vec2<i32>(textureDimensions(depths));

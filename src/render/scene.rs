@@ -7,7 +7,7 @@ use wgpu::util::DeviceExt;
 
 use super::buffer::uniforms;
 use super::paint::{Paint, PaintUniforms, encoded};
-use super::{Camera, Colour, Style, VIRIDIS, diverging, label_colour};
+use super::{Camera, Colour, Style, VIRIDIS, binding, diverging, label_colour};
 
 /// Distance of two sets of uniforms in a buffer: the largest alignment that any device asks for.
 const STRIDE: u64 = 256;
@@ -64,31 +64,11 @@ pub(super) struct SceneBindings {
 
 impl SceneLayout {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let entry = |size: usize, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset,
-                min_binding_size: wgpu::BufferSize::new(size as u64),
-            },
-            count: None,
-        };
-        let map = wgpu::BindGroupLayoutEntry {
-            binding: 1,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        };
-        let layout = |label, entries: &[_]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
-        };
-        let scene = layout("scene", &[entry(size_of::<SceneUniforms>(), false), map]);
-        let paint = layout("paint", &[entry(size_of::<PaintUniforms>(), true)]);
+        let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
+        let of_scene = [binding::uniform(size_of::<SceneUniforms>(), false), binding::texture(false)];
+        let scene = binding::layout(device, "scene", stages, &of_scene);
+        let of_paint = [binding::uniform(size_of::<PaintUniforms>(), true)];
+        let paint = binding::layout(device, "paint", stages, &of_paint);
         let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("scene"),
             bind_group_layouts: &[Some(&scene), Some(&paint)],
@@ -133,19 +113,8 @@ impl SceneLayout {
         };
         let map = wgpu::BindingResource::TextureView(&self.map);
         SceneBindings {
-            scene: device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("scene"),
-                layout: &self.scene,
-                entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: part(0, size_of::<SceneUniforms>()) },
-                    wgpu::BindGroupEntry { binding: 1, resource: map },
-                ],
-            }),
-            paint: device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("paint"),
-                layout: &self.paint,
-                entries: &[wgpu::BindGroupEntry { binding: 0, resource: part(paints_at, size_of::<PaintUniforms>()) }],
-            }),
+            scene: binding::group(device, "scene", &self.scene, [part(0, size_of::<SceneUniforms>()), map]),
+            paint: binding::group(device, "paint", &self.paint, [part(paints_at, size_of::<PaintUniforms>())]),
         }
     }
 }

@@ -39,6 +39,13 @@ struct Paint {
 @group(0) @binding(1) var viridis: texture_2d<f32>;
 @group(1) @binding(0) var<uniform> paint: Paint;
 
+// One triangle that covers the view, at the far plane.
+@vertex
+fn vertex_everywhere(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    let corner = vec2(f32(index & 1u), f32(index >> 1u));
+    return vec4(4.0 * corner - 1.0, 0.0, 1.0);
+}
+
 // How far a place in camera coordinates lies before the plane: what lies before it at all is left out. Where a triangle
 // is seen edge-on it has to be taken within the triangle (centroid): beside it, it is far off.
 fn before_clip(position: vec3<f32>) -> f32 {

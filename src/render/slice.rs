@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use bytemuck::cast_slice;
 use glam::{Vec2, Vec3};
 
+use super::binding;
 use super::buffer::{GrowingBuffer, draw};
 use super::error::SurfaceError;
 use super::pipeline::{PipelineParts, scene_shader};
@@ -101,14 +102,9 @@ impl Slices {
     ) {
         for slice in slices {
             let parts = self.0.get_or_init(|| Parts::new(device, layout));
-            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("slice"),
-                layout: &parts.group,
-                entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&slice.greys) },
-                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&parts.bilinear) },
-                ],
-            });
+            let greys = wgpu::BindingResource::TextureView(&slice.greys);
+            let bilinear = wgpu::BindingResource::Sampler(&parts.bilinear);
+            let group = binding::group(device, "slice", &parts.group, [greys, bilinear]);
             pass.set_bind_group(2, &group, &[]);
             draw(pass, &parts.pipeline, &[&slice.positions, &slice.at], &slice.triangles);
         }
@@ -117,22 +113,8 @@ impl Slices {
 
 impl Parts {
     fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
-        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty,
-            count: None,
-        };
-        let texture = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("slice"),
-            entries: &[entry(0, texture), entry(1, sampler)],
-        });
+        let group = binding::layout(device, "slice", wgpu::ShaderStages::FRAGMENT, &[binding::texture(true), sampler]);
         let module = scene_shader!(device, "slice.wgsl");
         let parts = PipelineParts {
             attributes: &[wgpu::VertexFormat::Float32x3, wgpu::VertexFormat::Float32x2],

@@ -82,13 +82,7 @@ impl Style {
         rim: Colour::hex(0xF6_D2_C2),
         line: Colour::hex(0xF4_F6_F8),
         line_facing: Colour::hex(0x93_9D_A8),
-        map: None,
-        labels: false,
-        raking: false,
-        occlusion: false,
-        diverging: false,
-        clip: None,
-        by_vertex: false,
+        ..Self::LIGHT
     };
 }
 

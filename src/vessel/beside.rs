@@ -11,6 +11,7 @@ use glam::{DVec3, Vec3};
 use thiserror::Error;
 
 use super::certificate::{BranchCalibre, Standing};
+use super::{Place, power};
 use crate::mesh::{Outline, cut};
 use crate::say;
 
@@ -85,13 +86,10 @@ pub fn beside(branches: &[BranchCalibre], p: DVec3) -> Result<Beside<'_>, NotMea
             if k == i && i > 0 {
                 break;
             }
-            let (from, to) = (station(branch, i), station(branch, k));
-            let along = to - from;
-            let part = ((p - from).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-            let radius = radius(branch, i) * (1.0 - part) + radius(branch, k) * part;
-            let power = p.distance_squared(from.lerp(to, part)) - radius * radius;
-            if best.is_none_or(|(least, ..)| power < least) {
-                best = Some((power, branch, i, part));
+            let place = |i: usize| Place { at: station(branch, i), radius: radius(branch, i) };
+            let found = power(place(i), place(k), p);
+            if best.is_none_or(|(least, ..)| found.power < least) {
+                best = Some((found.power, branch, i, found.part));
             }
         }
     }

@@ -32,16 +32,33 @@ struct Segment {
 }
 
 impl Segment {
-    /// The power of a point with regard to the balls along the segment, least where a ball holds it deepest; where along
-    /// the segment, 0 to 1; the squared distance.
     #[inline]
-    fn power(&self, p: DVec3) -> (f64, f64, f64) {
-        let along = self.to.at - self.from.at;
-        let part = ((p - self.from.at).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let squared = p.distance_squared(self.from.at + along * part);
-        let radius = self.from.radius + (self.to.radius - self.from.radius) * part;
-        (squared - radius * radius, part, squared)
+    fn power(&self, p: DVec3) -> Power {
+        power(self.from, self.to, p)
     }
+}
+
+/// What a segment of a centreline is to a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Power {
+    /// `d^2 - r^2` of the ball at the place of the segment next to the point, in mm2: less where it holds the point deeper.
+    pub(crate) power: f64,
+    /// Where along the segment that place is, 0 to 1.
+    pub(crate) part: f64,
+    /// Squared distance of the point from it, in mm2.
+    pub(crate) squared: f64,
+    /// Radius of the ball, in mm.
+    pub(crate) radius: f64,
+}
+
+/// The power of a point with regard to the balls along the segment between two places.
+#[inline]
+pub(crate) fn power(from: Place, to: Place, p: DVec3) -> Power {
+    let along = to.at - from.at;
+    let part = ((p - from.at).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let squared = p.distance_squared(from.at + along * part);
+    let radius = from.radius + (to.radius - from.radius) * part;
+    Power { power: squared - radius * radius, part, squared, radius }
 }
 
 /// The box around a few segments, and the largest radius there.
@@ -84,7 +101,7 @@ impl Segments {
     pub(super) fn locate(&self, p: DVec3, last: Option<&Located>) -> Option<Located> {
         let mut best = (f64::INFINITY, u32::MAX);
         if let Some(segment) = last.and_then(|last| self.all.get(last.segment as usize).map(|_| last.segment)) {
-            best = (self.all[segment as usize].power(p).0, segment);
+            best = (self.all[segment as usize].power(p).power, segment);
         }
         for chunk in &self.chunks {
             let gap = (chunk.low - p).max(p - chunk.high).max(DVec3::ZERO);
@@ -92,18 +109,18 @@ impl Segments {
                 continue;
             }
             for number in chunk.first..chunk.first + chunk.count {
-                let power = self.all[number as usize].power(p).0;
+                let power = self.all[number as usize].power(p).power;
                 if (power, number) < best {
                     best = (power, number);
                 }
             }
         }
         let segment = self.all.get(best.1 as usize)?;
-        let (_, part, squared) = segment.power(p);
+        let Power { part, squared, radius, .. } = segment.power(p);
         Some(Located {
             branch: segment.branch,
             arc_mm: segment.arc + part * segment.from.at.distance(segment.to.at),
-            radius_mm: segment.from.radius + (segment.to.radius - segment.from.radius) * part,
+            radius_mm: radius,
             distance_mm: squared.sqrt(),
             segment: best.1,
         })

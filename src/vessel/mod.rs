@@ -45,6 +45,7 @@ pub use centreline::Place;
 pub(crate) use centreline::{arcs, centreline, direction};
 pub use centrelines::{CentrelineFormat, Centrelines};
 pub use locating::Located;
+pub(crate) use locating::power;
 pub(crate) use paths::NONE;
 pub(crate) use space::Ball;
 pub use stations::{Station, Stations};

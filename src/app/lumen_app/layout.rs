@@ -11,7 +11,7 @@ use crate::app::{bar, collapses, lesson, measure, panel, scan, theme, trial, ver
 use crate::pipeline::settings::{Keep, Settings};
 
 impl LumenApp {
-    /// Whether the measures are shown: likewise.
+    /// Whether the measures are shown: a trial, a scan and a comparison take their place.
     pub(super) fn shows_measuring(&self) -> bool {
         self.measuring.is_open && !(self.trial.is_open() || self.scans.is_open() || self.state.comparison.is_open())
     }

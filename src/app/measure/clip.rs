@@ -55,7 +55,7 @@ impl Across {
     /// What it is called.
     pub(super) fn label(self, document: &Document) -> String {
         const AXES: [&str; 3] = ["x", "y", "z"];
-        const PATIENT: [Key; 3] = [Key("measure-sagittal"), Key("measure-coronal"), Key("measure-axial")];
+        const PATIENT: [Key; 3] = [Key("scan-sagittal"), Key("scan-coronal"), Key("scan-axial")];
         match self {
             Self::Axis(axis) if document.import.axes == Axes::Unknown => {
                 say!("measure-across-axis", axis = AXES[axis.min(2)])

@@ -48,13 +48,10 @@ impl<'a> Subject<'a> {
         let revision = document.revision;
         if is_opened {
             let (mesh, pieces) = (&document.opened, &document.pieces);
-            let kept = pieces.kept(keep).filter(|_| pieces.list.len() > 1);
-            let triangles = match kept {
-                None => Cow::Borrowed(&mesh.triangles[..]),
-                Some(kept) => {
-                    let is_kept = |(t, _): &(usize, &[u32; 3])| pieces.labels.get(*t) == Some(&kept);
-                    mesh.triangles.iter().enumerate().filter(is_kept).map(|(_, triangle)| *triangle).collect()
-                }
+            let triangles = if keep == Keep::All || pieces.list.len() < 2 {
+                Cow::Borrowed(&mesh.triangles[..])
+            } else {
+                (0..mesh.triangles.len()).filter(|&t| pieces.keeps(keep, t)).map(|t| mesh.triangles[t]).collect()
             };
             let of = Of::Opened(revision.document, revision.opened, keep);
             return Some(Self { positions: &mesh.positions, triangles, made_on: MadeOn::Opened, of });

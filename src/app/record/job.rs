@@ -313,10 +313,10 @@ fn level(document: &Document) -> Arc<TriMesh> {
 
 /// The pieces that are kept, as opened.
 fn kept(document: &Document, keep: Keep) -> Arc<TriMesh> {
-    match document.pieces.kept(keep).filter(|_| !document.pieces.labels.is_empty()) {
-        Some(piece) => Arc::new(document.opened.filtered(|t| document.pieces.labels[t] == piece)),
-        None => document.opened.clone(),
+    if keep == Keep::All || document.pieces.labels.is_empty() {
+        return document.opened.clone();
     }
+    Arc::new(document.opened.filtered(|t| document.pieces.keeps(keep, t)))
 }
 
 #[cfg(test)]

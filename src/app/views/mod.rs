@@ -14,7 +14,6 @@ pub use self::options::{Colours, ViewOptions};
 pub(super) use self::picture::legend;
 pub(super) use self::steering::{first_view, in_view, pixels, seen, stand};
 use super::action::Action;
-use super::classes::ShownClasses;
 use super::collapses::Collapses;
 use super::document::{Document, Revision};
 use super::flight::Flight;
@@ -86,8 +85,6 @@ pub struct Views {
     pub(super) spot: Option<Spot>,
     /// The collapses, one by one.
     pub(super) collapses: Collapses,
-    /// The classes of the level that is shown, where they are asked for.
-    classes: ShownClasses,
     scene: Option<Scene>,
     /// Why there is nothing to see.
     failure: Option<String>,
@@ -119,7 +116,6 @@ impl Views {
             outlines: None,
             spot: None,
             collapses: Collapses::default(),
-            classes: ShownClasses::default(),
             scene: None,
             failure: None,
             refused: None,
@@ -327,7 +323,6 @@ impl Views {
         if let (Some(outlines), Some(document)) = (&mut self.outlines, document) {
             outlines.keep_only(&self.slices, document.revision);
         }
-        self.classes.follow(document, self.options);
         let mut area = ui.available_rect_before_wrap();
         // A finger covers much of two small pictures.
         let is_alone = is_narrow && theme::suits_finger(ui.ctx());

@@ -192,11 +192,15 @@ impl Views {
 
     /// Marks places: classes, the pinch, collapses, faults, and the one that was gone to.
     fn mark(&self, ui: &Ui, rect: Rect, picture: &Picture, document: Option<&Document>) {
-        if let Some(found) = self.classes.found().filter(|_| !self.show_before) {
-            if picture.style.by_vertex {
+        if let Some(document) = document.filter(|_| !self.show_before) {
+            if picture.style.by_vertex
+                && let Some(found) = document.classes()
+            {
                 classes::legend(ui, rect, &found.counts);
             }
-            if let (Some(document), true) = (document, self.options.lines) {
+            if self.options.lines
+                && let Some(found) = document.classes()
+            {
                 let normals = self.scene.as_ref().map_or(&[][..], Scene::normals);
                 classes::lines(ui, rect, &self.camera, document, &found.lines, normals);
             }

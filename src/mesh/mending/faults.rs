@@ -6,7 +6,7 @@ use super::holes::{Hole, Opening, holes};
 use super::split::doubles;
 use super::wall::Wall;
 use crate::mesh::disjoint_sets::union;
-use crate::mesh::{Topology, TriMesh};
+use crate::mesh::{Topology, TriMesh, opposite};
 use crate::task::{Budget, Progress};
 
 /// Vertices between two looks at the clock.
@@ -170,14 +170,7 @@ fn is_closed_fan(mesh: &TriMesh, around: &[u32], v: u32) -> bool {
     }
     let mut others = [[0u32; 2]; SMALL];
     for (other, &t) in others.iter_mut().zip(around) {
-        let [a, b, c] = mesh.triangles[t as usize];
-        *other = if a == v {
-            [b, c]
-        } else if b == v {
-            [c, a]
-        } else {
-            [a, b]
-        };
+        *other = opposite(mesh.triangles[t as usize], v);
     }
     let others = &others[..around.len()];
     let (mut at, mut passed) = (others[0][1], 1);

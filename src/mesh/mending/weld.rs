@@ -240,16 +240,14 @@ pub fn weld(mesh: &TriMesh, tolerance: f64) -> Welded {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chance::Chance;
     use crate::mesh::components;
     use crate::mesh::shapes::{icosphere, joined, tube};
 
     /// Every triangle by itself, its corners moved by up to `noise` mm.
     fn soup(mesh: &TriMesh, noise: f32) -> TriMesh {
-        let mut seed = 1u32;
-        let mut random = || {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (seed >> 8) as f32 / 8_388_608.0 - 1.0
-        };
+        let mut chance = Chance::new(1);
+        let mut random = || (2.0 * chance.unit() - 1.0) as f32;
         let corners = mesh.triangles.as_flattened().iter().map(|&v| mesh.positions[v as usize]);
         let positions: Vec<Vec3> = corners.map(|p| p + Vec3::new(random(), random(), random()) * noise).collect();
         let triangles = (0..mesh.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::mesh::Topology;
+use crate::mesh::{Topology, opposite};
 
 /// Triangles around a vertex, on their way to a ring: each as the two other corners, in its winding, and its number.
 #[derive(Default)]
@@ -93,14 +93,8 @@ impl Fan {
 
 /// The other two corners of a triangle, in its winding, after corner `v`, and its number `t`.
 fn spoke(triangle: [u32; 3], v: u32, t: u32) -> [u32; 3] {
-    let [a, b, c] = triangle;
-    if a == v {
-        [b, c, t]
-    } else if b == v {
-        [c, a, t]
-    } else {
-        [a, b, t]
-    }
+    let [next, last] = opposite(triangle, v);
+    [next, last, t]
 }
 
 /// The fans around a complex vertex, each in order with whether it closes: triangles belong together where they share

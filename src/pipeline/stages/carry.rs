@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Run;
 use crate::mesh::arrays::gathered;
-use crate::mesh::{Array, SurfaceIndex, TriMesh, used_vertices};
+use crate::mesh::{Array, SurfaceIndex, TriMesh};
 use crate::pipeline::carry::{CarryTask, Entered};
 use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;
@@ -83,14 +83,8 @@ pub(super) fn kept_arrays(store: &Store) -> Option<Arc<Vec<Array>>> {
         return Some(arrays.clone());
     }
     let (entering, connectivity) = (store.now.mended.as_ref()?, store.now.connectivity.as_ref()?);
-    Some(match connectivity.chosen(store.now.settings.keep).ok()? {
+    Some(match connectivity.kept_rows(&entering.mesh, store.now.settings.keep).ok()? {
         None => entering.arrays.clone(),
-        Some(piece) => {
-            let of_triangle = &connectivity.labels.of_triangle;
-            let rows: Vec<u32> = (0..of_triangle.len() as u32).filter(|&t| of_triangle[t as usize] == piece).collect();
-            let triangles: Vec<[u32; 3]> = rows.iter().map(|&t| entering.mesh.triangles[t as usize]).collect();
-            let vertices = used_vertices(entering.mesh.positions.len(), &triangles);
-            Arc::new(gathered(&entering.arrays, &vertices, &rows))
-        }
+        Some(rows) => Arc::new(gathered(&entering.arrays, &rows.vertices, &rows.triangles)),
     })
 }

@@ -221,6 +221,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
+    use crate::chance::Chance;
 
     #[test]
     fn a_solution_gives_the_right_hand_side_again() {
@@ -228,11 +229,8 @@ mod tests {
         let mut band = Band::default();
         band.reset(n / 4);
         // Sums of squares of random rows, and a little of the identity, are positive definite.
-        let mut state = 1u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            f64::from(state >> 8) / f64::from(1 << 24) - 0.5
-        };
+        let mut chance = Chance::new(1);
+        let mut random = || chance.unit() - 0.5;
         for node in 0..n / 4 - 2 {
             let mut random = || DVec3::from_array(std::array::from_fn(|_| random()));
             for _ in 0..3 {

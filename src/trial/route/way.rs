@@ -6,7 +6,7 @@
 use glam::{DVec3, Vec3};
 
 use super::{RouteError, usual_radius};
-use crate::vessel::{Ball, Located, NONE, Place, Tree, arcs, centreline, direction};
+use crate::vessel::{Ball, Located, NONE, Place, Tree, arcs, centreline, direction, power};
 
 /// Number of stations.
 const STATIONS: usize = 5;
@@ -341,13 +341,10 @@ fn deepest<T>(points: &[T], p: DVec3, place: impl Fn(&T) -> (Place, f64)) -> OnR
     let mut best = (f64::INFINITY, OnRoute::default());
     for pair in points.windows(2) {
         let ((from, arc), (to, _)) = (place(&pair[0]), place(&pair[1]));
-        let way = to.at - from.at;
-        let part = ((p - from.at).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let squared = p.distance_squared(from.at + way * part);
-        let radius = from.radius + (to.radius - from.radius) * part;
-        if squared - radius * radius < best.0 {
-            let on = OnRoute { arc_mm: arc + part * way.length(), distance_mm: squared.sqrt(), radius_mm: radius };
-            best = (squared - radius * radius, on);
+        let found = power(from, to, p);
+        if found.power < best.0 {
+            let arc_mm = arc + found.part * from.at.distance(to.at);
+            best = (found.power, OnRoute { arc_mm, distance_mm: found.squared.sqrt(), radius_mm: found.radius });
         }
     }
     best.1

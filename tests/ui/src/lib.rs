@@ -315,7 +315,7 @@ pub fn moving_app(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, 
 
 /// The same on a phone, held upright in the hand.
 pub fn phone() -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
-    in_hand([390.0, 844.0], 0.25, false)
+    in_hand(PHONE, 0.25, false)
 }
 
 /// The same on what a finger points at: of this size, with so many seconds between two frames, where what moves by itself is
@@ -520,6 +520,16 @@ pub fn tube(radius: f64, length: f64, edge: f64) -> Vec<u8> {
     };
     let vertices = (0..around * rings).map(vertex);
     vertices.chain((0..around * (rings - 1)).map(quad)).collect::<String>().into_bytes()
+}
+
+/// Opens a file as if it had been chosen, and steps until nothing of it is under way any more.
+///
+/// # Panics
+/// When that takes too long.
+pub fn open(harness: &mut Harness<'_, LumenApp>, memory: &RefCell<Memory>, name: &str, bytes: Vec<u8>) {
+    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: name.to_owned(), bytes });
+    harness.run_steps(20);
+    settle_wholly(harness);
 }
 
 /// Whether some text that is shown holds this one.

@@ -253,15 +253,11 @@ fn pictures_of_the_compare_view() {
             for theme in [egui::Theme::Light, egui::Theme::Dark] {
                 harness.ctx.set_theme(theme);
                 harness.run_steps(3);
-                let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"))
-                    .join(format!("compare-{name}-{}-{theme:?}.png", figure.replace(' ', "-")).to_lowercase());
+                let name = format!("compare-{name}-{}-{theme:?}", figure.replace(' ', "-")).to_lowercase();
                 let picture = harness.render().unwrap();
                 let colours: std::collections::BTreeSet<_> = picture.pixels().map(|pixel| pixel.0).collect();
                 assert!(colours.len() > 200, "{}", colours.len());
-                let mut encoder =
-                    png::Encoder::new(std::fs::File::create(path).unwrap(), picture.width(), picture.height());
-                encoder.set_color(png::ColorType::Rgba);
-                encoder.write_header().unwrap().write_image_data(picture.as_raw()).unwrap();
+                crate::save(&name, [picture.width(), picture.height()], picture.as_raw());
             }
         }
     }

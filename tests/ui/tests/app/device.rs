@@ -5,9 +5,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LastingApp;
 use lumen::pipeline::settings::Target;
 use lumen::render::Fault;
-use lumen_ui_tests::LastingWindow;
-
-const SIZE: [f32; 2] = [1280.0, 800.0];
+use lumen_ui_tests::{DESKTOP, LastingWindow};
 
 /// Brings the reduction to another value, as by dragging the slider.
 fn move_reduction(window: &mut LastingWindow, part: f32) {
@@ -41,7 +39,7 @@ fn kept(window: &LastingWindow) -> LastingApp {
 
 #[test]
 fn another_device_shows_what_stood_on_the_one_that_was_lost() {
-    let mut window = LastingWindow::new(SIZE, None);
+    let mut window = LastingWindow::new(DESKTOP, None);
     window.settle();
     move_reduction(&mut window, 0.4);
     window.harness.key_press(egui::Key::L);
@@ -60,7 +58,7 @@ fn another_device_shows_what_stood_on_the_one_that_was_lost() {
     app.leave();
     drop(window);
 
-    let mut window = LastingWindow::new(SIZE, Some(app));
+    let mut window = LastingWindow::new(DESKTOP, Some(app));
     window.settle();
     window.harness.run_steps(3);
     let notice = window.harness.query_by_label_contains("have been started again. Nothing was lost.");
@@ -79,7 +77,7 @@ fn another_device_shows_what_stood_on_the_one_that_was_lost() {
 
 #[test]
 fn full_memory_is_told_and_tried_again_with_a_coarser_level() {
-    let mut window = LastingWindow::new(SIZE, None);
+    let mut window = LastingWindow::new(DESKTOP, None);
     window.settle();
     let before = views(&mut window);
     window.harness.state().mark(Fault::OutOfMemory);

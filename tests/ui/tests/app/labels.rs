@@ -4,9 +4,9 @@ use egui::accesskit::Role;
 use egui::{Key, Rect, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use lumen::app::{LumenApp, PlatformEvent};
+use lumen::app::LumenApp;
 use lumen::render::{Colour, contrast};
-use lumen_ui_tests::{DESKTOP, app, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, open, settle_wholly};
 
 /// The contrast of the brightest and the darkest pixel in a part of the window.
 fn contrast_in(harness: &mut Harness<'_, LumenApp>, part: Rect) -> f32 {
@@ -26,9 +26,7 @@ fn labels_over_the_outside_and_the_inside_of_a_wall_have_their_contrast_in_both_
     let (mut harness, memory) = app(DESKTOP);
     settle_wholly(&mut harness);
     let bytes = b"v -30 0 -30\nv 30 0 -30\nv 30 0 30\nv -30 0 30\nf 1 2 3 4\n".to_vec();
-    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "sheet.obj".to_owned(), bytes });
-    harness.run_steps(20);
-    settle_wholly(&mut harness);
+    open(&mut harness, &memory, "sheet.obj", bytes);
     for _theme in 0..2 {
         for side in [Key::Num1, Key::Num2] {
             harness.key_press(side);

@@ -15,9 +15,9 @@ use crate::targets::{overlapping, targets, words};
 /// Width and height in points, and whether a finger points there.
 type Screen = ([f32; 2], bool);
 
-const PHONE: Screen = ([390.0, 844.0], true);
+const PHONE: Screen = (lumen_ui_tests::PHONE, true);
 const TABLET: Screen = ([768.0, 1024.0], true);
-const LAPTOP: Screen = ([1280.0, 800.0], false);
+const LAPTOP: Screen = (lumen_ui_tests::DESKTOP, false);
 const LARGE: Screen = ([1920.0, 1080.0], false);
 
 /// Tries the main screens in every language, on a small surface.

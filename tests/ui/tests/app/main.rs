@@ -28,3 +28,11 @@ mod trial;
 mod verdict;
 mod vessels;
 mod window;
+
+/// Leaves a picture, four bytes a pixel, to look at in the target folder's `tmp`.
+fn save(name: &str, [width, height]: [u32; 2], pixels: &[u8]) {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
+    let mut encoder = png::Encoder::new(std::fs::File::create(path).unwrap(), width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(pixels).unwrap();
+}

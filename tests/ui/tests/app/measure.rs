@@ -12,7 +12,7 @@ use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Preset, Settings, Target};
 use lumen::sharing::measures::{Found, MadeOn, Measure};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, open, says, settle, settle_wholly, tube};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -29,12 +29,6 @@ fn measuring(size: [f32; 2], name: &str, bytes: Vec<u8>) -> (Harness<'static, Lu
     harness.key_press(Key::M);
     harness.run_steps(3);
     (harness, memory)
-}
-
-fn open(harness: &mut Harness<'_, LumenApp>, memory: &Shared, name: &str, bytes: Vec<u8>) {
-    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: name.to_owned(), bytes });
-    harness.run_steps(20);
-    settle_wholly(harness);
 }
 
 /// Where a place is in the wireframe view.

@@ -3,16 +3,8 @@
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use lumen::app::{LumenApp, PlatformEvent};
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, says, settle, settle_wholly, tube};
-
-type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
-
-fn open(harness: &mut Harness<'_, LumenApp>, memory: &Shared, name: &str, bytes: Vec<u8>) {
-    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: name.to_owned(), bytes });
-    harness.run_steps(20);
-    settle_wholly(harness);
-}
+use lumen::app::LumenApp;
+use lumen_ui_tests::{DESKTOP, PHONE, app, open, says, settle, settle_wholly, tube};
 
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
     harness.get_by_role_and_label(role, label).click();
@@ -134,11 +126,8 @@ fn a_phone_has_room_for_it() {
     assert!(button.right() <= PHONE[0] && button.left() >= 0.0);
 }
 
-/// Leaves a picture to look at in the target folder's `tmp`.
+/// Leaves a picture to look at.
 fn picture(harness: &mut Harness<'_, LumenApp>, name: &str) {
-    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
     let picture = harness.render().unwrap();
-    let mut encoder = png::Encoder::new(std::fs::File::create(path).unwrap(), picture.width(), picture.height());
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.write_header().unwrap().write_image_data(picture.as_raw()).unwrap();
+    crate::save(name, [picture.width(), picture.height()], picture.as_raw());
 }

@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{app, says, settle};
+use lumen_ui_tests::{DESKTOP, PHONE, app, says, settle};
 
 fn picture(harness: &mut Harness<'_, LumenApp>) -> Vec<[u8; 4]> {
     harness.render().unwrap().pixels().map(|pixel| pixel.0).collect()
@@ -22,7 +22,7 @@ fn has_panel(harness: &Harness<'_, LumenApp>) -> bool {
 
 #[test]
 fn letters_grow_the_panel_goes_and_escape_brings_all_back() {
-    for size in [[1280.0, 800.0], [390.0, 844.0]] {
+    for size in [DESKTOP, PHONE] {
         let (mut harness, _) = app(size);
         settle(&mut harness);
         let zoom = harness.ctx.zoom_factor();
@@ -42,7 +42,7 @@ fn letters_grow_the_panel_goes_and_escape_brings_all_back() {
 
 #[test]
 fn a_key_is_shown_and_goes_again_and_the_pointer_has_a_halo() {
-    let (mut harness, _) = app([1280.0, 800.0]);
+    let (mut harness, _) = app(DESKTOP);
     settle(&mut harness);
     harness.key_press(Key::P);
     harness.run_steps(20);

@@ -174,10 +174,7 @@ fn choose_sample(harness: &mut Harness<'_, LumenApp>) {
 /// What both views show; the whole window is also written beside what is built, to be looked at.
 fn picture(harness: &mut Harness<'_, LumenApp>, name: &str) -> Vec<[u8; 4]> {
     let picture = harness.render().unwrap();
-    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("slices-{name}.png"));
-    let mut encoder = png::Encoder::new(std::fs::File::create(path).unwrap(), picture.width(), picture.height());
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.write_header().unwrap().write_image_data(picture.as_raw()).unwrap();
+    crate::save(&format!("slices-{name}"), [picture.width(), picture.height()], picture.as_raw());
     // Beside the panel, above the bar below.
     let places = (140..picture.height() - 60).flat_map(|y| (460..picture.width()).map(move |x| (x, y)));
     places.map(|(x, y)| picture.get_pixel(x, y).0).collect()

@@ -10,17 +10,9 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, Memory, app, phone, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, app, open, phone, says, settle, settle_wholly, tube};
 
 use crate::targets::fits_a_finger;
-
-type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
-
-fn open(harness: &mut Harness<'_, LumenApp>, memory: &Shared, name: &str, bytes: Vec<u8>) {
-    memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: name.to_owned(), bytes });
-    harness.run_steps(20);
-    settle_wholly(harness);
-}
 
 fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
     harness.get_by_role_and_label(Role::Button, label).click();

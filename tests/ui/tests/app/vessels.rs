@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{DESKTOP, app, offered, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, offered, says, settle, tube};
 
 /// What the level makes of the vessels, once that is known: it comes after the other numbers.
 fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {
@@ -120,7 +120,7 @@ fn calibre_and_centrelines_are_saved() {
 
 #[test]
 fn on_a_phone_the_vessels_take_the_place_of_the_controls_and_give_it_back() {
-    let mut harness = vessels([390.0, 844.0]);
+    let mut harness = vessels(PHONE);
     assert!(harness.query_by_role_and_label(Role::Slider, "Iterations").is_none());
     assert!(says(&harness, "keep their calibre"));
     harness.get_by_role_and_label(Role::Button, "Back").click();

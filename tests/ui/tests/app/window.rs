@@ -3,7 +3,7 @@
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use lumen_ui_tests::{app, drag, settle};
+use lumen_ui_tests::{PHONE, app, drag, settle};
 
 use crate::controls::{open, safe_percent};
 
@@ -54,7 +54,7 @@ fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() 
 
 #[test]
 fn everything_is_there_on_a_phone() {
-    let (mut harness, _) = app([390.0, 844.0]);
+    let (mut harness, _) = app(PHONE);
     settle(&mut harness);
     for (role, name) in [
         (Role::Button, "Open..."),
@@ -63,7 +63,7 @@ fn everything_is_there_on_a_phone() {
         (Role::Image, "Wireframe view"),
     ] {
         let rect = harness.get_by_role_and_label(role, name).rect();
-        assert!(rect.left() >= 0.0 && rect.right() <= 390.0 && rect.bottom() <= 844.0, "{name} at {rect:?}");
+        assert!(rect.left() >= 0.0 && rect.right() <= PHONE[0] && rect.bottom() <= PHONE[1], "{name} at {rect:?}");
     }
     let (shaded, wireframe) =
         ["Shaded view", "Wireframe view"].map(|name| harness.get_by_role_and_label(Role::Image, name).rect()).into();

@@ -60,11 +60,8 @@ fn pictures_of_the_trial() {
 }
 
 fn save(harness: &mut App, name: &str) {
-    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
     let picture = harness.render().unwrap();
     let colours: std::collections::BTreeSet<_> = picture.pixels().map(|pixel| pixel.0).collect();
     assert!(colours.len() > 200, "{}", colours.len());
-    let mut encoder = png::Encoder::new(std::fs::File::create(path).unwrap(), picture.width(), picture.height());
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.write_header().unwrap().write_image_data(picture.as_raw()).unwrap();
+    crate::save(name, [picture.width(), picture.height()], picture.as_raw());
 }
