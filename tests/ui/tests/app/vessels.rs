@@ -107,7 +107,7 @@ fn calibre_and_centrelines_are_saved() {
     harness.run_steps(3);
     harness.get_by_label("Centrelines (VTP)...").click();
     let (lines, xml) = offered(&mut harness, &memory);
-    assert_eq!((&**table, &**lines), ("abdominal-aorta-calibre.csv", "abdominal-aorta-centrelines.vtp"));
+    assert_eq!((&*table, &*lines), ("abdominal-aorta-calibre.csv", "abdominal-aorta-centrelines.vtp"));
     let rows = std::str::from_utf8(&rows).unwrap();
     let stations: usize = found.branches.iter().map(|branch| branch.abscissas_mm.len()).sum();
     assert_eq!(rows.lines().count(), stations + 1);
