@@ -1,21 +1,25 @@
 //! What does each stage cost as the surface grows? `cargo bench --bench stages`, then `cargo xtask curve`.
 //!
 //! Each time is that of the stage as the program runs it, by the pipeline's own clock: what a stage needs is there
-//! already, and a changed setting makes it alone stale. Sizes are those of the aorta sample's largest piece;
-//! `LUMEN_BENCH_TRIANGLES` is the largest that is measured.
+//! already, and a changed setting makes it alone stale. Smoothing is that of a surface just opened: nothing that an
+//! earlier one left is there. The two filters alone are the passes by one pass band and by one for each vertex, on the
+//! same surface: half of the vertices have their own, up to 0.083, as on the sample. Sizes are those of the aorta
+//! sample's largest piece; `LUMEN_BENCH_TRIANGLES` is the largest that is measured.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
-use lumen::mesh::TriMesh;
+use lumen::mesh::{TriMesh, Vec3};
 use lumen::phantom::{Sample, generate};
+use lumen::pipeline::filter::Filter;
 use lumen::pipeline::normals::{Weighting, vertex_normals};
 use lumen::pipeline::results::StageTimes;
 use lumen::pipeline::run::{Advance, Pipeline};
-use lumen::pipeline::settings::{Settings, Target};
+use lumen::pipeline::settings::{Boundary, Settings, Smoothing, Target};
+use lumen::pipeline::smoothing::{SmoothingTask, smooth};
 use lumen::pipeline::stage::Stage;
-use lumen::pipeline::task::Budget;
+use lumen::pipeline::task::{Budget, Task as _};
 
 const SIZES: [usize; 6] = [10_000, 30_000, 100_000, 300_000, 1_000_000, 4_000_000];
 
@@ -23,12 +27,14 @@ const SIZES: [usize; 6] = [10_000, 30_000, 100_000, 300_000, 1_000_000, 4_000_00
 type Measure = fn(&mut Bench) -> f64;
 
 /// The stages, and how their time is taken.
-const STAGES: [(&str, Measure); 9] = [
+const STAGES: [(&str, Measure); 13] = [
     ("connectivity", |bench| bench.anew().connectivity),
     ("topology", |bench| bench.anew().adjacency),
-    ("smoothing-100", |bench| {
-        bench.again(Stage::Smoothing, |settings| other(&mut settings.smoothing.pass_band, [0.01, 0.010_01])).smoothing
-    }),
+    ("filter-plain", Bench::plain_filter),
+    ("filter-adapted", Bench::adapted_filter),
+    ("smoothing-paper", |bench| bench.smoothed_anew(&Smoothing::PAPER)),
+    ("smoothing-unguarded", |bench| bench.smoothed_anew(&Smoothing { guard: false, ..Smoothing::default() })),
+    ("smoothing-auto", |bench| bench.smoothed_anew(&Smoothing::default())),
     ("normals", Bench::normals),
     ("decimation", |bench| {
         bench
@@ -76,6 +82,35 @@ impl Bench {
         self.pipeline.times()
     }
 
+    /// The time to smooth a surface that was just opened.
+    fn smoothed_anew(&mut self, smoothing: &Smoothing) -> f64 {
+        let settings = Settings { smoothing: *smoothing, ..Settings::default() };
+        let mut pipeline = Pipeline::new(self.opened.clone(), settings);
+        run_to(&mut pipeline, Stage::Smoothing);
+        pipeline.times().smoothing
+    }
+
+    fn plain_filter(&mut self) -> f64 {
+        let kept = self.pipeline.kept().expect("the pipeline went through").clone();
+        let begun = Instant::now();
+        let (topology, filter) = (&*kept.topology, Filter::new(&Smoothing::PAPER));
+        std::hint::black_box(smooth(&kept.mesh.positions, topology, Boundary::Loop, &filter));
+        begun.elapsed().as_secs_f64() * 1e3
+    }
+
+    fn adapted_filter(&mut self) -> f64 {
+        let kept = self.pipeline.kept().expect("the pipeline went through").clone();
+        let positions = &kept.mesh.positions;
+        let (low, high) = bounds(positions);
+        let band = |p: &Vec3| 0.01 + 0.146 * ((p.z - low) / (high - low) - 0.5).max(0.0);
+        let bands: Vec<f32> = positions.iter().map(band).collect();
+        let begun = Instant::now();
+        std::hint::black_box(
+            SmoothingTask::varying(positions, &*kept.topology, &Smoothing::default(), &bands).finish(),
+        );
+        begun.elapsed().as_secs_f64() * 1e3
+    }
+
     fn another_level(&mut self, stage: Stage) -> StageTimes {
         self.again(stage, |settings| other(&mut settings.target, [Target::Reduction(900), Target::Reduction(899)]))
     }
@@ -85,6 +120,11 @@ impl Bench {
         std::hint::black_box(vertex_normals(&self.opened.positions, &self.opened.triangles, Weighting::Area));
         begun.elapsed().as_secs_f64() * 1e3
     }
+}
+
+/// How far down and up positions reach.
+fn bounds(positions: &[Vec3]) -> (f32, f32) {
+    positions.iter().fold((f32::MAX, f32::MIN), |(low, high), p| (low.min(p.z), high.max(p.z)))
 }
 
 /// Runs a pipeline until `stage` is finished.

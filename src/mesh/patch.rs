@@ -13,7 +13,7 @@
 use glam::{Vec2, Vec3};
 
 use super::nearest::Leaf;
-use super::topology::{EdgeUse, Topology};
+use super::topology::{EdgeUse, Topology, opposite};
 
 /// Vertices that a patch is looked at by, at most.
 const MOST: usize = 512;
@@ -44,19 +44,39 @@ struct View {
     half: Vec3,
 }
 
+/// What is asked of the triangles that a patch is made for, found in one pass over them.
+#[derive(Clone, Copy)]
+pub(super) struct Extent {
+    /// Their normals, as long as twice their areas, added up.
+    normal: Vec3,
+    /// The box around them, along the axes of space.
+    pub(super) min: Vec3,
+    pub(super) max: Vec3,
+    /// The mean length of their edges, one of each triangle, in mm.
+    edge: f32,
+}
+
+impl Extent {
+    /// That of `leaves`.
+    pub(super) fn of<'a>(leaves: impl Iterator<Item = &'a Leaf>) -> Self {
+        let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (mut normal, mut edges, mut count) = (Vec3::ZERO, 0.0, 0);
+        for &Leaf { corners: [a, b, c], .. } in leaves {
+            (min, max) = (min.min(a).min(b).min(c), max.max(a).max(b).max(c));
+            normal += (b - a).cross(c - a);
+            edges += a.distance(b);
+            count += 1;
+        }
+        Self { normal, min, max, edge: edges / count as f32 }
+    }
+}
+
 impl View {
-    /// Along the mean normal of `leaves`, as wide as they lie; `None` where they have none.
-    fn of<'a>(leaves: &(impl Iterator<Item = &'a Leaf> + Clone)) -> Option<Self> {
-        let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a);
-        let towards = leaves.clone().map(|leaf| normal(leaf.corners)).sum::<Vec3>().try_normalize()?;
-        let around = |seen: &dyn Fn(Vec3) -> Vec3| {
-            let corners = leaves.clone().flat_map(|leaf| leaf.corners).map(seen);
-            let (low, high) =
-                corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
-            [(low + high) * 0.5, (high - low) * 0.5]
-        };
+    /// Along the mean normal of `leaves`, whose extent is `extent`, as wide as they lie; `None` where they have none.
+    fn of<'a>(leaves: impl Iterator<Item = &'a Leaf>, extent: &Extent) -> Option<Self> {
+        let towards = extent.normal.try_normalize()?;
         // A hierarchy cuts along the axes of space: the longest is the one that the triangles most likely lie along.
-        let [centre, size] = around(&|p| p);
+        let [centre, size] = [(extent.min + extent.max) * 0.5, (extent.max - extent.min) * 0.5];
         let longest = if size.x >= size.y && size.x >= size.z {
             Vec3::X
         } else if size.y >= size.z {
@@ -66,7 +86,12 @@ impl View {
         };
         let right = longest.reject_from_normalized(towards).try_normalize()?;
         let axes = [right, towards.cross(right), towards];
-        let [offset, half] = around(&|p| Vec3::from_array(axes.map(|axis| axis.dot(p - centre))));
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for p in leaves.flat_map(|leaf| leaf.corners) {
+            let seen = Vec3::from_array(axes.map(|axis| axis.dot(p - centre)));
+            (low, high) = (low.min(seen), high.max(seen));
+        }
+        let [offset, half] = [(low + high) * 0.5, (high - low) * 0.5];
         let middle = centre + axes[0] * offset.x + axes[1] * offset.y + axes[2] * offset.z;
         // Rounding may move what is seen of a triangle by as much.
         let view = Self { axes, middle, half: half + half.max_element() * 4.0 * ROUNDING };
@@ -107,24 +132,24 @@ impl Patch {
         Self { view: View::default(), corners: Vec::with_capacity(MOST), table: vec![Self::FREE; PLACES] }
     }
 
-    /// Whether none of `leaves` runs into a triangle that [`Self::has`], for certain. They are triangles of the surface
-    /// of `positions` and `triangles`, whose adjacency is `topology`.
+    /// Whether none of `leaves`, whose extent is `extent`, runs into a triangle that [`Self::has`], for certain. They are
+    /// triangles of the surface of `positions` and `triangles`, whose adjacency is `topology`.
     pub(super) fn certify<'a>(
         &mut self,
         leaves: impl Iterator<Item = &'a Leaf> + Clone,
+        extent: &Extent,
         positions: &[Vec3],
         triangles: &[[u32; 3]],
         topology: &Topology,
     ) -> bool {
-        let Some((view, first)) = View::of(&leaves).zip(leaves.clone().next()) else { return false };
+        let Some((view, first)) = View::of(leaves.clone(), extent).zip(leaves.clone().next()) else { return false };
         self.view = view;
         self.table.fill(Self::FREE);
         self.corners.clear();
         let half = Vec2::new(view.half.x, view.half.y);
         let rounding = ROUNDING * view.half.max_element();
         // Where a boundary would cut a corner of the rectangle, it is pushed out by an edge.
-        let edges = leaves.clone().map(|leaf| leaf.corners[0].distance(leaf.corners[1]));
-        let reach = half + 0.5 * edges.sum::<f32>() / leaves.clone().count() as f32;
+        let reach = half + 0.5 * extent.edge;
         // A single triangle is to lie over the middle of the first.
         let place = view.seen(first.corners.iter().sum::<Vec3>() / 3.0).truncate();
         let mut over_place = 0;
@@ -132,37 +157,32 @@ impl Patch {
             self.number(vertex, positions, reach);
         }
         let mut next = 0;
-        while let Some(&Corner { vertex, is_inside, .. }) = self.corners.get(next) {
+        while let Some(&corner) = self.corners.get(next) {
+            let known = next;
             next += 1;
-            if !is_inside {
+            if !corner.is_inside {
                 continue;
             }
             // Any vertex adds fewer than are left over.
-            let around = topology.edge_uses(vertex);
+            let around = topology.edge_uses(corner.vertex);
             if around.len() + self.corners.len() > MOST || around.iter().any(|&edge| edge != Self::TWO) {
                 return false;
             }
-            for &t in topology.triangles(vertex) {
-                let known = next - 1;
-                let number = |v: u32| if v == vertex { known } else { self.number(v, positions, reach) };
-                let numbers = triangles[t as usize].map(number);
-                let corners = numbers.map(|number| self.corners[number]);
-                let is_inside = corners.map(|corner| corner.is_inside);
+            for &t in topology.triangles(corner.vertex) {
+                let [second, third] = opposite(triangles[t as usize], corner.vertex);
                 // Each triangle once: at the first of its corners that are inside.
-                if (0..3).any(|i| is_inside[i] && numbers[i] + 1 < next) {
-                    continue;
-                }
+                let Some(second) = self.number_unless_before(second, known, positions, reach) else { continue };
+                let Some(third) = self.number_unless_before(third, known, positions, reach) else { continue };
+                let corners = [corner, second, third];
                 let seen = corners.map(|corner| corner.at);
                 if !faces_viewer(seen, rounding) {
                     return false;
                 }
                 over_place += usize::from(is_over(seen, place));
-                for side in 0..3 {
-                    let other = (side + 1) % 3;
-                    let is_within = is_inside[side] || is_inside[other];
-                    if !is_within && !keeps_out(seen[side], seen[other], half, rounding) {
-                        return false;
-                    }
+                // The sides at the corner, which is inside, are within.
+                let is_within = second.is_inside || third.is_inside;
+                if !is_within && !keeps_out(second.at, third.at, half, rounding) {
+                    return false;
                 }
             }
         }
@@ -207,6 +227,14 @@ impl Patch {
         let at = self.view.seen(positions[vertex as usize]).truncate();
         self.corners.push(Corner { vertex, at, is_inside: at.abs().cmple(reach).all() });
         corner
+    }
+
+    /// A vertex as a corner, added if it is not there yet; `None` where it is inside and stands before `known`.
+    #[inline]
+    fn number_unless_before(&mut self, vertex: u32, known: usize, positions: &[Vec3], reach: Vec2) -> Option<Corner> {
+        let number = self.number(vertex, positions, reach);
+        let corner = self.corners[number];
+        (!corner.is_inside || number > known).then_some(corner)
     }
 }
 
@@ -269,7 +297,8 @@ mod tests {
         let near = |leaf: &&Leaf| leaf.corners.iter().all(|p| p.truncate().length() < radius);
         let leaves: Vec<&Leaf> = index.leaves.iter().filter(near).collect();
         assert!(leaves.len() >= 8);
-        Patch::new().certify(leaves.into_iter(), &mesh.positions, &mesh.triangles, &topology)
+        let extent = Extent::of(leaves.iter().copied());
+        Patch::new().certify(leaves.into_iter(), &extent, &mesh.positions, &mesh.triangles, &topology)
     }
 
     fn wavy(height: f32) -> TriMesh {

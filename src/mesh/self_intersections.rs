@@ -14,14 +14,14 @@ use super::branches::{Branch, Branches};
 use super::crossing::{Face, cross};
 use super::hubs::{Hubs, half_way_box};
 use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
-use super::patch::Patch;
+use super::patch::{Extent, Patch};
 use super::topology::Topology;
 use crate::parallel;
 
 /// Slots that are searched in one piece.
 const PIECE: usize = 1024;
 /// Triangles in a branch, at most: for so many a patch is sought at first, and for its parts where there is none.
-const GROUP: usize = 128;
+const GROUP: usize = 256;
 /// Fewer triangles are looked at one by one.
 const FEWEST: usize = 8;
 
@@ -108,8 +108,11 @@ impl Search<'_> {
             return;
         };
         self.looks += new.len();
-        if self.patch.certify(leaves.clone(), positions, triangles, topology) {
-            self.mark_away(&leaves);
+        let extent = Extent::of(leaves.clone());
+        if self.patch.certify(leaves.clone(), &extent, positions, triangles, topology) {
+            // Where all of the branch is certified, nothing in it is looked at again.
+            let certified = (new.len() == branch.slots.len()).then_some(node);
+            self.mark_away(&leaves, &extent, certified);
             return;
         }
         for part in crossing.branches.below(index, node) {
@@ -118,15 +121,18 @@ impl Search<'_> {
         }
     }
 
-    /// Marks what triangles run into outside of their patch.
-    fn mark_away<'b>(&mut self, leaves: &(impl Iterator<Item = &'b Leaf> + Clone)) {
-        let corners = leaves.clone().flat_map(|leaf| leaf.corners);
-        let (min, max) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+    /// Marks what triangles run into outside of their patch, which has all that is below the node `certified`.
+    fn mark_away<'b>(
+        &mut self,
+        leaves: &(impl Iterator<Item = &'b Leaf> + Clone),
+        extent: &Extent,
+        certified: Option<u32>,
+    ) {
         let Self { index, surface, crossing, patch, looks } = self;
         index.overlapping(
-            min,
-            max,
-            |_, lanes| lanes,
+            extent.min,
+            extent.max,
+            |node, lanes| if certified == Some(node) { 0 } else { lanes },
             |slots| {
                 for other in &index.leaves[slots] {
                     *looks += 1;

@@ -41,49 +41,54 @@ const ROUGHEST: f64 = 2.0;
 impl Filter {
     /// The filter for `settings`: normalised, with the smallest `sigma` that meets the tolerance, or the best one.
     pub fn new(settings: &Smoothing) -> Self {
-        let Smoothing { window, pass_band, iterations, .. } = *settings;
-        let theta = band_angle(pass_band);
-        let response = |sigma: f64| {
-            let c = coefficients(window, pass_band, iterations, sigma);
-            evaluate(&c, theta) / c.iter().sum::<f64>()
-        };
-        let met = |sigma: f64| (response(sigma) - 1.0).abs() <= TOLERANCE;
+        let series = Series::new(settings);
+        let off = |sigma: f64| series.response(sigma) - 1.0;
+        let met = |off: f64| off.abs() <= TOLERANCE;
         // The response climbs from about a half as the band widens and then swings about 1: walk to the first place
         // that meets the tolerance (or overshoots it), in steps finer than the swing, and bisect there.
-        let step = PI / (f64::from(iterations) + 1.0) / 8.0;
-        let widest = PI - theta;
-        let (mut best, mut best_error) = (0.0, (response(0.0) - 1.0).abs());
-        let mut low = 0.0;
-        let mut found = met(0.0).then_some(0.0);
+        let step = PI / (f64::from(settings.iterations) + 1.0) / 8.0;
+        let widest = PI - series.theta;
+        let (mut low, mut at_low) = (0.0, off(0.0));
+        let (mut best, mut best_error) = (low, at_low.abs());
+        let mut found = met(at_low).then_some(low);
         while found.is_none() && low < widest {
             let high = (low + step).min(widest);
-            let (at_low, at_high) = (response(low) - 1.0, response(high) - 1.0);
+            let at_high = off(high);
             if at_high.abs() < best_error {
                 (best, best_error) = (high, at_high.abs());
             }
-            if met(high) || at_low * at_high < 0.0 {
-                let entered = |sigma: f64| met(sigma) || (response(sigma) - 1.0) * at_low < 0.0;
-                let (mut out, mut inside) = (low, high);
+            if met(at_high) || at_low * at_high < 0.0 {
+                let (mut out, mut inside, mut at_inside) = (low, high, at_high);
                 for _ in 0..60 {
                     let middle = (out + inside) / 2.0;
-                    if entered(middle) { inside = middle } else { out = middle }
+                    // No number lies between them any more.
+                    if middle == out || middle == inside {
+                        break;
+                    }
+                    let at_middle = off(middle);
+                    if met(at_middle) || at_middle * at_low < 0.0 {
+                        (inside, at_inside) = (middle, at_middle);
+                    } else {
+                        out = middle;
+                    }
                 }
-                found = met(inside).then_some(inside);
+                found = met(at_inside).then_some(inside);
             }
-            low = high;
+            (low, at_low) = (high, at_high);
         }
         let sigma = found.unwrap_or(best);
-        let mut c = coefficients(window, pass_band, iterations, sigma);
+        let mut c: Vec<f64> = series.coefficients(sigma).collect();
         let sum: f64 = c.iter().sum();
         c.iter_mut().for_each(|c| *c /= sum);
-        let pass_band_response = evaluate(&c, theta);
+        let pass_band_response = evaluate(&c, series.theta);
         Self { coefficients: c, sigma, pass_band_response, reaches_pass_band: found.is_some() }
     }
 
     /// The filter for a given `sigma`, not normalised: what VTK evaluates.
     pub fn with_sigma(settings: &Smoothing, sigma: f64) -> Self {
-        let c = coefficients(settings.window, settings.pass_band, settings.iterations, sigma);
-        let pass_band_response = evaluate(&c, band_angle(settings.pass_band));
+        let series = Series::new(settings);
+        let c: Vec<f64> = series.coefficients(sigma).collect();
+        let pass_band_response = evaluate(&c, series.theta);
         let reaches_pass_band = (pass_band_response - 1.0).abs() <= TOLERANCE;
         Self { coefficients: c, sigma, pass_band_response, reaches_pass_band }
     }
@@ -168,15 +173,36 @@ fn evaluate(coefficients: &[f64], angle: f64) -> f64 {
     coefficients.first().map_or(0.0, |c| c + t * next - after)
 }
 
-fn coefficients(window: Window, pass_band: f64, iterations: u32, sigma: f64) -> Vec<f64> {
-    let edge = band_angle(pass_band) + sigma;
-    let degree = f64::from(iterations);
-    let term = |n: u32| {
-        let n = f64::from(n);
-        let w = weight(window, n * PI / (degree + 1.0));
-        if n == 0.0 { w * edge / PI } else { 2.0 * w * libm::sin(n * edge) / (n * PI) }
-    };
-    (0..=iterations).map(term).collect()
+/// What the coefficients of a setting are made from, for any `sigma`.
+struct Series {
+    /// The angle of the pass band.
+    theta: f64,
+    /// `w_n`.
+    weights: Vec<f64>,
+}
+
+impl Series {
+    fn new(settings: &Smoothing) -> Self {
+        let Smoothing { window, pass_band, iterations, .. } = *settings;
+        let degree = f64::from(iterations);
+        let weights = (0..=iterations).map(|n| weight(window, f64::from(n) * PI / (degree + 1.0))).collect();
+        Self { theta: band_angle(pass_band), weights }
+    }
+
+    /// `c_n`, not normalised.
+    fn coefficients(&self, sigma: f64) -> impl Iterator<Item = f64> {
+        let edge = self.theta + sigma;
+        (0..).zip(&self.weights).map(move |(n, w)| {
+            let n = f64::from(n);
+            if n == 0.0 { w * edge / PI } else { 2.0 * w * libm::sin(n * edge) / (n * PI) }
+        })
+    }
+
+    /// The response at the pass band, normalised.
+    fn response(&self, sigma: f64) -> f64 {
+        let c: Vec<f64> = self.coefficients(sigma).collect();
+        evaluate(&c, self.theta) / c.iter().sum::<f64>()
+    }
 }
 
 /// The window at `t`, 0 to pi.

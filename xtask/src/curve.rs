@@ -11,10 +11,14 @@ use crate::document;
 use crate::step::{root, target};
 
 /// What is drawn, in the order of the method, with its colour.
-const STAGES: [(&str, &str); 9] = [
+const STAGES: [(&str, &str); 13] = [
     ("connectivity", "#4477aa"),
     ("topology", "#66ccee"),
-    ("smoothing-100", "#228833"),
+    ("filter-plain", "#88ccaa"),
+    ("filter-adapted", "#44aa99"),
+    ("smoothing-paper", "#117733"),
+    ("smoothing-unguarded", "#999933"),
+    ("smoothing-auto", "#228833"),
     ("normals", "#ccbb44"),
     ("decimation", "#ee6677"),
     ("level-90", "#aa3377"),

@@ -5,6 +5,7 @@
 //! Filters are made for a row of pass bands, evenly apart as angles, and a vertex takes the weighted mean of the two
 //! around its own. Each lets a constant through unchanged, and so does any mean of them.
 
+use crate::parallel;
 use crate::pipeline::filter::Filter;
 use crate::pipeline::settings::Smoothing;
 
@@ -23,6 +24,13 @@ pub(super) type Row = [[f32; 2]; FILTERS];
 pub(super) struct Mix {
     filter: u32,
     part: f32,
+}
+
+impl Mix {
+    /// Whether it is the first filter alone: that of the setting.
+    pub(super) fn is_plain(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// The coefficients.
@@ -55,8 +63,8 @@ impl Gains {
             0 => low,
             _ => (2.0 - 2.0 * libm::cos(from + STEP * i as f64)).min(*Smoothing::PASS_BAND.end()),
         };
-        let filters: Vec<Filter> =
-            (0..count).map(|i| Filter::new(&Smoothing { pass_band: band(i), ..*settings })).collect();
+        let filters =
+            parallel::map((0..count).collect(), |i| Filter::new(&Smoothing { pass_band: band(i), ..*settings }));
         let degree = settings.iterations as usize;
         let row = |n: usize| {
             let c = |i: usize| filters[i.min(count - 1)].coefficients[n] as f32;
@@ -64,7 +72,10 @@ impl Gains {
         };
         let rows = (0..=degree).map(row).collect();
         let mix = |&k: &f32| {
-            let at = ((angle(f64::from(k).max(low)) - from) / STEP) as f32;
+            if f64::from(k) <= low {
+                return Mix::default();
+            }
+            let at = ((angle(f64::from(k)) - from) / STEP) as f32;
             let filter = (at as u32).min(count as u32 - 2);
             Mix { filter, part: (at - filter as f32).clamp(0.0, 1.0) }
         };

@@ -101,7 +101,7 @@ impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
         gain: f64,
     ) -> Self {
         let centre = Bounds::of_most(&values).centre();
-        let mut order = Order::new(topology, &stencil);
+        let mut order = Order::new(topology, &stencil, &mixes);
         let chunks = order.chunks.len() - 1;
         let count = strip_count(chunks);
         let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);

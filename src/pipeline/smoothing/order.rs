@@ -4,10 +4,12 @@
 //! A vertex has neighbours in its own level and the two beside it only; so those of a chunk lie in the chunk, the one
 //! before and the one after. That lets several passes of the filter follow one another through the chunks, each one
 //! chunk behind the one before it, while a few chunks stay in the cache. Within a chunk vertices stand by the length
-//! of their rows, so that the inner loop has no count to guess.
+//! of their rows, so that the inner loop has no count to guess, and those that take the setting's own coefficients before
+//! the ones that look up theirs.
 
 use std::ops::Deref;
 
+use super::gains::Mix;
 use super::stencil::Stencil;
 use crate::mesh::Topology;
 
@@ -25,7 +27,8 @@ pub(super) struct Order {
 }
 
 impl Order {
-    pub(super) fn new<T: Deref<Target = Topology>>(topology: &Topology, stencil: &Stencil<T>) -> Self {
+    /// `mixes` say where each vertex stands in the row of filters; they are empty where there is one.
+    pub(super) fn new<T: Deref<Target = Topology>>(topology: &Topology, stencil: &Stencil<T>, mixes: &[Mix]) -> Self {
         let count = topology.vertex_count();
         let mut order = Self { vertices: Vec::with_capacity(count), places: vec![UNSEEN; count], chunks: vec![0] };
         for seed in 0..count as u32 {
@@ -34,7 +37,10 @@ impl Order {
         if order.chunks.last() != Some(&(count as u32)) {
             order.chunks.push(count as u32);
         }
-        order.sort_chunks(stencil);
+        order.sort_chunks(|v| {
+            let is_plain = mixes.get(v as usize).is_none_or(Mix::is_plain);
+            2 * stencil.valence(v) + usize::from(!is_plain)
+        });
         order
     }
 
@@ -67,27 +73,27 @@ impl Order {
         self.vertices.push(v);
     }
 
-    /// Sorts each chunk by the length of the rows, by counting; equals keep their order.
-    fn sort_chunks<T: Deref<Target = Topology>>(&mut self, stencil: &Stencil<T>) {
+    /// Sorts each chunk by `key`, by counting; equals keep their order.
+    fn sort_chunks(&mut self, key: impl Fn(u32) -> usize) {
         let mut unsorted: Vec<(u32, u32)> = Vec::new();
         for bounds in self.chunks.windows(2) {
             let chunk = &mut self.vertices[bounds[0] as usize..bounds[1] as usize];
             unsorted.clear();
-            unsorted.extend(chunk.iter().map(|&v| (stencil.valence(v) as u32, v)));
-            let mut starts = [0usize; LONG + 2];
-            for &(valence, _) in &unsorted {
-                starts[(valence as usize).min(LONG) + 1] += 1;
+            unsorted.extend(chunk.iter().map(|&v| (key(v) as u32, v)));
+            let mut starts = [0usize; LARGE + 2];
+            for &(key, _) in &unsorted {
+                starts[(key as usize).min(LARGE) + 1] += 1;
             }
             for i in 1..starts.len() {
                 starts[i] += starts[i - 1];
             }
-            let long = starts[LONG];
-            for &(valence, v) in &unsorted {
-                let slot = &mut starts[(valence as usize).min(LONG)];
+            let large = starts[LARGE];
+            for &(key, v) in &unsorted {
+                let slot = &mut starts[(key as usize).min(LARGE)];
                 chunk[*slot] = v;
                 *slot += 1;
             }
-            chunk[long..].sort_by_key(|&v| stencil.valence(v));
+            chunk[large..].sort_by_key(|&v| key(v));
             for (place, &v) in (bounds[0]..).zip(chunk.iter()) {
                 self.places[v as usize] = place;
             }
@@ -95,7 +101,7 @@ impl Order {
     }
 }
 
-/// Rows of this length or more are few, and sorted by comparing.
-const LONG: usize = 16;
+/// Keys of this size or more, of rows of 16 and more, are few, and sorted by comparing.
+const LARGE: usize = 32;
 
 const UNSEEN: u32 = u32::MAX;

@@ -15,7 +15,7 @@ use super::order::Order;
 use crate::mesh::Topology;
 use crate::pipeline::task::Budget;
 
-/// Vertices of a chunk that have rows of one length.
+/// Vertices of a chunk that have rows of one length, and all the setting's own coefficients or none of them.
 struct Run {
     /// The first of them.
     first: usize,
@@ -23,6 +23,8 @@ struct Run {
     rows: usize,
     count: usize,
     valence: usize,
+    /// Whether they take the first filter's coefficients: then there is nothing to look up.
+    is_plain: bool,
 }
 
 /// A strip under way.
@@ -119,9 +121,10 @@ impl Strip {
         for place in places {
             let v = order.vertices[place];
             let valence = stencil.valence(v);
+            let is_plain = self.mixes.get(place - base).is_none_or(Mix::is_plain);
             match self.runs[first_run..].last_mut() {
-                Some(run) if run.valence == valence => run.count += 1,
-                _ => self.runs.push(Run { first: place - base, rows: self.rows.len(), count: 1, valence }),
+                Some(run) if (run.valence, run.is_plain) == (valence, is_plain) => run.count += 1,
+                _ => self.runs.push(Run { first: place - base, rows: self.rows.len(), count: 1, valence, is_plain }),
             }
             // Neighbours outside the halo belong to chunks of it that are only read, never computed.
             let rows = &mut self.rows;
@@ -185,6 +188,7 @@ impl Strip {
             let work = Work { rows, current, own: &current[places.clone()] };
             match gains.term(n) {
                 Term::Same(c) => work.run(n, run.valence, next, sum, c),
+                Term::Row(row) if run.is_plain => work.run(n, run.valence, next, sum, row[0][0]),
                 Term::Row(row) => work.run(n, run.valence, next, sum, Mixed { row, mixes: &self.mixes[places] }),
             }
         }
