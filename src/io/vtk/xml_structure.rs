@@ -1,53 +1,19 @@
-//! VTK's XML files of polygonal data (.vtp) and unstructured grids (.vtu).
-//!
-//! Arrays stand in the file as text, in base64, or appended behind the structure, raw or in base64. What is appended raw
-//! is no XML: reading stops where it begins.
+//! The structure of a VTK XML file: its pieces and their arrays, and where the numbers of each are.
 
 use std::borrow::Cow;
 
-use glam::DVec3;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use super::super::Axes;
 use super::super::error::ReadError;
-use super::super::import::RawSurface;
 use super::super::pace::{NUMBERS, Pace};
 use super::super::room::Room;
 use super::super::text;
 use super::encoded::{Compressor, Encoding};
 use super::no_surface;
-use super::surface::{Shape, Surface};
-use super::xml_arrays::Arrays;
+use super::surface::Shape;
 use crate::mesh::arrays::On;
 use crate::say;
-
-/// Whether a text begins as VTK's XML files do.
-pub(in crate::io) fn is_xml(text: &[u8]) -> bool {
-    let head = &text[..text.len().min(1024)];
-    head.starts_with(b"<") && head.windows(8).any(|part| part == b"<VTKFile")
-}
-
-/// Reads a file, with positions relative to `origin`.
-pub(in crate::io) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
-    let file = Structure::parse(bytes, pace).await?;
-    let mut arrays = Arrays::new(&file, bytes, Room::of(bytes.len()).unfolded(), pace);
-    let mut surface = Surface::new(file.format, bytes.len(), origin);
-    if file.pieces.iter().flat_map(|piece| &piece.data).any(|&(on, _)| on == On::Triangle) {
-        surface.note_cells();
-    }
-    let mut cells = 0u64;
-    for piece in &file.pieces {
-        arrays.add_piece(piece, cells, &mut surface).await?;
-        cells = cells.saturating_add(piece.cell_count());
-    }
-    let axes = match &file.space {
-        Some(array) => arrays.axes(array).await?,
-        None => Axes::Unknown,
-    };
-    let columns = arrays.columns().await?;
-    surface.finish(file.format, axes, columns)
-}
 
 /// What the structure says.
 pub(super) struct Structure<'a> {
@@ -56,7 +22,7 @@ pub(super) struct Structure<'a> {
     pub(super) encoding: Encoding,
     pub(super) pieces: Vec<Piece<'a>>,
     /// Which way the axes point, where the file says so as 3D Slicer does.
-    space: Option<DataArray<'a>>,
+    pub(super) space: Option<DataArray<'a>>,
     /// What is appended, from its first byte on, and whether it is in base64.
     pub(super) appended: Option<(&'a [u8], bool)>,
 }
@@ -148,7 +114,7 @@ pub(super) fn attribute(element: &BytesStart, name: &str) -> Option<String> {
 impl<'a> Structure<'a> {
     /// Reads the structure. The text of an array is stepped over at once, by a search for the `<` behind it: about a
     /// millisecond in 10 MB.
-    async fn parse(bytes: &'a [u8], pace: &Pace) -> Result<Self, ReadError> {
+    pub(super) async fn parse(bytes: &'a [u8], pace: &Pace) -> Result<Self, ReadError> {
         let mut reader = Reader::from_reader(text::without_mark(bytes).trim_ascii_start());
         let start = bytes.len() - text::without_mark(bytes).trim_ascii_start().len();
         let mut file = None;
