@@ -1,243 +1,24 @@
-//! The panel: the method from top to bottom, each step with its few controls, its result in numbers, and one line
-//! that says what it does.
+//! The reduction: what it stops at, and by which method.
 
-use egui::{Button, CollapsingHeader, ComboBox, RichText, Role, ScrollArea, Ui};
+use egui::{ComboBox, Role, Ui};
 
-use super::action::Action;
-use super::arrays;
-use super::assist::{heading, name};
-use super::axes;
-use super::control::{Setting, reads_comma};
-use super::document::Document;
-use super::error_plot;
-use super::mending;
-use super::response;
-use super::row::{number, remark, row, step};
-use super::state::State;
-use super::swipe::Way;
-use super::theme;
-use super::vessels;
-use super::views::{ViewOptions, Views};
-use crate::engine::Source;
-use crate::io::Unit;
-use crate::language::{Key, decimal, grouped, signed};
-use crate::pipeline::report::Report;
+use super::{measured, set};
+use crate::app::action::Action;
+use crate::app::assist::name;
+use crate::app::control::{Setting, reads_comma};
+use crate::app::error_plot;
+use crate::app::row::{number, remark, row, step};
+use crate::app::state::State;
+use crate::app::swipe::Way;
+use crate::app::views::Views;
+use crate::language::decimal;
 use crate::pipeline::safe::Safe;
-use crate::pipeline::settings::{Keep, Method, Preset, Settings, Smoothing, Target, Window, reduction_percent};
+use crate::pipeline::settings::{Decimation, Method, Settings, Target, reduction_percent};
 use crate::pipeline::verdict;
 use crate::say;
 
-/// A step of the method: shows its controls, and says what they ask for.
-type Step = fn(&mut Ui, &State, &Views, &mut Vec<Action>);
-
-/// The steps that lead to a level, each with an identity of its own: what comes and goes in one must not take the focus
-/// away in another.
-pub(super) const STEPS: [(&str, Step); 3] = [("surface", surface), ("smooth", smooth), ("reduce", reduce)];
-
-/// Height of what [`peek`] shows, in points.
-pub(super) const PEEK: f32 = 132.0;
-
-/// Height of what is seen at a place that is gone to, in edges.
-const AROUND: f32 = 60.0;
-
-/// Asks for `settings`, if they are others than those of `state`.
-fn set(settings: Settings, state: &State, asked: &mut Vec<Action>) {
-    if settings != state.settings {
-        asked.push(Action::Set(Box::new(settings)));
-    }
-}
-
-fn measured(document: Option<&Document>) -> Option<&Report> {
-    Some(&document?.measured.as_ref()?.report)
-}
-
-fn surface(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
-    step(ui, 1, &say!("panel-surface"), &say!("panel-surface-does"));
-    let Some(document) = &state.document else {
-        ui.label(say!("panel-surface-none"));
-        return;
-    };
-    let pieces = &document.pieces;
-    unit_list(ui, document, asked);
-    axes::list(ui, document, asked);
-    let in_file = grouped(document.import.triangles);
-    number(ui, &say!("panel-in-file"), &in_file, &say!("panel-in-file-help"));
-    let Some(kept) = pieces.kept(state.settings.keep).or(pieces.by_size.first().copied()) else {
-        return;
-    };
-    let kept_count = match state.settings.keep {
-        Keep::All => document.opened.triangles.len(),
-        _ => pieces.list.get(kept as usize).map_or(0, |piece| piece.triangles as usize),
-    };
-    number(ui, &say!("panel-kept"), &say!("panel-triangle-count", count = kept_count), "");
-    let left_out = document.opened.triangles.len() - kept_count;
-    let others = pieces.list.len().saturating_sub(1);
-    if others > 0 && state.settings.keep != Keep::All {
-        let text = say!("panel-left-out-count", count = left_out, pieces = others);
-        number(ui, &say!("panel-left-out"), &text, &say!("panel-left-out-help"));
-    }
-    if pieces.list.len() > 1 {
-        let mut settings = state.settings.clone();
-        piece_list(ui, document, &mut settings.keep);
-        set(settings, state, asked);
-        let mut left_out = views.options.left_out;
-        let shown = ui.checkbox(&mut left_out, say!("panel-show-left-out"));
-        if shown.on_hover_text(say!("panel-show-left-out-help")).changed() {
-            asked.push(Action::Show(ViewOptions { left_out, ..views.options }));
-        }
-    }
-    arrays::list(ui, document, views, asked);
-    mending::section(ui, state, views, asked);
-}
-
-/// The unit of the file's numbers.
-fn unit_list(ui: &mut Ui, document: &Document, asked: &mut Vec<Action>) {
-    if !matches!(document.source, Source::File { .. }) {
-        return;
-    }
-    let mut unit = document.import.unit;
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(say!("panel-unit")).weak()).on_hover_text(say!("panel-unit-help"));
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let list = ComboBox::from_id_salt("unit").width(56.0).selected_text(unit.symbol());
-            let response = list.show_ui(ui, |ui| {
-                for choice in Unit::ALL {
-                    ui.selectable_value(&mut unit, choice, choice.symbol());
-                }
-            });
-            name(&response.response, Role::ComboBox, &say!("panel-unit-list"));
-        });
-    });
-    if unit != document.import.unit {
-        asked.push(Action::ReadIn(unit));
-    }
-}
-
-/// Size of a piece in words.
-fn piece_label(document: &Document, piece: u32) -> String {
-    let Some(found) = document.pieces.list.get(piece as usize) else { return String::new() };
-    let size = found.bounds.size().max_element();
-    say!("panel-piece", count = found.triangles, size = decimal(size, 1))
-}
-
-fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
-    let pieces = &document.pieces;
-    let selected = match *keep {
-        Keep::All => say!("panel-all-pieces"),
-        keep => pieces.kept(keep).map(|piece| piece_label(document, piece)).unwrap_or_default(),
-    };
-    let list = ComboBox::from_id_salt("pieces").width(ui.available_width() - 16.0).selected_text(selected);
-    let response = list.show_ui(ui, |ui| {
-        ui.selectable_value(keep, Keep::All, say!("panel-all-pieces"));
-        let row = ui.spacing().interact_size.y;
-        ScrollArea::vertical().max_height(240.0).show_rows(ui, row, pieces.by_size.len(), |ui, rows| {
-            for i in rows {
-                let piece = pieces.by_size[i];
-                let value = if i == 0 { Keep::Largest } else { Keep::Component(piece) };
-                let is_kept = *keep != Keep::All && pieces.kept(*keep) == Some(piece);
-                if ui.selectable_label(is_kept, piece_label(document, piece)).clicked() {
-                    *keep = value;
-                    ui.close();
-                }
-            }
-        });
-    });
-    name(&response.response, Role::ComboBox, &say!("panel-piece-list"));
-}
-
-fn smooth(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
-    let mut settings = state.settings.clone();
-    smoothing(ui, &mut settings.smoothing, state, asked);
-    set(settings, state, asked);
-}
-
-/// The settings that have a name.
-fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
-    row(ui, &say!("panel-strength"), &say!("panel-strength-help"), |ui| {
-        // Whether the volume is held is chosen beside it.
-        let chosen = Preset::of(&Smoothing { preserve_volume: false, ..*smoothing });
-        let words = chosen.map_or_else(|| say!("panel-strength-own"), Preset::label);
-        let list = ComboBox::from_id_salt("preset").selected_text(words);
-        let response = list.show_ui(ui, |ui| {
-            for preset in Preset::ALL {
-                if ui.selectable_label(chosen == Some(preset), preset.label()).clicked() {
-                    *smoothing = Smoothing { preserve_volume: smoothing.preserve_volume, ..preset.smoothing() };
-                    ui.close();
-                }
-            }
-        });
-        name(&response.response, Role::ComboBox, &say!("panel-strength"));
-    });
-}
-
-fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, state: &State, asked: &mut Vec<Action>) {
-    let report = measured(state.document.as_ref());
-    step(ui, 2, &say!("panel-smooth"), &say!("panel-smooth-does"));
-    preset_list(ui, smoothing);
-    let default = Smoothing::default();
-    let pass_band = Setting {
-        name: &say!("panel-pass-band"),
-        help: &say!("panel-pass-band-help"),
-        unit: "",
-        range: Smoothing::PASS_BAND,
-        default: default.pass_band,
-        decimals: 4,
-        logarithmic: true,
-    };
-    pass_band.show(ui, &mut smoothing.pass_band);
-    let iterations = Setting {
-        name: &say!("panel-iterations"),
-        help: &say!("panel-iterations-help"),
-        unit: "",
-        range: 0.0..=f64::from(Smoothing::MAX_ITERATIONS),
-        default: f64::from(default.iterations),
-        decimals: 0,
-        logarithmic: false,
-    };
-    let mut count = f64::from(smoothing.iterations);
-    if iterations.show(ui, &mut count) {
-        smoothing.iterations = count as u32;
-    }
-    row(ui, &say!("panel-window"), &say!("panel-window-help"), |ui| {
-        let list = ComboBox::from_id_salt("window").selected_text(smoothing.window.name());
-        let response = list.show_ui(ui, |ui| {
-            for window in Window::ALL {
-                ui.selectable_value(&mut smoothing.window, window, window.name());
-            }
-        });
-        name(&response.response, Role::ComboBox, &say!("panel-window"));
-    });
-    ui.horizontal_wrapped(|ui| {
-        let adapt = ui.checkbox(&mut smoothing.adapt, say!("panel-adapt"));
-        adapt.on_hover_text(say!("panel-adapt-help"));
-        let guard = ui.checkbox(&mut smoothing.guard, say!("panel-guard"));
-        guard.on_hover_text(say!("panel-guard-help"));
-        let hold = ui.checkbox(&mut smoothing.preserve_volume, say!("panel-volume-held"));
-        hold.on_hover_text(say!("panel-volume-held-help"));
-    });
-    let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
-    let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
-    let thinnest = lumen.map(|lumen| lumen.diameter_mm);
-    let mut shows_averaged = state.shows_averaged;
-    response::show(ui, smoothing, response::Scale { edge_length, thinnest }, &mut shows_averaged);
-    if shows_averaged != state.shows_averaged {
-        asked.push(Action::Average(shows_averaged));
-    }
-    let Some(report) = report.filter(|report| report.settings.smoothing == *smoothing) else { return };
-    if let Some(weakened) = report.smoothing_weakened {
-        ui.horizontal_wrapped(|ui| {
-            remark(ui, &say!("panel-smoothed-less", count = weakened.vertices));
-            let show = Button::new(say!("panel-show"));
-            let show = if theme::suits_finger(ui.ctx()) { show } else { show.small() };
-            if ui.add(show).on_hover_text(say!("panel-smoothed-less-help")).clicked() {
-                let height_mm = AROUND * report.smoothing_response.map_or(1.0, |found| found.edge_length_mm) as f32;
-                asked.push(Action::GoTo { at_mm: weakened.at_mm, height_mm, label: say!("panel-smoothed-less-place") });
-            }
-        });
-    }
-}
-
-fn reduce(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
+/// Shows the step.
+pub(super) fn show(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
     let mut settings = state.settings.clone();
     reduction(ui, state, &mut settings);
     set(settings, state, asked);
@@ -268,7 +49,7 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
             help: &say!("panel-feature-angle-help"),
             unit: "°",
             range: 0.0..=180.0,
-            default: crate::pipeline::settings::Decimation::default().feature_angle,
+            default: Decimation::default().feature_angle,
             decimals: 0,
             logarithmic: false,
         };
@@ -441,7 +222,7 @@ fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
 }
 
 /// Shows what is seen of the panel where there is no room for more: the count, and how far the reduction goes.
-pub(super) fn peek(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
+pub(in crate::app) fn peek(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
     let document = state.document.as_ref();
     let counts = document.and_then(|document| Some((&document.levels.as_ref()?.1, document.shown.as_ref()?)));
     let Some((levels, shown)) = counts else { return };
@@ -455,66 +236,4 @@ pub(super) fn peek(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
         rate(ui, state, &mut settings.target);
     }
     set(settings, state, asked);
-}
-
-/// Shows what came of it, in numbers.
-pub(super) fn result(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
-    let Some(document) = &state.document else { return };
-    let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return };
-    ui.separator();
-    heading(ui, &say!("panel-result"));
-    let (before, after) = (levels.triangles.len(), shown.level.triangles.len());
-    let counts = say!("panel-of", count = after, all = before);
-    number(ui, &say!("panel-triangles"), &counts, &say!("panel-of-help"));
-    let vertices = say!("panel-of", count = shown.vertices, all = document.entering_vertices);
-    number(ui, &say!("panel-vertices"), &vertices, &say!("panel-of-help"));
-    number(ui, &say!("panel-removed"), &format!("{} %", decimal(reduction_percent(before, after), 2)), "");
-    row(ui, &say!("panel-calibre"), &say!("panel-calibre-help"), |ui| {
-        if ui.button(say!("panel-vessels")).on_hover_text(say!("panel-vessels-help")).clicked() {
-            asked.push(Action::Vessels(vessels::Action::Toggle));
-        }
-        ui.label(vessels::verdict(state));
-    });
-    let Some(measured) = &document.measured else { return };
-    let is_current = measured.generation == state.generation() && measured.report.output.triangles == after;
-    let report = &measured.report;
-    let percent = |change: Option<f64>| {
-        change.filter(|_| is_current).map_or("–".to_owned(), |change| format!("{} %", signed(change, 2)))
-    };
-    let distance = |pick: fn(&crate::pipeline::deviation::Deviation) -> f64| {
-        let found = report.deviation_mm.as_ref().filter(|_| is_current);
-        found.map_or("–".to_owned(), |d| format!("{} mm", decimal(pick(d), 3)))
-    };
-    let help = say!("panel-deviation-help");
-    number(ui, &say!("panel-deviation-mean"), &distance(|d| d.mean), &help);
-    number(ui, &say!("panel-deviation-max"), &distance(|d| d.max), &help);
-    number(ui, &say!("panel-volume"), &percent(report.volume_change_percent), &say!("panel-volume-help"));
-    number(ui, &say!("panel-area"), &percent(report.area_change_percent), &say!("panel-area-help"));
-    super::numbers::shape(ui, is_current.then_some(report));
-    CollapsingHeader::new(say!("panel-times")).id_salt("Time a stage").show(ui, |ui| {
-        let ms = &report.stages_ms;
-        let stages = [
-            (Key("panel-time-reading"), ms.read),
-            (Key("panel-time-mending"), ms.mending),
-            (Key("panel-time-connectivity"), ms.connectivity),
-            (Key("panel-time-smoothing"), ms.smoothing),
-            (Key("panel-time-decimation"), ms.decimation),
-            (Key("panel-time-bound"), ms.bound),
-            (Key("panel-time-level"), ms.level),
-            (Key("panel-time-normals"), ms.normals),
-            (Key("panel-time-deviation"), ms.deviation),
-            (Key("panel-time-measures"), ms.measures),
-            (Key("panel-time-calibre"), ms.calibre),
-        ];
-        for (stage, ms) in stages {
-            number(ui, &stage.say(), &format!("{} ms", decimal(ms, 1)), "");
-        }
-    });
-    if !document.import.warnings.is_empty() {
-        CollapsingHeader::new(say!("panel-notes")).id_salt("Notes on the file").show(ui, |ui| {
-            for warning in &document.import.warnings_now() {
-                remark(ui, warning);
-            }
-        });
-    }
 }
