@@ -25,7 +25,6 @@
 //! - [`language`]: what Lumen says, in English, German and French; everything that speaks to a user knows it.
 //! - [`task`]: long work in slices.
 //! - [`transfer`]: messages between threads that share no memory; it knows nothing of what is in them.
-//! - `digits`: numbers as they are read.
 //! - `chance`: numbers that a seed decides.
 //! - `cli`: the subcommands; the figures among them are `app`'s compare view, drawn off screen.
 

@@ -1,15 +1,11 @@
-//! The arrays that came with a file: their list in the panel, the colours of one, and its legend.
+//! The colours of an array that came with a file, and its legend.
 
-use egui::{Align2, Color32, ComboBox, FontId, Painter, Rect, Role, Ui, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
 
-use super::action::Action;
-use super::assist::name;
 use super::document::Document;
 use super::halo;
-use super::row::{remark, row};
-use super::views::{Colours, ViewOptions, Views};
+use super::views::Colours;
 use crate::language::decimal;
-use crate::mesh::arrays::{Kind, On};
 use crate::mesh::{ArrayInfo, used_vertices};
 use crate::render::{Colour, ColourMap, label_colour};
 use crate::say;
@@ -17,55 +13,8 @@ use crate::say;
 /// Labels that a legend names.
 const NAMED: usize = 12;
 
-/// The arrays, and which of them the surface is coloured by.
-pub(super) fn list(ui: &mut Ui, document: &Document, views: &Views, asked: &mut Vec<Action>) {
-    let arrays = &document.import.arrays;
-    if arrays.is_empty() {
-        return;
-    }
-    let mut colours = views.options.colours;
-    row(ui, &say!("panel-colour"), &say!("panel-colour-help"), |ui| {
-        let nothing = say!("panel-colour-none");
-        let chosen = chosen(document, colours).map_or(&nothing, |info| &info.name);
-        let list = ComboBox::from_id_salt("arrays").width(140.0).truncate().selected_text(chosen);
-        let response = list.show_ui(ui, |ui| {
-            ui.selectable_value(&mut colours, Colours::None, &nothing);
-            for (info, i) in arrays.iter().zip(0..) {
-                ui.selectable_value(&mut colours, Colours::Array(i), &info.name);
-            }
-        });
-        name(&response.response, Role::ComboBox, &say!("panel-colour"));
-    });
-    for info in arrays {
-        remark(ui, &described(info));
-    }
-    if colours != views.options.colours {
-        asked.push(Action::Show(ViewOptions { colours, ..views.options }));
-    }
-}
-
-/// What an array is, in a line.
-fn described(info: &ArrayInfo) -> String {
-    let on = if info.on == On::Point { "vertices" } else { "triangles" };
-    let (name, kind) = (&info.name, info.scalar.name());
-    let text = match (info.kind, info.components) {
-        (Kind::Label, _) if info.labels.is_empty() => {
-            say!("panel-array-identifiers", name = name, on = on, kind = kind)
-        }
-        (Kind::Label, _) => {
-            say!("panel-array-labels", name = name, count = info.labels.len(), on = on, kind = kind)
-        }
-        (Kind::Continuous, 1) => say!("panel-array-scalar", name = name, on = on, kind = kind),
-        (Kind::Continuous, n) => say!("panel-array-components", name = name, count = n, on = on, kind = kind),
-    };
-    match info.range {
-        Some([least, most]) => say!("panel-array-range", array = text, least = short(least), most = short(most)),
-        None => text,
-    }
-}
-
 /// A number without a unit, to four digits.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let size = x.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
         let text = format!("{x:.3e}");
@@ -148,7 +97,7 @@ pub(super) fn label_legend(painter: &Painter, inner: Rect, info: &ArrayInfo, col
 mod tests {
     use super::*;
     use crate::mesh::Array;
-    use crate::mesh::arrays::{Scalar, Values};
+    use crate::mesh::arrays::{On, Scalar, Values};
 
     fn array(scalar: Scalar, numbers: &[f64]) -> ArrayInfo {
         let mut values = Values::new(scalar);
@@ -166,12 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn an_array_is_described_in_a_line() {
-        assert_eq!(
-            described(&array(Scalar::F32, &[-10.0, 35.238_01])),
-            "Pressure: scalar on vertices, float32, -10 to 35.24"
-        );
-        assert_eq!(described(&array(Scalar::U8, &[0.0, 3.0])), "Pressure: 2 labels on vertices, uint8, 0 to 3");
+    fn numbers_have_four_digits() {
         assert_eq!([0.0, 0.25, 1234.5, 1e-7, 2.5e9].map(short), ["0", "0.250", "1234", "1.000e-7", "2.500e9"]);
     }
 }

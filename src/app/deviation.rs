@@ -7,6 +7,7 @@ use egui::{Align2, Color32, FontId, Rect, Role, Sense, Ui, Vec2, pos2, vec2};
 
 use super::action::Action;
 use super::assist::name;
+pub use super::deviating::{Deviating, UpTo};
 use super::document::Document;
 use super::halo;
 use super::overlay::{self, Legend};
@@ -18,53 +19,6 @@ use crate::pipeline::deviation::Deviation;
 use crate::pipeline::histogram::Histogram;
 use crate::render::{Camera, ColourMap};
 use crate::say;
-
-/// What of the deviation is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Deviating {
-    /// From the surface as it was opened, not from the smoothed one.
-    pub from_opened: bool,
-    /// Inside and outside apart.
-    pub is_signed: bool,
-    /// Up to how much.
-    pub up_to: UpTo,
-}
-
-/// Up to which deviation there are colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum UpTo {
-    /// What 95 % of the samples are within.
-    #[default]
-    Percentile,
-    /// 0.1 mm.
-    Tenth,
-    /// 0.25 mm.
-    Quarter,
-    /// 0.5 mm.
-    Half,
-}
-
-impl UpTo {
-    const ALL: [Self; 4] = [Self::Percentile, Self::Tenth, Self::Quarter, Self::Half];
-
-    fn label(self) -> String {
-        match self {
-            Self::Percentile => "95 %".to_owned(),
-            Self::Tenth => format!("{} mm", decimal(0.1, 1)),
-            Self::Quarter => format!("{} mm", decimal(0.25, 2)),
-            Self::Half => format!("{} mm", decimal(0.5, 1)),
-        }
-    }
-
-    fn mm(self, deviation: &Deviation) -> f32 {
-        match self {
-            Self::Percentile => (deviation.p95 as f32).max(1e-6),
-            Self::Tenth => 0.1,
-            Self::Quarter => 0.25,
-            Self::Half => 0.5,
-        }
-    }
-}
 
 impl Document {
     /// The numbers of the deviation that is shown.

@@ -8,21 +8,12 @@ use super::control::reads_comma;
 use super::document::Document;
 use super::row::{number, remark, row};
 use super::state::State;
-use super::views::{ViewOptions, Views, seen};
+use super::views::{FaultShown, ViewOptions, Views, seen};
 use crate::language::{Key, decimal, grouped, inner};
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
 use crate::pipeline::settings::{Keep, Settings};
 use crate::render::Camera;
 use crate::say;
-
-/// A fault of the surface that is open: its kind, and which of them is looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FaultShown {
-    /// All of these are marked.
-    pub kind: FaultKind,
-    /// The one that was gone to.
-    pub index: u16,
-}
 
 /// Height of what is seen around a fault, in times its size, and in mm at least.
 const AROUND: f32 = 6.0;

@@ -4,7 +4,7 @@
 //! - [`LumenApp`]: the app, frame by frame; [`Action`]: all that can be asked of it. [`LastingApp`]: it outlives the
 //!   graphics device (`paint_guard`: and paints nothing with one that is gone).
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
-//! - `panel`, `numbers`, `bar`, `sheets`, `keys`: the controls; `row`, `control`, `swipe`, `response`, `error_plot`, `icon` what they are
+//! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`, `error_plot`, `icon` what they are
 //!   made of, `assist` what assistive tools are told of them, `theme` the look.
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
@@ -24,6 +24,7 @@
 //!   `overlay` what is written over them, `halo` how it is kept legible there, `flight` how their camera goes to a place.
 
 mod action;
+mod array_list;
 mod arrays;
 mod assist;
 mod axes;
@@ -32,6 +33,7 @@ mod classes;
 pub mod collapses;
 pub mod compare;
 mod control;
+mod deviating;
 pub mod deviation;
 pub mod document;
 mod drawer;
@@ -65,6 +67,7 @@ pub mod scan;
 mod scene;
 mod sharing;
 mod sheets;
+mod shortcuts;
 mod speech;
 mod spoken;
 mod state;
@@ -81,7 +84,6 @@ mod window_texture;
 pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
-pub use self::mending::FaultShown;
 pub use self::platform::{
     Devices, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, SHAKE_MS, Store, Tone, Waker,
 };
@@ -90,4 +92,4 @@ pub use self::portrait::report_pictures;
 pub use self::reveal::Reveal;
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State, Step};
-pub use self::views::{Colours, ViewOptions, Views};
+pub use self::views::{Colours, FaultShown, ViewOptions, Views};

@@ -15,11 +15,14 @@ use clap::Args;
 use serde::Serialize;
 
 use super::interrupt::Interrupted;
-use super::optimise::{Outputs, advance_quietly, milliseconds, told_with_remedies};
+use super::misuse::misuse;
+use super::outputs::{Outputs, milliseconds, told_with_remedies};
+use super::places::write_whole;
+use super::running::advance_quietly;
 use super::scan::FOLDER_HINT;
 use super::settings::Asked;
 use super::written::WrittenOptions;
-use super::{interrupt, misuse, places, source, write_whole};
+use super::{interrupt, places, source};
 use crate::io::Format;
 use crate::language::grouped;
 use crate::pipeline::report::{DISCLAIMER, Report};
@@ -65,7 +68,7 @@ struct Item {
 }
 
 impl BatchOptions {
-    /// All surfaces in `files`, each with its names in the folder `output`, which is made. Ends the program where two
+    /// All surfaces in `files`, each with its names in the folder `output`, which is made. Refuses where two
     /// would be written to one place, the settings that are saved among them, or one over what is to be read.
     pub(super) fn plan(
         &self,
@@ -75,10 +78,10 @@ impl BatchOptions {
         saved_settings: Option<&Path>,
     ) -> Result<Batch> {
         if output.exists() && !output.is_dir() {
-            misuse(format!("{} is no folder: several surfaces need one", output.display()));
+            return Err(misuse(format!("{} is no folder: several surfaces need one", output.display())));
         }
         if !is_folder(output) && Format::from_name(&output.to_string_lossy()).is_some() {
-            misuse(format!("{0} would be a folder: if it is to be one, say {0}/", output.display()));
+            return Err(misuse(format!("{0} would be a folder: if it is to be one, say {0}/", output.display())));
         }
         let format = self.format.unwrap_or(Format::Stl);
         let mut found = Vec::new();
@@ -90,7 +93,7 @@ impl BatchOptions {
         let inputs = items.iter().map(|item| Path::new(&item.file)).chain(settings);
         let beside = [("the summary".to_owned(), &*summary)];
         let beside = beside.into_iter().chain(saved_settings.map(|path| ("the settings".to_owned(), path)));
-        places::check(inputs, beside.chain(items.iter().flat_map(Item::outputs)));
+        places::check(inputs, beside.chain(items.iter().flat_map(Item::outputs)))?;
         std::fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
         Ok(Batch { items, format, jobs: self.jobs.unwrap_or(1).into(), summary })
     }

@@ -4,7 +4,7 @@ use tabled::builder::Builder;
 use tabled::settings::object::Columns;
 use tabled::settings::{Alignment, Style};
 
-use super::row;
+use super::rows::row;
 use crate::pipeline::report::Report;
 use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, Verdict, measured_percent};
 use crate::vessel::variation::Variation;

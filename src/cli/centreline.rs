@@ -6,7 +6,10 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::Args;
 
-use super::{misuse, places, row, source, write_whole};
+use super::misuse::misuse;
+use super::places::write_whole;
+use super::rows::row;
+use super::{places, source};
 use crate::io::Unit;
 use crate::pipeline::report::DISCLAIMER;
 use crate::pipeline::run::Pipeline;
@@ -35,9 +38,8 @@ impl Centreline {
     pub(super) fn run(&self) -> Result<()> {
         let extension = self.output.extension().map(|extension| extension.to_string_lossy().into_owned());
         let format = extension.as_deref().and_then(CentrelineFormat::from_extension);
-        let format =
-            format.unwrap_or_else(|| misuse(format!("{} does not end in .vtp or .csv", self.output.display())));
-        places::check([self.file.as_ref()], [("the centrelines".to_owned(), &*self.output)]);
+        let format = format.ok_or_else(|| misuse(format!("{} does not end in .vtp or .csv", self.output.display())))?;
+        places::check([self.file.as_ref()], [("the centrelines".to_owned(), &*self.output)])?;
         let imported = source::read(&self.file, self.unit)?;
         let keep = if self.keep_all_components { Keep::All } else { Keep::Largest };
         let mut pipeline = Pipeline::new(Arc::new(imported.mesh), Settings { keep, ..Settings::default() });

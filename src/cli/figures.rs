@@ -6,8 +6,10 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::Args;
 
-use super::optimise::advance;
-use super::{row, source, write_whole};
+use super::places::write_whole;
+use super::rows::row;
+use super::running::advance;
+use super::source;
 use crate::app::compare::figure::{Figure, Studio};
 use crate::app::compare::{Arrangement, Made};
 use crate::io::Unit;

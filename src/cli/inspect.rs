@@ -5,9 +5,11 @@ use clap::Args;
 use serde::Serialize;
 
 use super::mend::fault_rows;
+use super::misuse::misuse;
+use super::rows::{array_rows, row, shape_rows};
 use super::scan::{self, ScanOptions};
+use super::source;
 use super::source::UnitOption;
-use super::{array_rows, misuse, row, shape_rows, source};
 use crate::io::{ImportReport, Imported};
 use crate::mesh::mending::{FaultCounts, Faults};
 use crate::pipeline::shape::{Shape, shape};
@@ -46,7 +48,9 @@ impl Inspect {
             && let Some(opened) = scan::open(std::slice::from_ref(&self.file))?
         {
             if self.scan.is_any() {
-                misuse("--box says where the surface is looked for: say with --threshold or --label what it is of");
+                return Err(misuse(
+                    "--box says where the surface is looked for: say with --threshold or --label what it is of",
+                ));
             }
             if self.unit.and_then(UnitOption::given).is_some() {
                 bail!("a scan is in millimetres: --unit makes no sense here");

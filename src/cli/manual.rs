@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
-
-use super::Arguments;
 
 /// The shells that there are completions for.
 const SHELLS: [Shell; 3] = [Shell::Bash, Shell::Zsh, Shell::Fish];
@@ -19,10 +17,10 @@ pub struct Manual {
 }
 
 impl Manual {
-    pub(super) fn run(&self) -> Result<()> {
+    /// Of the command line `command`.
+    pub(super) fn run(&self, command: &Command) -> Result<()> {
         let folder = &self.folder;
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-        let command = Arguments::command();
         clap_mangen::generate_to(command.clone(), folder).context("cannot write the manual's pages")?;
         for shell in SHELLS {
             clap_complete::generate_to(shell, &mut command.clone(), "lumen", folder)

@@ -6,9 +6,12 @@ use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 
+use super::misuse::misuse;
+use super::places::{output_format, write_whole};
+use super::rows::row;
 use super::settings::MendingOptions;
 use super::source::{self, UnitOption};
-use super::{interrupt, misuse, output_format, places, row, write_whole};
+use super::{interrupt, places};
 use crate::io::{self, Imported, Output};
 use crate::mesh::mending::{FaultCounts, Faults, MendReport, MendTask, Mended};
 use crate::pipeline::settings::{Mending, Settings};
@@ -46,12 +49,12 @@ impl Mend {
     pub(super) fn run(&self) -> Result<()> {
         let asked = self.mending.asked(Mending::default());
         if asked.is_off() {
-            misuse("nothing is asked for: say --weld, --split, --fill-holes or --lumen");
+            return Err(misuse("nothing is asked for: say --weld, --split, --fill-holes or --lumen"));
         }
-        Settings { mending: asked, ..Settings::default() }.check().unwrap_or_else(|error| misuse(error));
-        let format = output_format(&self.output);
+        Settings { mending: asked, ..Settings::default() }.check().map_err(misuse)?;
+        let format = output_format(&self.output)?;
         let report = self.report.iter().map(|path| ("the report".to_owned(), &**path));
-        places::check([Path::new(&self.file)], [("the surface".to_owned(), &*self.output)].into_iter().chain(report));
+        places::check([Path::new(&self.file)], [("the surface".to_owned(), &*self.output)].into_iter().chain(report))?;
         interrupt::listen()?;
         let Imported { mesh, arrays, report } = source::read_with(&self.file, self.unit, &Default::default())?;
         let faults_before = Faults::all(&mesh).counts();

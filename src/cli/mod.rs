@@ -12,7 +12,9 @@ mod inspect;
 mod interrupt;
 mod manual;
 mod mend;
+mod misuse;
 mod optimise;
+mod outputs;
 mod phantom;
 #[cfg(feature = "gui")]
 mod pictures;
@@ -21,6 +23,8 @@ mod pictures;
 mod pictures;
 mod places;
 mod report;
+mod rows;
+mod running;
 #[cfg(feature = "scans")]
 mod scan;
 #[cfg(not(feature = "scans"))]
@@ -40,12 +44,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-
-use crate::mesh::ArrayInfo;
-use crate::mesh::arrays::{Kind, On};
-use crate::pipeline::narrowest::Narrowest;
-use crate::pipeline::shape::Shape;
+use clap::error::ErrorKind;
+use clap::{CommandFactory as _, Parser, Subcommand};
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -103,7 +103,7 @@ impl Command {
             #[cfg(feature = "gui")]
             Self::Figures(command) => command.run(),
             Self::Inspect(command) => command.run(),
-            Self::Manual(command) => command.run(),
+            Self::Manual(command) => command.run(&Arguments::command()),
             Self::Mend(command) => command.run(),
             Self::Optimise(command) => command.run(),
             Self::Phantom(command) => command.run(),
@@ -116,71 +116,13 @@ impl Command {
         match result {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => {
+                if let Some(misuse) = error.downcast_ref::<misuse::Misuse>() {
+                    Arguments::command().error(ErrorKind::ValueValidation, misuse).exit();
+                }
                 // Where nobody hears it, the status says it.
                 let _ = writeln!(std::io::stderr(), "lumen: {error:#}");
                 error.downcast_ref().map_or(ExitCode::FAILURE, |&interrupt::Interrupted(status)| status.into())
             }
         }
-    }
-}
-
-/// Ends the program as for a command line that makes no sense.
-fn misuse(error: impl std::fmt::Display) -> ! {
-    use clap::CommandFactory;
-    Arguments::command().error(clap::error::ErrorKind::ValueValidation, error).exit()
-}
-
-/// The format that the name of an output file asks for.
-fn output_format(path: &std::path::Path) -> crate::io::Format {
-    crate::io::Format::from_name(&path.to_string_lossy())
-        .unwrap_or_else(|| misuse(format!("{} does not end in .stl, .ply, .obj, .vtp, .vtk or .glb", path.display())))
-}
-
-/// Writes `bytes` to `path` whole or not at all: what was there before stays if the disk is full.
-fn write_whole(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
-    use anyhow::Context;
-    let mut name = path.file_name().context("the output has no file name")?.to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
-    written
-        .inspect_err(|_| drop(std::fs::remove_file(&part)))
-        .with_context(|| format!("cannot write {}", path.display()))
-}
-
-/// A row of a table: what it is, padded, and how much.
-fn row(what: &str, how_much: impl std::fmt::Display) {
-    println!("{what:<27} {how_much}");
-}
-
-/// A row for each array: its name, what it is on, its type, and its range.
-fn array_rows(arrays: &[ArrayInfo]) {
-    for ArrayInfo { name, on, kind, scalar, components, range, .. } in arrays {
-        let on = if *on == On::Point { "point" } else { "triangle" };
-        let kind = if *kind == Kind::Label { ", labels" } else { "" };
-        let range =
-            range.map_or("no finite value".to_owned(), |[least, most]| format!("{} to {}", plain(least), plain(most)));
-        let (what, scalar) = (format!("array {name}"), scalar.name());
-        row(&what, format!("{on}, {components} x {scalar}{kind}, {range}"));
-    }
-}
-
-/// A number without a row of zeros.
-fn plain(x: f64) -> String {
-    if x != 0.0 && !(1e-4..1e15).contains(&x.abs()) { format!("{x:e}") } else { format!("{x}") }
-}
-
-/// The rows of a surface's shape.
-fn shape_rows(shape: &Shape) {
-    if let Some(roughness) = shape.roughness {
-        row("roughness", format!("{:.2} degrees RMS, {:.2} p95", roughness.rms_deg, roughness.p95_deg));
-    }
-    if let Some(angles) = &shape.angles {
-        row("smallest angle", format!("{:.2} degrees", angles.min_deg));
-        row("slivers under 10 degrees", format!("{:.2} % of triangles", angles.below_10_percent));
-    }
-    row("self-intersecting triangles", shape.self_intersecting_faces);
-    if let Some(Narrowest { diameter_mm, at_mm: [x, y, z] }) = shape.smallest_lumen {
-        row("smallest lumen", format!("{diameter_mm:.3} mm at ({x:.1}, {y:.1}, {z:.1})"));
     }
 }

@@ -24,7 +24,9 @@ impl ScanOptions {
     }
 
     /// There is nothing to refuse.
-    pub(super) fn refuse(&self, _: &str) {}
+    pub(super) fn refuse(&self, _: &str) -> Result<()> {
+        Ok(())
+    }
 }
 
 /// There is no volume to open.

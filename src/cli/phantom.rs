@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use super::{output_format, row, write_whole};
+use super::places::{output_format, write_whole};
+use super::rows::row;
 use crate::io;
 use crate::mesh::components;
 use crate::phantom::{MAX_TRIANGLES, MIN_TRIANGLES, Sample, generate};
@@ -26,7 +27,7 @@ pub struct Phantom {
 impl Phantom {
     /// Makes the surface and writes it.
     pub(super) fn run(&self) -> Result<()> {
-        let format = output_format(&self.output);
+        let format = output_format(&self.output)?;
         let wanted = self.triangles.map_or(self.sample.default_triangles(), |n| n as usize);
         let mesh = generate(self.sample, wanted)?;
         write_whole(&self.output, &io::write(&mesh, None, format)?)?;

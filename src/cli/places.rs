@@ -1,19 +1,38 @@
-//! Where a run reads and writes: nothing that it writes goes over a file that it reads, or to where something else goes.
+//! Where a run reads and writes: nothing that it writes goes over a file that it reads, or to where something else goes, and
+//! what it writes is there whole or not at all.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
-use super::misuse;
+use anyhow::{Context as _, Result};
 
-/// Ends the program where one of the `outputs`, each with what it is, would go over one of the `inputs` or to the place of
-/// another. To be called before anything is made or written.
+use super::misuse::misuse;
+use crate::io::Format;
+
+/// Refuses where one of the `outputs`, each with what it is, would go over one of the `inputs` or to the place of another. To
+/// be called before anything is made or written.
 pub(super) fn check<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     outputs: impl IntoIterator<Item = (String, &'a Path)>,
-) {
-    if let Err(collision) = compare(inputs, outputs) {
-        misuse(collision);
-    }
+) -> Result<()> {
+    compare(inputs, outputs).map_err(misuse)
+}
+
+/// The format that the name of an output file asks for.
+pub(super) fn output_format(path: &Path) -> Result<Format> {
+    let format = Format::from_name(&path.to_string_lossy());
+    format.ok_or_else(|| misuse(format!("{} does not end in .stl, .ply, .obj, .vtp, .vtk or .glb", path.display())))
+}
+
+/// Writes `bytes` to `path` whole or not at all: what was there before stays if the disk is full.
+pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    let mut name = path.file_name().context("the output has no file name")?.to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
+    written
+        .inspect_err(|_| drop(std::fs::remove_file(&part)))
+        .with_context(|| format!("cannot write {}", path.display()))
 }
 
 fn compare<'a>(

@@ -6,10 +6,13 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::Args;
 
-use super::optimise::{advance, run_through};
+use super::misuse::misuse;
+use super::places::write_whole;
+use super::rows::row;
+use super::running::{advance, run_through};
 use super::scan::ScanOptions;
 use super::settings::SettingsOptions;
-use super::{interrupt, misuse, pictures, places, row, source, write_whole};
+use super::{interrupt, pictures, places, source};
 use crate::io::{Axes, Format};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{DISCLAIMER, Report};
@@ -42,9 +45,9 @@ impl WriteReport {
     pub(super) fn run(&self) -> Result<()> {
         let name = self.output.to_string_lossy();
         let format =
-            ReportFormat::from_name(&name).unwrap_or_else(|| misuse(format!("{name} does not end in .pdf or .html")));
+            ReportFormat::from_name(&name).ok_or_else(|| misuse(format!("{name} does not end in .pdf or .html")))?;
         let inputs = [Path::new(&self.file)].into_iter().chain(self.settings.file());
-        places::check(inputs, [("the report".to_owned(), &*self.output)]);
+        places::check(inputs, [("the report".to_owned(), &*self.output)])?;
         let asked = self.settings.asked()?;
         interrupt::listen()?;
         let (imported, digest) = source::read_known(&self.file, asked.unit, &self.scan)?;

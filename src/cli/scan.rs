@@ -7,7 +7,8 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use serde::Serialize;
 
-use super::{misuse, row};
+use super::misuse::misuse;
+use super::rows::row;
 use crate::io::volume::{self, Part};
 use crate::io::{Axes, Imported, import_mesh};
 use crate::task::Task;
@@ -51,11 +52,12 @@ impl ScanOptions {
         self.threshold.is_some() || self.label.is_some()
     }
 
-    /// Ends the program where these options are given for what is no volume.
-    pub(super) fn refuse(&self, name: &str) {
+    /// Refuses where these options are given for what is no volume.
+    pub(super) fn refuse(&self, name: &str) -> Result<()> {
         if self.is_any() {
-            misuse(format!("{name} is a surface: --threshold, --label and --box are for scans and masks"));
+            return Err(misuse(format!("{name} is a surface: --threshold, --label and --box are for scans and masks")));
         }
+        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
-use super::misuse;
+use super::misuse::misuse;
 use super::source::UnitOption;
 use crate::pipeline::settings::{Decimation, Keep, Mending, Method, Preset, Settings, Smoothing, Target, Window};
 use crate::pipeline::verdict::rate;
@@ -148,7 +148,7 @@ impl SettingsOptions {
             target,
             tolerance_percent: self.tolerance.unwrap_or(begun.tolerance_percent),
         };
-        settings.check().unwrap_or_else(|error| misuse(error));
+        settings.check().map_err(misuse)?;
         if let Some(Reduction::Percent(percent)) = self.reduction
             && 0.0 < percent
             && percent < 1.0

@@ -70,7 +70,7 @@ pub(super) fn read_quietly(name: &str, unit: Option<UnitOption>) -> Result<(Impo
 
 fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(Imported, Option<Digest>)> {
     if let Some(sample) = name.strip_prefix("sample:") {
-        options.refuse(name);
+        options.refuse(name)?;
         if unit.and_then(UnitOption::given).is_some() {
             bail!("a sample is in millimetres: --unit makes no sense here");
         }
@@ -83,7 +83,7 @@ fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(
         }
         Some(opened) => Ok((opened.surface(options).with_context(|| name.to_owned())?, None)),
         None => {
-            options.refuse(name);
+            options.refuse(name)?;
             let bytes = Arc::new(std::fs::read(name).with_context(|| format!("cannot read {name}"))?);
             let read = |unit| surface(Arc::clone(&bytes), name, ImportOptions { unit });
             let mut imported = read(unit.and_then(UnitOption::given))?;

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 
+use super::places;
+use super::places::{output_format, write_whole};
+use super::rows::row;
 use super::scan::{self, ScanOptions};
-use super::{output_format, places, row, write_whole};
 use crate::io::{self, Imported};
 
 /// Writes the surface of what reaches a threshold in a scan, or of a label of a mask, in mm; in LPS where the scan says how the patient lies.
@@ -25,8 +27,8 @@ pub struct Surface {
 impl Surface {
     /// Makes the surface and writes it.
     pub(super) fn run(&self) -> Result<()> {
-        let format = output_format(&self.output);
-        places::check(self.files.iter().map(Path::new), [("the surface".to_owned(), &*self.output)]);
+        let format = output_format(&self.output)?;
+        places::check(self.files.iter().map(Path::new), [("the surface".to_owned(), &*self.output)])?;
         let Some(opened) = scan::open(&self.files)? else {
             bail!("{} is not a scan or a mask", self.files[0]);
         };

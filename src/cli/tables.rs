@@ -9,9 +9,10 @@ use std::sync::Arc;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
-use super::optimise::advance;
+use super::places::write_whole;
+use super::running::advance;
 use super::sheet::{Entry, Item, Sheet, Table};
-use super::{places, source, write_whole};
+use super::{places, source};
 use crate::io::Unit;
 use crate::pipeline::deviation::{Deviation, REPORT_SAMPLES};
 use crate::pipeline::paper;
@@ -65,7 +66,7 @@ impl Form {
 impl Tables {
     /// Runs the pipeline at the paper's settings and writes the tables.
     pub(super) fn run(&self) -> Result<()> {
-        places::check([Path::new(&self.file)], self.output.iter().map(|output| ("the tables".to_owned(), &**output)));
+        places::check([Path::new(&self.file)], self.output.iter().map(|output| ("the tables".to_owned(), &**output)))?;
         if self.trial {
             return self.write(&super::trial_tables::sheet(&self.file, self.unit)?);
         }

@@ -6,9 +6,12 @@ use std::sync::Arc;
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 
-use super::optimise::advance;
+use super::misuse::misuse;
+use super::places::write_whole;
+use super::rows::row;
+use super::running::advance;
 use super::settings::percent;
-use super::{misuse, places, row, source, write_whole};
+use super::{places, source};
 use crate::io::Unit;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
@@ -121,15 +124,15 @@ impl Trial {
     pub(super) fn run(&self) -> Result<()> {
         let outputs = [("the log", &self.log), ("the summary", &self.json)];
         let outputs = outputs.into_iter().filter_map(|(what, path)| Some((what.to_owned(), path.as_deref()?)));
-        places::check([Path::new(&self.file)], outputs);
-        let setup = self.setup();
+        places::check([Path::new(&self.file)], outputs)?;
+        let setup = self.setup()?;
         let (opened, sample) = surface(&self.file, self.triangles, self.unit)?;
         let target = match self.triangles {
             Some(count) if sample.is_none() => Target::Triangles(count),
             _ => Target::Reduction((self.reduction * 10.0).round() as u32),
         };
         let settings = settings((self.pass_band, self.iterations), target);
-        settings.check().unwrap_or_else(|error| misuse(error));
+        settings.check().map_err(misuse)?;
         let mut pipeline = Pipeline::new(opened, settings).without_measures();
         advance(&mut pipeline)?;
         let mesh = pipeline.reduced().context("the pipeline ended without a result")?.mesh.clone();
@@ -145,17 +148,18 @@ impl Trial {
         Ok(())
     }
 
-    fn setup(&self) -> Setup {
-        let mut wire = self.wire.as_deref().map_or_else(Wire::default, |name| {
-            Wire::preset(name).unwrap_or_else(|| {
+    fn setup(&self) -> Result<Setup> {
+        let mut wire = match self.wire.as_deref() {
+            None => Wire::default(),
+            Some(name) => Wire::preset(name).ok_or_else(|| {
                 let names: Vec<_> = Wire::names().collect();
                 misuse(format!("there is no wire {name:?}; there are {}", names.join(", ")))
-            })
-        });
+            })?,
+        };
         if let Some(element) = self.element {
             wire.elements_mm = [element; 2];
         }
-        wire.check().unwrap_or_else(|error| misuse(error));
+        wire.check().map_err(misuse)?;
         let entry = self.entry.map(|at| Entry { at, direction: self.direction.unwrap_or([0.0; 3]) });
         let setup = Setup {
             wire,
@@ -166,8 +170,8 @@ impl Trial {
             press: self.press.unwrap_or_default(),
             seed: self.seed,
         };
-        setup.check_loads().unwrap_or_else(|error| misuse(error));
-        setup
+        setup.check_loads().map_err(misuse)?;
+        Ok(setup)
     }
 }
 

@@ -5,7 +5,7 @@
 
 use anyhow::{Context, Result};
 
-use super::optimise::advance;
+use super::running::advance;
 use super::sheet::{Entry, Item, Sheet, Table};
 use super::trial::{SMOOTHING, settings, surface, trial};
 use crate::io::Unit;

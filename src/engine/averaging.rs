@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::message::{Averaged, Event};
+use super::found::Averaged;
+use super::message::Event;
 use crate::mesh::{Topology, TriMesh};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::run::Pipeline;

@@ -5,7 +5,8 @@
 
 use std::collections::VecDeque;
 
-use super::message::{Compared, Event, Work};
+use super::found::Compared;
+use super::message::{Event, Work};
 use super::progress::tell_progress;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::{Advance, Pipeline};

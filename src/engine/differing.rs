@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::message::{Differed, Event, Work};
+use super::found::Differed;
+use super::message::{Event, Work};
 use super::progress::tell_progress;
 use crate::mesh::TriMesh;
 use crate::pipeline::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};

@@ -1,89 +1,24 @@
 //! What passes between the app and the engine: it can cross between threads that share no memory, large arrays as buffers
 //! of their own ([`transfer`](crate::transfer)).
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::surfaces::{levels, surface};
-use crate::io::{Axes, Format, ImportOptions, ImportReport};
-use crate::mesh::mending::{FaultCounts, FaultPlace};
-use crate::mesh::{TriMesh, Vec3};
-use crate::phantom::Sample;
+use super::found::{Averaged, Calibre, Carried, Compared, Deviated, Differed, FaultsFound, Opened, Reduced};
+use super::source::Source;
+use super::surfaces::surface;
+use crate::io::{Axes, Format};
+use crate::mesh::TriMesh;
 use crate::pipeline::connectivity::Component;
-use crate::pipeline::deviation::Deviation;
-use crate::pipeline::histogram::Histogram;
-use crate::pipeline::progressive::ProgressiveMesh;
 use crate::pipeline::report::Report;
-use crate::pipeline::settings::{Keep, Settings};
+use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
 use crate::report::ReportFormat;
 use crate::say;
-use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
 use crate::transfer::{bulk, optional};
 use crate::vessel::CentrelineFormat;
-use crate::vessel::certificate::Certificate;
-
-/// Where a surface comes from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Source {
-    /// A file that was chosen or dropped.
-    File {
-        /// Its name, with extension.
-        name: String,
-        /// Its bytes.
-        #[serde(with = "bulk")]
-        bytes: Arc<Vec<u8>>,
-        /// How to read it.
-        options: ImportOptions,
-    },
-    /// A vessel tree that Lumen makes.
-    Sample {
-        /// Which.
-        sample: Sample,
-        /// Triangles of its largest piece.
-        triangles: u32,
-    },
-    /// A surface that was made of a scan.
-    Made {
-        /// What it is called.
-        name: String,
-        /// What it was made of: "DICOM".
-        format: String,
-        /// The surface in mm.
-        #[serde(with = "surface")]
-        mesh: Arc<TriMesh>,
-        /// What its coordinates grow towards, as far as the scan says it.
-        axes: Axes,
-        /// What looked odd about the scan.
-        warnings: Vec<String>,
-    },
-}
-
-impl Source {
-    /// The sample at its default size.
-    pub fn sample(sample: Sample) -> Self {
-        Self::Sample { sample, triangles: sample.default_triangles() as u32 }
-    }
-
-    /// What the surface is called, whatever is spoken: files are named by it.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::File { name, .. } | Self::Made { name, .. } => name,
-            Self::Sample { sample, .. } => sample.title(),
-        }
-    }
-
-    /// The same to a user: a sample has a name in the language that is spoken.
-    pub fn label(&self) -> Cow<'_, str> {
-        match self {
-            Self::File { name, .. } | Self::Made { name, .. } => name.as_str().into(),
-            Self::Sample { sample, .. } => sample.label().into(),
-        }
-    }
-}
 
 /// What the engine is asked to do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -235,123 +170,6 @@ impl Work {
     }
 }
 
-/// A surface that was opened.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Opened {
-    /// That of the command.
-    pub id: u64,
-    /// The surface's name.
-    pub name: String,
-    /// The hash of its file; none of a sample.
-    pub digest: Option<Digest>,
-    /// What was found and mended.
-    pub report: ImportReport,
-    /// All of it.
-    #[serde(with = "surface")]
-    pub mesh: Arc<TriMesh>,
-}
-
-/// Every level of the surface under some settings.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Reduced {
-    /// That of the settings.
-    pub generation: u64,
-    /// The pieces it is made from.
-    pub keep: Keep,
-    /// The levels.
-    #[serde(with = "levels")]
-    pub mesh: Arc<ProgressiveMesh>,
-}
-
-/// What a level makes of the vessels.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Calibre {
-    /// That of the settings.
-    pub generation: u64,
-    /// The calibre of each branch; or in one sentence why there is none.
-    pub found: Result<Certificate, String>,
-    /// For each node of the level the change of calibre in percent, [`NOT_MEASURED`](crate::pipeline::results::NOT_MEASURED)
-    /// where it is not known; empty where there are no branches.
-    #[serde(with = "bulk")]
-    pub change_by_node: Vec<f32>,
-}
-
-/// What the file says of the vertices and triangles of a level, as it is shown.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Carried {
-    /// That of the settings.
-    pub generation: u64,
-    /// For each array of the import report a number for each vertex of the level, one array after the other: its value,
-    /// or its magnitude.
-    #[serde(with = "bulk")]
-    pub values: Vec<f32>,
-}
-
-/// What else is known of the deviation of a level, beside the numbers and the map from the smoothed surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Deviated {
-    /// That of the settings.
-    pub generation: u64,
-    /// Three numbers for each vertex of the level, in mm, one kind after the other: the mean signed distance from the
-    /// smoothed surface around it, the mean distance from the opened one, and the mean signed distance from that.
-    #[serde(with = "bulk")]
-    pub values: Vec<f32>,
-    /// How the samples are spread: from the smoothed surface, and from the opened one.
-    pub histograms: [Histogram; 2],
-}
-
-/// What is wrong with a surface as it was opened.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FaultsFound {
-    /// How often.
-    pub counts: FaultCounts,
-    /// Where: the first of each kind.
-    pub places: Vec<FaultPlace>,
-}
-
-/// What the pipeline made at one of the settings to compare.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Compared {
-    /// That of the command.
-    pub id: u64,
-    /// Which of its settings.
-    pub index: u32,
-    /// The numbers, deviations among them.
-    pub report: Report,
-    /// The level, over its own vertices.
-    #[serde(with = "surface")]
-    pub mesh: Arc<TriMesh>,
-}
-
-/// How far a surface is from another.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Differed {
-    /// That of the command.
-    pub id: u64,
-    /// For each vertex of the other surface its mean distance from the first around it, in mm; empty where one of them
-    /// has no area.
-    #[serde(with = "bulk")]
-    pub by_vertex: Vec<f32>,
-    /// The numbers, where both have one.
-    pub deviation: Option<Deviation>,
-    /// The diameter of the first one's lumen where they are farthest apart, in mm, where a wall faces it.
-    pub width_mm: Option<f32>,
-}
-
-/// What plain Laplacian smoothing makes of the surface that is open.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Averaged {
-    /// That of the command.
-    pub id: u64,
-    /// That of the command.
-    pub passes: u32,
-    /// The pieces that were smoothed.
-    pub keep: Keep,
-    /// Where each vertex of the surface as it was opened is moved to, in mm; those of other pieces stay.
-    #[serde(with = "bulk")]
-    pub positions: Vec<Vec3>,
-}
-
 /// What the engine has to say.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Event {
@@ -457,39 +275,15 @@ pub enum Event {
     },
 }
 
-/// The app's end of the line to an engine: that of the pipeline, or with other commands and events that of the trial.
-pub trait Link<C = Command, E = Event> {
-    /// Sends a command.
-    fn send(&mut self, command: C);
-
-    /// The next event that has arrived.
-    fn poll(&mut self) -> Option<E>;
-
-    /// Gives up the engine, whatever it does, and starts another with nothing open.
-    fn restart(&mut self);
-
-    /// Gives up the engine, whatever it does. The next command starts another where one that dies at once would
-    /// otherwise be started for ever; elsewhere it is started now.
-    fn give_up(&mut self) {
-        self.restart();
-    }
-
-    /// Whether the engine that has stopped by itself had no memory left: another would stop at the same place.
-    fn is_out_of_memory(&self) -> bool {
-        false
-    }
-
-    /// One plain sentence on why the engine stopped by itself, once; whoever asks should [`Self::restart`] or
-    /// [`Self::give_up`].
-    fn failure(&mut self) -> Option<String>;
-}
-
 #[cfg(test)]
 mod tests {
     use std::time::Duration;
 
     use super::*;
     use crate::engine::Engine;
+    use crate::io::ImportOptions;
+    use crate::phantom::Sample;
+    use crate::pipeline::settings::Keep;
     use crate::transfer::tests::sent;
 
     #[test]

@@ -5,8 +5,9 @@
 //! and passes on the [`Event`]s. [`Link`] is the app's end of that line; what passes along it derives all that it needs to
 //! cross between threads that share no memory ([`transfer`](crate::transfer)).
 //!
-//! - `message`: commands and events; `surfaces`: how the surfaces in them cross.
-//! - `pipeline_engine`: what stands in force; `opening`: a source on its way in; `compare`: settings to compare ([`Command::Compare`]), which are worked on while
+//! - `message`: commands and events, with `source`, where a surface comes from, and `found`, what is found out about it;
+//!   `surfaces`: how the surfaces in them cross; `link`: the line.
+//! - `pipeline_engine`: what is asked, in its order; `current`: the surface that is open; `opening`: a source on its way in; `compare`: settings to compare ([`Command::Compare`]), which are worked on while
 //!   nothing else is to be done; `differing`: how far two of them are apart; `averaging`: plain Laplacian
 //!   smoothing, to be seen beside the filter; `progress`: how far all this is.
 //! - [`trial`]: the guidewire trial, an engine of its own on a line of its own. It keeps pace with the clock.
@@ -16,7 +17,10 @@
 mod arrays;
 mod averaging;
 mod compare;
+mod current;
 mod differing;
+mod found;
+mod link;
 mod machine;
 mod message;
 mod opening;
@@ -24,13 +28,15 @@ mod pipeline_engine;
 mod progress;
 mod record;
 pub mod scan;
+mod source;
 mod surfaces;
 pub mod trial;
 
+pub use self::current::PATIENCE;
+pub use self::found::{Averaged, Calibre, Carried, Compared, Deviated, Differed, FaultsFound, Opened, Reduced};
+pub use self::link::Link;
 pub use self::machine::{Machine, SLICE};
-pub use self::message::{
-    Averaged, Calibre, Carried, Command, Compared, Deviated, Differed, Event, FaultsFound, Frame, Link, Opened,
-    Reduced, Source, Work,
-};
-pub use self::pipeline_engine::{Engine, PATIENCE};
+pub use self::message::{Command, Event, Frame, Work};
+pub use self::pipeline_engine::Engine;
+pub use self::source::Source;
 pub use self::trial::TrialEngine;

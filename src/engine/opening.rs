@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::message::Source;
+use super::source::Source;
 use crate::io::{Axes, ImportOptions, Imported, Reading};
 use crate::phantom;
 use crate::pipeline::settings::Settings;

@@ -2,7 +2,7 @@
 //!
 //! None of the formats has a place for it. 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the header of an STL file, the
 //! comments of PLY and OBJ and the title of a legacy VTK file, and the letters alone into a string `SPACE` of the field
-//! data of VTP (`vtk/xml.rs`); glTF says which way is up (y, which is read as z: `gltf.rs`), but not that a patient stands
+//! data of VTP (`vtk/`); glTF says which way is up (y, which is read as z: `gltf/`), but not that a patient stands
 //! upright in it. Everywhere else nothing is known, and nothing is asserted. What is known is written as Slicer writes it
 //! (`vtkMRMLModelStorageNode`): the same words in the same places.
 

@@ -1,8 +1,6 @@
 //! What can go wrong with a file, each in one sentence that needs no programmer to understand.
 
-use super::output::Output;
 use crate::language::exact;
-use crate::mesh::arrays::On;
 use crate::say;
 use thiserror::Error;
 
@@ -215,35 +213,4 @@ pub enum WriteError {
         /// Bytes that it would take.
         bytes: u64,
     },
-}
-
-/// Refuses what no format can hold.
-pub(super) fn check_writable(&Output { mesh, normals, arrays, .. }: &Output) -> Result<(), WriteError> {
-    let vertices = mesh.positions.len();
-    if mesh.triangles.is_empty() {
-        return Err(WriteError::Empty);
-    }
-    for (triangle, corners) in mesh.triangles.iter().enumerate() {
-        if let Some(&index) = corners.iter().find(|&&v| v as usize >= vertices) {
-            return Err(WriteError::IndexOutOfRange { triangle, index, vertices });
-        }
-    }
-    if let Some(vertex) = mesh.positions.iter().position(|p| !p.is_finite()) {
-        return Err(WriteError::NotFinite { vertex });
-    }
-    for array in arrays {
-        let rows = if array.on == On::Point { vertices } else { mesh.triangles.len() };
-        if array.values.len() != rows * array.components {
-            return Err(WriteError::ArrayLength { name: array.name.clone(), tuples: array.len(), rows });
-        }
-    }
-    if let Some(normals) = normals {
-        if normals.len() != vertices {
-            return Err(WriteError::NormalCount { normals: normals.len(), vertices });
-        }
-        if let Some(vertex) = normals.iter().position(|n| !n.is_finite()) {
-            return Err(WriteError::NotFinite { vertex });
-        }
-    }
-    Ok(())
 }

@@ -6,7 +6,8 @@
 use glam::DVec3;
 
 use super::Unit;
-use super::import::{FARTHEST_MM, RawSurface};
+use super::import::FARTHEST_MM;
+use super::raw::RawSurface;
 use crate::mesh::Bounds;
 
 /// Farther from the origin than so many times its size, a surface loses more than six bits of 24 to the way there.

@@ -10,117 +10,18 @@ use std::mem;
 
 use glam::DVec3;
 
-use super::columns::left_out;
 use super::error::ReadError;
-use super::polygons::Faces;
-use super::report::{ImportReport, Imported, Skipped};
-use super::room::Room;
-use super::size::length;
+use super::raw::{RawSurface, check_size};
+use super::report::{ImportReport, Imported};
+use super::warnings::sentences;
 use super::weld::Welding;
 use super::{Axes, Unit};
-use crate::language::Key;
-use crate::mesh::arrays::{On, infos};
-use crate::mesh::{Array, Components, EdgeCounts, Topology, TriMesh, Vec3, components, measures, winding};
-use crate::say;
+use crate::mesh::arrays::infos;
+use crate::mesh::{Array, Components, EdgeCounts, Topology, TriMesh, components, measures, winding};
 use crate::task::{Budget, Progress, Task};
-
-/// What is said of a surface whose windings cannot be made to agree.
-pub const NO_INSIDE: Key = Key("errors-no-inside");
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 pub(super) const FARTHEST_MM: f64 = 1e9;
-
-/// What a format's file hands over: the triangles as they stand there.
-pub(super) struct RawSurface {
-    /// What the file is, in full: "STL binary".
-    pub(super) label: &'static str,
-    /// Positions, in the file's unit unless `in_mm`.
-    pub(super) positions: Vec<Vec3>,
-    /// Vertices of each triangle; all in range.
-    pub(super) triangles: Vec<[u32; 3]>,
-    /// Whether the file may have more digits than f32.
-    pub(super) has_doubles: bool,
-    /// What the positions are relative to, where the file has more digits than f32 (`far`).
-    pub(super) origin: DVec3,
-    /// What the file says about its axes.
-    pub(super) axes: Axes,
-    /// Whether the positions are in mm already, as those of a glTF scene, whose transforms take the unit with them.
-    pub(super) in_mm: bool,
-    pub(super) polygons: usize,
-    pub(super) skipped: Skipped,
-    pub(super) warnings: Vec<String>,
-    /// The cell of the file that each triangle is of, where its format has such.
-    pub(super) cells: Vec<u32>,
-    /// A tuple for each position or each triangle.
-    pub(super) arrays: Vec<Array>,
-}
-
-impl RawSurface {
-    /// A surface of triangles alone.
-    pub(super) fn new(label: &'static str, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
-        let (skipped, warnings) = (Skipped::default(), Vec::new());
-        let origin = DVec3::ZERO;
-        let (has_doubles, in_mm, axes) = (false, false, Axes::Unknown);
-        let (cells, arrays) = (Vec::new(), Vec::new());
-        Self {
-            label,
-            positions,
-            triangles,
-            has_doubles,
-            origin,
-            axes,
-            in_mm,
-            polygons: 0,
-            skipped,
-            warnings,
-            cells,
-            arrays,
-        }
-    }
-
-    /// A surface of polygons, whose corners must be in range.
-    pub(super) fn of_faces(label: &'static str, positions: Vec<Vec3>, faces: &Faces) -> Self {
-        let cut = faces.triangulate(&positions);
-        let mut raw = Self::new(label, positions, cut.triangles);
-        raw.polygons = cut.polygons;
-        raw.cells = faces.cells();
-        raw.skipped.short_faces = faces.short;
-        if cut.fanned > 0 {
-            raw.warnings.push(say!("errors-fanned", count = cut.fanned, number = cut.fanned.to_string()));
-        }
-        raw
-    }
-
-    /// Takes arrays along as far as there is room for them, those of the file's cells to the triangles cut from these, and
-    /// says what is left out.
-    pub(super) fn carry(&mut self, (arrays, left_out): (Vec<Array>, Vec<String>), room: Room) {
-        self.warnings.extend(left_out);
-        let mut bytes = 0;
-        for array in arrays {
-            let (rows, fits) = match array.on {
-                On::Point => (self.positions.len(), array.len() == self.positions.len()),
-                On::Triangle => (self.cells.len(), self.cells.iter().all(|&cell| (cell as usize) < array.len())),
-            };
-            let of_row = array.components as u64 * array.values.scalar().size() as u64;
-            let larger = bytes + of_row.saturating_mul(rows.max(array.len()) as u64);
-            if !fits {
-                self.warnings.push(self::left_out(&array.name, &say!("errors-array-other-length")));
-            } else if !room.holds_arrays(self.positions.len(), self.triangles.len(), larger) {
-                self.warnings.push(self::left_out(&array.name, &say!("errors-array-memory")));
-            } else {
-                bytes = larger;
-                self.arrays.push(if array.on == On::Point { array } else { array.gathered(&self.cells) });
-            }
-        }
-    }
-}
-
-/// Refuses more vertices or triangle corners than 32 bits can number.
-pub(super) fn check_size(vertices: usize, triangles: usize) -> Result<(), ReadError> {
-    let limit = u64::from(u32::MAX);
-    let corners = (vertices as u64).max(3 * triangles as u64);
-    if corners > limit { Err(ReadError::TooLarge { corners, limit }) } else { Ok(()) }
-}
 
 /// Takes a surface from a file through the stage; fails where nothing of it has a place or an area.
 pub(super) struct FileImport {
@@ -331,67 +232,11 @@ fn duplicates(triangles: &[[u32; 3]], topology: &Topology) -> usize {
     found
 }
 
-impl ImportReport {
-    /// The warnings, with those on what was found and mended in the language that is spoken now: it may be another than when
-    /// the file was read.
-    pub fn warnings_now(&self) -> Vec<String> {
-        let mut sentences = sentences(self);
-        if sentences.iter().all(|sentence| self.warnings.contains(sentence)) {
-            return self.warnings.clone();
-        }
-        // They are the last.
-        let mut warnings = self.warnings[..self.warnings.len().saturating_sub(sentences.len())].to_vec();
-        warnings.append(&mut sentences);
-        warnings
-    }
-}
-
-/// What a user should hear about, in sentences.
-fn sentences(report: &ImportReport) -> Vec<String> {
-    let mut sentences = Vec::new();
-    sentences.extend(report.unusual_size().map(|found| found.sentence));
-    if report.moved_mm != [0.0; 3] {
-        let [x, y, z] = report.moved_mm.map(length);
-        sentences.push(say!("errors-moved", x = x, y = y, z = z));
-    }
-    let Skipped { short_faces, lines, points } = report.skipped;
-    let (degenerate, duplicate) = (report.degenerate_triangles, report.duplicate_triangles);
-    let (reoriented, turned, edges) =
-        (report.reoriented_triangles, report.components_turned, report.non_manifold_edges);
-    if degenerate > 0 {
-        sentences.push(say!("errors-degenerate", count = degenerate, number = degenerate.to_string()));
-    }
-    if duplicate > 0 {
-        sentences.push(say!("errors-duplicate", count = duplicate, number = duplicate.to_string()));
-    }
-    if short_faces > 0 {
-        sentences.push(say!("errors-short-faces", count = short_faces, number = short_faces.to_string()));
-    }
-    if lines > 0 {
-        sentences.push(say!("errors-lines-left-out", count = lines, number = lines.to_string()));
-    }
-    if points > 0 {
-        sentences.push(say!("errors-points-left-out", count = points, number = points.to_string()));
-    }
-    if reoriented > 0 {
-        sentences.push(say!("errors-reoriented", count = reoriented, number = reoriented.to_string()));
-    }
-    if turned > 0 {
-        sentences.push(say!("errors-turned", count = turned, number = turned.to_string()));
-    }
-    if edges > 0 {
-        sentences.push(say!("errors-non-manifold", count = edges, number = edges.to_string()));
-    }
-    if !report.orientable {
-        sentences.push(NO_INSIDE.say());
-    }
-    sentences
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::language::{Language, built_in, speak};
+    use crate::mesh::Vec3;
     use crate::mesh::shapes::tube;
 
     fn import(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Imported, ReadError> {

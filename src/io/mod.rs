@@ -1,6 +1,6 @@
 //! Bytes to mesh and back, one file a format, with a report of what was found and what was mended.
 //!
-//! Reading is two steps. A format's file (`stl`, `ply`, `obj`, `gltf`) or folder (`vtk`) turns bytes into the polygons that stand in
+//! Reading is two steps. A format's file (`stl`, `obj`) or folder (`ply`, `gltf`, `vtk`) turns bytes into the polygons that stand in
 //! them and judges nothing but its own syntax; the import stage (`import`) then welds, triangulates, cleans and
 //! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
 //! the content first and by the extension only where the content does not say (`detect`).
@@ -27,17 +27,16 @@ mod estimate;
 mod far;
 mod format;
 mod gltf;
-mod gltf_arrays;
-mod gltf_buffers;
 mod import;
 mod numbers;
 mod obj;
 mod output;
 mod pace;
 mod parsing;
+mod places;
 mod ply;
-mod ply_arrays;
 mod polygons;
+mod raw;
 mod reading;
 mod report;
 mod room;
@@ -47,6 +46,7 @@ mod text;
 #[cfg(feature = "scans")]
 pub mod volume;
 mod vtk;
+mod warnings;
 mod weld;
 
 pub use axes::{Axes, UnknownAxes};
@@ -54,11 +54,13 @@ pub use detect::may_be_volume;
 pub use error::{ReadError, WriteError};
 pub use estimate::{Estimate, estimate};
 pub use format::{Format, Unit, UnknownUnit};
-pub use import::{NO_INSIDE, import_mesh};
-pub use output::{Output, left_out};
+pub use import::import_mesh;
+pub use output::Output;
+pub use places::left_out;
 pub use reading::{Reading, read};
 pub use report::{ImportReport, Imported, Skipped};
 pub use size::UnusualSize;
+pub use warnings::NO_INSIDE;
 
 use serde::{Deserialize, Serialize};
 
@@ -87,7 +89,7 @@ pub fn write(mesh: &TriMesh, normals: Option<&[Vec3]>, format: Format) -> Result
 /// # Errors
 /// [`WriteError`] as there, and when an array has another length than the surface.
 pub fn write_output(output: &Output, format: Format) -> Result<Vec<u8>, WriteError> {
-    error::check_writable(output)?;
+    output.check()?;
     match format {
         Format::Stl => stl::write(output),
         Format::Ply => Ok(ply::write(output)),

@@ -14,11 +14,11 @@ use std::mem;
 use glam::DVec3;
 
 use super::error::ReadError;
-use super::import::RawSurface;
 use super::output::Output;
 use super::polygons::Faces;
+use super::raw::RawSurface;
 use super::room::Room;
-use super::{Format, text};
+use super::text;
 use crate::mesh::arrays::{On, Scalar, Values};
 use crate::mesh::{Array, Vec3};
 use crate::say;
@@ -241,7 +241,7 @@ fn colour(array: &Array, vertex: usize) -> [f32; 3] {
 /// Text with the shortest numbers that read back to the same bits.
 pub(super) fn write(output: &Output) -> Vec<u8> {
     let Output { mesh, normals, axes, .. } = *output;
-    let colours = output.arrays_in(Format::Obj).next();
+    let colours = output.arrays.iter().find(|array| is_colour(array));
     let mut out = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 24);
     // Writing to a String cannot fail.
     let _ = writeln!(out, "# Surface written by Lumen; millimetres{}", axes.said());

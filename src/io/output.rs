@@ -1,9 +1,9 @@
-//! A surface on its way into a file, with what is written beside it, and which format has a place for what.
+//! A surface on its way into a file, with what is written beside it.
 
-use super::{Axes, Format};
+use super::Axes;
+use super::error::WriteError;
 use crate::mesh::arrays::On;
 use crate::mesh::{Array, TriMesh, Vec3};
-use crate::say;
 
 /// What is written.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub struct Output<'a> {
     pub mesh: &'a TriMesh,
     /// Unit vectors, one a vertex. STL has no place for them and writes each facet's own.
     pub normals: Option<&'a [Vec3]>,
-    /// A tuple for each vertex or triangle. Those that the format has no place for are not written: [`left_out`].
+    /// A tuple for each vertex or triangle. Those that the format has no place for are not written: [`left_out`](super::left_out).
     pub arrays: &'a [Array],
     /// What the coordinates grow towards: said as 3D Slicer says it, where the format has a place for it; unknown is not
     /// said.
@@ -25,71 +25,35 @@ impl<'a> Output<'a> {
         Self { mesh, normals: None, arrays: &[], axes: Axes::Unknown }
     }
 
-    /// The arrays that the format has a place for.
-    pub(super) fn arrays_in(&self, format: Format) -> impl Iterator<Item = &'a Array> {
-        places(self.arrays, format).filter(|&(_, has_place)| has_place).map(|(array, _)| array)
-    }
-}
-
-/// Each array, and whether `format` has a place for it.
-fn places(arrays: &[Array], format: Format) -> impl Iterator<Item = (&Array, bool)> {
-    let mut has_colour = false;
-    arrays.iter().map(move |array| {
-        let has_place = match format {
-            Format::Vtp | Format::Vtk | Format::Ply => true,
-            Format::Glb => super::gltf_arrays::has_place(array),
-            // A vertex has one colour.
-            Format::Obj => super::obj::is_colour(array) && !std::mem::replace(&mut has_colour, true),
-            Format::Stl => false,
-        };
-        (array, has_place)
-    })
-}
-
-/// A sentence about the arrays that a file of `format` does not hold, if there are any.
-pub fn left_out(arrays: &[Array], format: Format) -> Option<String> {
-    let homeless = || places(arrays, format).filter(|&(_, has_place)| !has_place).map(|(array, _)| array);
-    let names: Vec<&str> = homeless().map(|array| array.name.as_str()).collect();
-    if names.is_empty() {
-        return None;
-    }
-    let of_triangles = homeless().all(|array| array.on == On::Triangle);
-    let (label, count, names) = (format.label(), names.len(), names.join(", "));
-    Some(match format {
-        Format::Glb if of_triangles => {
-            say!("errors-no-place-triangles", format = label, count = count, names = names)
+    /// Refuses what no format can hold.
+    pub(super) fn check(&self) -> Result<(), WriteError> {
+        let Self { mesh, normals, arrays, .. } = *self;
+        let vertices = mesh.positions.len();
+        if mesh.triangles.is_empty() {
+            return Err(WriteError::Empty);
         }
-        Format::Obj => say!("errors-no-place-colour", format = label, count = count, names = names),
-        Format::Stl => say!("errors-no-place-arrays", format = label, count = count, names = names),
-        _ => say!("errors-no-place-such", format = label, count = count, names = names),
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::arrays::{Scalar, Values};
-
-    #[test]
-    fn what_a_format_leaves_out_is_one_sentence() {
-        let zeros = |scalar| Values::from_bytes(scalar, vec![0; 96]);
-        let height = Array::new("Height", On::Point, 1, zeros(Scalar::F32));
-        let face = Array::new("Face", On::Triangle, 1, zeros(Scalar::I32));
-        let colour = Array::new("RGB", On::Point, 3, zeros(Scalar::F32));
-        let tensor = Array::new("Stress", On::Point, 9, zeros(Scalar::F64));
-        let all = [height, face, colour, tensor];
-        for format in [Format::Vtp, Format::Vtk, Format::Ply] {
-            assert_eq!(left_out(&all, format), None);
+        for (triangle, corners) in mesh.triangles.iter().enumerate() {
+            if let Some(&index) = corners.iter().find(|&&v| v as usize >= vertices) {
+                return Err(WriteError::IndexOutOfRange { triangle, index, vertices });
+            }
         }
-        let said = |arrays: &[Array], format| left_out(arrays, format).unwrap();
-        assert_eq!(said(&all, Format::Stl), "STL has no place for arrays: Height, Face, RGB, Stress are left out.");
-        assert_eq!(
-            said(&all[..3], Format::Obj),
-            "OBJ has no place for arrays other than one colour: Height, Face are left out."
-        );
-        let two = [all[2].clone(), Array { name: "RGBA".to_owned(), ..all[2].clone() }];
-        assert_eq!(said(&two, Format::Obj), "OBJ has no place for arrays other than one colour: RGBA is left out.");
-        assert_eq!(said(&all[..3], Format::Glb), "GLB has no place for arrays of triangles: Face is left out.");
-        assert_eq!(said(&all, Format::Glb), "GLB has no place for such arrays: Face, Stress are left out.");
+        if let Some(vertex) = mesh.positions.iter().position(|p| !p.is_finite()) {
+            return Err(WriteError::NotFinite { vertex });
+        }
+        for array in arrays {
+            let rows = if array.on == On::Point { vertices } else { mesh.triangles.len() };
+            if array.values.len() != rows * array.components {
+                return Err(WriteError::ArrayLength { name: array.name.clone(), tuples: array.len(), rows });
+            }
+        }
+        if let Some(normals) = normals {
+            if normals.len() != vertices {
+                return Err(WriteError::NormalCount { normals: normals.len(), vertices });
+            }
+            if let Some(vertex) = normals.iter().position(|n| !n.is_finite()) {
+                return Err(WriteError::NotFinite { vertex });
+            }
+        }
+        Ok(())
     }
 }

@@ -13,7 +13,7 @@ use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use super::error::ReadError;
-use super::import::RawSurface;
+use super::raw::RawSurface;
 use crate::task::{Budget, Progress};
 
 /// Numbers, and bytes that are only copied, decoded or searched, between two rests: a millisecond or two at most.

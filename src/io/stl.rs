@@ -9,9 +9,9 @@ use std::mem;
 use glam::DVec3;
 
 use super::error::{ReadError, WriteError};
-use super::import::{RawSurface, check_size};
 use super::output::Output;
 use super::polygons::Faces;
+use super::raw::{RawSurface, check_size};
 use super::text::{self, Words};
 use crate::mesh::Vec3;
 use crate::say;

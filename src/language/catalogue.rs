@@ -5,7 +5,8 @@ use std::sync::LazyLock;
 use fluent_bundle::concurrent::FluentBundle;
 use fluent_bundle::{FluentArgs, FluentResource, FluentValue};
 
-use super::{Language, number};
+use super::digits;
+use super::languages::Language;
 
 #[cfg(not(target_arch = "wasm32"))]
 macro_rules! locale {
@@ -85,7 +86,7 @@ impl Catalogue {
 /// A number as the language writes it.
 fn written(value: &FluentValue<'_>, language: Language) -> Option<String> {
     match value {
-        FluentValue::Number(given) => Some(number::written(given.value, language)),
+        FluentValue::Number(given) => Some(digits::written(given.value, language)),
         _ => None,
     }
 }

@@ -1,8 +1,9 @@
-//! Numbers as a language writes and reads them.
+//! Numbers as the language that is spoken writes and reads them.
 
 use std::fmt::Display;
 
-use super::{Language, spoken};
+use super::digits::in_groups;
+use super::spoken;
 
 /// The digits before the point in groups of three, in the language that is spoken: 74,307; -1,234.50. `number` is a number
 /// as Rust writes it.
@@ -73,26 +74,4 @@ pub fn exact(number: f64) -> String {
         Some((_, decimals)) => decimal(number, decimals.len()),
         None => text,
     }
-}
-
-/// A number that is given to a message: as many decimals as it has, in groups.
-pub(super) fn written(number: f64, language: Language) -> String {
-    in_groups(&number.to_string(), language)
-}
-
-fn in_groups(number: &str, language: Language) -> String {
-    let (sign, rest) = number.strip_prefix('-').map_or(("", number), |rest| ("-", rest));
-    let (whole, decimals) = rest.split_once('.').unwrap_or((rest, ""));
-    let mut text = sign.to_owned();
-    for (i, digit) in whole.chars().enumerate() {
-        if i > 0 && (whole.len() - i).is_multiple_of(3) {
-            text.push(language.group_mark());
-        }
-        text.push(digit);
-    }
-    if !decimals.is_empty() {
-        text.push(language.decimal_mark());
-        text += decimals;
-    }
-    text
 }

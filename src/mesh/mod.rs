@@ -34,6 +34,7 @@ pub(crate) mod shapes;
 mod shuffle;
 mod split_boxes;
 mod topology;
+mod values;
 pub(crate) mod winding;
 
 pub(crate) use angles::AngleCounts;

@@ -14,6 +14,7 @@ pub mod error_curve;
 pub mod filter;
 pub mod histogram;
 pub mod laplacian;
+mod lines;
 pub mod lumen;
 pub mod narrowest;
 pub mod normals;
@@ -32,6 +33,7 @@ pub mod smoothing;
 pub mod stage;
 mod stages;
 mod store;
+mod times;
 pub mod verdict;
 mod widths;
 

@@ -12,7 +12,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::classes::Lines;
+use super::lines::Lines;
 use super::settings::Target;
 use crate::mesh::{TriMesh, compacted};
 use crate::say;

@@ -1,10 +1,8 @@
-//! What the stages of the pipeline make, a slot each, and how long they took.
+//! What the stages of the pipeline make, a slot each.
 
 use std::sync::Arc;
 
 use glam::Vec3;
-use serde::{Deserialize, Serialize};
-use web_time::Instant;
 
 use super::bound::Bound;
 use super::connectivity::Connectivity;
@@ -17,121 +15,12 @@ use super::response::SmoothingResponse;
 use super::safe::Safe;
 use super::settings::Settings;
 use super::shape::Shape;
-use super::stage::{PerStage, Stage};
-use super::task::milliseconds;
+use super::stage::Stage;
+pub use super::times::StageTimes;
+use super::times::Times;
 use crate::mesh::mending::{Faults, MendReport};
 use crate::mesh::{Array, Measures, SurfaceIndex, Topology, TriMesh};
 use crate::vessel::certificate::{Basis, CalibreError, Certificate};
-
-/// Milliseconds that each stage took when it last ran.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct StageTimes {
-    /// File to surface; set by whoever reads it.
-    pub read: f64,
-    /// Mending; next to nothing where it was not asked for.
-    #[serde(default)]
-    pub mending: f64,
-    /// Pieces, and the surface of those that are kept.
-    pub connectivity: f64,
-    /// Who touches whom in what is kept; smoothing and decimation rest on it.
-    #[serde(default)]
-    pub adjacency: f64,
-    /// Windowed sinc.
-    pub smoothing: f64,
-    /// All levels.
-    pub decimation: f64,
-    /// Finding the level for a bound on the deviation; 0 for another target.
-    #[serde(default)]
-    pub bound: f64,
-    /// One level.
-    pub level: f64,
-    /// Vertex normals of the level.
-    pub normals: f64,
-    /// Areas and volumes of the pieces, the kept, the smoothed and the reduced surface.
-    #[serde(default)]
-    pub areas: f64,
-    /// Both deviations.
-    pub deviation: f64,
-    /// The arrays that came with the file, carried to the level.
-    #[serde(default)]
-    pub arrays: f64,
-    /// Shape and lumen of the smoothed surface, if it is new, and of the level.
-    pub measures: f64,
-    /// The vessels' calibre before and after smoothing, if it is new, and on the level; 0 where that was not asked for.
-    #[serde(default)]
-    pub calibre: f64,
-    /// The search for faults of the surface as it was opened; 0 where that was not asked for.
-    #[serde(default)]
-    pub faults: f64,
-    /// The search for how far a reduction is safe, when it last ran.
-    #[serde(default)]
-    pub safe: f64,
-    /// Surface to file; set by whoever writes it.
-    pub write: f64,
-}
-
-/// Milliseconds by stage, and what is told apart from the stage that it was part of.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Times {
-    stages: PerStage<f64>,
-    parts: [f64; 5],
-    /// Of the present slice: what is told apart.
-    aside: f64,
-}
-
-/// What is told apart from the stage that it is part of.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Part {
-    Adjacency,
-    Normals,
-    /// Areas and volumes, of each of the three surfaces.
-    KeptAreas,
-    SmoothedAreas,
-    LevelAreas,
-}
-
-impl Times {
-    /// The stage starts from nothing.
-    pub(super) fn begin(&mut self, stage: Stage) {
-        self.stages[stage] = 0.0;
-    }
-
-    /// A slice of the stage took so long, with what was told apart since the last.
-    pub(super) fn add(&mut self, stage: Stage, ms: f64) {
-        self.stages[stage] += ms - std::mem::take(&mut self.aside);
-    }
-
-    /// Tells what was done since `start`, in the slice under way, apart from its stage.
-    pub(super) fn tell_apart(&mut self, part: Part, start: Instant) {
-        let ms = milliseconds(start);
-        self.parts[part as usize] = ms;
-        self.aside += ms;
-    }
-
-    /// As reports have them.
-    pub(super) fn told(&self) -> StageTimes {
-        let part = |part: Part| self.parts[part as usize];
-        StageTimes {
-            read: 0.0,
-            mending: self.stages[Stage::Mending],
-            connectivity: self.stages[Stage::Connectivity],
-            adjacency: part(Part::Adjacency),
-            smoothing: self.stages[Stage::Smoothing],
-            decimation: self.stages[Stage::Decimation],
-            bound: self.stages[Stage::Bound],
-            level: self.stages[Stage::Level],
-            normals: part(Part::Normals),
-            areas: part(Part::KeptAreas) + part(Part::SmoothedAreas) + part(Part::LevelAreas),
-            deviation: self.stages[Stage::Deviation],
-            arrays: self.stages[Stage::Arrays],
-            measures: self.stages[Stage::SmoothedMeasures] + self.stages[Stage::Measures],
-            calibre: self.stages[Stage::Vessels] + self.stages[Stage::Certificate],
-            faults: self.stages[Stage::Faults],
-            safe: self.stages[Stage::Safe],
-            write: 0.0,
-        }
-    }
-}
 
 /// What the stages made, a slot each; shared, so that a copy costs nothing.
 #[derive(Clone, Default)]

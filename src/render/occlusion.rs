@@ -8,16 +8,14 @@
 
 use std::sync::OnceLock;
 
+use super::Style;
 use super::binding;
 use super::buffer::draw;
 use super::kind::{Drawable, Look};
 use super::pipeline::{PipelineParts, scene_shader};
 use super::scene::{SceneBindings, SceneLayout};
-use super::texture::{attachment, begin, whole};
-use super::{Style, ViewTarget};
-
-/// What openness is kept in: 0 closed, 1 open.
-const OPENNESS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+use super::target::{Gathered, OPENNESS, ViewTarget};
+use super::texture::begin;
 
 /// Multiplies what is there with what is drawn.
 const MULTIPLY: wgpu::BlendComponent = wgpu::BlendComponent {
@@ -25,25 +23,6 @@ const MULTIPLY: wgpu::BlendComponent = wgpu::BlendComponent {
     dst_factor: wgpu::BlendFactor::Zero,
     operation: wgpu::BlendOperation::Add,
 };
-
-/// What a target has for it, made when it is first wanted there.
-#[derive(Debug)]
-pub(super) struct Gathered {
-    depth: wgpu::TextureView,
-    openness: wgpu::TextureView,
-}
-
-impl Gathered {
-    fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
-        let half = size.map(|side| side.div_ceil(2));
-        let texture =
-            |label, format| whole(&attachment(device, label, half, 1, format, wgpu::TextureUsages::TEXTURE_BINDING));
-        Self {
-            depth: texture("occlusion, depth", ViewTarget::DEPTH_FORMAT),
-            openness: texture("occlusion, openness", OPENNESS),
-        }
-    }
-}
 
 /// Darkens what is closed in. Its pipelines are made when they are first wanted.
 #[derive(Debug, Default)]

@@ -5,8 +5,10 @@
 
 use std::sync::OnceLock;
 
-use super::occlusion::Gathered;
 use super::texture::{allowed, attachment, whole};
+
+/// What openness is kept in: 0 closed, 1 open.
+pub(super) const OPENNESS: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 /// What a kind of target has beside its picture.
 pub trait Attachments: Sized {
@@ -99,6 +101,25 @@ impl Attachments for Multisampled {
     }
 
     fn form(&self) {}
+}
+
+/// What a target has for ambient occlusion, made when it is first wanted there.
+#[derive(Debug)]
+pub(super) struct Gathered {
+    pub(super) depth: wgpu::TextureView,
+    pub(super) openness: wgpu::TextureView,
+}
+
+impl Gathered {
+    pub(super) fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        let half = size.map(|side| side.div_ceil(2));
+        let texture =
+            |label, format| whole(&attachment(device, label, half, 1, format, wgpu::TextureUsages::TEXTURE_BINDING));
+        Self {
+            depth: texture("occlusion, depth", ViewTarget::DEPTH_FORMAT),
+            openness: texture("occlusion, openness", OPENNESS),
+        }
+    }
 }
 
 /// The target of a 3-D view.

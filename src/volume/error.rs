@@ -3,7 +3,6 @@
 use thiserror::Error;
 
 use super::geometry::{GeometryError, product};
-use super::selection::PRESETS;
 use crate::language::exact;
 use crate::say;
 
@@ -75,12 +74,4 @@ pub enum VolumeError {
         /// The most that are made.
         limit: usize,
     },
-}
-
-impl VolumeError {
-    /// That a threshold is wanted of a scan with values from `low` to `high`.
-    pub(super) fn nothing_chosen([low, high]: [f64; 2]) -> Self {
-        let named = PRESETS.map(|preset| format!("{} {}", preset.value, preset.name.say()));
-        Self::NothingChosen { low, high, presets: named.join(", ") }
-    }
 }

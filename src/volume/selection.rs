@@ -42,6 +42,12 @@ pub const PRESETS: [Preset; 3] = [
     Preset { name: Key("scan-preset-aorta"), value: 250.0 },
 ];
 
+/// That a threshold is wanted of a scan with values from `low` to `high`.
+fn nothing_chosen([low, high]: [f64; 2]) -> VolumeError {
+    let named = PRESETS.map(|preset| format!("{} {}", preset.value, preset.name.say()));
+    VolumeError::NothingChosen { low, high, presets: named.join(", ") }
+}
+
 impl Selection {
     /// What is meant by a threshold or a label, if either is given; with neither a mask is all that is not 0.
     ///
@@ -53,7 +59,7 @@ impl Selection {
             (Some(threshold), _) => Self::Threshold(threshold),
             (None, Some(label)) => Self::Label(label),
             (None, None) if survey.is_mask() => Self::AnyLabel,
-            (None, None) => return Err(VolumeError::nothing_chosen(survey.range)),
+            (None, None) => return Err(nothing_chosen(survey.range)),
         };
         selection.check(survey)?;
         Ok(selection)

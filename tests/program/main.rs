@@ -10,3 +10,4 @@ mod report;
 #[cfg(feature = "scans")]
 mod scans;
 mod settings;
+mod tables;

@@ -18,14 +18,11 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Document, Element, HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, Window, console};
 
-use crate::platform::Browser;
+use crate::platform::{Browser, TYPED};
 
 /// How long to wait before graphics are first started again, in milliseconds: a browser whose process for them has died
 /// needs a moment.
 const PAUSE_MS: i32 = 250;
-
-/// By what the page's field for what is typed is found.
-pub(crate) const TYPED: &str = "typed";
 
 /// A canvas, and what hears of its lost context.
 type Watched = (HtmlCanvasElement, Closure<dyn Fn()>);

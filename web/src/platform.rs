@@ -20,13 +20,15 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::File;
 
-use crate::graphics::TYPED;
 use crate::hid::page::Devices;
 use crate::job::{Pipeline, Trial};
 use crate::link::WorkerLink;
 use crate::scans::{self, ScanLine};
 use crate::texts::AllTexts;
 use crate::{files, store};
+
+/// By what the page's field for what is typed is found.
+pub(crate) const TYPED: &str = "typed";
 
 /// The browser as a platform.
 pub(crate) struct Browser {

@@ -12,6 +12,8 @@ mod estimate;
 mod firmware;
 mod fuzz;
 mod glue;
+#[cfg(test)]
+mod house;
 mod package;
 mod page;
 mod peers;

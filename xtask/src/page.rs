@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result, ensure};
 use sha2::{Digest as _, Sha256};
 
-use crate::build::files_below;
+use crate::step::files_below;
 
 /// The line of `www/service-worker.js` that the build replaces.
 const BUILD: &str = "const BUILD = { version: \"\", files: {} };";

@@ -1,4 +1,4 @@
-//! Steps: commands that are run, what is said about them, and how long they take.
+//! Steps: commands that are run, what is said about them, and how long they take; and where what they work on lies.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -14,6 +14,20 @@ pub(crate) fn root() -> &'static Path {
 /// Cargo's target directory, where the tools and the stamps are kept too.
 pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |dir| root().join(dir))
+}
+
+/// Every file below a folder.
+pub(crate) fn files_below(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).with_context(|| format!("{} cannot be read", folder.display()))? {
+        let path = entry?.path();
+        if path.is_dir() {
+            files.append(&mut files_below(&path)?);
+        } else {
+            files.push(path);
+        }
+    }
+    Ok(files)
 }
 
 /// Does something, saying what before and how long it took after.

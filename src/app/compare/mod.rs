@@ -4,10 +4,11 @@
 //! - `difference`: how far the others are from the first.
 //! - `words`: a setting in words, a result in numbers; `cell`: one setting drawn, as `arrangement` says; `scene`: what
 //!   stands in GPU memory.
-//! - `view`: the grid in the window; `figure`: the same cells off screen, as the paper's figures.
+//! - `view`: the grid in the window, `bar` what stands around it; `figure`: the same cells off screen, as the paper's figures.
 
 mod action;
 mod arrangement;
+mod bar;
 mod cell;
 mod comparison;
 mod difference;

@@ -1,32 +1,26 @@
 //! The compare view in the window: a bar with what can be done, the grid, and a line on what all cells share.
 
-use egui::{ComboBox, Frame, Margin, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui};
+use egui::{Frame, Margin, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui};
 use egui::{UiBuilder, Vec2, WidgetInfo, vec2};
 
-use super::action::Action as OfComparison;
-use super::arrangement::Arrangement;
+use super::bar::{bar, footer, legend, slow};
 use super::cell::{self, Manner};
-use super::comparison::{Cell, Comparison, MOST, Made, Outcome};
-use super::difference::Difference;
+use super::comparison::{Cell, Comparison, Made, Outcome};
 use super::scene::CompareScene;
 use super::words;
 use crate::app::action::Action;
-use crate::app::assist::{heading, name};
+use crate::app::assist::heading;
 use crate::app::document::Document;
 use crate::app::halo;
 use crate::app::icon::{self, Icon};
 use crate::app::theme;
 use crate::app::views::{NO_MEMORY, Views};
-use crate::language::decimal;
 use crate::pipeline::settings::Settings;
-use crate::render::{Camera, ColourMap, Style, viridis};
+use crate::render::{Camera, ColourMap, Style};
 use crate::say;
 
 /// A picture is at least this high, in points; a grid that does not fit scrolls.
 const LEAST_PICTURE: f32 = 132.0;
-/// Cells of more triangles may turn jerkily.
-const MANY: usize = 300_000;
-
 /// The view: what of it stands in GPU memory.
 pub(in crate::app) struct CompareView {
     device: Option<egui_wgpu::RenderState>,
@@ -340,127 +334,4 @@ fn columns(count: usize, is_narrow: bool) -> usize {
         4 => 2,
         _ => count.min(3),
     }
-}
-
-/// What can be done; whether the button that shows the first settings everywhere is held.
-fn bar(
-    ui: &mut Ui,
-    comparison: &Comparison,
-    settings: &Settings,
-    is_narrow: bool,
-    shows_first: bool,
-    asked: &mut Vec<Action>,
-) -> bool {
-    let (mut is_held, mut differing) = (false, None);
-    let mut ask = |what| asked.push(Action::Comparison(what));
-    ui.horizontal_wrapped(|ui| {
-        let can_add = comparison.can_add(settings);
-        let add = if is_narrow { say!("compare-add-short") } else { say!("compare-add") };
-        let add = ui.add_enabled(can_add, egui::Button::new(add));
-        name(&add, Role::Button, &say!("compare-add-long"));
-        let why_not =
-            if comparison.cells().len() >= MOST { say!("compare-full") } else { say!("compare-there-already") };
-        if add.on_hover_text(say!("compare-add-help")).on_disabled_hover_text(why_not).clicked() {
-            ask(OfComparison::Add);
-        }
-        if ui.button(say!("compare-figure-6")).on_hover_text(say!("compare-figure-6-help")).clicked() {
-            ask(OfComparison::Figure6);
-        }
-        if ui.button(say!("compare-figure-7")).on_hover_text(say!("compare-figure-7-help")).clicked() {
-            ask(OfComparison::Figure7);
-        }
-        let mut chosen = comparison.arrangement;
-        let list =
-            ComboBox::from_id_salt("arrangement").width(96.0).selected_text(comparison.arrangement.label().say());
-        let response = list.show_ui(ui, |ui| {
-            for choice in Arrangement::ALL {
-                ui.selectable_value(&mut chosen, choice, choice.label().say()).on_hover_text(choice.help().say());
-            }
-        });
-        name(&response.response, Role::ComboBox, &say!("compare-show-as"));
-        if chosen != comparison.arrangement {
-            ask(OfComparison::Arrange(chosen));
-        }
-        let flicker = egui::Button::new(say!("compare-first")).sense(Sense::click_and_drag()).selected(shows_first);
-        let flicker = ui.add_enabled(comparison.cells().len() > 1, flicker);
-        is_held = flicker.on_hover_text(say!("compare-first-help")).is_pointer_button_down_on();
-        differing = difference(ui, comparison);
-        if ui.button(say!("compare-done")).on_hover_text(say!("compare-done-help")).clicked() {
-            ask(OfComparison::Close);
-        }
-    });
-    asked.extend(differing);
-    is_held
-}
-
-/// Colours for the difference from the first, and the ways to where it is largest and back.
-fn difference(ui: &mut Ui, comparison: &Comparison) -> Option<Action> {
-    let mut asked = None;
-    let toggle = egui::Button::new(say!("compare-difference")).selected(comparison.shows_difference);
-    let toggle = ui.add_enabled(comparison.cells().len() > 1, toggle);
-    if toggle.on_hover_text(say!("compare-difference-help")).clicked() {
-        asked = Some(Action::Comparison(OfComparison::Difference));
-    }
-    let patch = comparison.largest_difference().and_then(Difference::patch);
-    let go = ui.add_enabled(patch.is_some(), egui::Button::new(say!("compare-most")));
-    let go = go.on_hover_text(say!("compare-most-help"));
-    if let Some((at, height_mm)) = patch.filter(|_| go.clicked()) {
-        asked = Some(Action::LookAt { at_mm: at.into(), height_mm });
-    }
-    if ui.button(say!("compare-whole")).on_hover_text(say!("compare-whole-help")).clicked() {
-        asked = Some(Action::Fit);
-    }
-    asked
-}
-
-/// What the colours of the difference say.
-fn legend(ui: &mut Ui, comparison: &Comparison) {
-    const STEPS: usize = 48;
-    ui.horizontal_wrapped(|ui| {
-        let small = |text: String| RichText::new(text).small();
-        let Some(most) = comparison.colours_up_to_mm() else {
-            let is_coming = comparison.is_busy();
-            let text = if is_coming { say!("compare-distance-coming") } else { say!("compare-distance-unknown") };
-            ui.label(small(text));
-            return;
-        };
-        ui.label(small(say!("compare-distance-from")));
-        let (bar, _) = ui.allocate_exact_size(vec2(96.0, 10.0), Sense::hover());
-        let width = bar.width() / STEPS as f32;
-        for i in 0..STEPS {
-            let [r, g, b] = viridis(i as f32 / STEPS as f32).0;
-            let corner = bar.left_top() + vec2(width * i as f32, 0.0);
-            let piece = Rect::from_min_size(corner, vec2(width + 0.5, bar.height()));
-            ui.painter().rect_filled(piece, 0.0, egui::Color32::from_rgb(r, g, b));
-        }
-        ui.label(small(say!("compare-distance-to", most = decimal(most, 3))));
-    });
-}
-
-/// A word on cells that are slow to draw, if there are any.
-fn slow(comparison: &Comparison) -> String {
-    let is_large = |cell: &Cell| matches!(&cell.outcome, Outcome::Done(made) if made.mesh.triangles.len() > MANY);
-    if comparison.cells().iter().any(is_large) { say!("compare-slow", count = MANY) } else { String::new() }
-}
-
-/// What all cells share, and what stands in every picture.
-fn footer(ui: &mut Ui, document: &str, shared: &str, slow: &str, is_narrow: bool) {
-    let text = [document, shared, slow].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ");
-    let layout = if is_narrow {
-        egui::Layout::top_down(egui::Align::LEFT)
-    } else {
-        egui::Layout::right_to_left(egui::Align::Center)
-    };
-    ui.with_layout(layout, |ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        if is_narrow {
-            ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
-            ui.label(RichText::new(say!("about-not-clinical")).small().weak());
-        } else {
-            ui.label(RichText::new(say!("about-not-clinical")).small().weak());
-            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                ui.add(egui::Label::new(RichText::new(&text).small().weak()).truncate()).on_hover_text(text.clone());
-            });
-        }
-    });
 }

@@ -1,13 +1,14 @@
 //! Lessons: short ones that come with Lumen, and those that a teacher writes. A step of a lesson says something, sets the
 //! app as a hand would, by [`Action`](super::Action)s, and may ask a question before it answers it.
 
-mod card;
+mod action;
+pub(super) mod card;
 mod format;
 mod glossary;
 
 use std::collections::VecDeque;
 
-pub(super) use self::card::show;
+pub use self::action::Action;
 pub use self::format::{Lesson, LessonError, Show, Step, Trial};
 pub(super) use self::glossary::glossary;
 use super::action::Action as Ask;
@@ -24,25 +25,6 @@ use crate::say;
 
 /// What a lesson's file ends in.
 pub const ENDING: &str = "lesson";
-
-/// Something of the lessons.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
-    /// Begin the lesson of this name, of those that come with Lumen.
-    Open(&'static str),
-    /// Choose the file of a lesson.
-    Choose,
-    /// Go to this step, from 0.
-    Go(usize),
-    /// Show the answer.
-    Answer,
-    /// Copy a link to this step.
-    CopyLink,
-    /// Leave the lesson.
-    Close,
-    /// Show or hide the words that are used.
-    Glossary,
-}
 
 /// The lessons that come with Lumen: name in a link, title, and the text of its file.
 pub(super) const LESSONS: [(&str, Key, Key); 6] = [

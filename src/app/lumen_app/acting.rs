@@ -7,6 +7,7 @@ use crate::app::action::{Action, of_trial};
 use crate::app::keys::{self, Keys};
 use crate::app::sharing::Sharing;
 use crate::app::sheets::Sheet;
+use crate::app::shortcuts;
 use crate::app::views::Spot;
 use crate::app::{collapses, lesson, measure, record, recovery, scan, theme, trial, vessels};
 use crate::say;
@@ -20,7 +21,7 @@ impl LumenApp {
             return;
         }
         let ctx = ui.ctx();
-        let mut action = keys::with_ctrl(ui, keys);
+        let mut action = shortcuts::with_ctrl(ui, keys);
         if self.scans.is_open() {
             // What lies below the scan is not to be seen.
             action = action.filter(|action| matches!(action, Action::Open | Action::Help));
@@ -35,7 +36,7 @@ impl LumenApp {
                 trial::keys(ui, &self.trial, &mut asked);
                 self.act_on_all(of_trial(asked), ctx);
             } else {
-                action = action.or_else(|| keys::action(ui, &mut self.views));
+                action = action.or_else(|| shortcuts::action(ui, &mut self.views));
             }
             if keys::pressed(ui, Modifiers::NONE, Key::Escape) {
                 self.act_on_all(self.on_top(), ctx);

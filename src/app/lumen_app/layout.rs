@@ -66,7 +66,7 @@ impl LumenApp {
             let card = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(16, 8));
             let height = (ui.available_height() * 0.28).clamp(120.0, 210.0);
             Panel::bottom("lesson").frame(card).exact_size(height).show(ui, |ui| {
-                lesson::show(ui, given, has_links, &mut asked);
+                lesson::card::show(ui, given, has_links, &mut asked);
             });
         }
         let takes_panel = is_narrow && (self.shows_vessels() || self.shows_measuring());

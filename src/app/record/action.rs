@@ -18,3 +18,12 @@ pub enum Action {
     /// Give up what is being drawn.
     Cancel,
 }
+
+/// What a user has chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::app) struct Chosen {
+    /// Whether a report bears the name of the file.
+    pub(in crate::app) names_file: bool,
+    /// Whether there is nothing behind the surface in pictures.
+    pub(in crate::app) is_clear: bool,
+}

@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use glam::Quat;
 use thiserror::Error;
 
-use super::Chosen;
+use super::action::Chosen;
 use crate::app::arrays;
 use crate::app::deviation::Deviating;
 use crate::app::document::Document;

@@ -12,6 +12,7 @@ use crate::engine::Link;
 use crate::say;
 
 pub use action::Action;
+pub(super) use action::Chosen;
 use job::Job;
 pub(super) use menu::menu;
 
@@ -21,15 +22,6 @@ pub(super) struct Record {
     device: Option<egui_wgpu::RenderState>,
     job: Option<Job>,
     chosen: Chosen,
-}
-
-/// What a user has chosen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Chosen {
-    /// Whether a report bears the name of the file.
-    pub(super) names_file: bool,
-    /// Whether there is nothing behind the surface in pictures.
-    pub(super) is_clear: bool,
 }
 
 impl Record {

@@ -1,6 +1,5 @@
 //! What can be asked of a scan.
 
-use super::SliceOptions;
 use crate::volume::{Axis, Region, Selection};
 
 /// What can be asked of a scan.
@@ -24,4 +23,15 @@ pub enum Action {
     Cancel,
     /// Leave the scan.
     Close,
+}
+
+/// Which slices are shown, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliceOptions {
+    /// Across each axis of the grid: whether one is shown, and which, from 0.
+    pub planes: [(bool, usize); 3],
+    /// The values that are black and white.
+    pub window: [f64; 2],
+    /// Whether the outline of the surface is drawn in them.
+    pub has_outline: bool,
 }

@@ -17,11 +17,11 @@ mod state;
 mod tests;
 mod view;
 
-pub use self::action::Action;
+pub use self::action::{Action, SliceOptions};
 pub(super) use self::outline::Outlines;
 pub(super) use self::panel::{show as panel, status};
+pub use self::slices::KeptScan;
 pub(super) use self::slices::SlicePicture;
-pub use self::slices::{KeptScan, SliceOptions};
 pub(super) use self::slices_panel::show as slices_panel;
 pub use self::state::{OpenScan, Picture, Scans, Told};
 pub(super) use self::view::ScanView;

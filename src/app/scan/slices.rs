@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::state::OpenScan;
+use super::action::SliceOptions;
 use crate::engine::scan::{OpenedScan, ScanCommand, ScanLink};
 use crate::io::Axes;
 use crate::language::Key;
@@ -14,17 +14,6 @@ use crate::volume::Axis;
 
 /// The axes of a grid.
 pub(super) const AXES: [Axis; 3] = [Axis::I, Axis::J, Axis::K];
-
-/// Which slices are shown, and how.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SliceOptions {
-    /// Across each axis of the grid: whether one is shown, and which, from 0.
-    pub planes: [(bool, usize); 3],
-    /// The values that are black and white.
-    pub window: [f64; 2],
-    /// Whether the outline of the surface is drawn in them.
-    pub has_outline: bool,
-}
 
 /// A picture that is asked for: across which axis, which slice, and what is black and white.
 type Wanted = (Axis, usize, [f64; 2]);
@@ -71,14 +60,13 @@ pub struct KeptScan {
 }
 
 impl KeptScan {
-    /// Of a scan of which `surface` was made; nothing is shown yet.
-    pub(super) fn new(scan: &OpenScan, surface: Arc<TriMesh>) -> Self {
-        let opened = scan.opened.clone();
+    /// Of a scan, in Hounsfield units if `is_ct`, of which `surface` was made; nothing is shown yet.
+    pub(super) fn new(opened: OpenedScan, is_ct: bool, window: [f64; 2], surface: Arc<TriMesh>) -> Self {
         Self {
-            is_ct: scan.is_ct(),
+            is_ct,
             options: SliceOptions {
                 planes: opened.dimensions.map(|along| (false, along / 2)),
-                window: scan.window,
+                window,
                 has_outline: true,
             },
             names: names(&opened),

@@ -265,7 +265,8 @@ impl Scans {
                 let OpenedScan { format, axes, warnings, .. } = open.opened.clone();
                 let source = Source::Made { name: open.name.clone(), format, mesh, axes, warnings };
                 if let (Source::Made { mesh, .. }, true) = (&source, open.keeps) {
-                    self.kept = Some(Box::new(KeptScan::new(open, Arc::clone(mesh))));
+                    let kept = KeptScan::new(open.opened.clone(), open.is_ct(), open.window, Arc::clone(mesh));
+                    self.kept = Some(Box::new(kept));
                 } else {
                     link.send(ScanCommand::Close);
                 }

@@ -1,8 +1,10 @@
 //! The two 3-D views: one camera, and what both show. What each of them draws and is written over it is in `picture`, how the
-//! camera is moved in `steering`, what the user chooses to see in `options`.
+//! camera is moved in `steering`, on which side it stands in `sides`, where a place is seen in `places`, what the user chooses to see in `options`.
 
 mod options;
 mod picture;
+mod places;
+mod sides;
 mod steering;
 
 use std::sync::Arc;
@@ -10,9 +12,10 @@ use std::sync::Arc;
 use egui::{Rect, Ui};
 use glam::Vec3;
 
-pub use self::options::{Colours, ViewOptions};
+pub use self::options::{Colours, FaultShown, ViewOptions};
 pub(super) use self::picture::legend;
-pub(super) use self::steering::{first_view, in_view, pixels, seen, stand};
+pub(super) use self::places::{in_view, pixels, seen};
+pub(super) use self::sides::{first_view, stand};
 use super::action::Action;
 use super::collapses::Collapses;
 use super::document::{Document, Revision};

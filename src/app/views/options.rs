@@ -1,8 +1,8 @@
 //! What the views show, as the user chooses.
 
-use crate::app::deviation::Deviating;
-use crate::app::mending::FaultShown;
+use crate::app::deviating::Deviating;
 use crate::app::reveal::Reveal;
+use crate::mesh::mending::FaultKind;
 
 /// What the views show, as the user chooses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,6 +41,15 @@ impl ViewOptions {
             self.colours = Colours::None;
         }
     }
+}
+
+/// A fault of the surface that is open: its kind, and which of them is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FaultShown {
+    /// All of these are marked.
+    pub kind: FaultKind,
+    /// The one that was gone to.
+    pub index: u16,
 }
 
 /// What the colours of the shaded view mean.

@@ -1,15 +1,12 @@
-//! How the camera of the views is moved: by mouse, trackpad, touch or keys, and where it stands at first.
-
-use std::f32::consts::PI;
+//! How the camera of the views is moved: by mouse, trackpad, touch or keys.
 
 use egui::{PointerButton, Pos2, Rect, Ui, pos2, vec2};
-use glam::{Quat, Vec2, Vec3};
+use glam::Vec2;
 
 use super::Views;
+use super::places::in_view;
 use crate::app::document::Document;
-use crate::io::Axes;
 use crate::pipeline::settings::Keep;
-use crate::render::{Camera, StandardView};
 
 impl Views {
     /// Moves the camera by what the hand does to the pictures in `response`, `rows` of which stand one above the other.
@@ -73,37 +70,6 @@ impl Views {
             ui.ctx().request_repaint();
         }
     }
-}
-
-/// From where a surface of this size is first seen: from the front, unless it lies on its back, as some scans are stored.
-pub(in crate::app) fn first_view(size: glam::Vec3) -> StandardView {
-    if size.y > size.z && size.y > size.x { StandardView::Superior } else { StandardView::Anterior }
-}
-
-/// Stands on a side: RAS is LPS, whose sides the views are named for, after half a turn about the axis to the head.
-pub(in crate::app) fn stand(camera: &mut Camera, view: StandardView, axes: Axes) {
-    camera.standard_view(view);
-    if axes == Axes::Ras {
-        camera.rotation = (Quat::from_rotation_z(PI) * camera.rotation).normalize();
-    }
-}
-
-/// A point of the window in normalised device coordinates of a view: -1 to 1, y up.
-pub(in crate::app) fn in_view(at: Pos2, rect: Rect) -> Vec2 {
-    let v = (at - rect.center()) / (rect.size() / 2.0).max(vec2(1.0, 1.0));
-    Vec2::new(v.x, -v.y)
-}
-
-/// Where a place in mm is seen in the view in `rect`; `None` behind the eye.
-pub(in crate::app) fn seen(at: Vec3, camera: &Camera, rect: Rect) -> Option<Pos2> {
-    let at = camera.project(at, rect.width() / rect.height().max(1.0))?;
-    Some(rect.center() + vec2(at.x, -at.y) * rect.size() / 2.0)
-}
-
-/// The size of a view in pixels, no side below one.
-pub(in crate::app) fn pixels(ui: &Ui, rect: Rect) -> [u32; 2] {
-    let size = rect.size() * ui.ctx().pixels_per_point();
-    [size.x.round().max(1.0) as u32, size.y.round().max(1.0) as u32]
 }
 
 /// What [`in_view`] says, in that of `rows` pictures, one above the other in `rect`, in which the point is.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::super::message::Link;
+use super::super::link::Link;
 use super::super::surfaces::surface;
 use crate::io::Axes;
 use crate::mesh::TriMesh;

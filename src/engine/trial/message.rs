@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::message::Link;
+use crate::engine::link::Link;
 use crate::engine::surfaces::surface;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;

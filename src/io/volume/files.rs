@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::stream::HEAD;
-use super::{base_name, data_name, is_volume};
+use super::headers::{data_name, is_volume};
+use super::parts::HEAD;
+use super::parts::base_name;
 use crate::say;
 
 /// A file or a folder that cannot be read.

@@ -13,9 +13,10 @@ use super::super::text;
 use super::axes::{numbers, silent};
 use super::error::ScanError;
 use super::lines::lines;
-use super::named;
 use super::numbers::{Layout, Packing};
-use super::stream::{Head, Outline};
+use super::outline::Outline;
+use super::parts::Head;
+use super::parts::named;
 use crate::say;
 use crate::volume::{Geometry, VolumeError};
 

@@ -16,62 +16,28 @@ mod dicom;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod files;
+mod headers;
 mod lines;
 mod metaimage;
 mod nifti;
 mod nrrd;
 mod numbers;
+mod outline;
+mod parts;
 mod stream;
 mod vti;
 
 pub use error::ScanError;
 #[cfg(not(target_arch = "wasm32"))]
 pub use files::{Files, Unreadable, find, gather};
-pub use stream::{HEAD, Head, Stream, begin};
+pub use headers::{data_name, is_volume};
+pub use outline::Scan;
+pub use parts::{HEAD, Head, Part};
+pub use stream::{Stream, begin};
 
-use super::axes::Axes;
-use super::detect::{self, Volume as Content};
+use super::detect::Volume as Content;
 use super::error::ReadError;
-use crate::volume::Grid;
-
-/// A file by its name.
-#[derive(Clone, Copy, Debug)]
-pub struct Part<'a> {
-    /// Its name, with extension; a folder before it does not matter.
-    pub name: &'a str,
-    /// Its bytes.
-    pub bytes: &'a [u8],
-}
-
-/// A volume as it was read.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scan {
-    /// The numbers, and where they lie.
-    pub grid: Grid,
-    /// What the files are: "NIfTI", "NRRD", "MetaImage", "VTI", "DICOM".
-    pub format: &'static str,
-    /// What its coordinates grow towards: LPS, or unknown where the file does not say it.
-    pub axes: Axes,
-    /// Whether values are Hounsfield units, as DICOM and MetaImage say of CT; the other formats do not say.
-    pub is_ct: bool,
-    /// Sentences for the user about what looks odd.
-    pub warnings: Vec<String>,
-}
-
-/// Whether a file is a volume, or the header of one, by its first bytes.
-pub fn is_volume(bytes: &[u8]) -> bool {
-    content(bytes).is_some()
-}
-
-/// The name of the file in which the numbers of a header stand, if `bytes` is a header that names one.
-pub fn data_name(bytes: &[u8], name: &str) -> Option<String> {
-    match content(bytes)? {
-        Content::MetaImage => metaimage::data_name(bytes),
-        Content::Nrrd => nrrd::data_name(bytes),
-        Content::Nifti => nifti::data_name(bytes, name),
-        Content::Vti | Content::Dicom => None,
-    }
-}
+use parts::base_name;
 
 /// Reads the volume in `parts`: one file, a header with its data, or the files of a DICOM series in any order.
 ///
@@ -79,7 +45,8 @@ pub fn data_name(bytes: &[u8], name: &str) -> Option<String> {
 /// [`ScanError`], each in one plain sentence: no file is a volume, one is broken or cut short, the numbers are missing, do not
 /// fit into memory or have no place in a patient.
 pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
-    let found = parts.iter().enumerate().find_map(|(at, part)| content(part.bytes).map(|content| (at, content)));
+    let found =
+        parts.iter().enumerate().find_map(|(at, part)| headers::content(part.bytes).map(|content| (at, content)));
     let Some((at, content)) = found else {
         return Err(match parts {
             [] => ReadError::Empty.into(),
@@ -90,37 +57,12 @@ pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
     let whole = |part: &Part<'_>| part.bytes.len() as u64;
     let heads: Vec<Head> =
         parts.iter().map(|part| Head { name: part.name, bytes: part.bytes, length: whole(part) }).collect();
-    match content {
-        Content::Nifti => stream::read_whole(nifti::outline(at, &heads)?, parts),
-        Content::Nrrd => stream::read_whole(nrrd::outline(at, &heads)?, parts),
-        Content::MetaImage => stream::read_whole(metaimage::outline(at, &heads)?, parts),
-        Content::Vti => vti::read(parts[at].bytes),
-        Content::Dicom => {
-            let slices: Vec<&Part> =
-                parts.iter().filter(|part| self::content(part.bytes) == Some(Content::Dicom)).collect();
-            dicom::read(&slices)
-        }
+    if let Some(outline) = headers::outline(content, at, &heads) {
+        return stream::read_whole(outline?, parts);
     }
-}
-
-/// What the first bytes say; of a packed file, those that it unfolds to.
-fn content(bytes: &[u8]) -> Option<Content> {
-    if numbers::is_gzip(bytes) && nifti::is_header(&numbers::first_unfolded(bytes)) {
-        return Some(Content::Nifti);
+    if content == Content::Vti {
+        return vti::read(parts[at].bytes);
     }
-    detect::volume(bytes).filter(|&found| found != Content::Nifti || nifti::is_header(bytes))
-}
-
-/// A file's name without the folder before it.
-fn base_name(name: &str) -> &str {
-    name.rsplit(['/', '\\']).next().unwrap_or(name)
-}
-
-/// Which file a header names, whatever folder it lies in.
-fn named(files: &[Head], name: &str, format: &'static str) -> Result<usize, ScanError> {
-    let wanted = base_name(name);
-    let same = |file: &Head| base_name(file.name) == wanted;
-    let alike = |file: &Head| base_name(file.name).eq_ignore_ascii_case(wanted);
-    let found = files.iter().position(same).or_else(|| files.iter().position(alike));
-    found.ok_or_else(|| ScanError::DataElsewhere { format, name: wanted.to_owned() })
+    let slices: Vec<&Part> = parts.iter().filter(|part| headers::content(part.bytes) == Some(content)).collect();
+    dicom::read(&slices)
 }

@@ -14,8 +14,9 @@ use super::super::numbers::Scalar;
 use super::axes::{ras_to_lps, silent};
 use super::error::ScanError;
 use super::numbers::{Layout, Packing, first_unfolded, is_gzip};
-use super::stream::{Head, Outline};
-use super::{base_name, named};
+use super::outline::Outline;
+use super::parts::Head;
+use super::parts::{base_name, named};
 use crate::say;
 use crate::volume::{Geometry, VolumeError};
 

@@ -8,44 +8,12 @@ use std::io::{self, Write};
 
 use flate2::write::{MultiGzDecoder, ZlibDecoder};
 
-use super::super::axes::Axes;
 use super::error::ScanError;
+use super::headers::{self, content};
 use super::numbers::{Layout, Packing};
-use super::{Content, Part, Scan, content, metaimage, nifti, nrrd};
-use crate::volume::{Geometry, Grid, Samples};
-
-/// The beginning of a file.
-#[derive(Clone, Copy, Debug)]
-pub struct Head<'a> {
-    /// Its name, with extension.
-    pub name: &'a str,
-    /// Its first bytes, [`HEAD`] of them or all.
-    pub bytes: &'a [u8],
-    /// How many bytes it has.
-    pub length: u64,
-}
-
-/// Bytes of a file that say what it is and where its numbers stand.
-pub const HEAD: usize = 1 << 16;
-
-/// What a header says.
-pub(super) struct Outline {
-    pub(super) format: &'static str,
-    pub(super) geometry: Geometry,
-    pub(super) layout: Layout,
-    pub(super) packing: Packing,
-    /// Which file the numbers stand in.
-    pub(super) file: usize,
-    /// Where they begin there, as it stands.
-    pub(super) start: u64,
-    /// Bytes before the numbers in what that unfolds to.
-    pub(super) skipped: u64,
-    /// Slope and intercept.
-    pub(super) scaling: [f64; 2],
-    pub(super) axes: Axes,
-    pub(super) is_ct: bool,
-    pub(super) warnings: Vec<String>,
-}
+use super::outline::{Outline, Scan};
+use super::parts::{Head, Part};
+use crate::volume::Samples;
 
 /// A volume whose numbers are on their way.
 pub struct Stream {
@@ -79,12 +47,7 @@ struct Sink {
 pub fn begin(heads: &[Head]) -> Result<Option<Stream>, ScanError> {
     let found = heads.iter().enumerate().find_map(|(at, head)| content(head.bytes).map(|content| (at, content)));
     let Some((header, content)) = found else { return Ok(None) };
-    let outline = match content {
-        Content::Nifti => nifti::outline(header, heads)?,
-        Content::Nrrd => nrrd::outline(header, heads)?,
-        Content::MetaImage => metaimage::outline(header, heads)?,
-        Content::Vti | Content::Dicom => return Ok(None),
-    };
+    let Some(outline) = headers::outline(content, header, heads).transpose()? else { return Ok(None) };
     let head = heads[outline.file];
     // The header may go on beyond what is known of it.
     let is_whole = |head: &Head| head.length == head.bytes.len() as u64;
@@ -187,14 +150,6 @@ impl Stream {
         }
         let samples = std::mem::replace(&mut sink.samples, layout.begin());
         self.outline.finish(samples)
-    }
-}
-
-impl Outline {
-    fn finish(self, samples: Samples) -> Result<Scan, ScanError> {
-        let [slope, intercept] = self.scaling;
-        let grid = Grid::new(self.geometry, samples, slope, intercept)?;
-        Ok(Scan { grid, format: self.format, axes: self.axes, is_ct: self.is_ct, warnings: self.warnings })
     }
 }
 

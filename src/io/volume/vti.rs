@@ -6,9 +6,9 @@ use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
 use super::super::vtk::{Image, Values, read_image};
-use super::Scan;
 use super::error::ScanError;
 use super::numbers::{LARGEST, Layout, MOST_UNFOLDED};
+use super::outline::Scan;
 use crate::say;
 use crate::volume::{Geometry, Grid, VolumeError};
 

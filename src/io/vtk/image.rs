@@ -13,8 +13,8 @@ use super::super::numbers::Scalar;
 use super::super::pace::{Pace, at_once};
 use super::super::text;
 use super::array::Content;
-use super::xml::{DataArray, Structure, attribute, broken, inline_text, malformed};
 use super::xml_arrays::Arrays;
+use super::xml_structure::{DataArray, Structure, attribute, broken, inline_text, malformed};
 use crate::say;
 
 const FORMAT: &str = "VTI";

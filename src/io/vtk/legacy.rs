@@ -7,9 +7,9 @@ use glam::DVec3;
 
 use super::super::axes;
 use super::super::error::ReadError;
-use super::super::import::RawSurface;
 use super::super::numbers::Scalar;
 use super::super::pace::Pace;
+use super::super::raw::RawSurface;
 use super::super::room::Room;
 use super::super::text;
 use super::array::Array;

@@ -18,6 +18,7 @@ mod surface;
 mod write;
 mod xml;
 mod xml_arrays;
+mod xml_structure;
 
 #[cfg(feature = "scans")]
 pub(super) use image::{Image, Values, read as read_image};

@@ -12,7 +12,7 @@ use super::super::text;
 use super::array::{Array, Content};
 use super::encoded::Encoded;
 use super::surface::{Cells, Lengths, Shape, Surface};
-use super::xml::{DataArray, KINDS, Piece, Place, Structure, line_of, malformed};
+use super::xml_structure::{DataArray, KINDS, Piece, Place, Structure, line_of, malformed};
 use crate::language::Key;
 use crate::mesh::arrays::{On, Values};
 use crate::say;

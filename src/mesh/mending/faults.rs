@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::holes::{Hole, Opening, holes};
-use super::split::doubles;
+use super::sides::doubles;
 use super::wall::Wall;
 use crate::mesh::disjoint_sets::union;
 use crate::mesh::{Topology, TriMesh, opposite};

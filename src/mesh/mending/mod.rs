@@ -13,6 +13,7 @@ pub mod fill;
 pub mod holes;
 mod patch_mesh;
 mod refine;
+mod sides;
 pub mod split;
 mod task;
 mod triangulate;

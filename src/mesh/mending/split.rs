@@ -13,6 +13,7 @@
 use glam::DVec3;
 
 use super::faults::Faults;
+use super::sides::{by_edge, doubles};
 use crate::mesh::disjoint_sets::{root, singles, union};
 use crate::mesh::{Blend, Topology, TriMesh, compacted, used_vertices};
 
@@ -75,36 +76,6 @@ pub fn split(mesh: &TriMesh) -> Split {
 fn is_manifold(mesh: &TriMesh) -> bool {
     let found = Faults::of(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles));
     found.non_manifold_edges.is_empty() && found.non_manifold_vertices.is_empty()
-}
-
-/// The sides of all triangles, three each, by the edge that they are on: `(low, high)` in one number, and the side.
-fn by_edge(triangles: &[[u32; 3]]) -> Vec<(u64, u32)> {
-    let ends = |side: usize| {
-        let t = triangles[side / 3];
-        let (a, b) = (t[side % 3], t[(side + 1) % 3]);
-        u64::from(a.min(b)) << 32 | u64::from(a.max(b))
-    };
-    let mut sides: Vec<(u64, u32)> = (0..3 * triangles.len()).map(|side| (ends(side), side as u32)).collect();
-    sides.sort_unstable();
-    sides
-}
-
-/// Triangles over the same three vertices as an earlier one, where they share an edge with a third.
-pub(super) fn doubles(mesh: &TriMesh) -> Vec<bool> {
-    let mut is_double = vec![false; mesh.triangles.len()];
-    let sorted = |t: u32| {
-        let mut corners = mesh.triangles[t as usize];
-        corners.sort_unstable();
-        corners
-    };
-    for sides in by_edge(&mesh.triangles).chunk_by(|a, b| a.0 == b.0).filter(|sides| sides.len() > 2) {
-        let mut here: Vec<([u32; 3], u32)> = sides.iter().map(|&(_, side)| (sorted(side / 3), side / 3)).collect();
-        here.sort_unstable();
-        for pair in here.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            is_double[pair[1].1 as usize] = true;
-        }
-    }
-    is_double
 }
 
 /// Triangles, and how their sides are joined.

@@ -8,11 +8,13 @@
 //! fans; those slots stay ([`Rings::stays`]), so the surface can be put together again as it was. Slots are numbered
 //! along a space-filling curve (`order.rs`): what is near is near in memory, whatever the order of the file.
 
+mod linking;
+
 use glam::{Vec3, Vec3A};
 
-use super::fan::{Fan, fans_of};
+use super::fan::Fan;
 use super::order::curve_order;
-use crate::mesh::{Bounds, Topology, TriMesh};
+use crate::mesh::{Bounds, TriMesh};
 
 /// Bit of a ring's entry: the edge to that neighbour is a feature edge.
 pub(super) const CREASE: u32 = 1 << 31;
@@ -106,99 +108,6 @@ impl Rings {
             slots,
             complex: Vec::new(),
             fan: Fan::default(),
-        }
-    }
-
-    /// Adds the rings of the next slots, as yet without feature edges, `count` of them at most; whether all have one.
-    pub(super) fn link(&mut self, mesh: &TriMesh, topology: &Topology, count: usize) -> bool {
-        let all = self.vertices as usize;
-        let (mut fan, slots) = (std::mem::take(&mut self.fan), std::mem::take(&mut self.slots));
-        for slot in self.heads.len()..all.min(self.heads.len() + count) {
-            let v = self.nodes[slot];
-            fan.load(v, topology.triangles(v), &mesh.triangles);
-            let is_fan = fan.order();
-            if is_fan {
-                self.add(fan.entries().map(|n| slots[n as usize]), !fan.is_closed);
-            } else {
-                self.heads.push(Head {
-                    start: self.entries.len() as u32,
-                    stays: true,
-                    is_gone: true,
-                    ..Head::default()
-                });
-                if !fan.spokes.is_empty() {
-                    self.complex.push(slot as u32);
-                }
-            }
-        }
-        if self.heads.len() < all {
-            (self.fan, self.slots) = (fan, slots);
-            return false;
-        }
-        let complex = std::mem::take(&mut self.complex);
-        if !complex.is_empty() {
-            self.cut_open(mesh, topology, &slots, &complex);
-        }
-        true
-    }
-
-    /// Adds the ring of the next slot.
-    fn add(&mut self, ring: impl Iterator<Item = u32>, is_open: bool) {
-        let start = self.entries.len() as u32;
-        self.entries.extend(ring);
-        let length = self.entries.len() as u32 - start;
-        self.heads.push(Head { start, length, room: length, is_open, ..Head::default() });
-    }
-
-    /// Gives each fan around a complex vertex a slot of its own, which stays.
-    fn cut_open(&mut self, mesh: &TriMesh, topology: &Topology, slots: &[u32], complex: &[u32]) {
-        let mut is_complex = vec![false; mesh.positions.len()];
-        complex.iter().for_each(|&slot| is_complex[self.nodes[slot as usize] as usize] = true);
-        // The slot of each corner at a complex vertex: (triangle, vertex, slot).
-        let mut corners: Vec<(u32, u32, u32)> = Vec::new();
-        let mut fans: Vec<(u32, Vec<[u32; 3]>, bool)> = Vec::new();
-        for &slot in complex {
-            let v = self.nodes[slot as usize];
-            for (i, (spokes, is_closed)) in fans_of(v, topology, &mesh.triangles).into_iter().enumerate() {
-                let own = if i == 0 {
-                    slot
-                } else {
-                    self.positions.push(self.positions[slot as usize]);
-                    self.nodes.push(v);
-                    self.heads.push(Head::default());
-                    self.heads.len() as u32 - 1
-                };
-                self.cut.push((v, own));
-                corners.extend(spokes.iter().map(|&[_, _, t]| (t, v, own)));
-                fans.push((own, spokes, is_closed));
-            }
-        }
-        self.cut.sort_unstable();
-        corners.sort_unstable();
-        let slot_at = |t: u32, n: u32| {
-            if !is_complex[n as usize] {
-                return slots[n as usize];
-            }
-            let found = corners.binary_search_by_key(&(t, n), |&(t, n, _)| (t, n));
-            corners[found.expect("every corner at a cut vertex has a slot")].2
-        };
-        for (own, spokes, is_closed) in fans {
-            let start = self.entries.len() as u32;
-            self.entries.extend(spokes.iter().map(|&[a, _, t]| slot_at(t, a)));
-            if !is_closed {
-                self.entries.extend(spokes.last().map(|&[_, b, t]| slot_at(t, b)));
-            }
-            let length = self.entries.len() as u32 - start;
-            self.heads[own as usize] =
-                Head { start, length, room: length, is_open: !is_closed, stays: true, is_gone: false };
-            // The others around know the vertex by its first slot.
-            let first = slots[self.nodes[own as usize] as usize];
-            for i in start..start + length {
-                let n = self.entries[i as usize] as usize;
-                if own != first && !self.heads[n].stays {
-                    self.replace(n as u32, first, own);
-                }
-            }
         }
     }
 
@@ -495,52 +404,4 @@ pub(super) fn gather<T: Copy>(values: &[T], kept: &[u32]) -> Vec<T> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn linked(vertices: usize, triangles: Vec<[u32; 3]>) -> Rings {
-        let positions = (0..vertices).map(|v| Vec3::new(v as f32, (v * v % 7) as f32, (v % 3) as f32)).collect();
-        let mesh = TriMesh { positions, triangles };
-        let mut rings = Rings::new(&mesh);
-        assert!(rings.link(&mesh, &Topology::new(vertices, &mesh.triangles), vertices));
-        rings.assert_well_formed();
-        rings
-    }
-
-    /// The four faces of a tetrahedron.
-    fn tetrahedron([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 4] {
-        [[a, c, b], [a, b, d], [b, c, d], [c, a, d]]
-    }
-
-    #[test]
-    fn both_ends_of_an_edge_that_two_closed_pieces_share_are_cut() {
-        let rings = linked(6, [tetrahedron([0, 1, 2, 3]), tetrahedron([0, 1, 4, 5])].concat());
-        let parts = |node: u32| (0..rings.len() as u32).filter(|&v| rings.nodes[v as usize] == node).count();
-        assert_eq!([0, 1, 2, 3, 4, 5].map(parts), [2, 2, 1, 1, 1, 1]);
-        let stays = (0..rings.len() as u32).filter(|&v| rings.stays(v)).count();
-        assert_eq!(stays, 4);
-    }
-
-    #[test]
-    fn triangles_back_to_back_alone_or_on_a_piece_are_told_from_discs() {
-        linked(3, vec![[0, 1, 2], [2, 1, 0]]);
-        // On an edge, on a triangle, and twice on one.
-        linked(5, [&tetrahedron([0, 1, 2, 3])[..], &[[0, 1, 4], [4, 1, 0]]].concat());
-        linked(4, [&tetrahedron([0, 1, 2, 3])[..], &[[0, 1, 2]]].concat());
-        linked(4, [&tetrahedron([0, 1, 2, 3])[..], &[[0, 1, 2], [0, 2, 1]]].concat());
-    }
-
-    #[test]
-    fn a_stray_leaves_the_others_their_size_and_is_itself_a_number() {
-        for far in [1e6, 1e9] {
-            let mut positions: Vec<Vec3> =
-                (0..100).map(|i| Vec3::new(i as f32, (i % 9) as f32, (i % 5) as f32)).collect();
-            positions.push(Vec3::splat(far));
-            let rings = Rings::new(&TriMesh { positions, triangles: Vec::new() });
-            let most = rings.positions.iter().filter(|p| p.abs().max_element() < 2.0 * SIZE).count();
-            assert_eq!(most, 100);
-            let longest = rings.positions.iter().map(|p| p.length_squared()).fold(0.0, f32::max);
-            assert!((longest * longest).is_finite());
-        }
-    }
-}
+mod tests;

@@ -1,6 +1,6 @@
 //! The search for the level within a bound on the deviation, as a stage.
 
-use super::Run;
+use super::running::Run;
 use crate::pipeline::bound::BoundTask;
 use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;

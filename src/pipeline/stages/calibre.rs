@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::Vec3;
 use crate::pipeline::results::{Certified, NOT_MEASURED, Reduced};
 use crate::pipeline::settings::SettingsError;

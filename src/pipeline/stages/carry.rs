@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::arrays::gathered;
 use crate::mesh::{Array, SurfaceIndex, TriMesh};
 use crate::pipeline::carry::{CarryTask, Entered};

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::{Topology, TriMesh, measures_within, oriented_loops};
 use crate::pipeline::connectivity::Connectivity;
-use crate::pipeline::results::{Part as Aside, Surface};
+use crate::pipeline::results::Surface;
 use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress};
+use crate::pipeline::times::Part as Aside;
 
 /// The surface that is parted, and how far that is.
 pub(super) struct Connecting {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::Run;
 use super::carry::kept_arrays;
+use super::running::Run;
 use crate::mesh::{Topology, TriMesh};
 use crate::pipeline::decimation::{DecimationTask, labels_of};
 use crate::pipeline::results::{Levels, Smoothed, Surface};

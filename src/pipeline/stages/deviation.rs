@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::{SurfaceIndex, TriMesh};
 use crate::pipeline::deviation::{Comparison, DeviationTask};
 use crate::pipeline::results::{Deviations, Results};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::mending::wall::WallTask;
 use crate::mesh::mending::{FaultSearch, Faults};
 use crate::mesh::{Topology, TriMesh};

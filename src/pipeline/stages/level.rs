@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::{Topology, measures};
 use crate::pipeline::normals::{Weighting, vertex_normals};
-use crate::pipeline::results::{Levels, Part, Reduced, fingerprint};
+use crate::pipeline::results::{Levels, Reduced, fingerprint};
 use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress};
+use crate::pipeline::times::Part;
 
 pub(super) struct Taking(Levels);
 

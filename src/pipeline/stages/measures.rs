@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::{InnerRadii, SurfaceIndex, Topology, TriMesh};
 use crate::pipeline::lumen::{Sample, Sampling, narrowing};
 use crate::pipeline::pinch::PinchTask;

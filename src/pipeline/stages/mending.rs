@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::mending::{MendTask, Mended};
 use crate::pipeline::results::Entering;
 use crate::pipeline::settings::SettingsError;

@@ -10,19 +10,13 @@ mod faults;
 mod level;
 mod measures;
 mod mending;
+mod running;
 mod safe;
 mod smoothing;
 
-use super::settings::SettingsError;
 use super::stage::Stage;
 use super::store::Store;
-use super::task::{Budget, Progress};
-
-/// A stage under way.
-pub(super) trait Run: Send {
-    /// Works until `budget` is spent or the stage is done and its result in its slot.
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError>;
-}
+pub(super) use running::Run;
 
 /// Starts a stage on what it rests on; `None` while that is not there.
 pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {

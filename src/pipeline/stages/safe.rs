@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Run;
+use super::running::Run;
 use crate::pipeline::safe::{Safe, SafeTask};
 use crate::pipeline::settings::SettingsError;
 use crate::pipeline::store::Store;

@@ -4,17 +4,18 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::Run;
+use super::running::Run;
 use crate::mesh::{Measures, Topology, TriMesh, Vec3, measures_within};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, edge_length};
-use crate::pipeline::results::{Adapted, Part, Smoothed, Surface};
+use crate::pipeline::results::{Adapted, Smoothed, Surface};
 use crate::pipeline::settings::{SettingsError, Smoothing};
 use crate::pipeline::smoothing::{
     Before, GuardTask, Guarded, LeastPassBands, SmoothingTask, TERMS_BYTES, VOLUME_TOLERANCE, VolumeTask, kept_terms,
 };
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
+use crate::pipeline::times::Part;
 use crate::pipeline::widths::WidthTask;
 
 pub(super) struct Filtering {

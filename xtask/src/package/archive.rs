@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context as _, Result};
 use zip::write::SimpleFileOptions;
 
-use super::Packed;
+use super::packed::Packed;
 use crate::build::gzip;
 
 /// Seconds since 1970 that all files are said to be from: 1980 where nothing is asked for, since when there is ZIP's clock.

@@ -5,7 +5,7 @@
 use anyhow::{Context as _, Result, bail};
 
 use super::archive::{tar_gz, time};
-use super::{Packed, VERSION};
+use super::packed::{Packed, VERSION};
 
 /// What the window loads when it opens, so that no linker names it.
 const WINDOW: &str =

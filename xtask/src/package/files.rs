@@ -5,9 +5,10 @@ use std::process::Command;
 
 use anyhow::{Context as _, Result, ensure};
 
-use super::{Packed, headers, read, read_file};
-use crate::build::{files_below, gzip};
-use crate::step::{run, target};
+use super::headers;
+use super::packed::{Packed, read, read_file};
+use crate::build::gzip;
+use crate::step::{files_below, run, target};
 
 /// The program's files under the paths that they have below `/usr`, sorted.
 pub(super) fn desktop(program: &Path) -> Result<Vec<Packed>> {

@@ -2,7 +2,7 @@
 //!
 //! The page has its policy in itself; as a header it holds for the Workers too, which take theirs from their own response.
 
-use super::Packed;
+use super::packed::Packed;
 
 /// Every header that goes with every file, whatever its type.
 pub(crate) const HEADERS: [(&str, &str); 5] = [

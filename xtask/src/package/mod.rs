@@ -9,8 +9,9 @@ mod clean_root;
 mod deb;
 mod files;
 mod headers;
+mod packed;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
@@ -20,9 +21,7 @@ use crate::build;
 use crate::step::{cargo, root, run, step, target};
 
 pub(crate) use headers::HEADERS;
-
-/// Lumen's version, which all packages of the workspace have.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
+use packed::VERSION;
 
 /// Options of `cargo xtask package`.
 #[derive(Args)]
@@ -36,19 +35,6 @@ pub(crate) struct Options {
     /// Install the program from the checkout, and the Debian package in a clean Debian; run both. As root, with debootstrap.
     #[arg(long = "try")]
     tries: bool,
-}
-
-/// A file of a package: its path there, its bytes, and whether it is a program.
-pub(crate) struct Packed {
-    path: String,
-    bytes: Vec<u8>,
-    is_program: bool,
-}
-
-impl Packed {
-    fn new(path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
-        Self { path: path.into(), bytes: bytes.into(), is_program: false }
-    }
 }
 
 /// Makes the packages in `target/package` and says where they are.
@@ -96,13 +82,4 @@ fn install() -> Result<()> {
     let place = target().join("installed");
     run(cargo().args(["install", "--quiet", "--locked", "--force", "--path", "."]).arg("--root").arg(&place))?;
     run(Command::new(place.join("bin/lumen")).arg("--version"))
-}
-
-/// The bytes of a file of the checkout.
-fn read(path: &str) -> Result<Vec<u8>> {
-    read_file(&root().join(path))
-}
-
-fn read_file(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).with_context(|| format!("{} cannot be read", path.display()))
 }

@@ -2,7 +2,6 @@
 
 use egui::{Color32, Rect, Role, Ui, Vec2, pos2, vec2};
 
-use super::TrialView;
 use crate::app::assist::name;
 use crate::app::trial::action::{Action, Arm};
 use crate::language::Key;
@@ -14,19 +13,17 @@ const TIP_SHOW: Key = Key("trial-tip-show");
 const LARGE_BACK: Key = Key("trial-large-back");
 const LARGE: Key = Key("trial-large");
 
-impl TrialView {
-    /// Shows or hides the tip's view.
-    pub(super) fn tip_button(&mut self, ui: &mut Ui, at: Rect) {
-        let (label, help) = if self.shows_tip {
-            (TIP_HIDE.say(), say!("trial-tip-hide-help"))
-        } else {
-            (TIP_SHOW.say(), say!("trial-tip-show-help"))
-        };
-        let response = ui.put(at, egui::Button::new(label)).on_hover_text(help.to_owned());
-        name(&response, Role::Button, &help);
-        if response.clicked() {
-            self.shows_tip = !self.shows_tip;
-        }
+/// Shows or hides the tip's view.
+pub(super) fn tip_button(ui: &mut Ui, at: Rect, shows_tip: &mut bool) {
+    let (label, help) = if *shows_tip {
+        (TIP_HIDE.say(), say!("trial-tip-hide-help"))
+    } else {
+        (TIP_SHOW.say(), say!("trial-tip-show-help"))
+    };
+    let response = ui.put(at, egui::Button::new(label)).on_hover_text(help.to_owned());
+    name(&response, Role::Button, &help);
+    if response.clicked() {
+        *shows_tip = !*shows_tip;
     }
 }
 

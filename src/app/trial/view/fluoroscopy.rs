@@ -4,16 +4,18 @@ use std::time::Duration;
 
 use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
 
-use super::{TrialView, empty, image, pixels, radius};
+use super::painting::{empty, image, radius};
 use crate::app::assist::name;
 use crate::app::halo;
 use crate::app::overlay::{self, NOT_CLINICAL};
 use crate::app::trial::carm;
 use crate::app::trial::marks::WRITTEN_OVER;
 use crate::app::trial::plate::plate;
+use crate::app::trial::scene::TrialScene;
 use crate::app::trial::state::Trial;
+use crate::app::views::pixels;
 use crate::language::{decimal, grouped};
-use crate::render::{Camera, Exposure};
+use crate::render::{Camera, Exposure, SurfaceError};
 use crate::say;
 
 /// How fast the blood takes contrast along, in mm/s.
@@ -21,19 +23,45 @@ const FLOW: f32 = 150.0;
 
 /// A fluoroscopy: from where, how, and of which picture of the wire.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) struct Held {
+struct Held {
     camera: Camera,
     exposure: Exposure,
     picture: (u64, u64),
 }
 
-impl TrialView {
-    pub(super) fn fluoroscopy(&mut self, ui: &mut Ui, rect: Rect, trial: &mut Trial) {
+/// The fluoroscopy that is shown.
+#[derive(Default)]
+pub(super) struct Fluoroscopy {
+    /// What the last one was taken from.
+    held: Option<Held>,
+}
+
+impl Fluoroscopy {
+    /// The last one is gone: the next is taken anew.
+    pub(super) fn forget(&mut self) {
+        self.held = None;
+    }
+
+    /// Shows it in `rect`, where there is a scene to take it of.
+    ///
+    /// # Errors
+    /// As the device says why it could not be taken; the last one is shown.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        trial: &mut Trial,
+        scene: Option<&mut TrialScene>,
+    ) -> Result<(), SurfaceError> {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, &say!("trial-fluoroscopy-view"));
         steer(ui, &response, trial);
-        match self.expose(ui, rect, trial) {
-            Some(texture) => image(ui, rect, texture),
+        let mut taken = Ok(());
+        match scene.and_then(|scene| self.expose(ui, rect, trial, scene)) {
+            Some((texture, exposed)) => {
+                image(ui, rect, texture);
+                taken = exposed;
+            }
             None => empty(ui, rect),
         }
         let inner = rect.shrink(8.0);
@@ -61,14 +89,21 @@ impl TrialView {
             overlay::ring_at(ui, rect, at, &say!("trial-missed-fork-ring"), ui.visuals().error_fg_color);
         }
         plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
+        taken
     }
 
     /// Takes a fluoroscopy where a pulse is due and would show something else, and gives the texture that the last one
-    /// is in.
-    fn expose(&mut self, ui: &Ui, rect: Rect, trial: &mut Trial) -> Option<TextureId> {
+    /// is in, with whether a new one could be taken.
+    fn expose(
+        &mut self,
+        ui: &Ui,
+        rect: Rect,
+        trial: &mut Trial,
+        scene: &mut TrialScene,
+    ) -> Option<(TextureId, Result<(), SurfaceError>)> {
         let now = ui.input(|input| input.time);
         let Trial { carm, stage, .. } = trial;
-        let (scene, session) = (self.scene.as_mut()?, stage.session()?);
+        let session = stage.session()?;
         let frame = session.run.frame.as_ref()?;
         let (bounds, radius) = (session.subject.mesh.bounds(), radius(session));
         carm.count(frame.time_s);
@@ -92,13 +127,10 @@ impl TrialView {
                 exposed
             }
         };
-        if let Err(error) = exposed {
-            self.failure = Some(say!("trial-fluoroscopy-not-drawn", why = error.to_string()));
-        }
         if carm.is_on && (exposure.contrast_s.is_some() || is_news && !is_due) {
             ui.ctx().request_repaint_after(Duration::from_secs_f64(carm.until_pulse(now)));
         }
-        Some(texture)
+        Some((texture, exposed))
     }
 }
 

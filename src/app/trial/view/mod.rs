@@ -2,20 +2,22 @@
 
 mod arrangement;
 mod fluoroscopy;
+mod painting;
 mod tip;
 
 use std::sync::Arc;
 
-use egui::{Align2, Color32, Rect, Role, Sense, TextureId, Ui, pos2, vec2};
+use egui::{Align2, Rect, Role, Sense, Ui, vec2};
 
-use self::arrangement::{buttons, large_button, places, words_width};
-use self::fluoroscopy::Held;
+use self::arrangement::{buttons, large_button, places, tip_button, words_width};
+use self::fluoroscopy::Fluoroscopy;
+use self::painting::{empty, image, radius};
 use super::action::Action;
 use super::marks::{self, WRITTEN_OVER};
 use super::plate::{plate, sentence};
 use super::readout::is_small;
 use super::scene::TrialScene;
-use super::state::{AWAITS, Session, Stage, Trial};
+use super::state::{AWAITS, Stage, Trial};
 use super::tables::Tables;
 use crate::app::assist::name;
 use crate::app::document::Document;
@@ -49,8 +51,7 @@ pub(in crate::app) struct TrialView {
     felt: usize,
     /// The picture of the wire that they have.
     picture: Option<(u64, u64)>,
-    /// What the last fluoroscopy was taken from.
-    held: Option<Held>,
+    fluoroscopy: Fluoroscopy,
 }
 
 impl TrialView {
@@ -67,14 +68,15 @@ impl TrialView {
             run: 0,
             felt: 0,
             picture: None,
-            held: None,
+            fluoroscopy: Fluoroscopy::default(),
         }
     }
 
     /// Gives back the memory of the device.
     pub(in crate::app) fn let_go(&mut self) {
         (self.scene, self.failure, self.refused) = (None, None, None);
-        (self.felt, self.picture, self.held) = (0, None, None);
+        (self.felt, self.picture) = (0, None);
+        self.fluoroscopy.forget();
     }
 
     /// Takes another device, on which nothing of the views stands yet.
@@ -149,21 +151,27 @@ impl TrialView {
         views.measure_rate(ui, trial.is_moving());
         // What lies over another comes after it.
         if is_large {
-            self.fluoroscopy(ui, second.shrink(0.5), trial);
+            self.expose(ui, second.shrink(0.5), trial);
             ui.painter().rect_filled(first.union(third), 0.0, ui.visuals().widgets.noninteractive.bg_stroke.color);
         }
         let picked = self.vessel(ui, first.shrink(0.5), trial, views, document, keep);
         if !is_large {
-            self.fluoroscopy(ui, second.shrink(0.5), trial);
+            self.expose(ui, second.shrink(0.5), trial);
         }
         if self.shows_tip {
             self.tip(ui, third.shrink(0.5), trial);
         }
         let size = vec2(words_width(ui) + 2.0 * ui.spacing().button_padding.x, theme::row(ui.ctx(), 26.0));
         let [tip, large] = buttons(second, third, self.shows_tip, size);
-        self.tip_button(ui, tip);
+        tip_button(ui, tip, &mut self.shows_tip);
         let asked = large_button(ui, large, is_large);
         asked.or_else(|| Some(Action::Place(trial.pick?, picked?)))
+    }
+
+    fn expose(&mut self, ui: &mut Ui, rect: Rect, trial: &mut Trial) {
+        if let Err(error) = self.fluoroscopy.show(ui, rect, trial, self.scene.as_mut()) {
+            self.failure = Some(say!("trial-fluoroscopy-not-drawn", why = error.to_string()));
+        }
     }
 
     /// Brings what is in memory up to the trial.
@@ -190,7 +198,8 @@ impl TrialView {
             }
         }
         if std::mem::replace(&mut self.run, run.id) != run.id {
-            (self.felt, self.picture, self.held) = (0, None, None);
+            (self.felt, self.picture) = (0, None);
+            self.fluoroscopy.forget();
             if let Some(peaks) = scene.peaks() {
                 peaks.clear();
             }
@@ -270,20 +279,6 @@ impl TrialView {
         };
         plate(ui, rect.center(), Align2::CENTER_CENTER, &text, true);
     }
-}
-
-/// The wire's radius in mm.
-fn radius(session: &Session) -> f32 {
-    session.ready.setup.wire.radius() as f32
-}
-
-fn image(ui: &Ui, rect: Rect, texture: TextureId) {
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
-}
-
-fn empty(ui: &Ui, rect: Rect) {
-    ui.painter().rect_filled(rect, 0.0, ui.visuals().faint_bg_color);
 }
 
 /// The middle of the lumen under a point of the view: between the wall that is hit first and the one behind it.

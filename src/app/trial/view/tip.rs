@@ -3,12 +3,14 @@
 use egui::{Align2, Rect, Role, Sense, Ui};
 use glam::{Mat3, Quat};
 
-use super::{TrialView, empty, image, pixels, radius};
+use super::TrialView;
+use super::painting::{empty, image, radius};
 use crate::app::assist::name;
 use crate::app::overlay::NOT_CLINICAL;
 use crate::app::theme;
 use crate::app::trial::plate::plate;
 use crate::app::trial::state::Trial;
+use crate::app::views::pixels;
 use crate::mesh::{Bounds, Vec3};
 use crate::render::Camera;
 use crate::say;

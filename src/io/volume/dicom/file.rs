@@ -16,9 +16,10 @@ use dicom_transfer_syntax_registry::entries;
 use glam::DVec3;
 
 use super::super::error::ScanError;
-use super::FORMAT;
 use crate::language::Key;
 use crate::say;
+
+pub(super) const FORMAT: &str = "DICOM";
 
 /// The file's own elements begin here, behind 128 bytes and "DICM".
 const META: usize = 132;

@@ -13,13 +13,13 @@ use super::super::axes::Axes;
 use super::super::numbers::Scalar;
 use super::error::ScanError;
 use super::numbers::Layout;
-use super::{Part, Scan};
+use super::outline::Scan;
+use super::parts::Part;
 use crate::language::{Key, decimal};
 use crate::say;
 use crate::volume::{Geometry, Grid, Samples, VolumeError};
-use file::File;
+use file::{FORMAT, File};
 
-const FORMAT: &str = "DICOM";
 /// By so much of a mean distance two neighbours may be farther apart or closer than others.
 const UNEVEN: f64 = 0.05;
 /// By so much a direction may differ between slices of a series, and by so many mm two slices of one place.

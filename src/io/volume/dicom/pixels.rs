@@ -7,8 +7,7 @@ use jpeg_decoder::{Decoder, PixelFormat};
 
 use super::super::error::ScanError;
 use super::super::numbers::MOST_UNFOLDED;
-use super::FORMAT;
-use super::file::{File, Packing};
+use super::file::{FORMAT, File, Packing};
 use crate::say;
 
 /// The pixels of frame `frame` of a file, in little-endian order.

@@ -19,33 +19,17 @@ mod search;
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use self::looks::Looks;
 use self::search::FoundIn;
+pub use self::search::{SPREAD, Wall};
 use super::BUILD;
 use crate::mesh::{Blend, Components, IndexBuild, SurfaceIndex, TriMesh, components};
 use crate::parallel;
 use crate::task::{Budget, Progress};
 
-/// The tenth largest thickness of ten is at most so many times the tenth smallest.
-pub const SPREAD: f64 = 4.0;
 /// Triangles between two looks at the clock, and of one thread.
 const SLICE: usize = 8_192;
 const CHUNK: usize = 256;
-
-/// A wall with two sides.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Wall {
-    /// Its thickness in mm: the median over the inner side.
-    pub thickness_mm: f64,
-    /// A tenth of it is thinner, in mm.
-    pub thinner_mm: f64,
-    /// A tenth of it is thicker, in mm.
-    pub thicker_mm: f64,
-    /// Whether its sides are two pieces; else they are one, joined at the rims.
-    pub is_two_pieces: bool,
-}
 
 /// The lumen of a wall.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,13 @@
 //! Looks for walls: between two pieces of which one lies in the other, and in a piece that is a wall by itself.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::looks::{Looks, PARALLEL, Place};
-use super::{SPREAD, Wall};
 use crate::mesh::triangle_area;
 
+/// The tenth largest thickness of ten is at most so many times the tenth smallest.
+pub const SPREAD: f64 = 4.0;
 /// Pieces that are looked at, the largest, and the least part of the area that they have.
 const PIECES: usize = 6;
 const LEAST_AREA: f64 = 0.05;
@@ -16,6 +18,19 @@ const MOST_SEE: f64 = 0.8;
 const MANY_SEE: f64 = 0.6;
 /// The part of a piece that must line such a space.
 const LEAST_INNER: f64 = 0.15;
+
+/// A wall with two sides.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Wall {
+    /// Its thickness in mm: the median over the inner side.
+    pub thickness_mm: f64,
+    /// A tenth of it is thinner, in mm.
+    pub thinner_mm: f64,
+    /// A tenth of it is thicker, in mm.
+    pub thicker_mm: f64,
+    /// Whether its sides are two pieces; else they are one, joined at the rims.
+    pub is_two_pieces: bool,
+}
 
 /// What a wall was found in.
 #[derive(Clone, Copy, Debug)]

@@ -5,10 +5,10 @@
 //! apart in the same way. PLY has no whole numbers of 64 bits: they are written in 32 where all of them fit, and as
 //! doubles elsewhere. Lists are no arrays.
 
-use super::columns::Columns;
-use super::numbers::Scalar;
-use super::ply::Property;
-use super::room::Room;
+use super::super::columns::Columns;
+use super::super::numbers::Scalar;
+use super::super::room::Room;
+use super::header::Property;
 use crate::mesh::Array;
 use crate::mesh::arrays::{On, Values};
 use crate::say;

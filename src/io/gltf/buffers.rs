@@ -1,6 +1,6 @@
 //! The data of a glTF file: its buffers, and the items of its accessors, checked to lie within them.
 //!
-//! The readers of the crate `gltf` are not used: see [`gltf`](super::gltf).
+//! The readers of the crate `gltf` are not used: see [`super`].
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -10,10 +10,10 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Root};
 use base64::Engine as _;
 
-use super::error::ReadError;
-use super::gltf::{FORMAT, malformed};
-use super::pace::{BYTES, NUMBERS, Pace};
-use super::text::BASE64;
+use super::super::error::ReadError;
+use super::super::pace::{BYTES, NUMBERS, Pace};
+use super::super::text::BASE64;
+use super::{FORMAT, malformed};
 use crate::say;
 
 /// The part of the work on letters in base64 that decoding them is.

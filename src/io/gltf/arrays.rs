@@ -18,7 +18,7 @@ use crate::mesh::arrays::{Kind, On, Scalar, Values};
 const EXACT: f64 = 16_777_216.0;
 
 /// Whether an array can be an attribute.
-pub(super) fn has_place(array: &Array) -> bool {
+pub(in crate::io) fn has_place(array: &Array) -> bool {
     array.on == On::Point && array.components <= 4 && written_as(array).is_some()
 }
 

@@ -3,13 +3,16 @@
 //!
 //! A step is another number of triangles in the settings, as if it had been typed: what is shown is the level in force.
 
+mod action;
+
 use egui::{Button, Color32, Label, Rect, ScrollArea, Shape, Stroke, Ui};
 use glam::Vec3;
 
-use super::action::Action as Ask;
-use super::document::Document;
-use super::state::State;
-use super::views::seen;
+pub use self::action::Action;
+use crate::app::action::Action as Ask;
+use crate::app::document::Document;
+use crate::app::state::State;
+use crate::app::views::seen;
 use crate::language::{decimal, inner};
 use crate::pipeline::classes::Class;
 use crate::pipeline::decimation::{Fate, Ways};
@@ -23,21 +26,6 @@ use crate::say;
 const PERIOD_S: f64 = 1.2;
 /// Height of what is seen at a collapse, in times the size of its hole.
 const AROUND: f32 = 5.0;
-
-/// Something of the collapses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
-    /// Show or hide them.
-    Toggle,
-    /// One on, or one back.
-    Step(bool),
-    /// Let them follow one another, or no longer.
-    Play,
-    /// Go to the place of each, or no longer.
-    Follow(bool),
-    /// Say where the vertex at this node may go.
-    Why(u32),
-}
 
 /// What is shown of the collapses.
 #[derive(Default)]

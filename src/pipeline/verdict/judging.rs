@@ -1,80 +1,16 @@
-//! What there is to say of a result, the weightiest first: whether a trial may rest on it, else what is to be looked at,
-//! where that is, and what would help. The window, the command line, the numbers that are written and the page for the
-//! record all say it in these words.
+//! What of a result is to be said, and how much it weighs.
 
-use serde::{Deserialize, Serialize};
-
-use super::pinch::Pinch;
-use super::report::Report;
-use super::settings::{Keep, Mending, Preset, Settings, Smoothing, Target};
+use super::super::pinch::Pinch;
+use super::super::report::Report;
+use super::super::settings::{Keep, Mending, Preset, Settings, Smoothing, Target};
+use super::super::shape::Shape;
+use super::finding::{Finding, Remedied, Remedy, Verdict};
 use crate::io::{ImportReport, NO_INSIDE, Unit, UnusualSize};
 use crate::language::decimal;
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace};
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, Verdict as Calibre};
 use crate::vessel::summary::{in_order, place, sentence};
-
-/// A place to look at.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Place {
-    /// In mm.
-    pub at_mm: [f32; 3],
-    /// How wide the vessel is there, in mm.
-    pub width_mm: f64,
-    /// What there is to say of it, in a few words.
-    pub label: String,
-}
-
-/// Something that would help.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Remedy {
-    /// What it is called.
-    pub words: String,
-    /// What is to be changed.
-    pub change: Remedied,
-}
-
-/// What a remedy changes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Remedied {
-    /// These settings in place of those that were used.
-    Settings(Box<Settings>),
-    /// The file is read with its numbers in this unit.
-    Unit(Unit),
-}
-
-/// Something to say of a result.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Finding {
-    /// One or two sentences.
-    pub text: String,
-    /// Whether a trial had better not rest on the result; else it is a note.
-    pub is_grave: bool,
-    /// Where it is; null where it is everywhere or nowhere.
-    pub place: Option<Place>,
-    /// What would help.
-    pub remedies: Vec<Remedy>,
-}
-
-impl Finding {
-    fn grave(text: String) -> Self {
-        Self { text, is_grave: true, place: None, remedies: Vec::new() }
-    }
-
-    fn note(text: String) -> Self {
-        Self { is_grave: false, ..Self::grave(text) }
-    }
-
-    fn at(self, at_mm: [f32; 3], width_mm: f64, label: String) -> Self {
-        Self { place: Some(Place { at_mm, width_mm, label }), ..self }
-    }
-
-    fn helped_by(mut self, remedy: Option<Remedy>) -> Self {
-        self.remedies.extend(remedy);
-        self
-    }
-}
 
 /// What becomes of that which is not known of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,19 +44,6 @@ pub struct Known<'a> {
     pub faults: Option<(&'a FaultCounts, &'a [FaultPlace])>,
     /// What becomes of that which is not known.
     pub rest: Rest,
-}
-
-/// The verdict on a result.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
-    /// In a few words.
-    pub head: String,
-    /// Whether a trial may rest on it; null while that is not known.
-    pub is_safe: Option<bool>,
-    /// What is said of the vessels; null where they are not measured.
-    pub calibre: Option<String>,
-    /// Grave ones first, in the order of their weight.
-    pub findings: Vec<Finding>,
 }
 
 impl Verdict {
@@ -178,15 +101,6 @@ impl Verdict {
             faults: None,
             rest: Rest::NotAsked,
         })
-    }
-
-    /// The head, and what is weightiest: a sentence each.
-    pub fn in_short(&self) -> String {
-        let grave = self.findings.first().filter(|finding| finding.is_grave).map(|finding| &finding.text);
-        match grave.or(self.calibre.as_ref()) {
-            Some(text) => format!("{}. {text}", self.head.trim_end_matches('.')),
-            None => format!("{}.", self.head.trim_end_matches('.')),
-        }
     }
 }
 
@@ -297,8 +211,7 @@ fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
             None => finding,
         });
     }
-    let crossing =
-        |shape: &Option<super::shape::Shape>| shape.as_ref().map_or(0, |shape| shape.self_intersecting_faces);
+    let crossing = |shape: &Option<Shape>| shape.as_ref().map_or(0, |shape| shape.self_intersecting_faces);
     let (now, before) = (crossing(&report.output_shape), crossing(&report.smoothed_shape));
     if now > 0 {
         let text = match before {

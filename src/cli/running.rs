@@ -1,0 +1,63 @@
+//! The pipeline to its end, with or without a word on how far it is.
+
+use std::io::IsTerminal;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::interrupt;
+use crate::pipeline::run::{Advance, Pipeline};
+use crate::pipeline::settings::Settings;
+use crate::pipeline::stage::Stage;
+use crate::pipeline::task::Budget;
+use crate::pipeline::verdict::rate;
+
+/// Lets `advance` run the pipeline to its end; with `wants_safe` once more, to the rate that it has found to be safe.
+pub(super) fn run_through(
+    pipeline: &mut Pipeline,
+    wants_safe: bool,
+    advance: fn(&mut Pipeline) -> Result<()>,
+) -> Result<()> {
+    advance(pipeline)?;
+    if !wants_safe {
+        return Ok(());
+    }
+    let safe = pipeline.safe().context("the search for the safe rate ended without a result")?;
+    let why = safe.refused.as_deref().unwrap_or_default();
+    let percent = safe.percent.with_context(|| format!("no reduction can be called safe: {why}"))?;
+    pipeline.set(Settings { target: rate(percent), ..pipeline.settings().clone() })?;
+    advance(pipeline)
+}
+
+/// Runs all stages and shows how far they are, on standard error.
+pub(super) fn advance(pipeline: &mut Pipeline) -> Result<()> {
+    let is_terminal = std::io::stderr().is_terminal();
+    let bar = if is_terminal { ProgressBar::new(1000) } else { ProgressBar::hidden() };
+    bar.set_style(ProgressStyle::with_template("{msg:<24} {wide_bar} {percent:>3} %")?);
+    loop {
+        interrupt::check()?;
+        match pipeline.advance(Budget::new(Duration::from_millis(50)))? {
+            Advance::Working(stage, fraction) => {
+                bar.set_message(stage.label());
+                bar.set_position((fraction * 1000.0) as u64);
+            }
+            // The measures are two stages of one name: the last says that they are done.
+            Advance::Finished(stage) if !is_terminal && stage != Stage::SmoothedMeasures => {
+                eprintln!("{}: done", stage.label());
+            }
+            Advance::Finished(_) => {}
+            Advance::Idle => break,
+        }
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+/// Runs all stages and says nothing.
+pub(super) fn advance_quietly(pipeline: &mut Pipeline) -> Result<()> {
+    while pipeline.advance(Budget::new(Duration::from_millis(50)))? != Advance::Idle {
+        interrupt::check()?;
+    }
+    Ok(())
+}

@@ -1,0 +1,135 @@
+//! What the engine finds out about a surface: what its events carry.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::surfaces::{levels, surface};
+use crate::io::ImportReport;
+use crate::mesh::mending::{FaultCounts, FaultPlace};
+use crate::mesh::{TriMesh, Vec3};
+use crate::pipeline::deviation::Deviation;
+use crate::pipeline::histogram::Histogram;
+use crate::pipeline::progressive::ProgressiveMesh;
+use crate::pipeline::report::Report;
+use crate::pipeline::settings::Keep;
+use crate::sharing::Digest;
+use crate::transfer::bulk;
+use crate::vessel::certificate::Certificate;
+
+/// A surface that was opened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Opened {
+    /// That of the command.
+    pub id: u64,
+    /// The surface's name.
+    pub name: String,
+    /// The hash of its file; none of a sample.
+    pub digest: Option<Digest>,
+    /// What was found and mended.
+    pub report: ImportReport,
+    /// All of it.
+    #[serde(with = "surface")]
+    pub mesh: Arc<TriMesh>,
+}
+
+/// Every level of the surface under some settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reduced {
+    /// That of the settings.
+    pub generation: u64,
+    /// The pieces it is made from.
+    pub keep: Keep,
+    /// The levels.
+    #[serde(with = "levels")]
+    pub mesh: Arc<ProgressiveMesh>,
+}
+
+/// What a level makes of the vessels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Calibre {
+    /// That of the settings.
+    pub generation: u64,
+    /// The calibre of each branch; or in one sentence why there is none.
+    pub found: Result<Certificate, String>,
+    /// For each node of the level the change of calibre in percent, [`NOT_MEASURED`](crate::pipeline::results::NOT_MEASURED)
+    /// where it is not known; empty where there are no branches.
+    #[serde(with = "bulk")]
+    pub change_by_node: Vec<f32>,
+}
+
+/// What the file says of the vertices and triangles of a level, as it is shown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Carried {
+    /// That of the settings.
+    pub generation: u64,
+    /// For each array of the import report a number for each vertex of the level, one array after the other: its value,
+    /// or its magnitude.
+    #[serde(with = "bulk")]
+    pub values: Vec<f32>,
+}
+
+/// What else is known of the deviation of a level, beside the numbers and the map from the smoothed surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Deviated {
+    /// That of the settings.
+    pub generation: u64,
+    /// Three numbers for each vertex of the level, in mm, one kind after the other: the mean signed distance from the
+    /// smoothed surface around it, the mean distance from the opened one, and the mean signed distance from that.
+    #[serde(with = "bulk")]
+    pub values: Vec<f32>,
+    /// How the samples are spread: from the smoothed surface, and from the opened one.
+    pub histograms: [Histogram; 2],
+}
+
+/// What is wrong with a surface as it was opened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaultsFound {
+    /// How often.
+    pub counts: FaultCounts,
+    /// Where: the first of each kind.
+    pub places: Vec<FaultPlace>,
+}
+
+/// What the pipeline made at one of the settings to compare.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Compared {
+    /// That of the command.
+    pub id: u64,
+    /// Which of its settings.
+    pub index: u32,
+    /// The numbers, deviations among them.
+    pub report: Report,
+    /// The level, over its own vertices.
+    #[serde(with = "surface")]
+    pub mesh: Arc<TriMesh>,
+}
+
+/// How far a surface is from another.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Differed {
+    /// That of the command.
+    pub id: u64,
+    /// For each vertex of the other surface its mean distance from the first around it, in mm; empty where one of them
+    /// has no area.
+    #[serde(with = "bulk")]
+    pub by_vertex: Vec<f32>,
+    /// The numbers, where both have one.
+    pub deviation: Option<Deviation>,
+    /// The diameter of the first one's lumen where they are farthest apart, in mm, where a wall faces it.
+    pub width_mm: Option<f32>,
+}
+
+/// What plain Laplacian smoothing makes of the surface that is open.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Averaged {
+    /// That of the command.
+    pub id: u64,
+    /// That of the command.
+    pub passes: u32,
+    /// The pieces that were smoothed.
+    pub keep: Keep,
+    /// Where each vertex of the surface as it was opened is moved to, in mm; those of other pieces stay.
+    #[serde(with = "bulk")]
+    pub positions: Vec<Vec3>,
+}

@@ -1,0 +1,37 @@
+//! glTF 2.0 (Khronos 2021), as one binary file (GLB) or as text with its data inside.
+//!
+//! The crate `gltf` gives the structure of the JSON (`gltf::json`); buffers and accessors are in `buffers`. Its readers of
+//! the GLB container and of accessors are not used: they subtract and multiply what a file claims without looking, and panic on some claims.
+//!
+//! A node's numbers are decimal in the file and f32 in that structure; they are taken back to the decimal they stood
+//! for before being multiplied in f64. So 0.001 times 1000 is exactly 1, and a surface that Lumen wrote, in mm under
+//! a node scale of 0.001, reads back to the same bits.
+//!
+//! Draco and meshopt compression are refused by name: of Draco there is no decoder in Rust alone (`draco_decoder` binds the
+//! C++ one, `draco-oxide` has only the encoder yet), and of meshopt's `meshopt` binds C++ and `meshoptimizer-rs` is a young port
+//! (0.2); surfaces are read in the browser's first visit, which has no room to spare for them.
+//!
+//! By the specification (3.4) y is up, and the front of what is shown looks along z. Lumen has z up, as patients' axes do,
+//! and the front towards -y: what is read is turned by a right angle about x, what is written is turned back.
+
+mod arrays;
+mod buffers;
+mod container;
+mod primitive;
+mod scene;
+mod write;
+
+use super::error::ReadError;
+
+pub(super) use arrays::has_place;
+pub(super) use container::{read_binary, read_text};
+pub(super) use write::write;
+
+const FORMAT: &str = "glTF";
+
+fn malformed(problem: String) -> ReadError {
+    ReadError::Malformed { format: FORMAT, problem }
+}
+
+#[cfg(test)]
+mod tests;
