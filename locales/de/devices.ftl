@@ -104,10 +104,10 @@ devices-leave-still-help = Das Gamepad vibriert nicht
 
 devices-sound = Ton der Kraft
 devices-sound-help = Ein Ton, der umso höher und lauter ist, je mehr Kraft die Hand an der Schleuse hält, bis 0,1 N oder 1 N mm
+devices-no-sound = Die Kraft ist hier nicht zu hören: Das Desktop-Programm spielt sie unter Linux mit pw-play, paplay oder aplay, ein Browser mit Web Audio.
 
 ## Warum ein Gerät nicht bedient wird, im Browser
 
-devices-no-hid-in-worker = Dieser Browser öffnet keine Geräte in einem Worker: Chrome und Edge können es ab Version 131, auf einem Computer.
 devices-no-serial-in-worker = Dieser Browser öffnet keine seriellen Anschlüsse in einem Worker.
 devices-no-timer = Der Browser gibt keinen Zeitgeber her.
 devices-not-there = Das Gerät ist nicht mehr da; zum Fortfahren wieder anschließen.

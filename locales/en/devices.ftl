@@ -104,10 +104,10 @@ devices-leave-still-help = The gamepad does not shake
 
 devices-sound = Sound of the force
 devices-sound-help = A tone that is the higher and the louder the more force the hand holds at the guide, up to 0.1 N or 1 N mm
+devices-no-sound = The force cannot be heard here: the desktop program plays it on Linux by pw-play, paplay or aplay, a browser by Web Audio.
 
 ## Why a device is not served, in the browser
 
-devices-no-hid-in-worker = This browser opens no devices in a Worker: Chrome and Edge do from version 131 on, on a computer.
 devices-no-serial-in-worker = This browser opens no serial ports in a Worker.
 devices-no-timer = The browser gives no timer.
 devices-not-there = The device is no longer there; plug it in again to go on.

@@ -104,10 +104,10 @@ devices-leave-still-help = La manette ne vibre pas
 
 devices-sound = Son de la force
 devices-sound-help = Un son d'autant plus aigu et plus fort que la main retient plus de force au cathéter, jusqu'à 0,1 N ou 1 N mm
+devices-no-sound = La force ne s'entend pas ici : le programme de bureau la joue sous Linux par pw-play, paplay ou aplay, un navigateur par Web Audio.
 
 ## Pourquoi un appareil n'est pas servi, dans le navigateur
 
-devices-no-hid-in-worker = Ce navigateur n'ouvre pas d'appareils dans un Worker : Chrome et Edge le peuvent à partir de la version 131, sur un ordinateur.
 devices-no-serial-in-worker = Ce navigateur n'ouvre pas de ports série dans un Worker.
 devices-no-timer = Le navigateur ne donne pas de minuterie.
 devices-not-there = L'appareil n'est plus là ; le rebrancher pour continuer.

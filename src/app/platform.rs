@@ -34,7 +34,7 @@ pub trait Platform {
     /// none can.
     fn rumble(&mut self, _strength: f64) {}
 
-    /// Whether it can sound. The desktop cannot: that would take a sound library.
+    /// Whether it can sound: the desktop can where it finds a program that plays.
     fn has_sound(&self) -> bool {
         false
     }

@@ -7,12 +7,13 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use super::haply::HaplyPort;
-use super::hid::{Found, HidPort, OpenError, find};
+use super::hid::{Found, HidPort, OpenError, find, open};
 use super::speech;
 use crate::app::{Devices, Listing};
 use crate::engine::trial::Exchange;
 use crate::haptics::descriptor::ModelError;
 use crate::haptics::device::{HapticDevice, Identity};
+use crate::haptics::joining::JoinedPort;
 use crate::haptics::port::{Port, PortError, carry_out};
 use crate::haptics::service::{DeviceCommand, DeviceStatus, Service};
 use crate::haptics::virtual_feeder::VirtualFeeder;
@@ -94,9 +95,10 @@ impl Served {
                 }),
                 Choice::Haply => HaplyPort::open()
                     .map_err(ServeError::from)
-                    .map(|port| keep_serving(port, &named, &exchange, &inbox, &told, |_| HaplyPort::open().ok())),
-                Choice::Found(found) => HidPort::open(&found).map_err(ServeError::from).map(|port| {
-                    let again = |descriptor: &[u8]| find_again(&found.identity, descriptor);
+                    .map(|port| keep_serving(port, &named, &exchange, &inbox, &told, |_, _| HaplyPort::open().ok())),
+                Choice::Found(found) => open(&found).map_err(ServeError::from).map(|port| {
+                    let again =
+                        |descriptor: &[u8], force: Option<&[u8]>| find_again(&found.identity, descriptor, force);
                     keep_serving(port, &found.identity, &exchange, &inbox, &told, again)
                 }),
             };
@@ -125,14 +127,17 @@ fn end(told: &Mutex<DeviceStatus>, why: &ServeError) {
     told.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why.to_string());
 }
 
-/// Opens the device that has these numbers, this name and this descriptor, where it is plugged in.
-fn find_again(identity: &Identity, descriptor: &[u8]) -> Option<HidPort> {
+/// Opens the device that has these numbers, this name and these descriptors, where it is plugged in: of one that has two
+/// interfaces both, which come one after the other.
+fn find_again(identity: &Identity, descriptor: &[u8], force: Option<&[u8]>) -> Option<JoinedPort<HidPort>> {
     let same = find().ok()?.into_iter().filter(|found| found.identity == *identity);
-    same.filter_map(|found| HidPort::open(&found).ok()).find(|port| port.descriptor() == descriptor)
+    let is_it = |port: &JoinedPort<HidPort>| (port.descriptor(), port.force_descriptor()) == (descriptor, force);
+    same.filter_map(|found| open(&found).ok()).find(is_it)
 }
 
 /// Serves a device, and serves it again, without a force, each time that it was pulled out and is there again: `again` opens
-/// the one that has the descriptor which it is given, once there is one.
+/// the one that has the descriptors which it is given, once there is one: that of what is held, and that of another interface
+/// which takes forces.
 ///
 /// # Errors
 /// When it ends in another way than by its plug.
@@ -142,9 +147,9 @@ fn keep_serving<P: Port>(
     exchange: &Exchange,
     inbox: &Receiver<DeviceCommand>,
     told: &Mutex<DeviceStatus>,
-    again: impl Fn(&[u8]) -> Option<P>,
+    again: impl Fn(&[u8], Option<&[u8]>) -> Option<P>,
 ) -> Result<(), ServeError> {
-    let descriptor = port.descriptor().to_vec();
+    let (descriptor, force) = (port.descriptor().to_vec(), port.force_descriptor().map(<[u8]>::to_vec));
     loop {
         let server = Server::new(port, identity.clone(), exchange.clone())?;
         match server.serve(inbox, told, |_, _, _| {}) {
@@ -161,7 +166,7 @@ fn keep_serving<P: Port>(
                     Err(TryRecvError::Disconnected) => return Ok(()),
                 }
             }
-            if let Some(port) = again(&descriptor) {
+            if let Some(port) = again(&descriptor, force.as_deref()) {
                 break port;
             }
         };
@@ -258,7 +263,7 @@ struct Server<P> {
 
 impl<P: Port> Server<P> {
     fn new(port: P, identity: Identity, exchange: Exchange) -> Result<Self, ServeError> {
-        let device = HapticDevice::from_descriptor(identity, port.descriptor())?;
+        let device = HapticDevice::from_port(identity, &port)?;
         Ok(Self { port, service: Service::new(device), exchange, since: Instant::now() })
     }
 
@@ -417,8 +422,8 @@ mod tests {
         let status = Arc::new(Mutex::new(DeviceStatus::default()));
         let (told, cable) = (Arc::clone(&status), Arc::clone(&feeder));
         let serving = thread::spawn(move || {
-            let again = |descriptor: &[u8]| {
-                assert_eq!(descriptor, DESCRIPTOR);
+            let again = |descriptor: &[u8], force: Option<&[u8]>| {
+                assert_eq!((descriptor, force), (DESCRIPTOR, None));
                 let is_there = cable.lock().unwrap().poll().is_ok();
                 is_there.then(|| Cable(Arc::clone(&cable)))
             };

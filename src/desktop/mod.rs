@@ -1,4 +1,4 @@
-//! What the desktop gives the app: a window, file dialogs, engines and haptic devices on threads.
+//! What the desktop gives the app: a window, file dialogs, engines and haptic devices on threads, a tone.
 
 mod files;
 mod haply;
@@ -9,7 +9,9 @@ mod hid;
 mod scans;
 #[cfg(feature = "scans")]
 mod scans;
+mod sound;
 mod speech;
+mod synth;
 mod thread;
 mod window;
 
@@ -17,7 +19,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
 pub use self::window::run;
-use crate::app::{Devices, Offer, Platform, PlatformEvent, Waker};
+use crate::app::{Devices, Offer, Platform, PlatformEvent, Tone, Waker};
 use crate::engine::scan::ScanLink;
 use crate::engine::trial::{Exchange, TrialLink};
 use crate::engine::{Engine, Link, TrialEngine};
@@ -29,6 +31,7 @@ pub struct Desktop {
     trial: ThreadLink<TrialEngine>,
     scans: scans::Line,
     devices: haptics::HapticDevices,
+    sound: sound::Sound,
     sender: Sender<PlatformEvent>,
     events: Receiver<PlatformEvent>,
     waker: Waker,
@@ -44,7 +47,8 @@ impl Desktop {
         let hand = exchange.clone();
         let trial = ThreadLink::new(waker.clone(), move || TrialEngine::with_hand(hand.clone()));
         let scans = scans::Line::new(waker.clone());
-        Self { link, trial, scans, devices: haptics::HapticDevices::new(exchange), sender, events, waker }
+        let (devices, sound) = (haptics::HapticDevices::new(exchange), sound::Sound::new());
+        Self { link, trial, scans, devices, sound, sender, events, waker }
     }
 }
 
@@ -63,6 +67,14 @@ impl Platform for Desktop {
 
     fn devices(&mut self) -> Option<&mut dyn Devices> {
         Some(&mut self.devices)
+    }
+
+    fn has_sound(&self) -> bool {
+        self.sound.is_there()
+    }
+
+    fn sound(&mut self, tone: Tone) {
+        self.sound.play(tone);
     }
 
     fn locale(&self) -> Option<String> {

@@ -18,6 +18,7 @@ use super::latency::{Latency, Percentiles};
 use super::mapping::{Mapper, Mapping, TRAVEL};
 use super::model::DeviceModel;
 use super::passivity::Softness;
+use super::port::Port;
 use super::profile::{ForceReports, force_reports, profile};
 use super::safety::{Guard, Halt, Limits};
 
@@ -61,6 +62,8 @@ pub struct HapticDevice {
     /// By what its mapping is remembered.
     key: String,
     model: DeviceModel,
+    /// The reports of the interface that takes forces, where that is another.
+    force_model: Option<DeviceModel>,
     controls: Controls,
     state: State,
     mapper: Mapper,
@@ -106,11 +109,32 @@ impl HapticDevice {
             heard_ms: None,
             is_still: true,
             model,
+            force_model: None,
             controls,
             state,
         };
         device.propose_mapping();
         device
+    }
+
+    /// The device behind a port, by one interface or two ([`joining`](super::joining)).
+    ///
+    /// # Errors
+    /// As for [`HapticDevice::from_descriptor`].
+    pub fn from_port(identity: Identity, port: &dyn Port) -> Result<Self, ModelError> {
+        let device = Self::from_descriptor(identity, port.descriptor())?;
+        Ok(match port.force_descriptor() {
+            Some(descriptor) => device.with_force_by(parse(descriptor)?),
+            None => device,
+        })
+    }
+
+    /// The same, its forces by another interface of these reports: requests go there.
+    #[must_use]
+    pub fn with_force_by(mut self, model: DeviceModel) -> Self {
+        self.force_model = Some(model);
+        self.propose_mapping();
+        self
     }
 
     /// The same, told from others of its numbers by its report descriptor, or by what else says its reports.
@@ -129,7 +153,7 @@ impl HapticDevice {
         &self.identity
     }
 
-    /// What its reports are.
+    /// What its reports are, those of the interface by which it is held.
     pub fn model(&self) -> &DeviceModel {
         &self.model
     }
@@ -161,7 +185,7 @@ impl HapticDevice {
         let alone = usize::from(mapping.feed.is_none());
         self.part();
         self.driver = match self.force_reports() {
-            Some(ForceReports::Pid) => match PidDriver::new(&self.model, usages) {
+            Some(ForceReports::Pid) => match PidDriver::new(self.takes_forces(), usages) {
                 Ok(driver) => Some(Box::new(driver)),
                 Err(_) => None,
             },
@@ -187,7 +211,12 @@ impl HapticDevice {
     }
 
     fn force_reports(&self) -> Option<ForceReports> {
-        force_reports(self.identity.vendor, self.identity.product, &self.model)
+        force_reports(self.identity.vendor, self.identity.product, self.takes_forces())
+    }
+
+    /// The reports of the interface that takes forces.
+    fn takes_forces(&self) -> &DeviceModel {
+        self.force_model.as_ref().unwrap_or(&self.model)
     }
 
     /// Drives it by another driver than the one that fits it; the force has to be armed again.

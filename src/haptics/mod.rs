@@ -17,7 +17,7 @@
 //! - What a hand feels: [`force`] (drivers that say which report goes next), [`safety`] (what stands before them),
 //!   [`passivity`] (for forces that come late).
 //! - A device in use: [`device`] has all of these, [`service`] is what it is asked and how it is; [`port`] is what a transport
-//!   gives, [`latency`] what is measured. By a serial line: [`framing`] is how reports go over it, [`serial`] the host's end. By a
+//!   gives, [`joining`] makes one of several interfaces, [`latency`] is what is measured. By a serial line: [`framing`] is how reports go over it, [`serial`] the host's end. By a
 //!   maker's service: [`haply`].
 //! - The open device: [`feeder`] is its descriptor, [`virtual_feeder`] its firmware and a hand, without hardware.
 //!
@@ -32,6 +32,7 @@ pub mod field;
 pub mod force;
 pub mod framing;
 pub mod haply;
+pub mod joining;
 pub mod known;
 pub mod latency;
 pub mod learning;

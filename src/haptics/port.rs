@@ -43,6 +43,11 @@ pub trait Port: Send {
     /// Its report descriptor.
     fn descriptor(&self) -> &[u8];
 
+    /// That of another interface of the same device, to which reports are sent; `None` where they go to this one.
+    fn force_descriptor(&self) -> Option<&[u8]> {
+        None
+    }
+
     /// Sends an output report.
     ///
     /// # Errors

@@ -3,9 +3,15 @@
 // (tests/haptics/feeder-collections.json). Exact lengths, states and user activation are enforced as WebHID says.
 //
 // Page and Worker share a channel: the test moves the hand and pulls the plug in the page, and reads there what the
-// device has heard.
+// device has heard. With SERVED_IN_PAGE, in front of this script, Workers have no `navigator.hid`, as before Chromium 131, and
+// the page alone can open the device.
 (() => {
   const isPage = typeof window !== "undefined";
+  const isServedInPage = typeof SERVED_IN_PAGE !== "undefined" && SERVED_IN_PAGE;
+  if (isServedInPage && !isPage) {
+    Object.defineProperty(navigator, "hid", { value: undefined, configurable: true });
+    return;
+  }
   const channel = new BroadcastChannel("fake-hid");
   const failed = (name, message) => Promise.reject(new DOMException(message, name));
   const now = () => performance.timeOrigin + performance.now();
@@ -24,7 +30,7 @@
     feeder = new FakeFeeder();
 
     async open() {
-      if (isPage) throw new DOMException("the test wants it served in the Worker", "NotAllowedError");
+      if (isPage !== isServedInPage) throw new DOMException("the test wants it served elsewhere", "NotAllowedError");
       if (!this.isPlugged) throw new DOMException("unplugged", "NetworkError");
       if (this.opened) throw new DOMException("already open", "InvalidStateError");
       this.opened = true;
@@ -46,10 +52,10 @@
 
     sendReport(id, data) {
       const wrong = this.#check("output", id, data);
-      if (wrong) return channel.postMessage({ wrong: id }), wrong;
+      if (wrong) return told({ wrong: id }), wrong;
       const bytes = Array.from(new Uint8Array(data.buffer ?? data, data.byteOffset ?? 0, data.byteLength));
       this.feeder.hear(id, bytes);
-      channel.postMessage({ heard: { id, bytes, at: now() } });
+      told({ heard: { id, bytes, at: now() } });
       // Done in a task of its own, at once: a timer would take 4 ms.
       return new Promise((done) => {
         const { port1, port2 } = new MessageChannel();
@@ -60,7 +66,7 @@
 
     sendFeatureReport(id, data) {
       const wrong = this.#check("feature", id, data);
-      if (wrong) return channel.postMessage({ wrong: id }), wrong;
+      if (wrong) return told({ wrong: id }), wrong;
       this.feeder.load();
       return Promise.resolve();
     }
@@ -111,12 +117,15 @@
     if (!is) device.opened = false;
     hid.dispatchEvent(Object.assign(new Event(is ? "connect" : "disconnect"), { device }));
   };
+  const note = (data) => {
+    if (data.heard) globalThis.fakeHid.heard.push(data.heard);
+    if ("wrong" in data) globalThis.fakeHid.wrong.push(data.wrong);
+  };
+  /** What the device tells the test: a channel is not heard by whoever speaks on it. */
+  const told = (data) => (isPage ? note(data) : channel.postMessage(data));
+  const go = (to, ms) => (isServedInPage ? device.feeder.go(to, ms) : channel.postMessage({ go: to, ms }));
   channel.onmessage = ({ data }) => {
-    if (isPage) {
-      if (data.heard) globalThis.fakeHid.heard.push(data.heard);
-      if ("wrong" in data) globalThis.fakeHid.wrong.push(data.wrong);
-      return;
-    }
+    if (isPage) return note(data);
     if (data.go) device.feeder.go(data.go, data.ms);
     if ("plug" in data) plug(data.plug);
   };
@@ -125,7 +134,7 @@
       heard: [],
       wrong: [],
       now,
-      go: (feed, roll, ms) => channel.postMessage({ go: [feed, roll], ms }),
+      go: (feed, roll, ms) => go([feed, roll], ms),
       plug: (is) => (channel.postMessage({ plug: is }), plug(is)),
     };
   }

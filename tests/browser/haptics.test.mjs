@@ -11,6 +11,8 @@ import { COARSE, dist, eventually, frames, launch, openApp, press, started, twin
 const beside = (name) => readFile(new URL(name, import.meta.url), "utf8");
 const [feeder, collections] = [await beside("fake-feeder.js"), await beside("../haptics/feeder-collections.json")];
 const fake = [`const COLLECTIONS = ${collections};`, feeder, await beside("fake-hid.js")].join("\n");
+/** The same where Workers have no WebHID: before Chromium 131. */
+const fakeInPage = `const SERVED_IN_PAGE = true;\n${fake}`;
 
 /** The feeder at a serial port, in a browser without WebHID: its descriptor's bytes are those of the app's source. */
 async function bySerial() {
@@ -169,6 +171,47 @@ test("leaving the window ends the force at once, unplugging pauses the trial, pl
   await page.evaluate(() => globalThis.fakeHid.go(1, 0, 1000));
   await fed(page, start, 0.5);
   assert.equal((await heard(page)).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
+});
+
+test("where Workers have no WebHID the page opens the device, and all else is as in the Worker", { timeout: 300_000 }, async (t) => {
+  const { page, wrong } = await openTrial(t, [], fakeInPage);
+  assert.equal(await page.evaluate(() => typeof navigator.hid), "object", "the page has it");
+  await choose(page, "Pair a device...");
+  await there(page, "Arm force...");
+  assert.equal((await heard(page)).filter(({ id }) => id === 4).length, 0, "no effect is started before it is armed");
+  const start = await inserted(page);
+  await page.evaluate(() => globalThis.fakeHid.go(0.8, 0, 2000));
+  await fed(page, start, 2);
+
+  await find(page, "button", "Arm force...");
+  await find(page, "button", "Arm force");
+  await there(page, "Stop force");
+  await page.evaluate(() => globalThis.fakeHid.go(-0.5, 0.3, 1500));
+  await eventually(() => heard(page), (all) => all.some(isStart), { what: "an effect that is started" });
+  await page.evaluate(() => dispatchEvent(new Event("blur")));
+  await says(page, /ended as the window was left/, { what: "why" });
+  await eventually(() => heard(page), (all) => all.some(isStop), { what: "the stop" });
+  await atRest(page, 300);
+  const all = await heard(page);
+  assert.equal(all.slice(all.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
+
+  await page.evaluate(() => globalThis.fakeHid.plug(false));
+  await says(page, /no longer there/, { what: "that it is gone" });
+  await says(page, /^Paused/, { what: "the trial, which waits" });
+  const [before, out] = [(await heard(page)).length, await inserted(page)];
+  await page.evaluate(() => globalThis.fakeHid.plug(true));
+  await there(page, "Arm force...");
+  await says(page, /holds the wire again; its force is not armed/, { what: "that it is back" });
+  await page.evaluate(() => globalThis.fakeHid.go(1, 0, 1000));
+  await fed(page, out, 0.5);
+  assert.equal((await heard(page)).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
+
+  // Another is chosen: the page lets the device go.
+  await choose(page, "Virtual device");
+  const isOpen = () => page.evaluate(async () => (await navigator.hid.getDevices())[0].opened);
+  await eventually(isOpen, (is) => !is, { what: "the device, which is closed" });
+  assert.deepEqual(await page.evaluate(() => globalThis.fakeHid.wrong), [], "every report was of its length");
+  assert.deepEqual(wrong, []);
 });
 
 test("by serial the feeder is paired, feeds, pushes back once armed, is unplugged and plugged in, and let go", { timeout: 300_000 }, async (t) => {

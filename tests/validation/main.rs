@@ -13,6 +13,7 @@ mod invariance;
 mod readout;
 mod refinement;
 mod rods;
+mod spectrum;
 mod torsion;
 mod tube_buckling;
 #[path = "../common/tubes.rs"]

@@ -12,7 +12,7 @@ use crate::document;
 use crate::step::{cargo, root, run, step, target};
 
 /// A benchmark, and what its plot shows: name, title, axes, whether both are logarithmic.
-const BENCHMARKS: [(&str, &str, [&str; 2], bool); 35] = [
+const BENCHMARKS: [(&str, &str, [&str; 2], bool); 38] = [
     ("cantilever", "Cantilever under an end load", ["P L² / EI", "tip over L"], false),
     ("cantilever-order", "Cantilever: error of the tip", ["elements", "error over L"], true),
     ("ring", "Ring closed by an end moment", ["x / L", "y / L"], false),
@@ -68,6 +68,9 @@ const BENCHMARKS: [(&str, &str, [&str; 2], bool); 35] = [
     ("readout-mouth", "Deflection as it is fed", ["length outside the guide, mm", "deflection, mm"], false),
     ("turned", "A loaded rod that is turned", ["", ""], false),
     ("vessel", "A vessel in another order, and turned", ["", ""], false),
+    ("felt-free", "A free wire in a hand that sways at 2 Hz", ["Hz", "amplitude felt, mN"], true),
+    ("felt-push", "Push in the aorta, fed at 20 mm/s", ["Hz", "amplitude, mN"], true),
+    ("felt-torque", "Torque in the aorta, rolled at 1 rad/s", ["Hz", "amplitude, N mm"], true),
 ];
 
 /// Runs, draws and tabulates.

@@ -8,6 +8,7 @@ use egui::Ui;
 use super::action::{Action, DeviceAsk};
 use super::rumble::{Felt, passed};
 use crate::app::platform::{SHAKE_MS, Tone};
+use crate::app::row::remark;
 use crate::haptics::safety::{Guard, Halt, Limits};
 use crate::say;
 
@@ -74,9 +75,10 @@ impl Sound {
     }
 }
 
-/// Shows it, where the platform has one.
+/// Shows it, or what it would take where the platform has none.
 pub(super) fn show(ui: &mut Ui, sound: &Sound, asked: &mut Vec<Action>) {
     if !sound.is_offered {
+        remark(ui, &say!("devices-no-sound"));
         return;
     }
     let mut is_on = sound.is_on();

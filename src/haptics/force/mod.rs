@@ -9,6 +9,8 @@ pub mod logitech;
 pub mod pid;
 pub mod single;
 
+use serde::{Deserialize, Serialize};
+
 /// A spring and a damper that the device itself renders, at its own rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coupling {
@@ -36,7 +38,7 @@ pub struct AxisForce {
 pub type Wish = [AxisForce; 2];
 
 /// A report that is to be sent or got.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Request {
     /// To be sent as an output report.
     Send {

@@ -1,6 +1,9 @@
 //! The page's end of haptic devices: which there are, pairing one by a click, and the line to the Worker that serves it.
 //!
-//! The page's own events end a force at once: what egui hears a frame later would be late.
+//! The page's own events end a force at once: what egui hears a frame later would be late. A device that no Worker can open is
+//! [`relay`]'s.
+
+mod relay;
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -16,6 +19,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{EventTarget, Worker};
 
+use self::relay::Relayer;
 use super::api::{self, Hid};
 use super::port::{self, Serial, object};
 use super::{Asked, Choice, Told};
@@ -50,6 +54,8 @@ struct Inner {
     was_left: Cell<bool>,
     /// The Worker that serves, while it runs.
     worker: RefCell<Option<Worker>>,
+    /// The device that the page opens in its place.
+    relayer: RefCell<Relayer>,
 }
 
 impl Devices {
@@ -72,6 +78,7 @@ impl Devices {
             has_changed: Cell::new(false),
             was_left: Cell::new(false),
             worker: RefCell::default(),
+            relayer: RefCell::default(),
         }));
         devices.find();
         devices.listen();
@@ -262,6 +269,8 @@ impl Devices {
 
     /// A Worker has started, or has ended. What was served goes on in the next, unarmed.
     pub(crate) fn worker(&self, worker: Option<&Worker>) {
+        // Whoever had the page open a device is gone; its effects end by themselves.
+        self.end_relay(Vec::new());
         self.0.worker.replace(worker.cloned());
         self.0.status.take();
         let wanted = self.0.wanted.borrow().clone();
@@ -270,12 +279,16 @@ impl Devices {
         }
     }
 
-    /// Hears how the device is.
+    /// Hears how the device is, or what to do with one that the page has opened.
     pub(crate) fn hear(&self, line: &str) {
         // What cannot be read is of another build.
-        if let Ok(told) = serde_json::from_str::<Told>(line) {
-            self.0.status.replace(told);
-            self.0.waker.wake();
+        match serde_json::from_str(line) {
+            Ok(Told::Status(status)) => {
+                self.0.status.replace(*status);
+                self.0.waker.wake();
+            }
+            Ok(Told::Relay(number, relay)) => self.relay(number, relay),
+            Err(_) => {}
         }
     }
 }

@@ -2,29 +2,30 @@
 //! side of the engine's [`Exchange`].
 //!
 //! A report that comes is taken in and answered at once; a timer looks after the device while it is silent. One request is
-//! under way at a time, as devices want it. Devices on a serial line are [`serial`]'s.
+//! under way at a time, as devices want it. Devices on a serial line are [`serial`]'s. Where the browser has no WebHID in
+//! Workers the page opens the device, and reports and requests are messages; all else is the same.
 
 mod serial;
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use js_sys::DataView;
 use lumen::engine::trial::Exchange;
 use lumen::haptics::device::{HapticDevice, Identity};
 use lumen::haptics::feeder;
-use lumen::haptics::force::{Reply, Request};
+use lumen::haptics::force::Request;
 use lumen::haptics::port::{Port as _, carry_out};
+use lumen::haptics::safety::STALE_MS;
 use lumen::haptics::service::{DeviceStatus, Service};
 use lumen::haptics::virtual_feeder::VirtualFeeder;
-use lumen::haptics::webhid::{self, CollectionInfo};
 use lumen::language::Key;
 use wasm_bindgen::prelude::*;
-use wasm_bindgen_futures::{JsFuture, spawn_local};
+use wasm_bindgen_futures::spawn_local;
 use web_sys::DedicatedWorkerGlobalScope;
 
-use super::api::{self, Hid, HidConnectionEvent, HidDevice, HidInputReportEvent};
-use super::{Asked, Choice, Told};
+use super::api::{self, Hid, HidConnectionEvent};
+use super::interfaces::{self, Collections, Input, Interfaces, NO_MODEL, NO_TIMER, NOT_OPENED, NOT_THERE};
+use super::{Answer, Asked, Choice, Relay, Relayed, Told};
 
 /// Between two looks at a device that is silent, in ms: as short as a browser's timer goes.
 const LOOK_MS: i32 = 4;
@@ -32,12 +33,6 @@ const LOOK_MS: i32 = 4;
 const TELL_MS: f64 = 50.0;
 /// Requests of the virtual device that are carried out in a look at most.
 const REQUESTS: usize = 4;
-
-const NO_HID: Key = Key("devices-no-hid-in-worker");
-const NOT_THERE: Key = Key("devices-not-there");
-const NO_TIMER: Key = Key("devices-no-timer");
-const NO_MODEL: Key = Key("devices-no-axis");
-const NOT_OPENED: Key = Key("devices-not-opened");
 
 /// Hears of devices that come and go.
 type OnConnection = Closure<dyn Fn(HidConnectionEvent)>;
@@ -86,28 +81,17 @@ struct Served {
 
 enum Line {
     Virtual(Box<VirtualFeeder>),
-    Device { device: HidDevice, is_asking: bool, _input: Input },
+    Device {
+        device: Interfaces,
+        is_asking: bool,
+        _input: Input,
+    },
+    /// Opened in the page, which was heard of at this time, in ms.
+    Relayed {
+        is_asking: bool,
+        heard_ms: f64,
+    },
     Serial(serial::Talk),
-}
-
-/// Hears a device's reports until it is dropped: the browser keeps the device, and one that is served again is the same.
-struct Input {
-    device: HidDevice,
-    hear: Closure<dyn Fn(HidInputReportEvent)>,
-}
-
-impl Input {
-    fn new(device: HidDevice, hear: Closure<dyn Fn(HidInputReportEvent)>) -> Result<Self, JsValue> {
-        device.add_event_listener_with_callback("inputreport", hear.as_ref().unchecked_ref())?;
-        Ok(Self { device, hear })
-    }
-}
-
-impl Drop for Input {
-    fn drop(&mut self) {
-        // What cannot be removed is not there any more.
-        let _ = self.device.remove_event_listener_with_callback("inputreport", self.hear.as_ref().unchecked_ref());
-    }
 }
 
 impl Hands {
@@ -142,6 +126,10 @@ impl Hands {
                 self.look();
                 Ok(())
             }
+            Asked::Relayed(number, relayed) => {
+                self.hear_relayed(number, relayed);
+                Ok(())
+            }
         }
     }
 
@@ -155,19 +143,25 @@ impl Hands {
         if choice.is_some() && *self.0.wanted.borrow() == choice && is_under_way {
             return Ok(());
         }
+        self.let_go();
         self.0.wanted.replace(choice.clone());
         let number = self.0.number.get() + 1;
         self.0.number.set(number);
-        self.let_go();
         match choice {
             None => {
-                self.tell(&None);
+                self.tell(None);
                 Ok(())
             }
             Some(Choice::Virtual) => {
                 let device = HapticDevice::from_descriptor(Choice::Virtual.identity(), feeder::DESCRIPTOR);
                 let device = device.map_err(|error| JsValue::from(error.to_string()))?;
                 self.begin(Service::new(device).with_virtual_hand(), Line::Virtual(Box::default()))
+            }
+            Some(choice @ Choice::Paired { .. }) if api::hid().is_none() => {
+                // Until the page says what became of it.
+                self.0.opening.set(Some(number));
+                self.say(&Told::Relay(number, Relay::Open(choice)));
+                Ok(())
             }
             Some(choice) => {
                 let (hands, identity) = (self.clone(), choice.identity());
@@ -183,7 +177,7 @@ impl Hands {
                     if let Err(why) = opened
                         && hands.0.number.get() == number
                     {
-                        hands.end(&identity.name, why);
+                        hands.end(&identity.name, why.say());
                     }
                 });
                 Ok(())
@@ -191,43 +185,67 @@ impl Hands {
         }
     }
 
-    /// The interface that can be held, opened; a device may have several, and some say nothing of a hand.
+    /// Opens a paired device and serves it.
     async fn open(&self, identity: &Identity, number: u32) -> Result<(), Key> {
-        let hid = api::hid().ok_or(NO_HID)?;
+        let hid = api::hid().ok_or(NOT_THERE)?;
         self.hear_connections(&hid);
-        let list = JsFuture::from(hid.get_devices()).await.map_err(|_| NOT_THERE)?;
-        let is_it = |device: &HidDevice| {
-            device.vendor_id() == identity.vendor
-                && device.product_id() == identity.product
-                && device.product_name() == identity.name
-        };
-        let found: Vec<HidDevice> = api::devices(&list).into_iter().filter(is_it).collect();
-        if found.is_empty() {
-            return Err(NOT_THERE);
-        }
-        let served = found.into_iter().filter_map(|device| Some((modelled(identity, &device)?, device)));
-        // One that can push back goes before one that can only be moved.
-        let best = served.max_by_key(|(haptic, _)| haptic.has_force());
-        let (haptic, device) = best.ok_or(NO_MODEL)?;
-        if !device.opened() {
-            JsFuture::from(device.open()).await.map_err(|_| NOT_OPENED)?;
-        }
+        let (device, told) = Interfaces::find(&hid, identity).await?;
+        let haptic = interfaces::device(identity, &told).ok_or(NO_MODEL)?;
+        let hands = self.clone();
+        let input = device.open(move |id, data| hands.take_input(hands.now_ms(), id, &data)).await?;
         if self.0.number.get() != number {
-            // Another was chosen meanwhile; that it does not close is no harm.
-            let _ = JsFuture::from(device.close()).await;
+            // Another was chosen meanwhile.
+            device.close(&[]).await;
             return Ok(());
         }
-        let hands = self.clone();
-        let hear = Closure::<dyn Fn(HidInputReportEvent)>::new(move |event: HidInputReportEvent| {
-            let now = hands.now_ms();
-            if let Some(served) = &mut *hands.0.served.borrow_mut() {
-                served.service.device_mut().input(now, event.report_id(), &api::bytes(&event.data()));
-            }
-            hands.look();
-        });
-        let input = Input::new(device.clone(), hear).map_err(|_| NOT_OPENED)?;
         let line = Line::Device { device, is_asking: false, _input: input };
         self.begin(Service::new(haptic), line).map_err(|_| NO_TIMER)
+    }
+
+    /// Takes an input report in, and answers it.
+    fn take_input(&self, at_ms: f64, id: u8, data: &[u8]) {
+        if let Some(served) = &mut *self.0.served.borrow_mut() {
+            served.service.device_mut().input(at_ms, id, data);
+        }
+        self.look();
+    }
+
+    /// What the page hands on of the device that it opens under this number; what is of one before is let go.
+    fn hear_relayed(&self, number: u32, relayed: Relayed) {
+        if self.0.number.get() != number {
+            return;
+        }
+        let Some(identity) = self.0.wanted.borrow().as_ref().map(Choice::identity) else { return };
+        match relayed {
+            Relayed::Opened(axes, force) => {
+                self.0.opening.set(None);
+                if let Err(why) = self.begin_relayed(&identity, &(axes, force)) {
+                    self.say(&Told::Relay(number, Relay::Close(Vec::new())));
+                    self.end(&identity.name, why.say());
+                }
+            }
+            Relayed::Ended(why) => {
+                self.0.opening.set(None);
+                self.end(&identity.name, why);
+            }
+            Relayed::Input { at_ms, id, data } => {
+                // Both ends have the machine's clock, each from its own beginning.
+                let now = self.now_ms();
+                let began = self.0.scope.performance().map_or(0.0, |clock| clock.time_origin());
+                self.take_input((at_ms - began).min(now), id, &data);
+            }
+            Relayed::Answer(answer) => self.answered(&answer),
+            Relayed::Beat => {}
+        }
+        if let Some(Served { line: Line::Relayed { heard_ms, .. }, .. }) = &mut *self.0.served.borrow_mut() {
+            *heard_ms = self.now_ms();
+        }
+    }
+
+    fn begin_relayed(&self, identity: &Identity, told: &Collections) -> Result<(), Key> {
+        let haptic = interfaces::device(identity, told).ok_or(NO_MODEL)?;
+        self.begin(Service::new(haptic), Line::Relayed { is_asking: false, heard_ms: self.now_ms() })
+            .map_err(|_| NO_TIMER)
     }
 
     fn hear_connections(&self, hid: &Hid) {
@@ -246,12 +264,12 @@ impl Hands {
         let hands = self.clone();
         let unplugged = OnConnection::new(move |event: HidConnectionEvent| {
             let name = match &*hands.0.served.borrow() {
-                Some(Served { service, line: Line::Device { device, .. }, .. }) if *device == event.device() => {
+                Some(Served { service, line: Line::Device { device, .. }, .. }) if device.have(&event.device()) => {
                     service.status().name
                 }
                 _ => return,
             };
-            hands.end(&name, NOT_THERE);
+            hands.end(&name, NOT_THERE.say());
         });
         // Where they cannot be heard, the next request that fails says it, and the user looks again.
         let _ = hid.add_event_listener_with_callback("connect", plugged.as_ref().unchecked_ref());
@@ -287,7 +305,11 @@ impl Hands {
                 service.device_mut().input(now, report.id, &report.data);
             }
         }
-        self.0.exchange.moves(service.advance(passed_s));
+        let moved = service.advance(passed_s);
+        // A page that hangs does not hear its device: a hand that was pushing may have let go.
+        if !matches!(line, Line::Relayed { heard_ms, .. } if now - *heard_ms > STALE_MS) {
+            self.0.exchange.moves(moved);
+        }
         service.feel(now, self.0.exchange.feels().map(|feels| (feels.felt, feels.stiffness)));
         match line {
             Line::Virtual(feeder) => {
@@ -305,7 +327,13 @@ impl Hands {
                     self.ask(device.clone(), request);
                 }
             }
-            Line::Device { .. } => {}
+            Line::Relayed { is_asking, .. } if !*is_asking => {
+                if let Some(request) = service.device_mut().next(now) {
+                    *is_asking = true;
+                    self.say(&Told::Relay(self.0.number.get(), Relay::Carry(request)));
+                }
+            }
+            Line::Device { .. } | Line::Relayed { .. } => {}
             Line::Serial(talk) => {
                 if let Some(request) = talk.next(now, service.device_mut()) {
                     self.ask_serial(talk.port(), request);
@@ -316,85 +344,69 @@ impl Hands {
             *told_ms = now;
             let status = service.status();
             drop(served);
-            self.tell(&Some(status));
+            self.tell(Some(status));
         }
     }
 
     /// Carries a request out; the next goes when it is done.
-    fn ask(&self, device: HidDevice, request: Request) {
+    fn ask(&self, device: Interfaces, request: Request) {
         let (hands, number) = (self.clone(), self.0.number.get());
         spawn_local(async move {
-            let answer = carried_out(&device, &request).await;
-            if hands.0.number.get() != number {
-                return;
+            let answer = device.carry_out(&request).await;
+            if hands.0.number.get() == number {
+                hands.answered(&answer);
             }
-            let now = hands.now_ms();
-            if let Some(Served { service, line: Line::Device { is_asking, .. }, .. }) =
-                &mut *hands.0.served.borrow_mut()
-            {
-                *is_asking = false;
-                let device = service.device_mut();
-                match &answer {
-                    Ok(None) => device.reply(now, Reply::Done),
-                    Ok(Some(data)) => device.reply(now, Reply::Feature(data)),
-                    Err(_) => device.reply(now, Reply::Failed),
-                }
-            }
-            hands.look();
         });
+    }
+
+    /// How the request that was under way went.
+    fn answered(&self, answer: &Answer) {
+        let now = self.now_ms();
+        if let Some(served) = &mut *self.0.served.borrow_mut() {
+            if let Line::Device { is_asking, .. } | Line::Relayed { is_asking, .. } = &mut served.line {
+                *is_asking = false;
+            }
+            served.service.device_mut().reply(now, answer.reply());
+        }
+        self.look();
     }
 
     /// Stops serving, and leaves the device without a force.
     fn let_go(&self) {
         *self.0.look.borrow_mut() = None;
-        let Some(Served { service: mut of, line, .. }) = self.0.served.take() else { return };
+        let Some(Served { service: mut of, line, .. }) = self.0.served.take() else {
+            let is_relayed = matches!(&*self.0.wanted.borrow(), Some(Choice::Paired { .. })) && api::hid().is_none();
+            if is_relayed && self.0.opening.take() == Some(self.0.number.get()) {
+                // The page is about to open it.
+                self.say(&Told::Relay(self.0.number.get(), Relay::Close(Vec::new())));
+            }
+            return;
+        };
         let farewell = of.device_mut().farewell();
         match line {
             Line::Virtual(_) => {}
-            Line::Device { device, .. } => spawn_local(async move {
-                for request in farewell {
-                    // One that is gone hears nothing; its motors end by themselves.
-                    let _ = carried_out(&device, &request).await;
-                }
-                let _ = JsFuture::from(device.close()).await;
-            }),
+            Line::Device { device, .. } => spawn_local(async move { device.close(&farewell).await }),
+            Line::Relayed { .. } => self.say(&Told::Relay(self.0.number.get(), Relay::Close(farewell))),
             Line::Serial(talk) => talk.close(&farewell, &self.slept()),
         }
     }
 
     /// The device is no longer served, and why.
-    fn end(&self, name: &str, why: Key) {
-        self.0.number.set(self.0.number.get() + 1);
+    fn end(&self, name: &str, why: String) {
         self.let_go();
-        let status = DeviceStatus { name: name.to_owned(), ended: Some(why.say()), ..DeviceStatus::default() };
-        self.tell(&Some(status));
+        self.0.number.set(self.0.number.get() + 1);
+        self.tell(Some(DeviceStatus { name: name.to_owned(), ended: Some(why), ..DeviceStatus::default() }));
     }
 
     /// Tells the page how the device is.
-    fn tell(&self, told: &Told) {
+    fn tell(&self, status: Option<DeviceStatus>) {
+        self.say(&Told::Status(Box::new(status)));
+    }
+
+    fn say(&self, told: &Told) {
         // Numbers and short texts: the page that cannot be told is closing.
         if let Ok(line) = serde_json::to_string(told) {
             let _ = self.0.scope.post_message(&JsValue::from_str(&line));
-        }
-    }
-}
-
-/// What a device can be held by; `None` for an interface without axes.
-fn modelled(identity: &Identity, device: &HidDevice) -> Option<HapticDevice> {
-    let text = js_sys::JSON::stringify(&device.collections()).ok()?.as_string()?;
-    let collections: Vec<CollectionInfo> = serde_json::from_str(&text).ok()?;
-    let haptic = HapticDevice::new(identity.clone(), webhid::model(&collections).ok()?).known_by(text.as_bytes());
-    (!haptic.controls().axes.is_empty()).then_some(haptic)
-}
-
-/// What the device answers a request.
-async fn carried_out(device: &HidDevice, request: &Request) -> Result<Option<Vec<u8>>, JsValue> {
-    match request {
-        Request::Send { id, data } => JsFuture::from(device.send_report(*id, data)).await.map(|_| None),
-        Request::SetFeature { id, data } => JsFuture::from(device.send_feature_report(*id, data)).await.map(|_| None),
-        Request::GetFeature { id, .. } => {
-            let data: DataView = JsFuture::from(device.receive_feature_report(*id)).await?.unchecked_into();
-            Ok(Some(api::bytes(&data)))
         }
     }
 }

@@ -207,7 +207,7 @@ impl Hands {
                 // Some bytes were lost.
                 Err(_) if port.reads_on() => {}
                 Ok(None) | Err(_) => {
-                    self.end(&name, NOT_THERE);
+                    self.end(&name, NOT_THERE.say());
                     return;
                 }
             }

@@ -166,7 +166,8 @@ fn a_tone_follows_the_push_while_it_is_on_and_the_window_is_not_left() {
         std::mem::take(&mut memory.borrow_mut().sounded)
     };
     go_on(&mut harness, 1);
-    assert!(harness.query_by_role_and_label(Role::CheckBox, "Sound of the force").is_none(), "the desktop has none");
+    assert!(harness.query_by_role_and_label(Role::CheckBox, "Sound of the force").is_none(), "there is none here");
+    assert!(harness.query_by_label_contains("pw-play").is_some(), "and it says what it would take");
     memory.borrow_mut().has_sound = true;
     assert!(go_on(&mut harness, 10).is_empty(), "off by default");
     toggle(&mut harness);
