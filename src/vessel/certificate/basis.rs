@@ -74,8 +74,9 @@ impl Basis {
         let found = tree.locate(p, last.as_ref())?;
         let branch = found.branch as usize;
         let own = &stations.all[stations.of.get(branch)?.clone()];
-        let after = own.partition_point(|station| station.abscissa_mm < found.arc_mm);
-        let nearer = |&i: &usize| (own[i].abscissa_mm - found.arc_mm).abs();
+        let abscissa = found.arc_mm + stations.before_mm[branch];
+        let after = own.partition_point(|station| station.abscissa_mm < abscissa);
+        let nearer = |&i: &usize| (own[i].abscissa_mm - abscissa).abs();
         let station =
             (after.saturating_sub(1)..(after + 1).min(own.len())).min_by(|a, b| nearer(a).total_cmp(&nearer(b)));
         let radii = found.distance_mm / found.radius_mm.max(f64::MIN_POSITIVE);

@@ -110,7 +110,7 @@ impl Task for CertificateTask {
                         Ok(tree) => tree,
                         Err(error) => return Progress::Done(Err(error)),
                     };
-                    let stations = Stations::new(tree.branches());
+                    let stations = Stations::new(&tree);
                     let measuring = Measuring::new(opened, tree.space.clone());
                     let others = others.map(Some);
                     let (done, radii) = (Vec::new(), Vec::new());
