@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::BranchCalibre;
 use super::branch::branch_calibre;
 use crate::task::Budget;
-use crate::vessel::calibre::{Calibre, Indexing, Measuring, Subject};
+use crate::vessel::calibre::{Calibre, Indexing, Known, Measuring, Subject};
 use crate::vessel::centrelines::Centrelines;
 use crate::vessel::locating::Located;
 use crate::vessel::space::Space;
@@ -17,6 +17,7 @@ use crate::vessel::zones::Zone;
 /// there.
 pub struct Basis {
     pub(super) measure: Box<Measure>,
+    pub(super) smoothed: Subject,
     pub(super) edge_mm: f64,
 }
 
@@ -45,8 +46,9 @@ impl Candidate {
             self.measuring = Some(Measuring::new(&self.subject, Space::new(mesh, topology, index)));
         }
         let measuring = self.measuring.as_mut()?;
-        let Measure { stations, radii, .. } = &*basis.measure;
-        measuring.advance(&stations.all, Some(radii), budget).then(|| basis.judged(&measuring.found, tolerance_percent))
+        let Measure { stations, radii, done, .. } = &*basis.measure;
+        let known = Known { radii, before: &basis.smoothed, calibres: &done[1] };
+        measuring.advance(&stations.all, Some(known), budget).then(|| basis.judged(&measuring.found, tolerance_percent))
     }
 }
 
