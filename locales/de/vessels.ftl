@@ -60,6 +60,7 @@ vessels-table = { $name }, zulässige Änderung { $tolerance } %
 
 vessels-too-thin = Es ist weniger als zwei Kanten weit: zu grob für eine Aussage.
 vessels-not-closed = Seine Querschnitte schließen sich nicht.
+vessels-ambiguous = Seine Wand ist dort gefaltet: Ein Querschnitt hat mehr als einen Umriss, und welcher es ist, ändert sich mit der Oberfläche.
 vessels-at-forks = Es ist zu kurz: Es liegt ganz an Gabelungen oder Enden.
 vessels-at-ends = Es ist zu kurz: Es liegt ganz an Enden oder Gabelungen.
 

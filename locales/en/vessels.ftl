@@ -65,6 +65,7 @@ vessels-table = { $name }, allowed change { $tolerance } %
 
 vessels-too-thin = It is less than two edges wide: too coarse to say.
 vessels-not-closed = Its cross-sections do not close.
+vessels-ambiguous = Its wall is folded there: a cross-section has more than one outline, and which one it is changes with the surface.
 vessels-at-forks = It is too short: all of it lies at forks or ends.
 vessels-at-ends = It is too short: all of it lies at ends or forks.
 

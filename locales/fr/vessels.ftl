@@ -60,6 +60,7 @@ vessels-table = { $name }, tolérance { $tolerance } %
 
 vessels-too-thin = Sa largeur est de moins de deux arêtes : trop grossier pour conclure.
 vessels-not-closed = Ses sections ne se ferment pas.
+vessels-ambiguous = Sa paroi y est repliée : une section a plus d'un contour, et lequel est retenu change avec la surface.
 vessels-at-forks = Il est trop court : tout entier à des bifurcations ou à des extrémités.
 vessels-at-ends = Il est trop court : tout entier à des extrémités ou à des bifurcations.
 

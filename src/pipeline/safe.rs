@@ -9,7 +9,8 @@
 //! not is so at every rate.
 //!
 //! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A
-//! branch of which a tenth can no longer be measured counts as changed.
+//! branch of which a tenth can no longer be measured counts as changed, but for places where the plane has another loop
+//! though the wall has not moved (`Standing::Ambiguous`): of these there is nothing to say, neither for nor against.
 
 use std::sync::Arc;
 
@@ -23,7 +24,7 @@ use crate::language::{decimal, signed};
 use crate::mesh::TriMesh;
 use crate::say;
 use crate::vessel::Subject;
-use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, Verdict};
+use crate::vessel::certificate::{Basis, BranchCalibre, Candidate, Standing, Verdict};
 
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
 const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
@@ -134,13 +135,12 @@ impl SafeTask {
 
     /// Whether branch `i` has changed there by more than it may, or can no longer be measured, as it could before.
     fn is_changed(&self, look: &Look, i: usize) -> bool {
-        match look.branches[i].verdict {
+        let Some(first) = self.looks.first().map(|first| &first.branches[i]) else { return false };
+        let branch = &look.branches[i];
+        match branch.verdict {
             Verdict::Changed => true,
-            Verdict::Kept => {
-                let counted = self.looks.first().map_or(0, |first| first.branches[i].stations_counted);
-                (look.branches[i].stations_counted as f64) < MEASURED * counted as f64
-            }
-            Verdict::NotMeasured => self.looks.first().is_some_and(|first| first.branches[i].verdict == Verdict::Kept),
+            Verdict::Kept => is_lost(first, branch),
+            Verdict::NotMeasured => first.verdict == Verdict::Kept && is_lost(first, branch),
         }
     }
 
@@ -244,6 +244,13 @@ impl SafeTask {
     }
 }
 
+/// Whether so much of what was measured of a branch is measured no more that there is no saying it is kept.
+fn is_lost(first: &BranchCalibre, now: &BranchCalibre) -> bool {
+    let was_counted = first.standings.iter().zip(&now.standings).filter(|of| *of.0 == Standing::Counts);
+    let still = was_counted.filter(|of| matches!(of.1, Standing::Counts | Standing::Ambiguous)).count();
+    (still as f64) < MEASURED * first.stations_counted as f64
+}
+
 impl Task for SafeTask {
     type Output = Safe;
 
@@ -268,6 +275,30 @@ impl Task for SafeTask {
             if budget.is_spent() && !matches!(self.step, Step::Done) {
                 return Progress::Working(self.fraction());
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vessel::summary::fixtures::branch;
+
+    #[test]
+    fn what_can_no_longer_be_measured_is_lost_but_for_places_without_a_saying() {
+        let with = |counts: usize, ambiguous: usize, open: usize| {
+            let mut branch = branch(1, Some(0.5));
+            branch.standings = vec![Standing::Counts; counts];
+            branch.standings.extend(vec![Standing::Ambiguous; ambiguous]);
+            branch.standings.extend(vec![Standing::NotClosed; open]);
+            branch.stations_counted = counts;
+            branch
+        };
+        let first = with(20, 0, 0);
+        for (now, expected) in
+            [(with(20, 0, 0), false), (with(18, 0, 2), false), (with(17, 0, 3), true), (with(2, 18, 0), false)]
+        {
+            assert_eq!(is_lost(&first, &now), expected, "{:?}", now.standings);
         }
     }
 }

@@ -6,7 +6,7 @@ use std::task::Poll;
 
 use glam::DVec3;
 
-use super::section::{Found, Wall};
+use super::section::{Found, Shell, Wall};
 use super::space::Space;
 use super::stations::Station;
 use crate::mesh::{IndexBuild, SurfaceIndex, Topology, TriMesh};
@@ -90,6 +90,20 @@ pub struct Calibre {
     pub inscribed_mm: Option<f64>,
     /// Centroid of the cross-section in mm.
     pub middle_mm: Option<DVec3>,
+    /// A triangle that the cross-section goes through.
+    pub(super) triangle: Option<u32>,
+    /// Whether the cross-section is another loop than on the surface that this one was made from.
+    pub(super) is_another_loop: bool,
+}
+
+/// What is known of the vessels when a surface is measured that was made from one that is measured already.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    /// What the vessel has at each station of the opened surface, in mm.
+    pub(super) radii: &'a [f64],
+    /// The surface that it was made from, and what that has there.
+    pub(super) before: &'a Subject,
+    pub(super) calibres: &'a [Calibre],
 }
 
 /// The radius of the circle of an area.
@@ -110,9 +124,8 @@ impl Measuring {
         Self { subject: subject.clone(), space, found: Vec::new() }
     }
 
-    /// Measures some more stations; whether these were the last. `radii` are what the vessel had there on the surface that
-    /// the stations are of; `None` if this is it.
-    pub(super) fn advance(&mut self, stations: &[Station], radii: Option<&[f64]>, budget: Budget) -> bool {
+    /// Measures some more stations; whether these were the last. Nothing is known if the stations are of this surface.
+    pub(super) fn advance(&mut self, stations: &[Station], known: Option<Known<'_>>, budget: Budget) -> bool {
         let Subject { mesh, topology, .. } = &self.subject;
         let wall = Wall { mesh, topology, index: &self.space.index };
         let space = &self.space;
@@ -121,13 +134,13 @@ impl Measuring {
             let batch = &stations[first..stations.len().min(first + BATCH)];
             let one = |i: usize| {
                 let Station { at, direction, .. } = batch[i];
-                let found = match radii {
+                let found = match known {
                     None => wall.section(at, direction).map_or(Found::Open, Found::Closed),
-                    Some(radii) => wall.follow(space, at, direction, radii[first + i]),
+                    Some(known) => wall.follow(space, at, direction, known.radii[first + i]),
                 };
                 // The ball in the middle of the vessel, wherever that has moved to.
                 let middle = match found {
-                    Found::Closed(section) if radii.is_some() && !space.is_inside(at.as_vec3()) => Some(section.middle),
+                    Found::Closed(section) if known.is_some() && !space.is_inside(at.as_vec3()) => Some(section.middle),
                     Found::Gone => None,
                     _ => Some(at),
                 };
@@ -138,11 +151,25 @@ impl Measuring {
                     Some(_) => None,
                     None => Some(0.0),
                 };
-                let middle_mm = match found {
-                    Found::Closed(section) => Some(section.middle),
+                let section = match found {
+                    Found::Closed(section) => Some(section),
                     Found::Open | Found::Gone => None,
                 };
-                Calibre { area_mm2: found.area(), inscribed_mm: inscribed, middle_mm }
+                let is_another_loop = known.zip(section).is_some_and(|(known, section)| {
+                    let Subject { mesh, topology, .. } = known.before;
+                    let before = known.calibres[first + i].triangle;
+                    let has_another = |triangle| {
+                        Shell { mesh, topology }.has_another_loop(triangle, at, direction, &space.index, section.area)
+                    };
+                    before.is_some_and(has_another)
+                });
+                Calibre {
+                    area_mm2: found.area(),
+                    inscribed_mm: inscribed,
+                    middle_mm: section.map(|section| section.middle),
+                    triangle: section.map(|section| section.triangle),
+                    is_another_loop,
+                }
             };
             let measured = parallel::map_ranges(batch.len(), PIECE, |piece| piece.map(one).collect::<Vec<_>>());
             self.found.extend(measured.into_iter().flatten());

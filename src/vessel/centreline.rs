@@ -101,13 +101,17 @@ pub(crate) fn direction(points: &[Place], i: usize) -> DVec3 {
 
 /// Where point `i` is moved to: towards the middle of the cross-section.
 fn centred(space: &Space, points: &[Place], i: usize) -> DVec3 {
+    towards_middle(space, points[i], direction(points, i))
+}
+
+/// Where a place is moved to in the plane across `way`: towards the middle of what the wall encloses there.
+pub(super) fn towards_middle(space: &Space, Place { at, radius }: Place, way: DVec3) -> DVec3 {
     const ROUND: [[f64; 2]; 8] = {
         let s = FRAC_1_SQRT_2;
         [[1.0, 0.0], [s, s], [0.0, 1.0], [-s, s], [-1.0, 0.0], [-s, -s], [0.0, -1.0], [s, -s]]
     };
-    let at = points[i].at;
     let Some((before, _)) = space.ball(at.as_vec3(), None) else { return at };
-    let (x, y) = direction(points, i).any_orthonormal_pair();
+    let (x, y) = way.any_orthonormal_pair();
     let farthest = FARTHEST * f64::from(before.radius);
     let rays = ROUND.map(|[a, b]| {
         let ray = x * a + y * b;
@@ -122,7 +126,7 @@ fn centred(space: &Space, points: &[Place], i: usize) -> DVec3 {
         moment += (ray + next) / 3.0 * part;
     }
     let middle = if area > 0.0 { moment / area } else { DVec3::ZERO };
-    let moved = at + middle.clamp_length_max(0.5 * points[i].radius);
+    let moved = at + middle.clamp_length_max(0.5 * radius);
     if space.index.is_within(moved.as_vec3(), 0.97 * before.radius) { at } else { moved }
 }
 

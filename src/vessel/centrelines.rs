@@ -71,7 +71,7 @@ impl Centrelines {
             }
         };
         let tree = checked(TreeTask::new(&*subject.mesh, &*subject.topology, index).finish())?;
-        let mut stations = Stations::new(tree.branches());
+        let mut stations = Stations::new(&tree);
         let mut measuring = Measuring::new(subject, tree.space.clone());
         while !measuring.advance(&stations.all, None, Budget::UNLIMITED) {}
         let calibres = std::mem::take(&mut measuring.found);

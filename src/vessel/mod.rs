@@ -7,6 +7,7 @@
 //!   --centreline--> smooth centrelines with radii
 //!   --tree--> branches and their ends
 //!   --locating--> the branch of a point
+//!   --caps--> centrelines that reach the caps of closed ends, for what is measured along them
 //! ```
 //!
 //! What is found rests on the balls: two places are connected when overlapping balls lead from one to the other.
@@ -17,6 +18,7 @@ pub mod beside;
 mod calibre;
 #[cfg(test)]
 mod calibre_tests;
+mod caps;
 mod centreline;
 mod centrelines;
 pub mod certificate;

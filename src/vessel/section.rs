@@ -6,6 +6,12 @@
 //! direction of the plane where the first triangle faces outwards. It is the loop around the point if it winds about it
 //! once. What lies elsewhere in the plane (the next turn of the vessel, other vessels) is not met. Cost: a few rays,
 //! and as many steps as the loop has edges.
+//!
+//! Where the plane grazes the wall, as beside a saddle of it or in a spur between two vessels that touch, a surface that
+//! has hardly moved can have another loop around the point, of another part of the lumen. That is no change of the
+//! vessel. On a wall that has moved by `d` the area of the same loop changes by no more than the sum of `d` along it, over
+//! the sine of the angle between plane and wall: where it changes by more, it is another one
+//! ([`Shell::has_another_loop`]).
 
 use glam::{DVec3, Vec3};
 
@@ -17,6 +23,10 @@ use crate::mesh::{SurfaceIndex, Topology, TriMesh};
 const RAYS: usize = 8;
 /// Where no loop goes around the point, one whose middle is at most this many radii away is the vessel's, moved.
 const MOVED: f64 = 1.0;
+/// A radius that differs by less than this part is no sign of another loop,
+const JUMP: f64 = 0.1;
+/// nor an area by what a wall that has moved makes of it where it meets the plane at one in this, 30 degrees.
+const STEEP: f64 = 2.0;
 
 /// A cross-section.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +35,8 @@ pub(super) struct Section {
     pub(super) area: f64,
     /// Its centroid in mm.
     pub(super) middle: DVec3,
+    /// A triangle that it goes through.
+    pub(super) triangle: u32,
 }
 
 /// What a plane makes of a vessel.
@@ -58,6 +70,11 @@ pub(super) struct Wall<'a> {
 }
 
 impl Wall<'_> {
+    fn rim(&self, start: u32, p: DVec3, normal: DVec3) -> Option<Vec<DVec3>> {
+        let Self { mesh, topology, .. } = *self;
+        Shell { mesh, topology }.rim(start, p, normal)
+    }
+
     /// The cross-section around `p` in the plane across `normal`, of length 1.
     pub(super) fn section(&self, p: DVec3, normal: DVec3) -> Option<Section> {
         let (x, y) = normal.any_orthonormal_pair();
@@ -71,7 +88,7 @@ impl Wall<'_> {
                 continue;
             }
             if let Some(rim) = self.rim(triangle, p, normal) {
-                let section = summed(&rim, p, normal);
+                let section = summed(&rim, p, normal, triangle);
                 if section.area > 0.0 && winding(&rim, [x, y]) == 1 {
                     return Some(section);
                 }
@@ -104,11 +121,55 @@ impl Wall<'_> {
         match self.rim(nearest.triangle, at, normal) {
             None => Found::Open,
             Some(rim) => {
-                let section = summed(&rim, at, normal);
+                let section = summed(&rim, at, normal, nearest.triangle);
                 let is_it = section.area > 0.0 && section.middle.distance(p) <= MOVED * radius;
                 if is_it { Found::Closed(section) } else { Found::Gone }
             }
         }
+    }
+}
+
+/// A surface along whose triangles a cut is followed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shell<'a> {
+    pub(super) mesh: &'a TriMesh,
+    pub(super) topology: &'a Topology,
+}
+
+impl Shell<'_> {
+    /// Whether the surface that was made from this one, whose wall is `moved`, has its area of `area` mm2 in the plane
+    /// across `normal` at `p` by another loop than this has there through `triangle`.
+    pub(super) fn has_another_loop(
+        &self,
+        triangle: u32,
+        p: DVec3,
+        normal: DVec3,
+        moved: &SurfaceIndex,
+        area: f64,
+    ) -> bool {
+        let Some(rim) = self.rim(triangle, p, normal) else { return false };
+        let before = summed(&rim, p, normal, triangle).area;
+        if ((area / before).sqrt() - 1.0).abs() <= JUMP {
+            return false;
+        }
+        // What the wall has moved by, times the length of the loop, summed up until it is enough.
+        let mut left = (area - before).abs() / STEEP;
+        let mut last = None;
+        for i in 0..rim.len() {
+            let (from, to) = (rim[i], rim[(i + 1) % rim.len()]);
+            let middle = (p + (from + to) / 2.0).as_vec3();
+            let nearest = match &last {
+                Some(last) => moved.nearest_from(middle, last),
+                None => moved.nearest(middle),
+            };
+            let Some(nearest) = nearest else { return false };
+            left -= f64::from(nearest.distance) * from.distance(to);
+            if left <= 0.0 {
+                return false;
+            }
+            last = Some(nearest);
+        }
+        true
     }
 
     /// The points of the loop that begins in a triangle, relative to `p` in the plane; `None` where the plane does not
@@ -147,15 +208,16 @@ impl Wall<'_> {
 }
 
 /// Area and centroid of a loop of points relative to `p`.
-fn summed(rim: &[DVec3], p: DVec3, normal: DVec3) -> Section {
+/// Area and centroid of a loop of points relative to `p`.
+fn summed(rim: &[DVec3], p: DVec3, normal: DVec3, triangle: u32) -> Section {
     let (area, middle) = area_and_middle(rim, DVec3::ZERO, normal);
-    Section { area, middle: p + middle }
+    Section { area, middle: p + middle, triangle }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::shapes::{icosphere, joined, tube};
+    use crate::mesh::shapes::{icosphere, in_capsule, isosurface, joined, tube};
 
     fn cut(mesh: &TriMesh, p: DVec3, normal: DVec3) -> Option<Section> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
@@ -206,5 +268,45 @@ mod tests {
         turned.triangles.iter_mut().for_each(|t| t.swap(0, 1));
         assert_eq!(cut(&turned, DVec3::ZERO, DVec3::X), None);
         assert_eq!(cut(&TriMesh::default(), DVec3::ZERO, DVec3::X), None);
+    }
+
+    /// Whether `after` has another loop than `before` around `p` in the plane across z.
+    fn has_another_loop(before: &TriMesh, after: &TriMesh, p: DVec3) -> bool {
+        let topology = Topology::new(before.positions.len(), &before.triangles);
+        let [section, moved] = [before, after].map(|mesh| cut(mesh, p, DVec3::Z).unwrap());
+        let index = SurfaceIndex::new(&after.positions, &after.triangles);
+        let shell = Shell { mesh: before, topology: &topology };
+        shell.has_another_loop(section.triangle, p, DVec3::Z, &index, moved.area)
+    }
+
+    #[test]
+    fn a_plane_that_grazes_a_bridge_to_another_vessel_has_another_loop_where_the_wall_has_hardly_moved() {
+        // Two vessels of 3 mm along z, joined by one of 2 mm across, whose top is at 2 mm.
+        let inside = |p: DVec3| {
+            let vessel = |x: f64| in_capsule(p, DVec3::new(x, 0.0, -12.0), DVec3::new(x, 0.0, 12.0), 3.0);
+            vessel(0.0).max(vessel(9.0)).max(in_capsule(p, DVec3::ZERO, DVec3::X * 9.0, 2.0))
+        };
+        let mesh = isosurface(DVec3::new(-4.0, -4.0, -16.0), DVec3::new(13.0, 4.0, 16.0), 0.5, inside);
+        let by = |way: f32| {
+            let mut moved = mesh.clone();
+            moved.positions.iter_mut().for_each(|p| p.z += way);
+            moved
+        };
+        let area = |mesh: &TriMesh, z: f64| cut(mesh, DVec3::Z * z, DVec3::Z).unwrap().area;
+        // The facets' own top.
+        let top = (150..250).map(|i| f64::from(i) / 100.0).find(|&z| area(&mesh, z) < 40.0).unwrap();
+        let below = top - 0.015;
+        assert!(area(&mesh, below) > 50.0, "both vessels");
+        assert!(has_another_loop(&mesh, &by(-0.04), DVec3::Z * below), "it loses the other vessel");
+        assert!(has_another_loop(&mesh, &by(0.04), DVec3::Z * (top + 0.015)), "it takes it in");
+        // Where the plane meets the wall square, it does not: neither unchanged, nor moved, nor narrowed.
+        let mut narrowed = mesh.clone();
+        for p in narrowed.positions.iter_mut().filter(|p| p.x < 4.5 && p.z.abs() > 4.0) {
+            (p.x, p.y) = (p.x * 0.8, p.y * 0.8);
+        }
+        for after in [&mesh, &by(-0.04), &narrowed] {
+            assert!(!has_another_loop(&mesh, after, DVec3::Z * 7.3));
+        }
+        assert!((area(&narrowed, 7.3) / area(&mesh, 7.3) - 0.64).abs() < 0.01);
     }
 }

@@ -1,6 +1,6 @@
 //! Where a cross-section is that of one vessel, so that it can be compared with another surface's.
 //!
-//! It is not within one radius of an end, where smoothing draws in rims and rounds caps, nor at a fork, where the plane
+//! It is not within one radius of an open end or two of a cap, where smoothing draws in rims and rounds caps, nor at a fork, where the plane
 //! across one vessel cuts the wall of another. A fork goes as far as the two vessels are attached to each other and one
 //! radius of the side branch beyond (one diameter, along the vessel that it comes out of): from where it leaves, place
 //! by place, while its cross-section does not close or is more than half as wide again as the ball in it, or the plane
@@ -14,6 +14,8 @@ use super::tree::{Branch, End};
 const BESIDE: f64 = 1.0;
 /// and along the vessel that a side branch comes out of, in radii of the side branch: before it leaves, that is wider.
 const BESIDE_OSTIUM: f64 = 2.0;
+/// Left free at a cap, in radii of the vessel: smoothing rounds a flat one over as much.
+const BESIDE_CAP: f64 = 2.0;
 /// Two vessels are attached while the plane across one meets a ball of the other, with this part of the smaller radius to
 /// spare in all directions,
 const SPARE: f64 = 0.25;
@@ -39,6 +41,8 @@ struct Path {
     ostium: usize,
     parent: Option<usize>,
     ends: [End; 2],
+    /// The vessel's radius at both ends, where that is at a cap.
+    caps: [Option<f64>; 2],
 }
 
 /// The zone of each station; `radii` are those of the circles of the cross-sections' areas, in mm, of the same surface.
@@ -71,13 +75,14 @@ pub(super) fn zones(branches: &[Branch], stations: &Stations, radii: &[Option<f6
 fn paths(branches: &[Branch], stations: &Stations) -> Vec<Path> {
     let mut paths: Vec<Path> = Vec::new();
     let mut path_of = Vec::with_capacity(branches.len());
-    for (branch, range) in branches.iter().zip(&stations.of) {
+    for ((branch, range), &caps) in branches.iter().zip(&stations.of).zip(&stations.caps) {
         let goes_on = branch.parent.filter(|_| branch.goes_straight_on()).map(|parent| path_of[parent as usize]);
         match goes_on {
             Some(path) => {
                 let whole: &mut Path = &mut paths[path];
                 whole.stations.extend(range.clone());
                 whole.ends[1] = branch.ends[1];
+                whole.caps[1] = caps[1];
                 path_of.push(path);
             }
             None => {
@@ -89,6 +94,7 @@ fn paths(branches: &[Branch], stations: &Stations) -> Vec<Path> {
                     ostium: own.partition_point(|station| station.abscissa_mm < out),
                     parent: branch.parent.map(|parent| path_of[parent as usize]),
                     ends: branch.ends,
+                    caps,
                 });
             }
         }
@@ -96,14 +102,14 @@ fn paths(branches: &[Branch], stations: &Stations) -> Vec<Path> {
     paths
 }
 
-/// Marks what is within a radius of an end.
+/// Marks what is within a radius of an end, or within two of a cap.
 fn mark_ends(path: &Path, all: &[Station], zones: &mut [Zone]) {
-    let mut mark = |order: &mut dyn Iterator<Item = &usize>| {
+    let mut mark = |order: &mut dyn Iterator<Item = &usize>, cap: Option<f64>| {
         let (mut arc, mut last) = (0.0, None::<&Station>);
         let mut reach = 0.0;
         for &i in order {
             match last {
-                None => reach = BESIDE * all[i].radius_mm,
+                None => reach = cap.map_or(BESIDE * all[i].radius_mm, |radius| BESIDE_CAP * radius),
                 Some(last) => arc += last.at.distance(all[i].at),
             }
             if arc > reach {
@@ -114,10 +120,10 @@ fn mark_ends(path: &Path, all: &[Station], zones: &mut [Zone]) {
         }
     };
     if path.ends[0] != End::Joint {
-        mark(&mut path.stations.iter());
+        mark(&mut path.stations.iter(), path.caps[0]);
     }
     if path.ends[1] != End::Joint {
-        mark(&mut path.stations.iter().rev());
+        mark(&mut path.stations.iter().rev(), path.caps[1]);
     }
 }
 

@@ -20,3 +20,4 @@ mod lumen_width;
 mod safe;
 mod smoothing;
 mod spare_thin;
+mod voxel_tubes;

@@ -69,6 +69,7 @@ pub(super) fn why_not_measured(branch: &BranchCalibre) -> Option<Key> {
     let reasons = [
         (Standing::Thin, Key("vessels-too-thin")),
         (Standing::NotClosed, Key("vessels-not-closed")),
+        (Standing::Ambiguous, Key("vessels-ambiguous")),
         (Standing::Fork, Key("vessels-at-forks")),
         (Standing::End, Key("vessels-at-ends")),
     ];

@@ -36,6 +36,12 @@ impl Grid {
         ((z * self.counts[1] + y) * self.counts[0] + x) as usize
     }
 
+    /// How many cells a ball touches.
+    pub(super) fn count_around(&self, centre: Vec3, radius: f32) -> usize {
+        let (low, high) = (self.place(centre - Vec3::splat(radius)), self.place(centre + Vec3::splat(radius)));
+        (0..3).map(|axis| (high[axis] - low[axis] + 1) as usize).product()
+    }
+
     /// The cells that a ball touches.
     pub(super) fn around(&self, centre: Vec3, radius: f32) -> impl Iterator<Item = usize> + '_ {
         let (low, high) = (self.place(centre - Vec3::splat(radius)), self.place(centre + Vec3::splat(radius)));

@@ -347,28 +347,30 @@ impl Filling {
         union(&mut self.found.group, a, b);
     }
 
-    /// Links the balls of different groups that overlap: what lies in both is in one lumen. In a wide straight vessel every
-    /// ball that is looked for may move back to the one it was looked for from, and two chains come to stand side by side.
-    fn join_groups(&mut self) {
-        let groups: Vec<u32> =
-            (0..self.found.balls.len() as u32).map(|ball| root(&mut self.found.group, ball)).collect();
-        if groups.iter().all(|&group| group == 0) {
-            return;
-        }
+    /// Links all balls that overlap: what lies in both is in one lumen. In a wide straight vessel every ball that is looked
+    /// for may move back to the one it was looked for from, and two chains come to stand side by side, linked at one end
+    /// or nowhere: the way from one end of the vessel to the other would lead to and fro.
+    fn link_overlapping(&mut self) {
+        let count = self.found.balls.len();
         let mut pairs = Vec::new();
         for (number, ball) in self.found.balls.iter().enumerate() {
             // From the larger of two.
-            for cell in self.grid.around(ball.centre, FARTHEST * ball.radius) {
+            let mut look_at = |other: usize| {
+                let smaller = &self.found.balls[other];
+                let is_larger = (ball.radius, number) > (smaller.radius, other);
+                if is_larger && ball.passage(smaller) >= PASSAGE * smaller.radius {
+                    pairs.push((number as u32, other as u32));
+                }
+            };
+            let reach = FARTHEST * ball.radius;
+            if self.grid.count_around(ball.centre, reach) > count {
+                (0..count).for_each(look_at);
+                continue;
+            }
+            for cell in self.grid.around(ball.centre, reach) {
                 let mut at = self.first[cell];
                 while at != NONE {
-                    let other = &self.found.balls[at as usize];
-                    let is_larger = (ball.radius, number) > (other.radius, at as usize);
-                    if is_larger && groups[number] != groups[at as usize] {
-                        let clear = ball.passage(other);
-                        if clear >= PASSAGE * other.radius {
-                            pairs.push((number as u32, at));
-                        }
-                    }
+                    look_at(at as usize);
                     at = self.next[at as usize];
                 }
             }
@@ -378,7 +380,7 @@ impl Filling {
 
     pub(super) fn finished(mut self) -> Balls {
         if !self.found.is_sheet {
-            self.join_groups();
+            self.link_overlapping();
         }
         for ball in 0..self.found.balls.len() as u32 {
             self.found.group[ball as usize] = root(&mut self.found.group, ball);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::BranchCalibre;
 use super::branch::branch_calibre;
 use crate::task::Budget;
-use crate::vessel::calibre::{Calibre, Indexing, Measuring, Subject};
+use crate::vessel::calibre::{Calibre, Indexing, Known, Measuring, Subject};
 use crate::vessel::centrelines::Centrelines;
 use crate::vessel::locating::Located;
 use crate::vessel::space::Space;
@@ -17,6 +17,7 @@ use crate::vessel::zones::Zone;
 /// there.
 pub struct Basis {
     pub(super) measure: Box<Measure>,
+    pub(super) smoothed: Subject,
     pub(super) edge_mm: f64,
 }
 
@@ -45,8 +46,9 @@ impl Candidate {
             self.measuring = Some(Measuring::new(&self.subject, Space::new(mesh, topology, index)));
         }
         let measuring = self.measuring.as_mut()?;
-        let Measure { stations, radii, .. } = &*basis.measure;
-        measuring.advance(&stations.all, Some(radii), budget).then(|| basis.judged(&measuring.found, tolerance_percent))
+        let Measure { stations, radii, done, .. } = &*basis.measure;
+        let known = Known { radii, before: &basis.smoothed, calibres: &done[1] };
+        measuring.advance(&stations.all, Some(known), budget).then(|| basis.judged(&measuring.found, tolerance_percent))
     }
 }
 
@@ -74,8 +76,9 @@ impl Basis {
         let found = tree.locate(p, last.as_ref())?;
         let branch = found.branch as usize;
         let own = &stations.all[stations.of.get(branch)?.clone()];
-        let after = own.partition_point(|station| station.abscissa_mm < found.arc_mm);
-        let nearer = |&i: &usize| (own[i].abscissa_mm - found.arc_mm).abs();
+        let abscissa = found.arc_mm + stations.before_mm[branch];
+        let after = own.partition_point(|station| station.abscissa_mm < abscissa);
+        let nearer = |&i: &usize| (own[i].abscissa_mm - abscissa).abs();
         let station =
             (after.saturating_sub(1)..(after + 1).min(own.len())).min_by(|a, b| nearer(a).total_cmp(&nearer(b)));
         let radii = found.distance_mm / found.radius_mm.max(f64::MIN_POSITIVE);

@@ -10,6 +10,9 @@ use crate::vessel::zones::Zone;
 
 /// A vessel is measured from so many mean edges of diameter on.
 const EDGES: f64 = 2.0;
+/// A cross-section of more than so many times the inscribed radius is of a cleft or of two vessels: one of a vessel would
+/// be nine times as wide as high.
+const FLAT: f64 = 3.0;
 
 /// Of the branch, at its stations, by what was measured there on the surface as opened, smoothed and reduced.
 pub(super) fn branch_calibre(
@@ -20,11 +23,17 @@ pub(super) fn branch_calibre(
     edge_mm: f64,
     tolerance_percent: f64,
 ) -> BranchCalibre {
+    let is_ambiguous = |i: usize| {
+        let Calibre { area_mm2, inscribed_mm, .. } = calibres[0][i];
+        let is_flat = area_mm2.zip(inscribed_mm).is_some_and(|(area, inscribed)| circle(area) > FLAT * inscribed);
+        is_flat || calibres.iter().any(|of| of[i].is_another_loop)
+    };
     let standing = |i: usize| {
         let areas = calibres.map(|of| of[i].area_mm2);
         match (zones[i], areas) {
             (Zone::End, _) => Standing::End,
             (Zone::Fork, _) => Standing::Fork,
+            (Zone::Vessel, _) if is_ambiguous(i) => Standing::Ambiguous,
             (Zone::Vessel, [Some(opened), Some(_), Some(_)]) if 2.0 * circle(opened) >= EDGES * edge_mm => {
                 Standing::Counts
             }

@@ -17,7 +17,8 @@
 //!
 //! A change counts where the vessel can be measured: see [`zones`](super::zones) for ends and forks; where the cut
 //! closes on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or
-//! folded in the plane, there is no saying. Where they have no vessel any more, the change is -100 %.
+//! folded in the plane, there is no saying, nor where the plane has another loop on them though the wall has not moved
+//! (see [`section`](super::section)). Where they have no vessel any more, the change is -100 %.
 
 mod basis;
 mod branch;
@@ -79,6 +80,9 @@ pub enum Standing {
     Thin,
     /// One of the surfaces has no closed loop around the centreline there.
     NotClosed,
+    /// The plane grazes the wall: what it cuts is a cleft, or on one of the surfaces another loop though the wall has not
+    /// moved.
+    Ambiguous,
 }
 
 /// Least, mean and largest of something.
@@ -256,6 +260,7 @@ impl Standing {
             Self::Fork => "fork",
             Self::Thin => "thin",
             Self::NotClosed => "not_closed",
+            Self::Ambiguous => "ambiguous",
         }
     }
 }

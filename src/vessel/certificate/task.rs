@@ -8,7 +8,7 @@ use super::unit::{CalibreError, checked};
 use crate::mesh::{SurfaceIndex, Topology, TriMesh};
 use crate::task::{Budget, Progress, Task};
 use crate::vessel::balls::mean_edge;
-use crate::vessel::calibre::{Calibre, Indexing, Measuring, Subject, circle};
+use crate::vessel::calibre::{Calibre, Indexing, Known, Measuring, Subject, circle};
 use crate::vessel::recentring::recentre;
 use crate::vessel::space::Space;
 use crate::vessel::stations::{Station, Stations};
@@ -52,7 +52,7 @@ impl CertificateTask {
 
     fn basis(&self, measure: Box<Measure>) -> Basis {
         let edge_mm = f64::from(mean_edge(&self.subjects[0].mesh));
-        Basis { measure, edge_mm }
+        Basis { measure, smoothed: self.subjects[1].clone(), edge_mm }
     }
 
     fn found(&mut self, measure: Box<Measure>) -> Certificate {
@@ -110,7 +110,7 @@ impl Task for CertificateTask {
                         Ok(tree) => tree,
                         Err(error) => return Progress::Done(Err(error)),
                     };
-                    let stations = Stations::new(tree.branches());
+                    let stations = Stations::new(&tree);
                     let measuring = Measuring::new(opened, tree.space.clone());
                     let others = others.map(Some);
                     let (done, radii) = (Vec::new(), Vec::new());
@@ -126,7 +126,11 @@ impl Task for CertificateTask {
                 }
                 Step::Measure(mut measure) => {
                     let Measure { tree, stations, zones: found, others, measuring, done, radii } = &mut *measure;
-                    let known = (!done.is_empty()).then_some(&radii[..]);
+                    let known = done.last().map(|calibres| Known {
+                        radii: &radii[..],
+                        before: &self.subjects[done.len() - 1],
+                        calibres,
+                    });
                     if measuring.advance(&stations.all, known, budget) {
                         let calibres = std::mem::take(&mut measuring.found);
                         if found.is_none() {

@@ -1,0 +1,120 @@
+//! Leads centrelines on to the caps that close vessels.
+//!
+//! A chain of balls ends in the last ball that fits: a radius before a flat cap, somewhere between its middle and its
+//! rim, and where the wall has steps a part of a radius earlier. So its last part says little of the vessel's axis. It is
+//! left out, and the line goes on from there along the vessel: in steps that are moved to the middle of the
+//! cross-section as long as the cap is more than a radius ahead, then straight to the cap. Where no wall comes, or only
+//! far off, the line stays as it was, and so do lines that are hardly longer than wide and those that end beside another
+//! vessel, where they may go on in it.
+
+use glam::DVec3;
+
+use super::centreline::{Place, measure, towards_middle};
+use super::space::Space;
+use super::tree::{Branch, End};
+
+/// Of the last part of a line so much is left out, in radii, and at most this part of the line.
+const LEFT_OUT: f64 = 1.5;
+const LEFT_OUT_OF: f64 = 0.4;
+/// The least length of a line that is led on, in radii.
+const SHORTEST: f64 = 1.0;
+/// The way on is that over so many radii before.
+const BEFORE: f64 = 2.0;
+/// A step, in radii.
+const STEP: f64 = 0.25;
+/// How much of a step's own way goes into that of the next.
+const TURN: f64 = 0.2;
+/// The cap is at most so many radii ahead of the line's end as it was.
+const AHEAD: f64 = 2.0;
+/// The part of the way to the cap at which the line ends: the wall itself is in no vessel.
+const UP_TO: f64 = 0.98;
+
+/// A branch's centreline that reaches the caps.
+pub(super) struct Led {
+    pub(super) points: Vec<Place>,
+    /// By how many mm it is longer at its first point.
+    pub(super) before_mm: f64,
+    /// The vessel's radius at the first and at the last point, in mm, where that is at a cap.
+    pub(super) caps: [Option<f64>; 2],
+}
+
+/// The points of a branch with those on to the caps at its closed ends.
+pub(super) fn led_to_caps(space: &Space, branches: &[Branch], branch: &Branch) -> Led {
+    let is_free = |end: usize| branch.ends[end] == End::Closed && !is_beside_another(branches, branch, end);
+    let mut led = Led { points: branch.points.clone(), before_mm: 0.0, caps: [None; 2] };
+    for end in [1, 0].into_iter().filter(|&end| is_free(end)) {
+        if end == 0 {
+            led.points.reverse();
+        }
+        let before = length(&led.points);
+        if let Some((points, radius)) = led_on(space, &led.points) {
+            led.points = points;
+            led.caps[end] = Some(radius);
+        }
+        if end == 0 {
+            led.points.reverse();
+            led.before_mm = length(&led.points) - before;
+        }
+    }
+    led
+}
+
+fn length(points: &[Place]) -> f64 {
+    points.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum()
+}
+
+/// Whether the balls at an end of a branch meet those of another.
+fn is_beside_another(branches: &[Branch], branch: &Branch, end: usize) -> bool {
+    let Some(tip) = (if end == 0 { branch.points.first() } else { branch.points.last() }) else { return true };
+    let near = |place: &Place| place.at.distance(tip.at) < place.radius + tip.radius;
+    branches.iter().any(|other| other.id != branch.id && other.points.iter().any(near))
+}
+
+/// The line with its last part led on to the cap, and the vessel's radius there; `None` where there is none.
+fn led_on(space: &Space, points: &[Place]) -> Option<(Vec<Place>, f64)> {
+    let tip = *points.last()?;
+    let radius =
+        points.iter().rev().take_while(|place| place.at.distance(tip.at) < tip.radius).map(|place| place.radius);
+    let radius = radius.fold(tip.radius, f64::max);
+    let whole = length(points);
+    if points.len() < 3 || whole < SHORTEST * radius || radius <= 0.0 {
+        return None;
+    }
+    let left_out = (LEFT_OUT * radius).min(LEFT_OUT_OF * whole);
+    let mut kept = points.to_vec();
+    let mut gone = 0.0;
+    while kept.len() > 2 && gone < left_out {
+        let last = kept.pop()?;
+        gone += last.at.distance(kept[kept.len() - 1].at);
+    }
+    let end = kept.len() - 1;
+    let back = (0..end).rev().find(|&i| kept[i].at.distance(kept[end].at) >= BEFORE * radius).unwrap_or(0);
+    let mut way = (kept[end].at - kept[back].at).try_normalize()?;
+    let farthest = gone + AHEAD * radius;
+    let ahead = |from: DVec3, way: DVec3| {
+        space.index.depth_within(from.as_vec3(), way.as_vec3(), farthest as f32).map(f64::from)
+    };
+    let mut at = kept[end].at;
+    let mut advanced = 0.0;
+    loop {
+        let free = ahead(at, way)? - radius;
+        if free <= 0.0 || advanced > farthest {
+            break;
+        }
+        let next = at + way * free.min(STEP * radius);
+        let moved = towards_middle(space, Place { at: next, radius }, way);
+        way = way.lerp((moved - at).normalize_or(way), TURN).normalize_or(way);
+        advanced += moved.distance(at);
+        at = moved;
+        kept.push(Place { at, radius });
+    }
+    let rest = UP_TO * ahead(at, way)?;
+    if advanced + rest > farthest {
+        return None;
+    }
+    let steps = (rest / (STEP * radius)).ceil().clamp(1.0, 100.0);
+    let straight = (1..=steps as u32).map(|step| Place { at: at + way * (rest * f64::from(step) / steps), radius });
+    kept.extend(straight);
+    measure(space, &mut kept[end + 1..]);
+    Some((kept, radius))
+}
