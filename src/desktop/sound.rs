@@ -127,12 +127,12 @@ fn lock(child: &Mutex<Option<Child>>) -> std::sync::MutexGuard<'_, Option<Child>
 /// Ends the program: it has until [`END`] where it is not killed at once.
 fn end(child: &Mutex<Option<Child>>, at_once: bool) {
     let has_ended = || lock(child).as_mut().is_none_or(|child| !matches!(child.try_wait(), Ok(None)));
-    if at_once || !is_over(has_ended) {
-        if let Some(child) = &mut *lock(child) {
-            // One that has ended meanwhile cannot be killed; either way it is over.
-            let _ = child.kill();
-            let _ = child.wait();
-        }
+    if (at_once || !is_over(has_ended))
+        && let Some(child) = &mut *lock(child)
+    {
+        // One that has ended meanwhile cannot be killed; either way it is over.
+        let _ = child.kill();
+        let _ = child.wait();
     }
     *lock(child) = None;
 }
