@@ -91,7 +91,7 @@ impl Array {
     /// When one is not there.
     #[must_use]
     pub fn gathered(&self, rows: &[u32]) -> Self {
-        let mut values = Values::new(self.values.scalar);
+        let mut values = Values::new(self.values.scalar());
         values.reserve(rows.len() * self.components);
         for &row in rows {
             values.push_from(&self.values, row as usize * self.components, self.components);
@@ -105,7 +105,7 @@ impl Array {
             name: self.name.clone(),
             on: self.on,
             kind: self.kind,
-            scalar: self.values.scalar,
+            scalar: self.values.scalar(),
             components: self.components,
             range: self.range(),
             labels: if self.kind == Kind::Label { self.labels() } else { Vec::new() },
@@ -115,8 +115,8 @@ impl Array {
     /// The different values of labels, ascending; none where there are more than [`LABELS`].
     fn labels(&self) -> Vec<f64> {
         let words = few_words(&self.values).unwrap_or_default();
-        let bytes = words.iter().flat_map(|word| word.to_le_bytes()[..self.values.scalar.size()].to_vec()).collect();
-        let values = Values::from_bytes(self.values.scalar, bytes);
+        let bytes = words.iter().flat_map(|word| word.to_le_bytes()[..self.values.scalar().size()].to_vec()).collect();
+        let values = Values::from_bytes(self.values.scalar(), bytes);
         let mut labels: Vec<f64> = (0..values.len()).map(|i| values.get(i)).collect();
         labels.sort_unstable_by(f64::total_cmp);
         labels

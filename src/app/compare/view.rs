@@ -3,6 +3,7 @@
 use egui::{Frame, Margin, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui};
 use egui::{UiBuilder, Vec2, WidgetInfo, vec2};
 
+use super::action::Action as OfComparison;
 use super::bar::{bar, footer, legend, slow};
 use super::cell::{self, Manner};
 use super::comparison::{Cell, Comparison, Made, Outcome};

@@ -17,7 +17,7 @@ pub(super) struct Program {
     modules: Vec<Module>,
     crates: BTreeMap<String, usize>,
     /// Files that a `mod` declares and that are not there.
-    pub missing: Vec<String>,
+    pub(super) missing: Vec<String>,
 }
 
 struct Module {

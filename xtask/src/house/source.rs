@@ -8,30 +8,30 @@
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Source {
     /// `mod name;`
-    pub files: Vec<Declared>,
+    pub(super) files: Vec<Declared>,
     /// `mod name { ... }`
-    pub parts: Vec<(String, Source)>,
-    pub imports: Vec<Import>,
+    pub(super) parts: Vec<(String, Source)>,
+    pub(super) imports: Vec<Import>,
     /// What stands as `a::b::c` or `a`, imports left out.
-    pub paths: Vec<Vec<String>>,
+    pub(super) paths: Vec<Vec<String>>,
 }
 
 /// A module in a file of its own.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Declared {
-    pub name: String,
+    pub(super) name: String,
     /// What `#[path = "..."]` says.
-    pub path: Option<String>,
+    pub(super) path: Option<String>,
 }
 
 /// One name out of a `use`.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Import {
-    pub path: Vec<String>,
+    pub(super) path: Vec<String>,
     /// Under which it is known here: `*` for all of them, `_` for none.
-    pub name: String,
+    pub(super) name: String,
     /// `pub use`: this file need not use it itself.
-    pub public: bool,
+    pub(super) public: bool,
 }
 
 impl Source {

@@ -18,7 +18,7 @@ use anyhow::{Context as _, Result, bail};
 use clap::Args;
 
 use crate::build;
-use crate::step::{cargo, root, run, step, target};
+use crate::step::{cargo, run, step, target};
 
 pub(crate) use headers::HEADERS;
 use packed::VERSION;
