@@ -133,7 +133,7 @@ fn named(line: &str) -> (usize, Vec<String>) {
                 places.extend(folder.map(Path::to_path_buf));
             }
             None if documents::is_path(&name) && !ELSEWHERE.iter().any(|folder| name.starts_with(folder)) => {
-                missing.push(name)
+                missing.push(name);
             }
             None => {}
         }
