@@ -13,6 +13,7 @@ use super::force::logitech::Logitech;
 use super::force::pid::PidDriver;
 use super::force::{AxisForce, Coupling, ForceDriver, ForceError, Reply, Request, Wish};
 use super::haply;
+pub use super::identity::Identity;
 use super::known;
 use super::latency::{Latency, Percentiles};
 use super::mapping::{Mapper, Mapping, TRAVEL};
@@ -21,17 +22,6 @@ use super::passivity::Softness;
 use super::port::Port;
 use super::profile::{ForceReports, force_reports, profile};
 use super::safety::{Guard, Halt, Limits};
-
-/// A device's numbers and its name, as the system has them.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Identity {
-    /// Its vendor's.
-    pub vendor: u16,
-    /// Its own.
-    pub product: u16,
-    /// What it calls itself.
-    pub name: String,
-}
 
 /// What resists feed, 0, and roll, 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

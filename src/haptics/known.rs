@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::device::Identity;
+use super::identity::Identity;
 use super::mapping::{Mapping, Mode};
 
 /// Devices that are remembered; the one that was chosen for the longest ago goes first.

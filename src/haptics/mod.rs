@@ -32,6 +32,7 @@ pub mod field;
 pub mod force;
 pub mod framing;
 pub mod haply;
+pub mod identity;
 pub mod joining;
 pub mod known;
 pub mod latency;

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::Placement;
 use super::gains::{Gain, Gains, Mix, Mixed, Term};
+use super::placement::Placement;
 use crate::parallel;
 use crate::pipeline::filter::Filter;
 use crate::pipeline::settings::Smoothing;

@@ -4,6 +4,7 @@
 //! [`relay`]'s.
 
 mod relay;
+mod relayer;
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -19,7 +20,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{EventTarget, Worker};
 
-use self::relay::Relayer;
+use self::relayer::Relayer;
 use super::api::{self, Hid};
 use super::port::{self, Serial, object};
 use super::{Asked, Choice, Told};

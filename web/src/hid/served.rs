@@ -6,6 +6,7 @@
 //! Workers the page opens the device, and reports and requests are messages; all else is the same.
 
 mod serial;
+mod talk;
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -23,6 +24,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::DedicatedWorkerGlobalScope;
 
+use self::talk::Talk;
 use super::api::{self, Hid, HidConnectionEvent};
 use super::interfaces::{self, Collections, Input, Interfaces, NO_MODEL, NO_TIMER, NOT_OPENED, NOT_THERE};
 use super::{Answer, Asked, Choice, Relay, Relayed, Told};
@@ -91,7 +93,7 @@ enum Line {
         is_asking: bool,
         heard_ms: f64,
     },
-    Serial(serial::Talk),
+    Serial(Talk),
 }
 
 impl Hands {

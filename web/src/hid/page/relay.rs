@@ -7,57 +7,15 @@ use lumen::haptics::force::Request;
 use lumen::language::Key;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
-use web_sys::Window;
 
 use super::Devices;
+use super::relayer::{Beat, Open, Unplugged};
 use crate::hid::api::{Hid, HidConnectionEvent};
-use crate::hid::interfaces::{Input, Interfaces, NO_TIMER, NOT_THERE};
+use crate::hid::interfaces::{Interfaces, NO_TIMER, NOT_THERE};
 use crate::hid::{Answer, Asked, Choice, Relay, Relayed};
 
 /// Between two times that the Worker is told that the page still hears its device, in ms.
 const BEAT_MS: i32 = 40;
-
-/// The device that the page has opened for the Worker, or is opening.
-#[derive(Default)]
-pub(super) struct Relayer {
-    /// Counts what was asked for: what comes late of one before is let go.
-    turn: u32,
-    open: Option<Rc<Open>>,
-}
-
-/// One that is open.
-struct Open {
-    device: Interfaces,
-    _input: Input,
-    _unplugged: Unplugged,
-    _beat: Beat,
-}
-
-/// Says again and again that the page still hears the device, until it is dropped.
-struct Beat {
-    window: Window,
-    handle: i32,
-    _say: Closure<dyn Fn()>,
-}
-
-impl Drop for Beat {
-    fn drop(&mut self) {
-        self.window.clear_interval_with_handle(self.handle);
-    }
-}
-
-/// Hears that a device is pulled out, until it is dropped.
-struct Unplugged {
-    hid: Hid,
-    hear: Closure<dyn Fn(HidConnectionEvent)>,
-}
-
-impl Drop for Unplugged {
-    fn drop(&mut self) {
-        // What cannot be removed is not there any more.
-        let _ = self.hid.remove_event_listener_with_callback("disconnect", self.hear.as_ref().unchecked_ref());
-    }
-}
 
 impl Devices {
     /// Does with a device what the Worker asks; `number` is what the Worker knows it by.

@@ -1,96 +1,27 @@
 //! The Worker's end of a device on a serial line. What such a device says of itself is asked for first; then its frames are
-//! taken in as they come, and requests go out as frames, one at a time.
+//! taken in as they come, and requests go out as frames ([`Talk`]).
 
 use std::rc::Rc;
 
 use js_sys::{Array, Promise};
 use lumen::haptics::device::{HapticDevice, Identity};
-use lumen::haptics::force::{Reply, Request};
-use lumen::haptics::framing::{Decoder, Frame, Kind};
-use lumen::haptics::serial::{Hello, answer, framed};
+use lumen::haptics::force::Request;
+use lumen::haptics::framing::Decoder;
+use lumen::haptics::serial::{Hello, framed};
 use lumen::haptics::service::Service;
 use lumen::language::Key;
 use wasm_bindgen::JsValue;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
+use super::talk::{ANSWER_MS, Talk};
 use super::{Hands, Line, NO_MODEL, NO_TIMER, NOT_OPENED, NOT_THERE, Served};
 use crate::hid::port::{self, Port, Serial, SerialPort};
 
-/// For how long an answer is waited for, in ms.
-const ANSWER_MS: f64 = 250.0;
 /// How often a port is opened, and a piece asked for, before it is given up.
 const TRIES: u32 = 4;
 
 const NO_SERIAL: Key = Key("devices-no-serial-in-worker");
 const NO_ANSWER: Key = Key("devices-no-answer");
-
-/// A device on a serial line.
-pub(super) struct Talk {
-    port: Rc<Port>,
-    is_writing: bool,
-    /// The request whose answer is waited for, and since when, in ms.
-    awaited: Option<(Request, f64)>,
-}
-
-impl Talk {
-    /// The port that it is at.
-    pub(super) fn port(&self) -> Rc<Port> {
-        Rc::clone(&self.port)
-    }
-
-    /// The request that goes next; `None` while one is under way, or if none is due.
-    pub(super) fn next(&mut self, now_ms: f64, device: &mut HapticDevice) -> Option<Request> {
-        if let Some((_, since_ms)) = &self.awaited
-            && now_ms - since_ms > ANSWER_MS
-        {
-            self.awaited = None;
-            device.reply(now_ms, Reply::Failed);
-        }
-        if self.is_writing || self.awaited.is_some() {
-            return None;
-        }
-        let request = device.next(now_ms)?;
-        self.is_writing = true;
-        if !matches!(request, Request::Send { .. }) {
-            self.awaited = Some((request.clone(), now_ms));
-        }
-        Some(request)
-    }
-
-    /// A request was written, or could not be.
-    fn written(&mut self, now_ms: f64, request: &Request, is_written: bool, device: &mut HapticDevice) {
-        self.is_writing = false;
-        if !is_written {
-            self.awaited = None;
-            device.reply(now_ms, Reply::Failed);
-        } else if matches!(request, Request::Send { .. }) {
-            device.reply(now_ms, Reply::Done);
-        }
-    }
-
-    fn heard(&mut self, now_ms: f64, frame: &Frame<'_>, device: &mut HapticDevice) {
-        if frame.kind == Kind::Input {
-            device.input(now_ms, frame.id, frame.data);
-        } else if let Some((request, _)) = &self.awaited
-            && let Some(reply) = answer(request, frame)
-        {
-            self.awaited = None;
-            device.reply(now_ms, reply);
-        }
-    }
-
-    /// Leaves the device without a force, and the port closed; `late` resolves when a device that takes nothing any more has
-    /// had its time.
-    pub(super) fn close(self, farewell: &[Request], late: &Promise) {
-        // One that is gone hears nothing; its motors end by themselves.
-        let said: Array = farewell.iter().filter_map(framed).map(|bytes| self.port.write(&bytes)).collect();
-        let said = Promise::race(&Array::of2(&Promise::all_settled(&said), late));
-        spawn_local(async move {
-            let _ = JsFuture::from(said).await;
-            self.port.close().await;
-        });
-    }
-}
 
 /// Whether the port has taken a request.
 async fn written(port: &Port, request: &Request) -> bool {
@@ -190,8 +121,7 @@ impl Hands {
         if device.controls().axes.is_empty() {
             return Err(NO_MODEL);
         }
-        let talk = Talk { port: Rc::clone(port), is_writing: false, awaited: None };
-        self.begin(Service::new(device), Line::Serial(talk)).map_err(|_| NO_TIMER)
+        self.begin(Service::new(device), Line::Serial(Talk::new(Rc::clone(port)))).map_err(|_| NO_TIMER)
     }
 
     /// Takes in what comes until the port is closed, or gone.
