@@ -16,6 +16,10 @@ use super::tree::{Branch, End};
 /// Of the last part of a line so much is left out, in radii, and at most this part of the line.
 const LEFT_OUT: f64 = 1.5;
 const LEFT_OUT_OF: f64 = 0.4;
+/// A ball belongs to the same end if its middle is at most so many radii away,
+const NEAR: f64 = 1.5;
+/// and is at most so many times as large: one in a corner is half as large as that in the middle.
+const CORNER: f64 = 2.5;
 /// The least length of a line that is led on, in radii.
 const SHORTEST: f64 = 1.0;
 /// The way on is that over so many radii before.
@@ -70,12 +74,23 @@ fn is_beside_another(branches: &[Branch], branch: &Branch, end: usize) -> bool {
     branches.iter().any(|other| other.id != branch.id && other.points.iter().any(near))
 }
 
+/// The radius of the vessel that a line ends in, whose last ball may be a small one in the corner of a cap.
+fn vessel_radius(points: &[Place], tip: Place) -> f64 {
+    let mut radius = tip.radius;
+    loop {
+        let near = points.iter().filter(|place| place.at.distance(tip.at) < NEAR * radius);
+        let largest = near.map(|place| place.radius).fold(radius, f64::max).min(CORNER * tip.radius);
+        if largest <= radius {
+            return radius;
+        }
+        radius = largest;
+    }
+}
+
 /// The line with its last part led on to the cap, and the vessel's radius there; `None` where there is none.
 fn led_on(space: &Space, points: &[Place]) -> Option<(Vec<Place>, f64)> {
     let tip = *points.last()?;
-    let radius =
-        points.iter().rev().take_while(|place| place.at.distance(tip.at) < tip.radius).map(|place| place.radius);
-    let radius = radius.fold(tip.radius, f64::max);
+    let radius = vessel_radius(points, tip);
     let whole = length(points);
     if points.len() < 3 || whole < SHORTEST * radius || radius <= 0.0 {
         return None;

@@ -155,8 +155,8 @@ impl Shell<'_> {
         // What the wall has moved by, times the length of the loop, summed up until it is enough.
         let mut left = (area - before).abs() / STEEP;
         let mut last = None;
-        for i in 0..rim.len() {
-            let (from, to) = (rim[i], rim[(i + 1) % rim.len()]);
+        for (i, &from) in rim.iter().enumerate() {
+            let to = rim[(i + 1) % rim.len()];
             let middle = (p + (from + to) / 2.0).as_vec3();
             let nearest = match &last {
                 Some(last) => moved.nearest_from(middle, last),

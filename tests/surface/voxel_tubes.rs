@@ -79,12 +79,19 @@ impl Tube {
         if (ends[1] - ends[0]).abs() < length - 2.0 * spare {
             faults.push(format!("measured from {:.1} to {:.1} of {length:.1} mm", ends[0], ends[1]));
         }
-        let radii = measured.iter().filter_map(|&i| Some((found.calibres[i].area_mm2? / PI).sqrt()));
-        let mean = radii.sum::<f64>() / measured.len().max(1) as f64;
+        let radii: Vec<f64> =
+            measured.iter().map(|&i| (found.calibres[i].area_mm2.unwrap_or(0.0) / PI).sqrt()).collect();
+        let mean = radii.iter().sum::<f64>() / radii.len().max(1) as f64;
         // A mask of fewer voxels is itself thinner than what it is of.
         let allowed = if 2.0 * radius >= 4.0 * voxel { 0.03 } else { 0.05 };
         if (mean / radius - 1.0).abs() > allowed {
             faults.push(format!("a radius of {mean:.3} mm, not {radius:.3}"));
+        }
+        let is_off = |&(_, own): &(&usize, &f64)| 2.0 * radius >= 6.0 * voxel && (own / radius - 1.0).abs() > 0.05;
+        for (&i, own) in measured.iter().zip(&radii).filter(is_off) {
+            let station = stations[i];
+            let across = station.direction.dot(axis);
+            faults.push(format!("a radius of {own:.3} mm at {:.2} mm, {across:.3} across", along[i]));
         }
         faults
     }
