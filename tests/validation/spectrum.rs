@@ -190,7 +190,7 @@ fn what_is_felt_in_the_aorta_has_no_more_above_50_hz_than_rows_leave() {
     let course = Course::new(&mesh, Some(Sample::Aorta), &mut setup).unwrap();
     let mut trial = Trial::new(Arc::new(course), setup).unwrap();
     let (mut hold, mut told) = (Hold::default(), Told::default());
-    // By hand at constant speeds: 20 mm/s and 1 rad/s, for eight seconds after the first.
+    // By hand at constant speeds: 20 mm/s and 1 rad/s, from the first second on until the wire is where it should go.
     let mut unbalanced = 0_u32;
     for step in 0..9 * PIECE as u64 {
         if step.is_multiple_of(ROW_STEPS) {
@@ -199,6 +199,9 @@ fn what_is_felt_in_the_aorta_has_no_more_above_50_hz_than_rows_leave() {
         }
         hold.moves([20.0 * STEP, STEP]);
         trial.step();
+        if trial.simulation().steps() == step {
+            break;
+        }
         let report = trial.simulation().report();
         hold.stepped(&report);
         if step >= PIECE as u64 {
@@ -206,8 +209,9 @@ fn what_is_felt_in_the_aorta_has_no_more_above_50_hz_than_rows_leave() {
             unbalanced += u32::from(report.kind != StepKind::Balanced);
         }
     }
-    assert!(trial.simulation().steps() == 9 * PIECE as u64, "the trial was over");
-    println!("{unbalanced} steps are not balanced");
+    let steps = told.felt[0].len();
+    assert!(steps >= 3 * PIECE, "the trial was over after {steps} steps");
+    println!("{unbalanced} of {steps} steps are not balanced");
 
     for (i, (name, what, per)) in [("felt-push", "push", 1e3), ("felt-torque", "torque", 1.0)].into_iter().enumerate() {
         let mut found = Benchmark::new(name);
