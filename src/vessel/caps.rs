@@ -16,10 +16,11 @@ use super::tree::{Branch, End};
 /// Of the last part of a line so much is left out, in radii, and at most this part of the line.
 const LEFT_OUT: f64 = 1.5;
 const LEFT_OUT_OF: f64 = 0.4;
-/// A ball belongs to the same end if its middle is at most so many radii away,
+/// The vessel's radius is that of the largest ball whose middle is at most so many of a ball's radii from the tip, as long
+/// as that finds a larger one: towards the corner of a cap balls are as small as it is near.
 const NEAR: f64 = 1.5;
-/// and is at most so many times as large: one in a corner is half as large as that in the middle.
-const CORNER: f64 = 2.5;
+/// A ball smaller than this part of it is one in a corner. The line there is left out too.
+const CORNER: f64 = 0.8;
 /// The least length of a line that is led on, in radii.
 const SHORTEST: f64 = 1.0;
 /// The way on is that over so many radii before.
@@ -74,12 +75,12 @@ fn is_beside_another(branches: &[Branch], branch: &Branch, end: usize) -> bool {
     branches.iter().any(|other| other.id != branch.id && other.points.iter().any(near))
 }
 
-/// The radius of the vessel that a line ends in, whose last ball may be a small one in the corner of a cap.
+/// The radius of the vessel that a line ends in.
 fn vessel_radius(points: &[Place], tip: Place) -> f64 {
     let mut radius = tip.radius;
     loop {
         let near = points.iter().filter(|place| place.at.distance(tip.at) < NEAR * radius);
-        let largest = near.map(|place| place.radius).fold(radius, f64::max).min(CORNER * tip.radius);
+        let largest = near.map(|place| place.radius).fold(radius, f64::max);
         if largest <= radius {
             return radius;
         }
@@ -95,7 +96,9 @@ fn led_on(space: &Space, points: &[Place]) -> Option<(Vec<Place>, f64)> {
     if points.len() < 3 || whole < SHORTEST * radius || radius <= 0.0 {
         return None;
     }
-    let left_out = (LEFT_OUT * radius).min(LEFT_OUT_OF * whole);
+    let corner = points.iter().rev().take_while(|place| place.radius < CORNER * radius).count();
+    let corner = length(&points[points.len() - corner..]);
+    let left_out = (corner + LEFT_OUT * radius).min(LEFT_OUT_OF * whole);
     let mut kept = points.to_vec();
     let mut gone = 0.0;
     while kept.len() > 2 && gone < left_out {

@@ -87,7 +87,7 @@ impl Tube {
         if (mean / radius - 1.0).abs() > allowed {
             faults.push(format!("a radius of {mean:.3} mm, not {radius:.3}"));
         }
-        let is_off = |&(_, own): &(&usize, &f64)| 2.0 * radius >= 6.0 * voxel && (own / radius - 1.0).abs() > 0.05;
+        let is_off = |&(_, own): &(&usize, &f64)| 2.0 * radius >= 8.0 * voxel && (own / radius - 1.0).abs() > 0.05;
         for (&i, own) in measured.iter().zip(&radii).filter(is_off) {
             let station = stations[i];
             let across = station.direction.dot(axis);
