@@ -10,7 +10,7 @@ use wasm_bindgen_futures::spawn_local;
 
 use super::Devices;
 use super::relayer::{Beat, Open, Unplugged};
-use crate::hid::api::{Hid, HidConnectionEvent};
+use crate::hid::api::HidConnectionEvent;
 use crate::hid::interfaces::{Interfaces, NO_TIMER, NOT_THERE};
 use crate::hid::{Answer, Asked, Choice, Relay, Relayed};
 
