@@ -123,8 +123,8 @@ impl Method for Schroeder {
     fn offer(&mut self, star: &Star, _: u32, judged: &Judged, candidates: &mut Vec<Candidate>) {
         let allowed = (0..star.entries().len()).filter(|&j| judged.allows(j));
         // Where the hole is patched makes no difference to the distance from the plane.
-        let distance = judged.distance;
-        candidates.extend(allowed.map(|j| Candidate { distance, cost: star.height(j), to: j, place: None }));
+        let Judged { distance, priority, .. } = *judged;
+        candidates.extend(allowed.map(|j| Candidate { distance, priority, cost: star.height(j), to: j, place: None }));
     }
 
     fn fair_quality(&self) -> f32 {
