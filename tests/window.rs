@@ -1,21 +1,72 @@
-//! The desktop window: it starts, shows the sample and closes when it is asked to, on a real X server (xvfb-run
-//! gives one; `cargo xtask test` runs the tests under it). Without a display the trial is reported as ignored.
+//! The desktop window: it starts, shows the sample and closes when it is asked to, and opens again where its graphics
+//! device is lost, on a real X server (xvfb-run gives one; `cargo xtask test` runs the tests under it). Without a
+//! display the trials are reported as ignored.
 
-use std::process::{Child, Command};
+use std::cell::Cell;
+use std::io::Write as _;
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use eframe::egui_wgpu::WgpuSetupExisting;
 use libtest_mimic::{Arguments, Failed, Trial};
+use lumen::render::device_descriptor;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{AtomEnum, ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
 use x11rb::rust_connection::RustConnection;
 
+/// What is set where this program is to be the window, on a device that is lost as soon as a line is read.
+const LOSES: &str = "LUMEN_TEST_LOSES_DEVICE";
+
 fn main() {
+    if std::env::var_os(LOSES).is_some() {
+        return loses_its_device();
+    }
     let has_display = std::env::var_os("DISPLAY").is_some();
     if !has_display {
         eprintln!("no display: run the tests under xvfb-run");
     }
-    let trial = Trial::test("the window starts, shows the sample and closes", run).with_ignored_flag(!has_display);
-    libtest_mimic::run(&Arguments::from_args(), vec![trial]).exit();
+    let trials = vec![
+        Trial::test("the window starts, shows the sample and closes", run).with_ignored_flag(!has_display),
+        Trial::test("a window whose device is lost opens again and shows what it showed", open_again)
+            .with_ignored_flag(!has_display),
+    ];
+    // They look for a window by its title.
+    let arguments = Arguments { test_threads: Some(1), ..Arguments::from_args() };
+    libtest_mimic::run(&arguments, trials).exit();
+}
+
+/// The program's own window; the first has a device that does not live long.
+fn loses_its_device() {
+    let is_first = Cell::new(true);
+    let shown = lumen::desktop::run_on(None, |mut graphics| {
+        if is_first.replace(false) {
+            graphics.wgpu_setup = doomed().into();
+        }
+        graphics
+    });
+    if let Err(error) = shown {
+        eprintln!("the window could not be opened: {error}");
+        std::process::exit(1);
+    }
+}
+
+/// A device, gone once a line has come.
+fn doomed() -> WgpuSetupExisting {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: wgpu::Backends::VULKAN,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
+    let adapter = adapter.expect("a graphics device (in a container: mesa-vulkan-drivers)");
+    let (device, queue) = pollster::block_on(adapter.request_device(&device_descriptor(&adapter))).expect("a device");
+    let end = device.clone();
+    std::thread::spawn(move || {
+        std::io::stdin().read_line(&mut String::new()).expect("a line");
+        end.destroy();
+        // Where it can, the device says so once it has come to rest.
+        end.poll(wgpu::PollType::wait_indefinitely()).expect("a device at rest");
+    });
+    WgpuSetupExisting { instance, adapter, device, queue }
 }
 
 /// Ends the program whatever happens.
@@ -38,6 +89,37 @@ fn run() -> Result<(), Failed> {
     // The matte vessel is warm, all else is grey or blue.
     wait(Duration::from_secs(60), || warm_pixels(&x, window).filter(|&count| count > 10_000))?;
     close(&x, window)?;
+    let status = wait(Duration::from_secs(20), || program.0.try_wait().ok().flatten())?;
+    if status.success() { Ok(()) } else { Err(format!("the program ended with {status}").into()) }
+}
+
+fn open_again() -> Result<(), Failed> {
+    let mut command = Command::new(std::env::current_exe()?);
+    command.env(LOSES, "1").env_remove("WAYLAND_DISPLAY").stdin(Stdio::piped());
+    let mut program = Program(command.spawn()?);
+    let (x, screen) = x11rb::connect(None)?;
+    let root = x.setup().roots[screen].root;
+    let window = wait(Duration::from_secs(60), || find(&x, root))?;
+    let vessel = |window: Window| warm_pixels(&x, window).filter(|&count| count > 10_000);
+    wait(Duration::from_secs(60), || vessel(window))?;
+    // A device that a driver takes away is known to be lost at once; one that is given up says so when it is asked, and
+    // a frame might come before that.
+    let mut last = (0, Vec::new());
+    wait(Duration::from_secs(120), || {
+        let now = pixels(&x, window)?;
+        last = if now == last.1 { (last.0 + 1, now) } else { (0, now) };
+        (last.0 >= 10).then_some(())
+    })?;
+    let size = |window: Window| x.get_geometry(window).ok()?.reply().ok().map(|it| (it.width, it.height));
+    let before = size(window);
+
+    program.0.stdin.take().ok_or("no line to the program")?.write_all(b"\n")?;
+    let again = wait(Duration::from_secs(60), || find(&x, root).filter(|&found| found != window))?;
+    wait(Duration::from_secs(60), || vessel(again))?;
+    if size(again) != before {
+        return Err(format!("the window was {before:?} large, and is {:?}", size(again)).into());
+    }
+    close(&x, again)?;
     let status = wait(Duration::from_secs(20), || program.0.try_wait().ok().flatten())?;
     if status.success() { Ok(()) } else { Err(format!("the program ended with {status}").into()) }
 }
@@ -70,12 +152,16 @@ fn find(x: &RustConnection, parent: Window) -> Option<Window> {
     None
 }
 
+/// What the window shows: blue, green, red and nothing for each pixel.
+fn pixels(x: &RustConnection, window: Window) -> Option<Vec<u8>> {
+    let size = x.get_geometry(window).ok()?.reply().ok()?;
+    let image = x.get_image(ImageFormat::Z_PIXMAP, window, 0, 0, size.width, size.height, u32::MAX);
+    Some(image.ok()?.reply().ok()?.data)
+}
+
 /// Pixels that are distinctly more red than blue.
 fn warm_pixels(x: &RustConnection, window: Window) -> Option<usize> {
-    let size = x.get_geometry(window).ok()?.reply().ok()?;
-    let image =
-        x.get_image(ImageFormat::Z_PIXMAP, window, 0, 0, size.width, size.height, u32::MAX).ok()?.reply().ok()?;
-    Some(image.data.chunks_exact(4).filter(|bgrx| bgrx[2] > 80 && bgrx[2] > bgrx[0].saturating_add(40)).count())
+    Some(pixels(x, window)?.chunks_exact(4).filter(|bgrx| bgrx[2] > 80 && bgrx[2] > bgrx[0].saturating_add(40)).count())
 }
 
 fn close(x: &RustConnection, window: Window) -> Result<(), Failed> {

@@ -79,7 +79,10 @@ impl eframe::App for LastingApp {
     }
 
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
-        self.app.borrow_mut().ui(ui, frame);
+        // What is drawn goes into buffers of the device, and where a lost one gives none egui-wgpu panics.
+        if self.app.borrow().device_end().is_none() {
+            self.app.borrow_mut().ui(ui, frame);
+        }
     }
 }
 

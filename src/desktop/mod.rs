@@ -18,7 +18,7 @@ mod window;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
-pub use self::window::run;
+pub use self::window::{run, run_on};
 use crate::app::{Devices, Offer, Platform, PlatformEvent, Tone, Waker};
 use crate::engine::scan::ScanLink;
 use crate::engine::trial::{Exchange, TrialLink};

@@ -22,6 +22,14 @@ type End = Rc<RefCell<Option<(Fault, ViewportInfo)>>>;
 /// # Errors
 /// When there is no display or no graphics device.
 pub fn run(file: Option<&Path>) -> eframe::Result {
+    run_on(file, |graphics| graphics)
+}
+
+/// As [`run`], on what `choose` makes of Lumen's own choice of graphics, once for each window.
+///
+/// # Errors
+/// When there is no display or no graphics device.
+pub fn run_on(file: Option<&Path>, choose: impl Fn(WgpuConfiguration) -> WgpuConfiguration) -> eframe::Result {
     let mut viewport = ViewportBuilder::default()
         .with_title("Lumen")
         .with_app_id("lumen")
@@ -31,7 +39,7 @@ pub fn run(file: Option<&Path>) -> eframe::Result {
     let (mut restarts, since) = (Restarts::default(), Instant::now());
     loop {
         let end = End::default();
-        let shown = show(viewport.clone(), &kept, &end, file);
+        let shown = show(viewport.clone(), choose(graphics()), &kept, &end, file);
         let Some(app) = kept.borrow().clone() else { return shown };
         let ended = end.take();
         match (&shown, &ended) {
@@ -55,16 +63,13 @@ pub fn run(file: Option<&Path>) -> eframe::Result {
 /// Shows one window until it is closed, with the app that is kept, or a new one.
 fn show(
     viewport: ViewportBuilder,
+    wgpu_options: WgpuConfiguration,
     kept: &Rc<RefCell<Option<LastingApp>>>,
     end: &End,
     file: Option<&Path>,
 ) -> eframe::Result {
-    let options = eframe::NativeOptions {
-        viewport,
-        renderer: eframe::Renderer::Wgpu,
-        wgpu_options: graphics(),
-        ..Default::default()
-    };
+    let options =
+        eframe::NativeOptions { viewport, renderer: eframe::Renderer::Wgpu, wgpu_options, ..Default::default() };
     let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
         let device = cc.wgpu_render_state.as_ref();
         let app = match kept.take() {

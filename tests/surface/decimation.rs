@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use lumen::mesh::{Topology, TriMesh, Vec3, surface_area};
 use lumen::pipeline::decimation::decimate;
 use lumen::pipeline::deviation::deviation;
-use lumen::pipeline::progressive::ProgressiveMesh;
+use lumen::pipeline::progressive::{NEVER, ProgressiveMesh};
 use lumen::pipeline::settings::{Decimation, Method, Target};
 
 fn levels_of(mesh: &TriMesh, settings: &Decimation) -> ProgressiveMesh {
@@ -125,6 +125,80 @@ fn a_rim_is_held_to_its_line() {
             for rate in [980, 985, 990] {
                 let (mesh, error) = at(rate);
                 assert!(deviation(&mesh) < error * 1.001, "{rate}: {} of {error}", deviation(&mesh));
+            }
+        }
+    }
+}
+
+/// A sheet of 40 by 40 in units of `scale` mm that is flat but for the rim at y = 0, which swings up and down by `swing` over
+/// so many rows.
+fn swung(swing: f64, waves: u32, rows: u32, scale: f64) -> TriMesh {
+    sheet(80, 20, false, |column, row| {
+        let [x, y] = [f64::from(column) / 2.0, 2.0 * f64::from(row)];
+        let left = (1.0 - f64::from(row) / f64::from(rows)).max(0.0);
+        let z = swing * left * (f64::from(waves) * x / 40.0 * TAU).sin();
+        [x, y, z].map(|x| x * scale)
+    })
+}
+
+/// The same with the waves over all of it, along the diagonal: nearly plane, so that the planes hardly say where on it a
+/// vertex should be.
+fn rippled(swing: f64, waves: u32) -> TriMesh {
+    sheet(40, 40, false, |column, row| {
+        let [x, y] = [f64::from(column), f64::from(row)];
+        [x, y, swing * (f64::from(waves) * (x + 0.7 * y) / 40.0 * TAU).sin()]
+    })
+}
+
+/// The farthest that a vertex which was made lies from the edge in whose place it came, in lengths of that edge.
+fn farthest_made(levels: &ProgressiveMesh) -> f64 {
+    let nodes = levels.node_ends.len();
+    // Two nodes that one step ends stand side by side.
+    let pairs = (1..nodes).filter(|&i| levels.node_ends[i] == levels.node_ends[i - 1] && levels.node_ends[i] != NEVER);
+    let at = |node: usize| levels.positions[node].as_dvec3();
+    let lengths = pairs.map(|i| {
+        let (a, way, p) = (at(i - 1), at(i) - at(i - 1), at(levels.parents[i] as usize));
+        let part = ((p - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+        (p - a - way * part).length() / way.length()
+    });
+    lengths.fold(0.0, f64::max)
+}
+
+#[test]
+fn a_vertex_is_made_beside_the_edge_in_whose_place_it_comes() {
+    let mut made = Vec::new();
+    for scale in [0.001, 0.1, 1.0, 10.0] {
+        for swing in [1e-4, 0.01, 0.05, 0.3, 2.0] {
+            for (waves, rows) in [(4, 1), (4, 3), (9, 1), (9, 3)] {
+                made.push((format!("{swing}, {waves}, {rows}, {scale}"), swung(swing, waves, rows, scale)));
+            }
+        }
+    }
+    for swing in [1e-4, 1e-3, 0.01, 0.1, 1.0] {
+        made.extend([3, 11].map(|waves| (format!("{swing}, {waves}"), rippled(swing, waves))));
+    }
+    for (name, mesh) in made {
+        let levels = levels_of(&mesh, &by(Method::Quadric));
+        let far = farthest_made(&levels);
+        // Of its own, and half as much again to keep the volume.
+        assert!(far <= 1.5 + 1e-3, "{name}: {far} lengths of its edge");
+    }
+}
+
+#[test]
+fn a_flat_sheet_keeps_its_corners_while_anything_else_can_go() {
+    for scale in [0.001, 0.1, 1.0, 10.0] {
+        for swing in [0.01, 0.05, 0.3, 2.0] {
+            for (waves, rows) in [(4, 1), (4, 3), (9, 1), (9, 3)] {
+                let mesh = swung(swing, waves, rows, scale);
+                let levels = levels_of(&mesh, &by(Method::Quadric));
+                for count in [400, 200, 96, 48] {
+                    let level = levels.extract(&levels.level(Target::Triangles(count)).triangles);
+                    // The waves may go, all of them; what is flat has nothing to give.
+                    let found = deviation(&level, &mesh, 5000).unwrap().max;
+                    let most = (2.0 * swing).max(0.05) * scale;
+                    assert!(found < most, "{swing}, {waves}, {rows}, {scale}: {found} mm off with {count} triangles");
+                }
             }
         }
     }

@@ -19,6 +19,7 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Document, Element, HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, Window, console};
 
 use crate::platform::{Browser, TYPED};
+use crate::screen::Screen;
 
 /// How long to wait before graphics are first started again, in milliseconds: a browser whose process for them has died
 /// needs a moment.
@@ -42,6 +43,7 @@ pub(crate) struct Stage {
     with_webgpu: Cell<bool>,
     /// What hears of a lost WebGL context, and from which canvas.
     watched: RefCell<Option<Watched>>,
+    screen: Rc<Screen>,
 }
 
 impl Stage {
@@ -62,6 +64,7 @@ impl Stage {
             is_down: Cell::new(true),
             with_webgpu: Cell::new(false),
             watched: RefCell::default(),
+            screen: Rc::default(),
         });
         stage.start().await?;
         stage.is_down.set(false);
@@ -145,6 +148,7 @@ impl Stage {
     ) -> Result<LastingApp, Box<dyn std::error::Error + Send + Sync>> {
         let twins = self.element("twins").map_err(|error| format!("{error:?}"))?;
         crate::twins::attach(&cc.egui_ctx, canvas, &twins).map_err(|error| format!("{error:?}"))?;
+        self.screen.watch(&self.window, &cc.egui_ctx).map_err(|error| format!("{error:?}"))?;
         let device = cc.wgpu_render_state.as_ref();
         let mut kept = self.app.borrow_mut();
         if let Some(app) = &*kept {

@@ -1,7 +1,7 @@
 //! Lumen in a browser: what the page gives the app.
 //!
 //! - [`page`]: starts the app and tells the page how it goes; [`graphics`]: WebGPU or WebGL2 on the canvas, started again
-//!   where it is lost.
+//!   where it is lost; [`screen`]: painted again on a screen of other pixels.
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
 //! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads, and [`store`], what
 //!   outlives the page.
@@ -30,6 +30,8 @@ mod page;
 mod platform;
 #[cfg(target_arch = "wasm32")]
 mod scans;
+#[cfg(target_arch = "wasm32")]
+mod screen;
 #[cfg(target_arch = "wasm32")]
 mod sound;
 #[cfg(target_arch = "wasm32")]

@@ -257,3 +257,51 @@ fn settle(reach: &mut Reach, is_begun: &mut bool, corners: impl Fn() -> [Vec3; 3
 pub(super) fn distance(surface: &SurfaceIndex, p: Vec3) -> f64 {
     surface.nearest(p).map_or(f64::INFINITY, |found| f64::from(found.distance))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::distance_to_triangle;
+    use crate::mesh::shapes::square;
+
+    /// What comes of a triangle.
+    fn settled(corners: [Vec3; 3], surface: &SurfaceIndex, bound: f64) -> Settled {
+        let (mut reach, mut is_begun) = (Reach::new(bound), false);
+        loop {
+            match settle(&mut reach, &mut is_begun, || corners, surface) {
+                Settled::Open => assert!(is_begun),
+                settled => {
+                    assert!(!is_begun, "the next triangle begins anew");
+                    return settled;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_triangle_is_put_down_to_one_only_where_that_one_is_near_to_all_of_it() {
+        // A square of 8 by 8 cells of two triangles, and above it triangles over part of a cell and over many.
+        let ground = square(8, 8.0, 0.0);
+        let surface = SurfaceIndex::new(&ground.positions, &ground.triangles);
+        let (height, bound) = (0.01, 0.011);
+        let (mut of_one, mut of_many) = (0, 0);
+        for i in 0..64 {
+            let at = Vec3::new((i % 8) as f32, (i / 8) as f32, height);
+            let size = if i % 2 == 0 { 0.2 } else { 3.0 };
+            let way =
+                |x: f32, y: f32| (at + Vec3::new(x, y, 0.0) * size).clamp(Vec3::ZERO, Vec3::new(8.0, 8.0, height));
+            let corners = [way(0.3, 0.1), way(0.9, 0.2), way(0.8, 0.7)];
+            match settled(corners, &surface, bound) {
+                // The distance from a triangle is convex: what is near at the corners is so between them.
+                Settled::Within(Some(by)) => {
+                    let off = corners.map(|p| distance_to_triangle(p, ground.corners(by as usize)));
+                    assert!(off.iter().all(|&off| off <= bound), "{corners:?} by {by}: {off:?}");
+                    of_one += 1;
+                }
+                Settled::Within(None) => of_many += 1,
+                Settled::Open | Settled::Beyond(_) => panic!("all is {height} mm above the square"),
+            }
+        }
+        assert!(of_one > 20 && of_many > 20, "{of_one} {of_many}");
+    }
+}

@@ -44,7 +44,7 @@ const TIP: f32 = 0.5;
 pub(super) enum Refusal {
     /// It cannot.
     Stuck(Stuck),
-    /// Its distance is larger than it was judged.
+    /// The cheapest way that is open costs more than it was judged by.
     Later(f32),
 }
 
@@ -160,7 +160,8 @@ impl Surface {
                     candidate.place = Some(self.level(v, u, &candidate, at, limits).unwrap_or(place));
                 }
                 let tip = self.tip(&candidate, at);
-                let key = self.method.priority(tip) * limits.price;
+                // Where a cheaper one is barred, this one waits until it would have been its turn.
+                let key = candidate.priority.max(self.method.priority(tip)) * limits.price;
                 if key > threshold {
                     return Err(Refusal::Later(key));
                 }

@@ -31,6 +31,8 @@ impl Judged {
 pub(super) struct Candidate {
     /// Distance by which the surface would suffer, in the unit of the rings.
     pub(super) distance: f32,
+    /// What it is ordered by, as [`Judged::priority`] is that of the best.
+    pub(super) priority: f32,
     /// What it costs, without the triangles' shape; infinite once it has been tried.
     pub(super) cost: f32,
     /// The neighbour that takes over, by its place in the ring.

@@ -8,7 +8,9 @@
 //! and nearly all of the change of volume.
 //!
 //! Where the planes leave a direction free (on a plane, along a tube), the new vertex stays near the middle of its edge,
-//! which counts as a faint point of attraction, so that the system is never singular. Boundary edges add a plane that
+//! which counts as a faint point of attraction, so that the system is never singular. Planes that are nearly parallel
+//! meet anywhere: where that would be farther from the edge than the edge is long, the vertex goes to the best place on
+//! the edge, as in VTK's `vtkQuadricDecimation` where the matrix is ill-conditioned. Boundary edges add a plane that
 //! stands on the surface; a vertex inside that meets the boundary goes where the boundary is; so do borders between labels. Feature edges need no rule:
 //! the planes on both sides hold them. Where a vertex can go in no better way, it may go to where a neighbour is.
 
@@ -26,6 +28,9 @@ const PULL: f64 = 1e-6;
 const SHAPE_COST: f32 = 0.2;
 /// Most of its edge's length that a new vertex moves to keep the volume.
 const MOST_LEVELLED: f64 = 0.5;
+/// How far a new vertex may lie from the edge in whose place it comes, in lengths of that edge, before it moves to keep
+/// the volume.
+const REACH: f64 = 1.0;
 
 /// `x.Ax + 2 b.x + c` with `x` relative to a vertex: squared distances from planes, by area.
 #[derive(Clone, Copy, Default)]
@@ -73,6 +78,21 @@ impl Form {
         found.is_finite().then_some(found)
     }
 
+    /// Where a new vertex should be that takes the place of the edge from here to `way`: where the form is least, if that
+    /// is near the edge, else where it is least on the edge. `None` where there are no planes.
+    fn place(&self, way: DVec3) -> Option<DVec3> {
+        let found = self.least(way * 0.5)?;
+        Some(if is_near(found, way) { found } else { self.least_on(way) })
+    }
+
+    /// Where it is least on the edge from here to `way`, drawn towards its middle.
+    fn least_on(&self, way: DVec3) -> DVec3 {
+        let stiffness = way.dot(self.times(way));
+        let pull = (self.a[0] + self.a[3] + self.a[5]) / 3.0 * PULL * way.length_squared();
+        let part = (0.5 * pull - way.dot(self.b)) / (stiffness + pull);
+        way * if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 }
+    }
+
     /// `x` with `A x = right`, with [`PULL`] added to A's diagonal; `None` where A is zero.
     fn solve(&self, right: DVec3) -> Option<DVec3> {
         let [xx, xy, xz, yy, yz, zz] = self.a;
@@ -93,6 +113,13 @@ impl Form {
         let y = (y2 - l32 * z) / l22;
         Some(DVec3::new((y1 - l21 * y - l31 * z) / l11, y, z))
     }
+}
+
+/// Whether a place is within [`REACH`] of the edge from the origin to `way`.
+fn is_near(place: DVec3, way: DVec3) -> bool {
+    let square = way.length_squared();
+    let part = if square > 0.0 { (place.dot(way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (place - way * part).length_squared() <= REACH * REACH * square
 }
 
 /// The method's state.
@@ -152,6 +179,7 @@ impl Method for Quadric {
         let along = is_open.then(|| [0, entries.len() - 1]).or(border);
         // What the planes do not know: how far the border is from the line that takes its place.
         let off = border.map(|[a, b]| distance_to_segment(star.edge(a), star.edge(b)));
+        let least = off.map_or(0.0, |off| self.priority(off));
         let own = &self.forms[v as usize];
         self.candidates.clear();
         let mut judged = Judged { distance: f32::INFINITY, priority: f32::INFINITY, along, is_held: false };
@@ -163,24 +191,23 @@ impl Method for Quadric {
             let way = star.edge(to).as_dvec3();
             let form = own.plus(&self.forms[u as usize].seen_from(-way));
             let stays = rings.stays(u) || rings.is_open(u) && !is_open || rings.is_on_border(u);
-            let place = if stays { None } else { form.least(way * 0.5) };
+            let place = if stays { None } else { form.place(way) };
             let candidate = |place: Option<DVec3>| {
                 let cost = form.at(place.unwrap_or(way));
                 let distance = if form.area > 0.0 { (cost / form.area).sqrt() as f32 } else { 0.0 };
                 let distance = off.map_or(distance, |off| distance.max(off));
-                (cost.sqrt() as f32, Candidate { distance, cost: cost as f32, to, place: place.map(DVec3::as_vec3a) })
+                let priority = least.max(cost.sqrt() as f32);
+                let place = place.map(DVec3::as_vec3a);
+                Candidate { distance, priority, cost: cost as f32, to, place }
             };
-            let (priority, best) = candidate(place);
+            let best = candidate(place);
             self.candidates.push(best);
             if is_last && place.is_some() {
-                self.candidates.push(candidate(None).1);
+                self.candidates.push(candidate(None));
             }
-            if priority < judged.priority {
-                (judged.priority, judged.distance) = (priority, best.distance);
+            if best.priority < judged.priority {
+                (judged.priority, judged.distance) = (best.priority, best.distance);
             }
-        }
-        if let Some(off) = off {
-            judged.priority = judged.priority.max(self.priority(off));
         }
         judged
     }

@@ -123,8 +123,8 @@ impl Method for Schroeder {
     fn offer(&mut self, star: &Star, _: u32, judged: &Judged, candidates: &mut Vec<Candidate>) {
         let allowed = (0..star.entries().len()).filter(|&j| judged.allows(j));
         // Where the hole is patched makes no difference to the distance from the plane.
-        let distance = judged.distance;
-        candidates.extend(allowed.map(|j| Candidate { distance, cost: star.height(j), to: j, place: None }));
+        let Judged { distance, priority, .. } = *judged;
+        candidates.extend(allowed.map(|j| Candidate { distance, priority, cost: star.height(j), to: j, place: None }));
     }
 
     fn fair_quality(&self) -> f32 {
@@ -170,5 +170,62 @@ impl Method for Schroeder {
     fn compact(&mut self, kept: &[u32]) {
         self.planes = gather(&self.planes, kept);
         self.own = gather(&self.own, kept);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Topology, TriMesh, Vec3};
+
+    /// Vertices along each side of a ribbon.
+    const ALONG: u32 = 7;
+    /// By how much vertex 2, on the rim, is off the line of the others.
+    const OFF: f32 = 0.1;
+
+    /// A flat ribbon, 2 mm wide, with vertices every millimetre; those of the rim at y = 0 first.
+    fn ribbon() -> TriMesh {
+        let at = |i: u32| {
+            let (x, is_far) = ((i % ALONG) as f32, i >= ALONG);
+            Vec3::new(x, if is_far { 2.0 } else { 0.0 } + if i == 2 { OFF } else { 0.0 }, 0.0)
+        };
+        let cell = |i: u32| [[i, i + 1, i + 1 + ALONG], [i, i + 1 + ALONG, i + ALONG]];
+        TriMesh { positions: (0..2 * ALONG).map(at).collect(), triangles: (0..ALONG - 1).flat_map(cell).collect() }
+    }
+
+    #[test]
+    fn a_rim_that_was_bent_is_remembered_where_it_is_straight_now() {
+        let mesh = ribbon();
+        let mut rings = Rings::new(&mesh);
+        assert!(rings.link(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), mesh.positions.len()));
+        let slot = |vertex: u32, rings: &Rings| (0..rings.len() as u32).find(|&v| rings.nodes[v as usize] == vertex);
+        let [bent, straight] = [2, 3].map(|vertex| slot(vertex, &rings).unwrap());
+        let (mut method, mut star) = (Schroeder::default(), Star::new());
+        method.start(rings.len());
+        for v in 0..rings.len() as u32 {
+            star.load(&rings, v);
+            star.span();
+            method.meet(&rings, &star, v);
+        }
+        method.merge(bent, straight, rings.at(straight) - rings.at(bent), None, 0.0);
+        rings.collapse(bent, straight);
+        star.load(&rings, straight);
+        let judged = method.judge(&rings, &star, straight, false, None);
+
+        // Twice the area at a vertex, and the squares of the rim's edges there.
+        let part = |v: usize| {
+            let at = |v: u32| mesh.positions[v as usize];
+            let here = mesh.triangles.iter().filter(|t| t.contains(&(v as u32)));
+            let area: f32 = here.map(|&[a, b, c]| (at(b) - at(a)).cross(at(c) - at(a)).length()).sum();
+            let beside = [v - 1, v + 1].map(|other| at(other as u32).distance_squared(at(v as u32)));
+            area + beside[0] + beside[1]
+        };
+        // The lines from vertex 1 to 2 and from 2 to 3, which slope by OFF either way, are in the planes of 2, the second
+        // in those of 3 too; weighed by the square of their length they are this far from 1 and from 4, squared.
+        let [back, on] = [2.0 * 2.0 * 2.0, 3.0 * 3.0 + 2.0].map(|times| times * OFF * OFF);
+        let of_both = part(2) + part(3);
+        let exact = (back / (of_both + part(1))).min(on / (of_both + part(4))).sqrt();
+        let found = judged.distance * rings.unit;
+        assert!((found / exact - 1.0).abs() < 1e-3, "{found} mm instead of {exact}");
     }
 }
