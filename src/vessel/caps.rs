@@ -17,8 +17,9 @@ use super::tree::{Branch, End};
 const LEFT_OUT: f64 = 1.5;
 const LEFT_OUT_OF: f64 = 0.4;
 /// The vessel's radius is that of the largest ball whose middle is at most so many of a ball's radii from the tip, as long
-/// as that finds a larger one: towards the corner of a cap balls are as small as it is near.
-const NEAR: f64 = 1.5;
+/// as that finds a larger one: towards the corner of a cap balls are as small as it is near. A ball in a square corner is
+/// 1.4 of its radii from it, where the wall has steps up to 1.6, and 2.6 in the sharp one of a cap that leans by 45 degrees.
+const NEAR: f64 = 2.5;
 /// A ball smaller than this part of it is one in a corner. The line there is left out too.
 const CORNER: f64 = 0.8;
 /// The least length of a line that is led on, in radii.
