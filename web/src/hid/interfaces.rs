@@ -123,9 +123,12 @@ impl Interfaces {
 
     /// Leaves the device with these as its last.
     pub(crate) async fn close(&self, farewell: &[Request]) {
-        for request in farewell {
-            // One that is gone hears nothing; its motors end by themselves.
-            let _ = self.carry_out(request).await;
+        // One that was pulled out is closed already, and hears nothing; its motors end by themselves.
+        if self.all().all(HidDevice::opened) {
+            for request in farewell {
+                // It may be pulled out meanwhile.
+                let _ = self.carry_out(request).await;
+            }
         }
         for device in self.all() {
             let _ = JsFuture::from(device.close()).await;
