@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { REDUCTION, atEntry, atRest, drawn, fed, settled, shownTriangles, silhouette, views } from "./app.mjs";
+import { REDUCTION, atEntry, atRest, fed, settled, shownTriangles, silhouette, views } from "./app.mjs";
 import { eventually, frames, launch, openApp, press, twin, value } from "./browser.mjs";
 
 let browser;
@@ -46,46 +46,6 @@ test("the picture follows the window's size", async (t) => {
     t.diagnostic(`${width} x ${height}: the vessel covers ${(100 * part).toFixed(1)} % of its view`);
     assert(part > 0.02 && part < 0.7, `the vessel covers ${part} of its view`);
   }
-  assert.deepEqual(wrong, []);
-});
-
-test("a window that comes to a screen of other pixels is drawn in them, though no pointer moves", async (t) => {
-  // Begun on a screen that is not the real one: from then on the page trusts the ratio, not what the browser tells of its
-  // own pixels (`checkPixels` in boot.js).
-  const [width, height] = [900, 600];
-  const { page, wrong } = await openApp(t, browser, { context: { viewport: { width, height }, deviceScaleFactor: 2 } });
-  await settled(page);
-  // What the pointer lights up would differ, and each move of it asks for a frame.
-  await page.mouse.move(2, 2);
-  await frames(page, 10);
-  const controls = [twin(page, "button", "Open..."), twin(page, "slider", REDUCTION), views.shaded(page), views.wireframe(page)];
-  const places = () => Promise.all(controls.map((control) => control.boundingBox()));
-  // Of the view alone, in points: the pixels beside its edges are those of lines and letters.
-  const covered = async (ratio) => (await drawn(page, views.shaded(page))) / ratio ** 2;
-  const device = await page.context().newCDPSession(page);
-  const [before, vessel] = [await places(), await covered(2)];
-  assert(vessel > 1000, `the vessel covers ${vessel} points`);
-  for (const ratio of [1, 2, 1.5, 2]) {
-    await device.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: ratio, mobile: false });
-    const own = [width * ratio, height * ratio];
-    const is = (size, wanted) => size.every((side, axis) => Math.abs(side - wanted[axis]) <= 1);
-    await eventually(() => sizes(page), (size) => is(size.css, [width, height]) && is(size.own, own), {
-      what: `a canvas of ${own} pixels for ${[width, height]} points`,
-    });
-    await frames(page, 5);
-    const now = await covered(ratio);
-    t.diagnostic(`${ratio} pixels a point: the vessel covers ${now.toFixed(0)} points of ${vessel.toFixed(0)}`);
-    assert(Math.abs(now / vessel - 1) < 0.1, `${ratio} pixels a point: ${now} points are drawn, ${vessel} were`);
-    for (const [i, place] of (await places()).entries()) {
-      for (const side of ["x", "y", "width", "height"]) {
-        const off = Math.abs(place[side] - before[i][side]);
-        assert(off <= 2, `${ratio} pixels a point: ${side} of control ${i} is ${place[side]}, it was ${before[i][side]}`);
-      }
-    }
-  }
-  // What is pressed is where it is shown.
-  await press(page, "button", "View");
-  await twin(page, "menuitem", "Left").waitFor({ state: "attached" });
   assert.deepEqual(wrong, []);
 });
 

@@ -1,7 +1,9 @@
 //! The screen that the window is on: it may come to one whose points have more pixels, or fewer, at the same size.
 //!
 //! eframe hears of that too, and gives the canvas its new pixels, which wipes it. But it paints only where something
-//! asks for a frame, and nothing does: the page would stay blank until the pointer comes by.
+//! asks for a frame, and nothing does: the page would stay blank until the pointer comes by. (By reading eframe's source:
+//! in a browser without a screen the emulation of another ratio reaches neither the query nor the canvas, so no test
+//! shows it.)
 
 use std::cell::RefCell;
 use std::rc::{Rc, Weak};
