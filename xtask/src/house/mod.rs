@@ -110,7 +110,8 @@ fn files_that_documents_name_are_there() {
 fn named(line: &str) -> (usize, Vec<String>) {
     let mut places = vec![root().to_path_buf(), root().join("src"), root().join("docs")];
     let (mut found, mut missing) = (0, Vec::new());
-    for name in documents::names(line) {
+    let is_here = |name: &String| !ELSEWHERE.iter().any(|folder| name.starts_with(folder));
+    for name in documents::names(line).into_iter().filter(is_here) {
         let of = |place: &Path| match name.split_once('*') {
             Some((before, _)) => place.join(before).parent().map(Path::to_path_buf),
             None => Some(place.join(&name)),
@@ -121,9 +122,7 @@ fn named(line: &str) -> (usize, Vec<String>) {
                 let folder = if path.is_dir() { Some(&*path) } else { path.parent() };
                 places.extend(folder.map(Path::to_path_buf));
             }
-            None if documents::is_path(&name) && !ELSEWHERE.iter().any(|folder| name.starts_with(folder)) => {
-                missing.push(name);
-            }
+            None if documents::is_path(&name) => missing.push(name),
             None => {}
         }
     }
