@@ -47,7 +47,12 @@ pub(super) struct Star {
     quads: [Quad; QUADS],
     /// Sum of the areas, doubled.
     area: f32,
+    /// Sum of the normals.
+    normals: Vectors,
 }
+
+/// A triangle of less quality than this, squared, has no normal but that of rounding.
+const NO_NORMAL: f32 = 1e-12;
 
 /// The square of the factor that makes an equilateral triangle's quality 1.
 const NORM: f32 = 12.0;
@@ -84,7 +89,7 @@ impl Star {
             quality: Vec4::ZERO,
             none: Vec4::ZERO,
         };
-        Self { entries: [0; MOST_AROUND + 4], count: 0, triangles: 0, quads: [none; QUADS], area: 0.0 }
+        Self { entries: [0; MOST_AROUND + 4], count: 0, triangles: 0, quads: [none; QUADS], area: 0.0, normals: zero }
     }
 
     /// Loads the ring of `v`, which has at most [`MOST_AROUND`] neighbours; [`Self::span`] follows where triangles are
@@ -108,7 +113,7 @@ impl Star {
 
     /// Works out the triangles.
     pub(super) fn span(&mut self) {
-        let mut area = Vec4::ZERO;
+        let (mut area, mut normals) = (Vec4::ZERO, [Vec4::ZERO; 3]);
         let mut number = Vec4::new(0.0, 1.0, 2.0, 3.0);
         let end = Vec4::splat(self.triangles as f32);
         let zero = Vec4::ZERO;
@@ -132,9 +137,11 @@ impl Star {
             quad.quality = quality(square, edges);
             quad.none = Vec4::select(is_there, zero, Vec4::ONE);
             area += quad.area;
+            normals = add(normals, n);
             number += 4.0;
         }
         self.area = sum(area);
+        self.normals = normals.map(|all| Vec4::splat(sum(all)));
     }
 
     fn put(&mut self, i: usize, e: Vec3A) {
@@ -199,7 +206,8 @@ impl Star {
 
     /// Quality of the worst triangle after the vertex has gone the way `way` to where neighbour `j` is, or will be: 1 is
     /// equilateral, 0 has no area. The two triangles at the edge to `j` do not count. `None` if a triangle would turn
-    /// so far that the cosine falls below `turn`, or one would get worse and end below `least`.
+    /// so far that the cosine falls below `turn`, or one would get worse and end below `least`. One that has no area, and so
+    /// no normal, is held to that of the star: else it could open against its neighbours, and lie back to back with them.
     pub(super) fn worst_after(&self, way: Vec3A, j: usize, turn: f32, least: f32) -> Option<f32> {
         let way = way.to_array().map(Vec4::splat);
         let before = if j > 0 { j - 1 } else { self.count - 1 };
@@ -207,15 +215,18 @@ impl Star {
         let (turn, least) = (Vec4::splat(turn), Vec4::splat(least * least));
         let mut worst = Vec4::ONE;
         let mut number = Vec4::new(0.0, 1.0, 2.0, 3.0);
+        let mean = dot(self.normals, self.normals).sqrt();
         for quad in self.quads() {
             let new = subtract(quad.n, cross(way, quad.d));
             let square = dot(new, new);
-            let along = dot(new, quad.n);
+            let is_flat = quad.quality.cmplt(Vec4::splat(NO_NORMAL));
+            let along = Vec4::select(is_flat, dot(new, self.normals), dot(new, quad.n));
+            let area = Vec4::select(is_flat, mean, quad.area);
             let near = subtract(quad.e, way);
             let far = add(near, quad.d);
             let edges = dot(near, near) + quad.side + dot(far, far);
             let quality = quality(square, edges);
-            let folds = along.cmplt(turn * square.sqrt() * quad.area);
+            let folds = along.cmplt(turn * square.sqrt() * area);
             let is_poor = quality.cmplt(least) & quality.cmplt(quad.quality);
             let counts = number.cmpne(first) & number.cmpne(second);
             if (counts & (folds | is_poor)).any() {
@@ -285,8 +296,7 @@ impl Star {
 
     /// The sum of the normals of the triangles.
     pub(super) fn normal_sum(&self) -> Vec3A {
-        let all = self.quads().iter().fold([Vec4::ZERO; 3], |all, quad| add(all, quad.n));
-        Vec3A::new(sum(all[0]), sum(all[1]), sum(all[2]))
+        Vec3A::from(self.normals.map(|all| all.x))
     }
 
     /// Corners of the box around the neighbours, relative to the vertex, with the vertex.
@@ -326,7 +336,11 @@ mod tests {
         let rim = (0..sides).map(|i| Vec3::new(at(i).1, at(i).0, 0.0));
         let positions = std::iter::once(Vec3::Z * height).chain(rim).collect();
         let triangles = (0..sides).map(|i| [0, 1 + i, 1 + (i + 1) % sides]).collect();
-        let mesh = TriMesh { positions, triangles };
+        star_of(TriMesh { positions, triangles })
+    }
+
+    /// That of vertex 0.
+    fn star_of(mesh: TriMesh) -> Star {
         let mut rings = Rings::new(&mesh);
         assert!(rings.link(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), mesh.positions.len()));
         let apex = (0..rings.len() as u32).find(|&v| rings.nodes[v as usize] == 0).unwrap();
@@ -365,5 +379,18 @@ mod tests {
         assert!((star.worst_after(Vec3A::ZERO, 0, 0.5, 0.1).unwrap() - 1.0).abs() < 1e-5);
         // Beyond the opposite side triangles turn over.
         assert_eq!(star.worst_after(star.edge(3) * 1.5, 0, 0.0, 0.0), None);
+    }
+
+    #[test]
+    fn a_triangle_without_area_opens_with_its_star_and_not_against_it() {
+        // Seen from above, four quarters; vertex 3 lies on the edge to 4, so that the triangle between them has no area.
+        let around = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::NEG_X * 0.5, Vec3::NEG_X, Vec3::NEG_Y];
+        let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1]];
+        let star = star_of(TriMesh { positions: around.to_vec(), triangles });
+        let along_x = |&j: &usize| star.edge(j).normalize().x > 0.9;
+        let to = (0..5).find(along_x).unwrap();
+        let after = |y: f32| star.worst_after(Vec3A::Y * y * star.edge(to).length(), to, 0.0, 0.0);
+        // From the middle down it faces up, as the others do, and from the middle up it would face down.
+        assert!(after(-0.1).is_some() && after(0.1).is_none());
     }
 }
