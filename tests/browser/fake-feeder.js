@@ -20,6 +20,11 @@ class FakeFeeder {
     this.#way = { from: performance.now(), ms, start: this.#at, end: to.map((part) => Math.round(32767 * part)) };
   }
 
+  /** The hand has the axes there. */
+  put(to) {
+    [this.#at, this.#way] = [to.map((part) => Math.round(32767 * part)), null];
+  }
+
   /** The input report of now. */
   input() {
     if (this.#way) {

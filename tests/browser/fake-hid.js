@@ -38,6 +38,8 @@
     }
 
     async close() {
+      const ms = globalThis.fakeHid?.closingMs;
+      if (ms) await new Promise((done) => setTimeout(done, ms));
       this.opened = false;
     }
 
@@ -81,14 +83,15 @@
 
     async forget() {}
 
+    report() {
+      this.dispatchEvent(Object.assign(new Event("inputreport"), { device: this, reportId: 1, data: this.feeder.input() }));
+    }
+
     /** Sends its reports, each as an event of its own. */
     tick() {
       const { port1, port2 } = new MessageChannel();
       const isOn = () => this.opened && this.isPlugged;
-      port1.onmessage = () => {
-        if (!isOn()) return;
-        this.dispatchEvent(Object.assign(new Event("inputreport"), { device: this, reportId: 1, data: this.feeder.input() }));
-      };
+      port1.onmessage = () => isOn() && this.report();
       this.feeder.tick(isOn, () => port2.postMessage(0));
     }
   }
@@ -133,9 +136,16 @@
     globalThis.fakeHid = {
       heard: [],
       wrong: [],
+      /** How long the page's device takes to close. */
+      closingMs: 0,
       now,
       go: (feed, roll, ms) => go([feed, roll], ms),
       plug: (is) => (channel.postMessage({ plug: is }), plug(is)),
+      /** The page hangs for so many ms, and what the hand reports meanwhile on its way, by parts of the feed, comes then. */
+      hang: (ms, feeds) => {
+        for (const until = now() + ms; now() < until; );
+        for (const feed of feeds) device.feeder.put([feed, 0]), device.report();
+      },
     };
   }
 })();

@@ -106,117 +106,133 @@ async function choose(page, name) {
 
 const isStart = ({ id, bytes }) => id === 4 && bytes[1] < 3;
 const isStop = ({ id, bytes }) => (id === 4 && bytes[1] === 3) || (id === 6 && bytes[0] === 3);
-const heard = (page) => page.evaluate(() => globalThis.fakeHid.heard);
 const there = (page, name) => twin(page, "button", name).waitFor({ state: "attached", timeout: 60_000 });
 
-test("a device is paired, feeds the wire, pushes back once armed, and is stopped", { timeout: 300_000 }, async (t) => {
-  const { page, wrong } = await openTrial(t);
-  await choose(page, "Pair a device...");
-  await there(page, "Arm force...");
-  assert.equal((await heard(page)).filter(({ id }) => id === 4).length, 0, "no effect is started before it is armed");
+/** A mock in the page, by HID or by serial: what is asked of it there. */
+const byHid = (page) => (more) => page.evaluate(`globalThis.fakeHid.${more}`);
+const bySerialLine = (page) => (more) => page.evaluate(`globalThis.fakeSerial.${more}`);
 
-  const start = await inserted(page);
-  await page.evaluate(() => globalThis.fakeHid.go(0.8, 0, 2000));
-  await fed(page, start, 2);
-  t.diagnostic(`fed to ${await inserted(page)} cm`);
-
+/** Arms the force, and has the hand push until an effect is started. */
+async function pushed(page, fake, to = "-0.5, 0.3") {
   await find(page, "button", "Arm force...");
   await find(page, "button", "Arm force");
   await there(page, "Stop force");
-  // Once the hand pushes, effects are started and renewed.
-  await page.evaluate(() => globalThis.fakeHid.go(-0.5, 0.3, 1500));
-  await eventually(() => heard(page), (all) => all.some(isStart), { what: "an effect that is started" });
+  await fake(`go(${to}, 1500)`);
+  await eventually(() => fake("heard"), (all) => all.some(isStart), { what: "an effect that is started" });
+}
 
+/** After the last stop nothing is started. */
+async function isStopped(page, fake) {
+  await eventually(() => fake("heard"), (all) => all.some(isStop), { what: "the stop" });
+  await atRest(page, 300);
+  const all = await fake("heard");
+  assert.equal(all.slice(all.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
+}
+
+/** Pulled out, the device pauses the trial; plugged in again it holds the wire, unarmed. */
+async function replugged(page, fake) {
+  await fake("plug(false)");
+  await says(page, /no longer there/, { what: "that it is gone" });
+  await says(page, /^Paused/, { what: "the trial, which waits" });
+  const [before, start] = [(await fake("heard")).length, await inserted(page)];
+  await fake("plug(true)");
+  await there(page, "Arm force...");
+  await says(page, /holds the wire again; its force is not armed/, { what: "that it is back" });
+  // What it did while it was out is not made up for; from here on it feeds, and is not pushed.
+  await fake("go(1, 0, 1000)");
+  await fed(page, start, 0.5);
+  assert.equal((await fake("heard")).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
+}
+
+test("a device is paired, feeds the wire, pushes back once armed, and is stopped", { timeout: 300_000 }, async (t) => {
+  const { page, wrong } = await openTrial(t);
+  const fake = byHid(page);
+  await choose(page, "Pair a device...");
+  await there(page, "Arm force...");
+  assert.equal((await fake("heard")).filter(({ id }) => id === 4).length, 0, "no effect is started before it is armed");
+
+  const start = await inserted(page);
+  await fake("go(0.8, 0, 2000)");
+  await fed(page, start, 2);
+  t.diagnostic(`fed to ${await inserted(page)} cm`);
+
+  await pushed(page, fake);
   // Escape stops it.
   await page.keyboard.press("Escape");
   await there(page, "Arm force...");
-  await atRest(page, 300);
-  const last = await heard(page);
-  const stop = last.findLastIndex(isStop);
-  assert(stop >= 0, "a stop was sent");
-  assert.equal(last.slice(stop).filter(isStart).length, 0, "and nothing starts after it");
-  assert.deepEqual(await page.evaluate(() => globalThis.fakeHid.wrong), [], "every report was of its length");
+  await isStopped(page, fake);
+  assert.deepEqual(await fake("wrong"), [], "every report was of its length");
   assert.deepEqual(wrong, []);
 });
 
 test("leaving the window ends the force at once, unplugging pauses the trial, plugging in goes on", { timeout: 300_000 }, async (t) => {
   const { page } = await openTrial(t);
+  const fake = byHid(page);
   await choose(page, "Pair a device...");
   await there(page, "Arm force...");
-  await find(page, "button", "Arm force...");
-  await find(page, "button", "Arm force");
-  await page.evaluate(() => globalThis.fakeHid.go(0.6, 0, 1500));
-  await eventually(() => heard(page), (all) => all.some(isStart), { what: "an effect that is started" });
+  await pushed(page, fake, "0.6, 0");
   const [count, left] = await page.evaluate(() => {
     const count = globalThis.fakeHid.heard.length;
     dispatchEvent(new Event("blur"));
     return [count, globalThis.fakeHid.now()];
   });
-  const all = await eventually(async () => (await heard(page)).slice(count), (all) => all.some(isStop), { what: "the stop" });
+  const all = await eventually(async () => (await fake("heard")).slice(count), (all) => all.some(isStop), { what: "the stop" });
   t.diagnostic(`the stop came ${(all.find(isStop).at - left).toFixed(1)} ms after the window was left`);
-  await atRest(page, 300);
-  const later = (await heard(page)).slice(count);
-  assert.equal(later.slice(later.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
+  await isStopped(page, fake);
   await says(page, /ended as the window was left/, { what: "why" });
-
-  await page.evaluate(() => globalThis.fakeHid.plug(false));
-  await says(page, /no longer there/, { what: "that it is gone" });
-  await says(page, /^Paused/, { what: "the trial, which waits" });
-
-  const [before, start] = [(await heard(page)).length, await inserted(page)];
-  await page.evaluate(() => globalThis.fakeHid.plug(true));
-  await there(page, "Arm force...");
-  await says(page, /holds the wire again; its force is not armed/, { what: "that it is back" });
-  // What it did while it was out is not made up for; from here on it feeds, and is not pushed.
-  await page.evaluate(() => globalThis.fakeHid.go(1, 0, 1000));
-  await fed(page, start, 0.5);
-  assert.equal((await heard(page)).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
+  await replugged(page, fake);
 });
 
 test("where Workers have no WebHID the page opens the device, and all else is as in the Worker", { timeout: 300_000 }, async (t) => {
   const { page, wrong } = await openTrial(t, [], fakeInPage);
+  const fake = byHid(page);
   assert.equal(await page.evaluate(() => typeof navigator.hid), "object", "the page has it");
   await choose(page, "Pair a device...");
   await there(page, "Arm force...");
-  assert.equal((await heard(page)).filter(({ id }) => id === 4).length, 0, "no effect is started before it is armed");
+  assert.equal((await fake("heard")).filter(({ id }) => id === 4).length, 0, "no effect is started before it is armed");
   const start = await inserted(page);
-  await page.evaluate(() => globalThis.fakeHid.go(0.8, 0, 2000));
+  await fake("go(0.8, 0, 2000)");
   await fed(page, start, 2);
 
-  await find(page, "button", "Arm force...");
-  await find(page, "button", "Arm force");
-  await there(page, "Stop force");
-  await page.evaluate(() => globalThis.fakeHid.go(-0.5, 0.3, 1500));
-  await eventually(() => heard(page), (all) => all.some(isStart), { what: "an effect that is started" });
+  await pushed(page, fake);
   await page.evaluate(() => dispatchEvent(new Event("blur")));
   await says(page, /ended as the window was left/, { what: "why" });
-  await eventually(() => heard(page), (all) => all.some(isStop), { what: "the stop" });
-  await atRest(page, 300);
-  const all = await heard(page);
-  assert.equal(all.slice(all.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
+  await isStopped(page, fake);
+  await replugged(page, fake);
 
-  await page.evaluate(() => globalThis.fakeHid.plug(false));
-  await says(page, /no longer there/, { what: "that it is gone" });
-  await says(page, /^Paused/, { what: "the trial, which waits" });
-  const [before, out] = [(await heard(page)).length, await inserted(page)];
-  await page.evaluate(() => globalThis.fakeHid.plug(true));
+  // What the hand did while the page hung is not made up for.
+  await atRest(page, 300);
+  const held = await inserted(page);
+  await fake("hang(1000, [0.8, 0.6, 0.4, 0.2, 0])");
+  await atRest(page, 600);
+  assert(Math.abs((await inserted(page)) - held) < 0.1, `the wire was at ${held} cm, and is at ${await inserted(page)}`);
+  // From there on it is held again.
+  await fake("go(0.8, 0, 1000)");
+  await fed(page, held, 0.5);
+
+  // Let go and chosen again before it has been closed, it is closed first.
+  await fake("closingMs = 3000");
+  await choose(page, "None");
+  await choose(page, "Lumen feeder");
   await there(page, "Arm force...");
-  await says(page, /holds the wire again; its force is not armed/, { what: "that it is back" });
-  await page.evaluate(() => globalThis.fakeHid.go(1, 0, 1000));
-  await fed(page, out, 0.5);
-  assert.equal((await heard(page)).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
+  await new Promise((done) => setTimeout(done, 3500));
+  const again = await inserted(page);
+  await fake("go(0, 0, 500)");
+  await frames(page, 20);
+  await fake("go(1, 0, 4000)");
+  await fed(page, again, 0.5);
 
   // Another is chosen: the page lets the device go.
   await choose(page, "Virtual device");
   const isOpen = () => page.evaluate(async () => (await navigator.hid.getDevices())[0].opened);
   await eventually(isOpen, (is) => !is, { what: "the device, which is closed" });
-  assert.deepEqual(await page.evaluate(() => globalThis.fakeHid.wrong), [], "every report was of its length");
+  assert.deepEqual(await fake("wrong"), [], "every report was of its length");
   assert.deepEqual(wrong, []);
 });
 
 test("by serial the feeder is paired, feeds, pushes back once armed, is unplugged and plugged in, and let go", { timeout: 300_000 }, async (t) => {
   const { page, wrong } = await openTrial(t, [], await bySerial());
-  const serial = (more) => page.evaluate(`globalThis.fakeSerial.${more}`);
+  const serial = bySerialLine(page);
   await says(page, /reaches the open feeder alone, by serial/, { what: "what this browser reaches" });
   await choose(page, "Pair by serial...");
   await there(page, "Arm force...");
@@ -225,28 +241,11 @@ test("by serial the feeder is paired, feeds, pushes back once armed, is unplugge
   await serial("go(0.8, 0, 2000)");
   await fed(page, start, 2);
 
-  await find(page, "button", "Arm force...");
-  await find(page, "button", "Arm force");
-  await there(page, "Stop force");
-  await serial("go(-0.5, 0.3, 1500)");
-  await eventually(() => serial("heard"), (all) => all.some(isStart), { what: "an effect that is started" });
+  await pushed(page, serial);
   await page.keyboard.press("Escape");
   await there(page, "Arm force...");
-  await eventually(() => serial("heard"), (all) => all.some(isStop), { what: "the stop" });
-  await atRest(page, 300);
-  const all = await serial("heard");
-  assert.equal(all.slice(all.findLastIndex(isStop)).filter(isStart).length, 0, "and nothing starts after it");
-
-  await serial("plug(false)");
-  await says(page, /no longer there/, { what: "that it is gone" });
-  await says(page, /^Paused/, { what: "the trial, which waits" });
-  const [before, out] = [(await serial("heard")).length, await inserted(page)];
-  await serial("plug(true)");
-  await there(page, "Arm force...");
-  await says(page, /holds the wire again; its force is not armed/, { what: "that it is back" });
-  await serial("go(1, 0, 1000)");
-  await fed(page, out, 0.5);
-  assert.equal((await serial("heard")).slice(before).filter(isStart).length, 0, "no effect is started before it is armed again");
+  await isStopped(page, serial);
+  await replugged(page, serial);
 
   await choose(page, "None");
   await eventually(() => serial("isOpen"), (is) => !is, { what: "the port, which is closed" });

@@ -66,10 +66,33 @@ extern "C" {
 
     /// A device was plugged in or pulled out.
     #[wasm_bindgen(extends = Event)]
-    pub(crate) type HidConnectionEvent;
+    type HidConnectionEvent;
 
     #[wasm_bindgen(method, getter)]
-    pub(crate) fn device(this: &HidConnectionEvent) -> HidDevice;
+    fn device(this: &HidConnectionEvent) -> HidDevice;
+}
+
+/// Hears of interfaces that are plugged in, or pulled out, until it is dropped.
+pub(crate) struct OnConnection {
+    hid: Hid,
+    name: &'static str,
+    hear: Closure<dyn Fn(HidConnectionEvent)>,
+}
+
+impl OnConnection {
+    /// Hears of "connect" or "disconnect". Where it cannot be heard, the next request that fails says it.
+    pub(crate) fn new(hid: &Hid, name: &'static str, hear: impl Fn(HidDevice) + 'static) -> Self {
+        let hear = Closure::<dyn Fn(HidConnectionEvent)>::new(move |event: HidConnectionEvent| hear(event.device()));
+        let _ = hid.add_event_listener_with_callback(name, hear.as_ref().unchecked_ref());
+        Self { hid: hid.clone(), name, hear }
+    }
+}
+
+impl Drop for OnConnection {
+    fn drop(&mut self) {
+        // What cannot be removed is not there any more.
+        let _ = self.hid.remove_event_listener_with_callback(self.name, self.hear.as_ref().unchecked_ref());
+    }
 }
 
 /// WebHID, in a page or in a Worker; `None` where the browser has none.

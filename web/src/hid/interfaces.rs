@@ -1,22 +1,28 @@
 //! A paired device that is open: the interface by which it is held and, where that is another, the one that takes its forces
 //! ([`lumen::haptics::joining`]). In the Worker that serves it, or in the page in its place.
 
-use lumen::haptics::device::{HapticDevice, Identity};
+use js_sys::{Array, Promise};
+use lumen::haptics::device::HapticDevice;
 use lumen::haptics::force::Request;
+use lumen::haptics::identity::Identity;
 use lumen::haptics::joining::{Parts, parts};
 use lumen::haptics::model::DeviceModel;
 use lumen::haptics::webhid::{self, CollectionInfo};
 use lumen::language::Key;
 use wasm_bindgen::prelude::*;
-use wasm_bindgen_futures::JsFuture;
+use wasm_bindgen_futures::{JsFuture, future_to_promise};
 
-use super::Answer;
 use super::api::{self, Hid, HidDevice, HidInputReportEvent};
+use super::timers::slept;
+use super::{Answer, Choice};
 
 pub(crate) const NOT_THERE: Key = Key("devices-not-there");
 pub(crate) const NO_TIMER: Key = Key("devices-no-timer");
 pub(crate) const NO_MODEL: Key = Key("devices-no-axis");
 pub(crate) const NOT_OPENED: Key = Key("devices-not-opened");
+
+/// For how long a device is waited for that does not take what it is told last, in ms.
+const FAREWELL_MS: i32 = 250;
 
 /// What the browser tells of the reports of the interface that is held, and of another that takes forces.
 pub(crate) type Collections = (String, Option<String>);
@@ -49,11 +55,7 @@ impl Interfaces {
     /// When there is no such device, or none of its interfaces has axes.
     pub(crate) async fn find(hid: &Hid, identity: &Identity) -> Result<(Self, Collections), Key> {
         let list = JsFuture::from(hid.get_devices()).await.map_err(|_| NOT_THERE)?;
-        let is_it = |device: &HidDevice| {
-            device.vendor_id() == identity.vendor
-                && device.product_id() == identity.product
-                && device.product_name() == identity.name
-        };
+        let is_it = |device: &HidDevice| Choice::of(device).identity() == *identity;
         let devices: Vec<HidDevice> = api::devices(&list).into_iter().filter(is_it).collect();
         if devices.is_empty() {
             return Err(NOT_THERE);
@@ -85,7 +87,7 @@ impl Interfaces {
             Ok(input) => Ok(input),
             Err(_) => {
                 // One of two would stay open.
-                self.close(&[]).await;
+                self.close(Vec::new()).await;
                 Err(NOT_OPENED)
             }
         }
@@ -108,7 +110,7 @@ impl Interfaces {
 
     /// Carries a request out.
     pub(crate) async fn carry_out(&self, request: &Request) -> Answer {
-        let device = self.force.as_ref().unwrap_or(&self.axes);
+        let device = self.takes_forces();
         let asked = match request {
             Request::Send { id, data } => device.send_report(*id, data),
             Request::SetFeature { id, data } => device.send_feature_report(*id, data),
@@ -121,14 +123,24 @@ impl Interfaces {
         }
     }
 
+    /// The interface that requests go to.
+    fn takes_forces(&self) -> &HidDevice {
+        self.force.as_ref().unwrap_or(&self.axes)
+    }
+
     /// Leaves the device with these as its last.
-    pub(crate) async fn close(&self, farewell: &[Request]) {
+    pub(crate) async fn close(&self, farewell: Vec<Request>) {
         // One that was pulled out is closed already, and hears nothing; its motors end by themselves.
-        if self.all().all(HidDevice::opened) {
-            for request in farewell {
-                // It may be pulled out meanwhile.
-                let _ = self.carry_out(request).await;
-            }
+        if self.takes_forces().opened() {
+            let device = self.clone();
+            let said = future_to_promise(async move {
+                for request in &farewell {
+                    // It may be pulled out meanwhile.
+                    let _ = device.carry_out(request).await;
+                }
+                Ok(JsValue::UNDEFINED)
+            });
+            let _ = JsFuture::from(Promise::race(&Array::of2(&said, &slept(FAREWELL_MS)))).await;
         }
         for device in self.all() {
             let _ = JsFuture::from(device.close()).await;

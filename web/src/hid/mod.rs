@@ -6,15 +6,18 @@
 //! - [`page`]: which devices there are, pairing, and the page's end of the line to the Worker. Where Workers have no WebHID
 //!   (Chromium before 131) the page opens the device, and its reports go to and fro by messages; it decides nothing.
 //! - [`served`]: the Worker's end: opens a device, takes its reports, sends those that are due.
+//! - [`timers`], and [`turns`], in which devices are opened and closed.
 
 pub(crate) mod api;
 pub(crate) mod interfaces;
 pub(crate) mod page;
 pub(crate) mod port;
 pub(crate) mod served;
+pub(crate) mod timers;
+pub(crate) mod turns;
 
-use lumen::haptics::device::Identity;
 use lumen::haptics::force::{Reply, Request};
+use lumen::haptics::identity::Identity;
 use lumen::haptics::service::{DeviceCommand, DeviceStatus};
 use serde::{Deserialize, Serialize};
 

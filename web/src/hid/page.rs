@@ -23,6 +23,7 @@ use web_sys::{EventTarget, Worker};
 use self::relayer::Relayer;
 use super::api::{self, Hid};
 use super::port::{self, Serial, object};
+use super::turns::Turns;
 use super::{Asked, Choice, Told};
 
 /// The name of the choice that asks for a device.
@@ -57,6 +58,7 @@ struct Inner {
     worker: RefCell<Option<Worker>>,
     /// The device that the page opens in its place.
     relayer: RefCell<Relayer>,
+    turns: Turns,
 }
 
 impl Devices {
@@ -80,6 +82,7 @@ impl Devices {
             was_left: Cell::new(false),
             worker: RefCell::default(),
             relayer: RefCell::default(),
+            turns: Turns::default(),
         }));
         devices.find();
         devices.listen();

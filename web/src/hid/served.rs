@@ -12,9 +12,10 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use lumen::engine::trial::Exchange;
-use lumen::haptics::device::{HapticDevice, Identity};
+use lumen::haptics::device::HapticDevice;
 use lumen::haptics::feeder;
 use lumen::haptics::force::Request;
+use lumen::haptics::identity::Identity;
 use lumen::haptics::port::{Port as _, carry_out};
 use lumen::haptics::safety::STALE_MS;
 use lumen::haptics::service::{DeviceStatus, Service};
@@ -25,8 +26,10 @@ use wasm_bindgen_futures::spawn_local;
 use web_sys::DedicatedWorkerGlobalScope;
 
 use self::talk::Talk;
-use super::api::{self, Hid, HidConnectionEvent};
+use super::api::{self, Hid, HidDevice, OnConnection};
 use super::interfaces::{self, Collections, Input, Interfaces, NO_MODEL, NO_TIMER, NOT_OPENED, NOT_THERE};
+use super::timers::Interval;
+use super::turns::Turns;
 use super::{Answer, Asked, Choice, Relay, Relayed, Told};
 
 /// Between two looks at a device that is silent, in ms: as short as a browser's timer goes.
@@ -35,9 +38,6 @@ const LOOK_MS: i32 = 4;
 const TELL_MS: f64 = 50.0;
 /// Requests of the virtual device that are carried out in a look at most.
 const REQUESTS: usize = 4;
-
-/// Hears of devices that come and go.
-type OnConnection = Closure<dyn Fn(HidConnectionEvent)>;
 
 /// The hand at the engine's side.
 #[derive(Clone)]
@@ -55,22 +55,13 @@ struct Inner {
     number: Cell<u32>,
     /// The number of the one that is being opened.
     opening: Cell<Option<u32>>,
-    look: RefCell<Option<Timer>>,
+    /// Whether it was asked for once more meanwhile: an interface of it has come.
+    again: Cell<bool>,
+    turns: Turns,
+    /// Looks after the device again and again.
+    look: RefCell<Option<Interval>>,
     /// Hear that a device is pulled out, and plugged in.
     connections: RefCell<Option<[OnConnection; 2]>>,
-}
-
-/// Looks after the device again and again, until it is dropped.
-struct Timer {
-    scope: DedicatedWorkerGlobalScope,
-    handle: i32,
-    _look: Closure<dyn Fn()>,
-}
-
-impl Drop for Timer {
-    fn drop(&mut self) {
-        self.scope.clear_interval_with_handle(self.handle);
-    }
 }
 
 /// A device that is served.
@@ -88,10 +79,12 @@ enum Line {
         is_asking: bool,
         _input: Input,
     },
-    /// Opened in the page, which was heard of at this time, in ms.
+    /// Opened in the page.
     Relayed {
         is_asking: bool,
+        /// When the page was heard of, and from when on what its device's hand does moves the wire, in ms.
         heard_ms: f64,
+        moves_from_ms: f64,
     },
     Serial(Talk),
 }
@@ -107,6 +100,8 @@ impl Hands {
             wanted: RefCell::default(),
             number: Cell::new(0),
             opening: Cell::new(None),
+            again: Cell::new(false),
+            turns: Turns::default(),
             look: RefCell::default(),
             connections: RefCell::default(),
         }))
@@ -143,8 +138,10 @@ impl Hands {
         // Page and Worker both hear that a device is plugged in again: it is opened once.
         let is_under_way = self.0.served.borrow().is_some() || self.0.opening.get() == Some(self.0.number.get());
         if choice.is_some() && *self.0.wanted.borrow() == choice && is_under_way {
+            self.0.again.set(true);
             return Ok(());
         }
+        self.0.again.set(false);
         self.let_go();
         self.0.wanted.replace(choice.clone());
         let number = self.0.number.get() + 1;
@@ -168,20 +165,30 @@ impl Hands {
             Some(choice) => {
                 let (hands, identity) = (self.clone(), choice.identity());
                 self.0.opening.set(Some(number));
-                spawn_local(async move {
-                    let opened = match choice {
-                        Choice::Serial { .. } => hands.open_serial(&identity, number).await,
-                        Choice::Virtual | Choice::Paired { .. } => hands.open(&identity, number).await,
+                let is_serial = matches!(choice, Choice::Serial { .. });
+                let attempt = async move {
+                    let is_wanted = || hands.0.number.get() == number;
+                    let opened = match is_serial {
+                        // Another was chosen before it was its turn.
+                        _ if !is_wanted() => Ok(()),
+                        true => hands.open_serial(&identity, number).await,
+                        false => hands.open(&identity, number).await,
                     };
                     if hands.0.opening.get() == Some(number) {
                         hands.0.opening.set(None);
                     }
                     if let Err(why) = opened
-                        && hands.0.number.get() == number
+                        && is_wanted()
                     {
-                        hands.end(&identity.name, why.say());
+                        hands.failed(&identity.name, why.say());
                     }
-                });
+                };
+                // A port that is asked who is there takes its time, and is its own.
+                if is_serial {
+                    spawn_local(attempt);
+                } else {
+                    self.0.turns.next(attempt);
+                }
                 Ok(())
             }
         }
@@ -197,7 +204,7 @@ impl Hands {
         let input = device.open(move |id, data| hands.take_input(hands.now_ms(), id, &data)).await?;
         if self.0.number.get() != number {
             // Another was chosen meanwhile.
-            device.close(&[]).await;
+            device.close(Vec::new()).await;
             return Ok(());
         }
         let line = Line::Device { device, is_asking: false, _input: input };
@@ -218,6 +225,16 @@ impl Hands {
             return;
         }
         let Some(identity) = self.0.wanted.borrow().as_ref().map(Choice::identity) else { return };
+        let now = self.now_ms();
+        if let Some(Served { line: Line::Relayed { heard_ms, moves_from_ms, .. }, .. }) =
+            &mut *self.0.served.borrow_mut()
+        {
+            // What the hand did while the page hung comes now, all at once, and is over.
+            if now - *heard_ms > STALE_MS {
+                *moves_from_ms = now + STALE_MS;
+            }
+            *heard_ms = now;
+        }
         match relayed {
             Relayed::Opened(axes, force) => {
                 self.0.opening.set(None);
@@ -226,27 +243,22 @@ impl Hands {
                     self.end(&identity.name, why.say());
                 }
             }
-            Relayed::Ended(why) => {
-                self.0.opening.set(None);
-                self.end(&identity.name, why);
-            }
+            Relayed::Ended(why) if self.0.opening.take().is_some() => self.failed(&identity.name, why),
+            Relayed::Ended(why) => self.end(&identity.name, why),
             Relayed::Input { at_ms, id, data } => {
                 // Both ends have the machine's clock, each from its own beginning.
-                let now = self.now_ms();
                 let began = self.0.scope.performance().map_or(0.0, |clock| clock.time_origin());
                 self.take_input((at_ms - began).min(now), id, &data);
             }
             Relayed::Answer(answer) => self.answered(&answer),
             Relayed::Beat => {}
         }
-        if let Some(Served { line: Line::Relayed { heard_ms, .. }, .. }) = &mut *self.0.served.borrow_mut() {
-            *heard_ms = self.now_ms();
-        }
     }
 
     fn begin_relayed(&self, identity: &Identity, told: &Collections) -> Result<(), Key> {
         let haptic = interfaces::device(identity, told).ok_or(NO_MODEL)?;
-        self.begin(Service::new(haptic), Line::Relayed { is_asking: false, heard_ms: self.now_ms() })
+        let now = self.now_ms();
+        self.begin(Service::new(haptic), Line::Relayed { is_asking: false, heard_ms: now, moves_from_ms: now })
             .map_err(|_| NO_TIMER)
     }
 
@@ -256,38 +268,45 @@ impl Hands {
             return;
         }
         let hands = self.clone();
-        let plugged = OnConnection::new(move |event: HidConnectionEvent| {
-            let wanted = hands.0.wanted.borrow().clone();
-            if hands.0.served.borrow().is_none() && wanted == Some(Choice::of(&event.device())) {
-                // To serve a paired device is asked for, and takes no answer.
-                let _ = hands.serve(wanted);
-            }
-        });
+        let plugged = OnConnection::new(hid, "connect", move |interface| hands.plugged_in(&interface));
         let hands = self.clone();
-        let unplugged = OnConnection::new(move |event: HidConnectionEvent| {
+        let unplugged = OnConnection::new(hid, "disconnect", move |interface| {
             let name = match &*hands.0.served.borrow() {
-                Some(Served { service, line: Line::Device { device, .. }, .. }) if device.have(&event.device()) => {
+                Some(Served { service, line: Line::Device { device, .. }, .. }) if device.have(&interface) => {
                     service.status().name
                 }
                 _ => return,
             };
             hands.end(&name, NOT_THERE.say());
         });
-        // Where they cannot be heard, the next request that fails says it, and the user looks again.
-        let _ = hid.add_event_listener_with_callback("connect", plugged.as_ref().unchecked_ref());
-        let _ = hid.add_event_listener_with_callback("disconnect", unplugged.as_ref().unchecked_ref());
         *connections = Some([plugged, unplugged]);
+    }
+
+    /// An interface was plugged in: of what is to be served and is not there, or is without the one that takes its forces.
+    fn plugged_in(&self, interface: &HidDevice) {
+        let wanted = self.0.wanted.borrow().clone();
+        if wanted != Some(Choice::of(interface)) {
+            return;
+        }
+        let lacks = match &*self.0.served.borrow() {
+            Some(Served { service, line: Line::Device { device, .. }, .. }) => {
+                !service.status().has_force && !device.have(interface)
+            }
+            Some(_) => return,
+            None => false,
+        };
+        if lacks {
+            self.let_go();
+        }
+        // To serve a paired device is asked for, and takes no answer.
+        let _ = self.serve(wanted);
     }
 
     fn begin(&self, service: Service, line: Line) -> Result<(), JsValue> {
         let now = self.now_ms();
         *self.0.served.borrow_mut() = Some(Served { service, line, looked_ms: now, told_ms: f64::NEG_INFINITY });
         let hands = self.clone();
-        let look = Closure::<dyn Fn()>::new(move || hands.look());
-        let callback = look.as_ref().unchecked_ref();
-        let scope = self.0.scope.clone();
-        let handle = scope.set_interval_with_callback_and_timeout_and_arguments_0(callback, LOOK_MS)?;
-        *self.0.look.borrow_mut() = Some(Timer { scope, handle, _look: look });
+        *self.0.look.borrow_mut() = Some(Interval::new(LOOK_MS, move || hands.look())?);
         self.look();
         // A hand that takes hold of a wire at rest is no command.
         (self.0.wake)();
@@ -308,8 +327,12 @@ impl Hands {
             }
         }
         let moved = service.advance(passed_s);
-        // A page that hangs does not hear its device: a hand that was pushing may have let go.
-        if !matches!(line, Line::Relayed { heard_ms, .. } if now - *heard_ms > STALE_MS) {
+        let is_heard = match line {
+            // A page that hangs does not hear its device: a hand that was pushing may have let go.
+            Line::Relayed { heard_ms, moves_from_ms, .. } => now - *heard_ms <= STALE_MS && now >= *moves_from_ms,
+            Line::Virtual(_) | Line::Device { .. } | Line::Serial(_) => true,
+        };
+        if is_heard {
             self.0.exchange.moves(moved);
         }
         service.feel(now, self.0.exchange.feels().map(|feels| (feels.felt, feels.stiffness)));
@@ -387,9 +410,20 @@ impl Hands {
         let farewell = of.device_mut().farewell();
         match line {
             Line::Virtual(_) => {}
-            Line::Device { device, .. } => spawn_local(async move { device.close(&farewell).await }),
+            Line::Device { device, .. } => self.0.turns.next(async move { device.close(farewell).await }),
             Line::Relayed { .. } => self.say(&Told::Relay(self.0.number.get(), Relay::Close(farewell))),
-            Line::Serial(talk) => talk.close(&farewell, &self.slept()),
+            Line::Serial(talk) => talk.close(&farewell),
+        }
+    }
+
+    /// What was to be opened was not, and why; where an interface of it has come meanwhile it is tried once more.
+    fn failed(&self, name: &str, why: String) {
+        if self.0.again.take() {
+            let wanted = self.0.wanted.borrow().clone();
+            // As in `plugged_in`.
+            let _ = self.serve(wanted);
+        } else {
+            self.end(name, why);
         }
     }
 

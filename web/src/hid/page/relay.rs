@@ -1,17 +1,15 @@
 //! A device that the page opens in the Worker's place, where Workers have no WebHID: what it reports goes there as messages,
 //! and what it is to be sent comes from there. All that is decided of it, the force and its end too, is decided there.
 
-use std::rc::Rc;
-
 use lumen::haptics::force::Request;
 use lumen::language::Key;
-use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 
 use super::Devices;
-use super::relayer::{Beat, Open, Unplugged};
-use crate::hid::api::HidConnectionEvent;
+use super::relayer::Open;
+use crate::hid::api::OnConnection;
 use crate::hid::interfaces::{Interfaces, NO_TIMER, NOT_THERE};
+use crate::hid::timers::Interval;
 use crate::hid::{Answer, Asked, Choice, Relay, Relayed};
 
 /// Between two times that the Worker is told that the page still hears its device, in ms.
@@ -24,10 +22,12 @@ impl Devices {
             Relay::Open(choice) => {
                 let turn = self.end_relay(Vec::new());
                 let devices = self.clone();
-                spawn_local(async move {
-                    let opened = devices.open_relay(&choice, number, turn).await;
-                    if let Err(why) = opened
-                        && devices.0.relayer.borrow().turn == turn
+                self.0.turns.next(async move {
+                    let is_turn = || devices.0.relayer.borrow().turn == turn;
+                    // Else another was chosen meanwhile.
+                    if is_turn()
+                        && let Err(why) = devices.open_relay(&choice, number, turn).await
+                        && is_turn()
                     {
                         devices.hand_on(number, Relayed::Ended(why.say()));
                     }
@@ -35,12 +35,12 @@ impl Devices {
             }
             Relay::Carry(request) => {
                 let relayer = self.0.relayer.borrow();
-                let (turn, open) = (relayer.turn, relayer.open.clone());
+                let (turn, device) = (relayer.turn, relayer.open.as_ref().map(|open| open.device.clone()));
                 drop(relayer);
                 let devices = self.clone();
                 spawn_local(async move {
-                    let answer = match open {
-                        Some(open) => open.device.carry_out(&request).await,
+                    let answer = match device {
+                        Some(device) => device.carry_out(&request).await,
                         None => Answer::Failed,
                     };
                     if devices.0.relayer.borrow().turn == turn {
@@ -56,8 +56,8 @@ impl Devices {
     pub(super) fn end_relay(&self, farewell: Vec<Request>) -> u32 {
         let mut relayer = self.0.relayer.borrow_mut();
         relayer.turn += 1;
-        if let Some(open) = relayer.open.take() {
-            spawn_local(async move { open.device.close(&farewell).await });
+        if let Some(Open { device, .. }) = relayer.open.take() {
+            self.0.turns.next(async move { device.close(farewell).await });
         }
         relayer.turn
     }
@@ -75,33 +75,23 @@ impl Devices {
             .await?;
         if self.0.relayer.borrow().turn != turn {
             // Another was chosen meanwhile.
-            device.close(&[]).await;
+            device.close(Vec::new()).await;
             return Ok(());
         }
         let (devices, gone) = (self.clone(), device.clone());
-        let hear = Closure::<dyn Fn(HidConnectionEvent)>::new(move |event: HidConnectionEvent| {
-            if gone.have(&event.device()) {
+        let unplugged = OnConnection::new(&hid, "disconnect", move |interface| {
+            if gone.have(&interface) {
                 devices.hand_on(number, Relayed::Ended(NOT_THERE.say()));
             }
         });
-        // Where it cannot be heard, the next request that fails says it.
-        let _ = hid.add_event_listener_with_callback("disconnect", hear.as_ref().unchecked_ref());
-        let Some(beat) = self.beat(number) else {
-            device.close(&[]).await;
+        let devices = self.clone();
+        let Ok(beat) = Interval::new(BEAT_MS, move || devices.hand_on(number, Relayed::Beat)) else {
+            device.close(Vec::new()).await;
             return Err(NO_TIMER);
         };
-        let open = Open { device, _input: input, _unplugged: Unplugged { hid, hear }, _beat: beat };
-        self.0.relayer.borrow_mut().open = Some(Rc::new(open));
+        self.0.relayer.borrow_mut().open = Some(Open { device, _input: input, _unplugged: unplugged, _beat: beat });
         self.hand_on(number, Relayed::Opened(axes, force));
         Ok(())
-    }
-
-    fn beat(&self, number: u32) -> Option<Beat> {
-        let (devices, window) = (self.clone(), web_sys::window()?);
-        let say = Closure::<dyn Fn()>::new(move || devices.hand_on(number, Relayed::Beat));
-        let callback = say.as_ref().unchecked_ref();
-        let handle = window.set_interval_with_callback_and_timeout_and_arguments_0(callback, BEAT_MS).ok()?;
-        Some(Beat { window, handle, _say: say })
     }
 
     fn hand_on(&self, number: u32, what: Relayed) {

@@ -4,18 +4,19 @@
 use std::rc::Rc;
 
 use js_sys::{Array, Promise};
-use lumen::haptics::device::{HapticDevice, Identity};
+use lumen::haptics::device::HapticDevice;
 use lumen::haptics::force::Request;
 use lumen::haptics::framing::Decoder;
+use lumen::haptics::identity::Identity;
 use lumen::haptics::serial::{Hello, framed};
 use lumen::haptics::service::Service;
 use lumen::language::Key;
-use wasm_bindgen::JsValue;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
 use super::talk::{ANSWER_MS, Talk};
 use super::{Hands, Line, NO_MODEL, NO_TIMER, NOT_OPENED, NOT_THERE, Served};
 use crate::hid::port::{self, Port, Serial, SerialPort};
+use crate::hid::timers::slept;
 
 /// How often a port is opened, and a piece asked for, before it is given up.
 const TRIES: u32 = 4;
@@ -68,7 +69,7 @@ impl Hands {
                 }
             }
             // It cannot fail, and what matters is that it takes time.
-            let _ = JsFuture::from(self.slept()).await;
+            let _ = JsFuture::from(slept(ANSWER_MS as i32)).await;
         }
         Err(why)
     }
@@ -87,7 +88,7 @@ impl Hands {
                 (asked_ms, tries) = (now, tries + 1);
                 JsFuture::from(port.write(&hello.ask())).await.map_err(|_| NOT_THERE)?;
             }
-            let first = Promise::race(&Array::of2(&read, &self.slept()));
+            let first = Promise::race(&Array::of2(&read, &slept(ANSWER_MS as i32)));
             let first = JsFuture::from(first).await.map_err(|_| NOT_THERE)?;
             if first.is_undefined() {
                 continue;
@@ -103,17 +104,6 @@ impl Hands {
                 }
             }
         }
-    }
-
-    /// Resolves after [`ANSWER_MS`], with nothing.
-    pub(super) fn slept(&self) -> Promise {
-        Promise::new(&mut |resolve, _| {
-            let scope = &self.0.scope;
-            if scope.set_timeout_with_callback_and_timeout_and_arguments_0(&resolve, ANSWER_MS as i32).is_err() {
-                // Without a timer, at once.
-                let _ = resolve.call0(&JsValue::UNDEFINED);
-            }
-        })
     }
 
     fn begin_serial(&self, identity: &Identity, descriptor: &[u8], port: &Rc<Port>) -> Result<(), Key> {

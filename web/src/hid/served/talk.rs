@@ -10,6 +10,7 @@ use lumen::haptics::serial::{answer, framed};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
 use crate::hid::port::Port;
+use crate::hid::timers::slept;
 
 /// For how long an answer is waited for, in ms.
 pub(super) const ANSWER_MS: f64 = 250.0;
@@ -74,12 +75,12 @@ impl Talk {
         }
     }
 
-    /// Leaves the device without a force, and the port closed; `late` resolves when a device that takes nothing any more has
-    /// had its time.
-    pub(super) fn close(self, farewell: &[Request], late: &Promise) {
+    /// Leaves the device without a force, and the port closed.
+    pub(super) fn close(self, farewell: &[Request]) {
         // One that is gone hears nothing; its motors end by themselves.
         let said: Array = farewell.iter().filter_map(framed).map(|bytes| self.port.write(&bytes)).collect();
-        let said = Promise::race(&Array::of2(&Promise::all_settled(&said), late));
+        // One that takes nothing any more has had its time then.
+        let said = Promise::race(&Array::of2(&Promise::all_settled(&said), &slept(ANSWER_MS as i32)));
         spawn_local(async move {
             let _ = JsFuture::from(said).await;
             self.port.close().await;
