@@ -85,7 +85,7 @@ pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
 pub use self::platform::{
-    Devices, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, SHAKE_MS, Store, Tone, Waker,
+    Devices, FOLLOW_S, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, SHAKE_MS, Store, Tone, Waker,
 };
 #[cfg(not(target_arch = "wasm32"))]
 pub use self::portrait::report_pictures;

@@ -229,6 +229,9 @@ pub struct Tone {
 /// For how long a gamepad shakes, and a tone sounds, that is not told again, in ms.
 pub const SHAKE_MS: f64 = 100.0;
 
+/// How fast a tone follows what it is told, and fades, in s: fast enough for a force, too slow to click.
+pub const FOLLOW_S: f64 = 0.015;
+
 /// What a platform reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlatformEvent {

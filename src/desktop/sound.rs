@@ -2,14 +2,16 @@
 //! through its standard input. So no sound library is linked, which on Linux would be a C library.
 //!
 //! Samples are handed on as time goes by and 20 ms ahead of it: what waits in the pipe is heard late. The program runs while
-//! something sounds and is ended some seconds after; it is killed where it does not end when its input does.
+//! something sounds and is ended some seconds after; it is killed where it does not end when its input does, or takes none for
+//! a quarter of a second: from then on all would be late, by what is in the pipe. One that ends early does not play, and makes
+//! way for the next; one that ends later is started again.
 
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -44,7 +46,11 @@ const LATE: Duration = Duration::from_millis(50);
 /// How long the program runs on in silence.
 const REST: Duration = Duration::from_secs(5);
 /// How long it may take to end by itself.
-const END: Duration = Duration::from_millis(500);
+const END: Duration = Duration::from_secs(1);
+/// How long it may take to take what it is handed.
+const HUNG: Duration = Duration::from_millis(250);
+/// One that ends before this does not play.
+const EARLY: Duration = Duration::from_millis(500);
 
 /// What sounds, or could.
 pub(super) struct Sound {
@@ -57,9 +63,42 @@ pub(super) struct Sound {
 /// A thread that hands samples on.
 struct Sounding {
     tones: Sender<Tone>,
-    /// The program that it hands them to; whoever does not want to wait for it may kill it.
-    child: Arc<Mutex<Option<Child>>>,
+    player: Arc<Player>,
     thread: JoinHandle<()>,
+}
+
+/// What is known of the program by its thread and by whoever does not want to wait for that.
+#[derive(Default)]
+struct Player {
+    /// The program that samples are handed to.
+    child: Mutex<Option<Child>>,
+    /// Since when it has not taken them.
+    since: Mutex<Option<Instant>>,
+}
+
+impl Player {
+    /// Kills the program where it has hung for too long: its thread hears of it.
+    fn end_if_hung(&self) {
+        if lock(&self.since).is_some_and(|since| since.elapsed() > HUNG)
+            && let Some(child) = &mut *lock(&self.child)
+        {
+            // One that has ended meanwhile is heard of as well.
+            let _ = child.kill();
+        }
+    }
+
+    /// Ends the program: it has until [`END`] where it is not killed at once.
+    fn end(&self, at_once: bool) {
+        let has_ended = || lock(&self.child).as_mut().is_none_or(|child| !matches!(child.try_wait(), Ok(None)));
+        if (at_once || !is_over(has_ended))
+            && let Some(child) = &mut *lock(&self.child)
+        {
+            // One that has ended meanwhile cannot be killed; either way it is over.
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+        *lock(&self.child) = None;
+    }
 }
 
 impl Sound {
@@ -82,28 +121,32 @@ impl Sound {
 
     /// Sounds so until something else does, or for [`SHAKE_MS`](crate::app::SHAKE_MS).
     pub(super) fn play(&mut self, tone: Tone) {
-        let is_on = self.sounding.as_ref().is_some_and(|sounding| sounding.tones.send(tone).is_ok());
-        // To begin with silence would be to start a program for nothing, but for the first: it is there when it is needed.
-        if is_on || !self.is_there() || (tone.loudness == 0.0 && self.sounding.is_some()) {
+        if let Some(Sounding { tones, player, .. }) = &self.sounding {
+            player.end_if_hung();
+            // Nobody hears it where no program plays.
+            let _ = tones.send(tone);
+            return;
+        }
+        if !self.is_there() {
             return;
         }
         let (tones, inbox) = channel();
-        let child = Arc::default();
-        let (programs, first, shared) = (Arc::clone(&self.programs), Arc::clone(&self.first), Arc::clone(&child));
+        let player = Arc::default();
+        let (programs, first, shared) = (Arc::clone(&self.programs), Arc::clone(&self.first), Arc::clone(&player));
         let thread = thread::spawn(move || sound(&programs, &first, &inbox, &shared));
         // It is there to hear it.
         let _ = tones.send(tone);
-        self.sounding = Some(Sounding { tones, child, thread });
+        self.sounding = Some(Sounding { tones, player, thread });
     }
 }
 
 impl Drop for Sound {
     fn drop(&mut self) {
-        let Some(Sounding { tones, child, thread }) = self.sounding.take() else { return };
+        let Some(Sounding { tones, player, thread }) = self.sounding.take() else { return };
         drop(tones);
         if !is_over(|| thread.is_finished()) {
             // It takes no samples any more, and so the thread does not come to its end.
-            end(&child, true);
+            player.end(true);
         }
     }
 }
@@ -120,55 +163,58 @@ fn is_over(is_over: impl Fn() -> bool) -> bool {
     true
 }
 
-fn lock(child: &Mutex<Option<Child>>) -> std::sync::MutexGuard<'_, Option<Child>> {
-    child.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends the program: it has until [`END`] where it is not killed at once.
-fn end(child: &Mutex<Option<Child>>, at_once: bool) {
-    let has_ended = || lock(child).as_mut().is_none_or(|child| !matches!(child.try_wait(), Ok(None)));
-    if (at_once || !is_over(has_ended))
-        && let Some(child) = &mut *lock(child)
-    {
-        // One that has ended meanwhile cannot be killed; either way it is over.
-        let _ = child.kill();
-        let _ = child.wait();
-    }
-    *lock(child) = None;
-}
-
-/// Hands samples on to the first program that plays, until nobody tells what to sound, or nothing has sounded for a while.
-fn sound(programs: &[(PathBuf, &[&str])], first: &AtomicUsize, inbox: &Receiver<Tone>, child: &Mutex<Option<Child>>) {
+/// Hands samples on to the first program that plays, until nobody tells any more what to sound.
+fn sound(programs: &[(PathBuf, &[&str])], first: &AtomicUsize, inbox: &Receiver<Tone>, player: &Player) {
     let mut synth = Synth::default();
-    while let Some((program, arguments)) = programs.get(first.load(Ordering::Relaxed)) {
-        match feed(program, arguments, synth, inbox, child) {
-            Ok(()) => return,
-            // It does not start, or has ended: it has no server to play through, or does not understand what it is told.
-            Err(rest) => {
-                end(child, true);
-                synth = rest;
+    let mut has_rested = false;
+    // To start a program for silence would be for nothing, but for the first: it is there when it is needed.
+    while let Some(tone) = inbox.iter().find(|tone| tone.loudness > 0.0 || !has_rested) {
+        synth.set(tone);
+        loop {
+            let Some((program, arguments)) = programs.get(first.load(Ordering::Relaxed)) else { return };
+            let since = Instant::now();
+            if feed(program, arguments, &mut synth, inbox, player).is_ok() {
+                break;
+            }
+            player.end(true);
+            if since.elapsed() < EARLY {
+                // It has no server to play through, or does not understand what it is told.
                 first.fetch_add(1, Ordering::Relaxed);
             }
         }
+        has_rested = true;
     }
 }
 
-/// Hands samples on to this one.
+/// Hands samples on to this one, until nobody tells what to sound, or nothing has sounded for a while.
 ///
 /// # Errors
-/// When it does not take them: what was to sound goes on from there.
+/// When it does not start or does not take them: what was to sound goes on from there.
 fn feed(
     program: &Path,
     arguments: &[&str],
-    mut synth: Synth,
+    synth: &mut Synth,
     inbox: &Receiver<Tone>,
-    child: &Mutex<Option<Child>>,
-) -> Result<(), Synth> {
-    let started =
-        Command::new(program).args(arguments).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
-    let Ok(mut started) = started else { return Err(synth) };
-    let Some(mut input) = started.stdin.take() else { return Err(synth) };
-    *lock(child) = Some(started);
+    player: &Player,
+) -> std::io::Result<()> {
+    let mut started = Command::new(program)
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()?;
+    let mut input = started.stdin.take().ok_or(ErrorKind::BrokenPipe)?;
+    *lock(&player.child) = Some(started);
+    let mut hand = |samples: Vec<i16>| {
+        *lock(&player.since) = Some(Instant::now());
+        let taken = input.write_all(&samples.into_iter().flat_map(i16::to_le_bytes).collect::<Vec<u8>>());
+        *lock(&player.since) = None;
+        taken
+    };
     let count = |time: Duration| (time.as_secs_f64() * f64::from(RATE)) as u64;
     let since = Instant::now();
     let (mut handed, mut sounded) = (0, Instant::now());
@@ -185,9 +231,9 @@ fn feed(
         }
         if is_left || sounded.elapsed() > REST {
             // A program that takes the last no more has nothing to end.
-            let _ = input.write_all(&bytes(synth.fade()));
+            let _ = hand(synth.fade());
             drop(input);
-            end(child, false);
+            player.end(false);
             return Ok(());
         }
         let now = since.elapsed();
@@ -195,16 +241,9 @@ fn feed(
         handed = handed.max(count(now.saturating_sub(LATE)));
         let due = count(now + AHEAD).saturating_sub(handed);
         handed += due;
-        let samples = (0..due).map(|_| synth.sample());
-        if input.write_all(&bytes(samples)).is_err() {
-            return Err(synth);
-        }
+        hand((0..due).map(|_| synth.sample()).collect())?;
         thread::sleep(LOOK);
     }
-}
-
-fn bytes(samples: impl IntoIterator<Item = i16>) -> Vec<u8> {
-    samples.into_iter().flat_map(i16::to_le_bytes).collect()
 }
 
 #[cfg(all(test, unix))]
@@ -316,6 +355,19 @@ mod tests {
         }));
         sound.play(TONE);
         assert!(!Folder::new("empty", &[]).sound().is_there());
+    }
+
+    #[test]
+    fn one_that_takes_nothing_more_is_started_again() {
+        // It has room for more than half a second in its pipe.
+        let stops = "echo >> starts; head -c 1000 > /dev/null; exec sleep 60";
+        let folder = Folder::new("stops", &[("aplay", stops)]);
+        let mut sound = folder.sound();
+        assert!(until(|| {
+            sound.play(TONE);
+            folder.read("starts").len() > 1
+        }));
+        assert!(sound.is_there(), "it has played");
     }
 
     #[test]

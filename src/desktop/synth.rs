@@ -3,12 +3,10 @@
 
 use std::f64::consts::TAU;
 
-use crate::app::{SHAKE_MS, Tone};
+use crate::app::{FOLLOW_S, SHAKE_MS, Tone};
 
 /// Samples a second.
 pub(super) const RATE: u32 = 48_000;
-/// How fast pitch and loudness follow, in s: as in the browser.
-const FOLLOW_S: f64 = 0.015;
 /// For how long the last tone of all fades, in s.
 const FADE_S: f64 = 0.01;
 /// What is less loud is less than half a step of a sample: silence.
@@ -65,7 +63,7 @@ impl Synth {
     }
 
     /// The last samples: down to nothing.
-    pub(super) fn fade(mut self) -> Vec<i16> {
+    pub(super) fn fade(&mut self) -> Vec<i16> {
         let count = (FADE_S * f64::from(RATE)) as u32;
         let from = self.loudness;
         let at = |i: u32| from * f64::from(count - i) / f64::from(count);

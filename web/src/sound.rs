@@ -2,13 +2,10 @@
 
 use std::cell::RefCell;
 
-use lumen::app::{SHAKE_MS, Tone};
+use lumen::app::{FOLLOW_S, SHAKE_MS, Tone};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{AudioContext, AudioContextState, AudioParam};
-
-/// How fast a tone follows, and how fast it fades, in s: fast enough for a force, too slow to click.
-const FOLLOW_S: f64 = 0.015;
 
 thread_local! {
     /// What plays, once something did.
