@@ -7,7 +7,7 @@ use std::ffi::{CStr, CString};
 use hidapi::{HidApi, HidDevice, HidError};
 
 use crate::haptics::descriptor::{LONGEST, parse};
-use crate::haptics::device::Identity;
+use crate::haptics::identity::Identity;
 use crate::haptics::joining::JoinedPort;
 use crate::haptics::port::{InputReport, Port, PortError};
 use crate::say;
@@ -115,8 +115,13 @@ pub(super) fn open(found: &Found) -> Result<JoinedPort<HidPort>, OpenError> {
             Err(error) => why = Some(error),
         }
     }
-    let why = why.unwrap_or(HidError::HidApiErrorEmpty);
-    JoinedPort::new(&found.identity, ports).ok_or_else(|| refused(why))
+    let joined = JoinedPort::new(&found.identity, ports);
+    match (joined, why) {
+        // What is left cannot be held: the interface that can is the one that was refused.
+        (Some(joined), Some(why)) if !joined.has_axes() => Err(refused(why)),
+        (Some(joined), _) => Ok(joined),
+        (None, why) => Err(refused(why.unwrap_or(HidError::HidApiErrorEmpty))),
+    }
 }
 
 /// An interface that is open.

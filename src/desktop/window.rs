@@ -25,7 +25,8 @@ pub fn run(file: Option<&Path>) -> eframe::Result {
     run_on(file, |graphics| graphics)
 }
 
-/// As [`run`], on what `choose` makes of Lumen's own choice of graphics, once for each window.
+/// As [`run`], on what `choose` makes of Lumen's own choice of graphics, once for each window: for whoever brings a device of
+/// his own, as the test of a lost one does.
 ///
 /// # Errors
 /// When there is no display or no graphics device.

@@ -13,7 +13,7 @@ use super::force::logitech::Logitech;
 use super::force::pid::PidDriver;
 use super::force::{AxisForce, Coupling, ForceDriver, ForceError, Reply, Request, Wish};
 use super::haply;
-pub use super::identity::Identity;
+use super::identity::Identity;
 use super::known;
 use super::latency::{Latency, Percentiles};
 use super::mapping::{Mapper, Mapping, TRAVEL};

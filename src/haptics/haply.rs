@@ -218,7 +218,8 @@ pub(super) fn number(part: f64) -> i16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::haptics::device::{HapticDevice, Identity};
+    use crate::haptics::device::HapticDevice;
+    use crate::haptics::identity::Identity;
 
     fn told(x: f64, angle: f64, a: bool) -> String {
         let (w, along) = ((0.5 * angle).cos(), (0.5 * angle).sin());

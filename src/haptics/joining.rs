@@ -7,7 +7,8 @@
 //! the other moves.
 
 use super::descriptor::parse;
-use super::device::{HapticDevice, Identity};
+use super::device::HapticDevice;
+use super::identity::Identity;
 use super::model::DeviceModel;
 use super::port::{InputReport, Port, PortError};
 
@@ -26,18 +27,19 @@ pub struct Parts {
 /// Which of the interfaces of these reports are used; `None` where none has axes. One that has axes and a force goes before
 /// two that have one each, and those before one that can only be moved.
 pub fn parts(identity: &Identity, interfaces: &[DeviceModel]) -> Option<Parts> {
-    let device = |i: usize| HapticDevice::new(identity.clone(), interfaces[i].clone());
-    let axes_of = |i: usize| device(i).controls().axes.len();
+    let device = |model: &DeviceModel| HapticDevice::new(identity.clone(), model.clone());
+    let alone: Vec<HapticDevice> = interfaces.iter().map(device).collect();
+    let axes_of = |i: usize| alone[i].controls().axes.len();
     let mut held: Vec<usize> = (0..interfaces.len()).filter(|&i| axes_of(i) > 0).collect();
     held.sort_by_key(|&i| std::cmp::Reverse(axes_of(i)));
-    if let Some(&axes) = held.iter().find(|&&i| device(i).has_force()) {
+    if let Some(&axes) = held.iter().find(|&&i| alone[i].has_force()) {
         return Some(Parts { axes, force: None });
     }
     let are_of_one = (1..interfaces.len()).all(|i| !interfaces[..i].contains(&interfaces[i]));
     let pairs = held.iter().flat_map(|&axes| (0..interfaces.len()).map(move |force| (axes, force)));
     let joined = pairs
         .filter(|(axes, force)| are_of_one && axes != force)
-        .find(|&(axes, force)| device(axes).with_force_by(interfaces[force].clone()).has_force());
+        .find(|&(axes, force)| device(&interfaces[axes]).with_force_by(interfaces[force].clone()).has_force());
     match joined {
         Some((axes, force)) => Some(Parts { axes, force: Some(force) }),
         None => held.first().map(|&axes| Parts { axes, force: None }),
@@ -48,6 +50,7 @@ pub fn parts(identity: &Identity, interfaces: &[DeviceModel]) -> Option<Parts> {
 pub struct JoinedPort<P> {
     axes: P,
     force: Option<P>,
+    has_axes: bool,
 }
 
 impl<P: Port> JoinedPort<P> {
@@ -56,10 +59,17 @@ impl<P: Port> JoinedPort<P> {
         // What makes no sense has neither axes nor a force.
         let models: Vec<DeviceModel> =
             interfaces.iter().map(|port| parse(port.descriptor()).unwrap_or_default()).collect();
-        let Parts { axes, force } = parts(identity, &models).unwrap_or(Parts { axes: 0, force: None });
+        let found = parts(identity, &models);
+        let Parts { axes, force } = found.unwrap_or(Parts { axes: 0, force: None });
         let mut interfaces: Vec<Option<P>> = interfaces.into_iter().map(Some).collect();
         let axes = interfaces.get_mut(axes)?.take()?;
-        Some(Self { axes, force: force.and_then(|force| interfaces.get_mut(force)?.take()) })
+        let force = force.and_then(|force| interfaces.get_mut(force)?.take());
+        Some(Self { axes, force, has_axes: found.is_some() })
+    }
+
+    /// Whether one of them has axes.
+    pub fn has_axes(&self) -> bool {
+        self.has_axes
     }
 
     fn takes_forces(&mut self) -> &mut P {

@@ -17,8 +17,8 @@
 //! - What a hand feels: [`force`] (drivers that say which report goes next), [`safety`] (what stands before them),
 //!   [`passivity`] (for forces that come late).
 //! - A device in use: [`device`] has all of these, [`service`] is what it is asked and how it is; [`port`] is what a transport
-//!   gives, [`joining`] makes one of several interfaces, [`latency`] is what is measured. By a serial line: [`framing`] is how reports go over it, [`serial`] the host's end. By a
-//!   maker's service: [`haply`].
+//!   gives, [`joining`] makes one of several interfaces, [`latency`] is what is measured, [`identity`] what a device is known
+//!   by. By a serial line: [`framing`] is how reports go over it, [`serial`] the host's end. By a maker's service: [`haply`].
 //! - The open device: [`feeder`] is its descriptor, [`virtual_feeder`] its firmware and a hand, without hardware.
 //!
 //! Times are in ms by any clock that does not go back. A report's bytes are without its id everywhere but in a transport

@@ -72,9 +72,10 @@ mod tests {
     use lumen_feeder::serial::Line;
 
     use super::*;
-    use crate::haptics::device::{HapticDevice, Identity, Resistance};
+    use crate::haptics::device::{HapticDevice, Resistance};
     use crate::haptics::feeder::{DESCRIPTOR, HALF_WAY, id};
     use crate::haptics::framing::Decoder;
+    use crate::haptics::identity::Identity;
 
     const WELL: Seen = Seen {
         steps: [lumen_feeder::quadrature::Steps { counts: 0, missed: 0 }; 2],

@@ -6,8 +6,9 @@ use lumen_feeder::effects::{Effects, Motion};
 use proptest::prelude::*;
 
 use super::VirtualFeeder;
-use crate::haptics::device::{HapticDevice, Identity, Resistance};
+use crate::haptics::device::{HapticDevice, Resistance};
 use crate::haptics::feeder::{DESCRIPTOR, id};
+use crate::haptics::identity::Identity;
 use crate::haptics::port::{InputReport, Port, PortError, carry_out};
 
 /// What a host may do with a feeder, and how many ms later it does the next.

@@ -1,9 +1,10 @@
 //! Hand, device and host together: what a hand is given, whatever the host's rate.
 
 use super::VirtualFeeder;
-use crate::haptics::device::{HapticDevice, Identity, Resistance};
+use crate::haptics::device::{HapticDevice, Resistance};
 use crate::haptics::feeder::HALF_WAY;
 use crate::haptics::force::pid::PidDriver;
+use crate::haptics::identity::Identity;
 use crate::haptics::mapping::Mapping;
 use crate::haptics::port::{Port, carry_out};
 use crate::haptics::safety::{Halt, Limits};
