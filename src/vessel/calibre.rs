@@ -127,7 +127,7 @@ impl Measuring {
     /// Measures some more stations; whether these were the last. Nothing is known if the stations are of this surface.
     pub(super) fn advance(&mut self, stations: &[Station], known: Option<Known<'_>>, budget: Budget) -> bool {
         let Subject { mesh, topology, .. } = &self.subject;
-        let wall = Wall { mesh, topology, index: &self.space.index };
+        let wall = Wall { shell: Shell { mesh, topology }, index: &self.space.index };
         let space = &self.space;
         while self.found.len() < stations.len() {
             let first = self.found.len();

@@ -1,4 +1,4 @@
-//! Leads centrelines on to the caps that close vessels.
+//! Leads centrelines on to the caps that close vessels: Lumen's own way.
 //!
 //! A chain of balls ends in the last ball that fits: a radius before a flat cap, somewhere between its middle and its
 //! rim, and where the wall has steps a part of a radius earlier. So its last part says little of the vessel's axis. It is
@@ -9,7 +9,7 @@
 
 use glam::DVec3;
 
-use super::centreline::{Place, measure, towards_middle};
+use super::centreline::{Place, arcs, measure, towards_middle};
 use super::space::Space;
 use super::tree::{Branch, End};
 
@@ -66,7 +66,7 @@ pub(super) fn led_to_caps(space: &Space, branches: &[Branch], branch: &Branch) -
 }
 
 fn length(points: &[Place]) -> f64 {
-    points.windows(2).map(|pair| pair[0].at.distance(pair[1].at)).sum()
+    arcs(points).last().copied().unwrap_or(0.0)
 }
 
 /// Whether the balls at an end of a branch meet those of another.

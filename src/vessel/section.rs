@@ -61,20 +61,14 @@ impl Found {
     }
 }
 
-/// A surface to cut, with its adjacency and an index of it.
+/// A surface to cut, and an index of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wall<'a> {
-    pub(super) mesh: &'a TriMesh,
-    pub(super) topology: &'a Topology,
+    pub(super) shell: Shell<'a>,
     pub(super) index: &'a SurfaceIndex,
 }
 
 impl Wall<'_> {
-    fn rim(&self, start: u32, p: DVec3, normal: DVec3) -> Option<Vec<DVec3>> {
-        let Self { mesh, topology, .. } = *self;
-        Shell { mesh, topology }.rim(start, p, normal)
-    }
-
     /// The cross-section around `p` in the plane across `normal`, of length 1.
     pub(super) fn section(&self, p: DVec3, normal: DVec3) -> Option<Section> {
         let (x, y) = normal.any_orthonormal_pair();
@@ -87,7 +81,7 @@ impl Wall<'_> {
             if last.replace(triangle) == Some(triangle) {
                 continue;
             }
-            if let Some(rim) = self.rim(triangle, p, normal) {
+            if let Some(rim) = self.shell.rim(triangle, p, normal) {
                 let section = summed(&rim, p, normal, triangle);
                 if section.area > 0.0 && winding(&rim, [x, y]) == 1 {
                     return Some(section);
@@ -108,17 +102,18 @@ impl Wall<'_> {
         // The plane through the wall that is nearest, a little within its triangle, which is then cut for certain.
         let Some(nearest) = self.index.nearest(p.as_vec3()) else { return Found::Gone };
         // Past an open end the vessel may go on outside of the surface.
-        let is_rim = |v: u32| self.topology.edge_uses(v).iter().any(|edge| edge.is_boundary());
-        if self.mesh.triangles[nearest.triangle as usize].into_iter().any(is_rim) {
+        let Shell { mesh, topology } = self.shell;
+        let is_rim = |v: u32| topology.edge_uses(v).iter().any(|edge| edge.is_boundary());
+        if mesh.triangles[nearest.triangle as usize].into_iter().any(is_rim) {
             return Found::Open;
         }
-        let corners = self.mesh.corners(nearest.triangle as usize).map(Vec3::as_dvec3);
+        let corners = mesh.corners(nearest.triangle as usize).map(Vec3::as_dvec3);
         let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
         let at = nearest.point.as_dvec3().lerp(centroid, 0.1);
         if f64::from(nearest.distance) > MOVED * radius || (at - p).dot(normal).abs() > MOVED * radius {
             return Found::Gone;
         }
-        match self.rim(nearest.triangle, at, normal) {
+        match self.shell.rim(nearest.triangle, at, normal) {
             None => Found::Open,
             Some(rim) => {
                 let section = summed(&rim, at, normal, nearest.triangle);
@@ -129,7 +124,7 @@ impl Wall<'_> {
     }
 }
 
-/// A surface along whose triangles a cut is followed.
+/// A surface along whose triangles a cut is followed, with its adjacency.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shell<'a> {
     pub(super) mesh: &'a TriMesh,
@@ -208,7 +203,6 @@ impl Shell<'_> {
 }
 
 /// Area and centroid of a loop of points relative to `p`.
-/// Area and centroid of a loop of points relative to `p`.
 fn summed(rim: &[DVec3], p: DVec3, normal: DVec3, triangle: u32) -> Section {
     let (area, middle) = area_and_middle(rim, DVec3::ZERO, normal);
     Section { area, middle: p + middle, triangle }
@@ -222,7 +216,7 @@ mod tests {
     fn cut(mesh: &TriMesh, p: DVec3, normal: DVec3) -> Option<Section> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-        Wall { mesh, topology: &topology, index: &index }.section(p, normal)
+        Wall { shell: Shell { mesh, topology: &topology }, index: &index }.section(p, normal)
     }
 
     /// Area of a circle's inscribed polygon over that of the circle.

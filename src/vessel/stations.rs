@@ -8,7 +8,8 @@ use super::caps::{Led, led_to_caps};
 use super::centreline::{Place, arcs, direction};
 use super::tree::Tree;
 
-/// Most and least distance of stations in mm (moved to the middle, they stay within 1 mm), and the part of the branch's mean radius that it is between the two.
+/// Most and least distance of stations in mm (moved to the middle, they stay within 1 mm), and the part of the branch's mean
+/// radius that it is between the two.
 const FARTHEST_MM: f64 = 0.9;
 const NEAREST_MM: f64 = 0.2;
 const SPACING: f64 = 0.3;

@@ -63,7 +63,7 @@ pub struct Variation {
     pub diameter_mm: f64,
     /// The reference there, in mm.
     pub reference_mm: f64,
-    /// Arc length at the beginning and end, from the first point of the branch, in mm.
+    /// Arc length at the beginning and end, from the first station of the branch, in mm.
     pub from_mm: f64,
     /// See `from_mm`.
     pub to_mm: f64,

@@ -11,7 +11,7 @@ use lumen::vessel::{Centrelines, Subject, Zone};
 use lumen::volume::{Geometry, Grid, Samples, Selection, Surfacing};
 
 /// The surface of the mask of what is inside, on a grid of this spacing in mm.
-pub(crate) fn masked(low: DVec3, high: DVec3, voxel: f64, inside: impl Fn(DVec3) -> bool) -> TriMesh {
+fn masked(low: DVec3, high: DVec3, voxel: f64, inside: impl Fn(DVec3) -> bool) -> TriMesh {
     // The grid begins somewhere in a voxel, and the outermost points lie outside.
     let origin = low - (DVec3::new(0.17, 0.59, 0.41) + 1.0) * voxel;
     let size = ((high - origin) / voxel).to_array().map(|along| along.ceil() as usize + 2);

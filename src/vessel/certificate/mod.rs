@@ -87,7 +87,7 @@ pub struct BranchCalibre {
     pub verdict_smoothed: Verdict,
     /// Stations that count.
     pub stations_counted: usize,
-    /// Arc length at each station, from the first point of the branch, in mm.
+    /// Arc length at each station, from the first station of the branch, in mm.
     pub abscissas_mm: Vec<f32>,
     /// Each station, in mm.
     pub at_mm: Vec<[f32; 3]>,

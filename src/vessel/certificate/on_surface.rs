@@ -11,7 +11,7 @@ use crate::say;
 pub enum Standing {
     /// It counts.
     Counts,
-    /// Within a radius of an end.
+    /// Within a radius of an open end, or two of a cap.
     End,
     /// At a fork.
     Fork,
@@ -50,7 +50,7 @@ pub struct Change {
     pub percent: f64,
     /// Where, in mm.
     pub at_mm: [f32; 3],
-    /// Arc length there, from the first point of the branch, in mm.
+    /// Arc length there, from the first station of the branch, in mm.
     pub abscissa_mm: f64,
 }
 
