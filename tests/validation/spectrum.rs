@@ -211,7 +211,8 @@ fn what_is_felt_in_the_aorta_has_no_more_above_50_hz_than_rows_leave() {
     }
     let steps = told.felt[0].len();
     assert!(steps >= 3 * PIECE, "the trial was over after {steps} steps");
-    println!("{unbalanced} of {steps} steps are not balanced");
+    // In those the force stands still, which is no merit of the coupling.
+    assert!(20 * unbalanced as usize <= steps, "{unbalanced} of {steps} steps are not balanced");
 
     for (i, (name, what, per)) in [("felt-push", "push", 1e3), ("felt-torque", "torque", 1.0)].into_iter().enumerate() {
         let mut found = Benchmark::new(name);
@@ -220,8 +221,10 @@ fn what_is_felt_in_the_aorta_has_no_more_above_50_hz_than_rows_leave() {
             of.iter().enumerate().for_each(|(k, amplitude)| found.curve(series, (k + 1) as f64, per * amplitude));
         }
         let [above, raw] = [&felt, &guide].map(|of| share_above(of));
-        println!("{name}: {above} of what is felt above 50 Hz, {raw} of the guide's");
-        found.compare(&format!("share of the {what} felt above 50 Hz"), 0.0, above, Within(most_above()), 0);
+        // To four digits, down.
+        let most = (1e4 * most_above()).floor() / 1e4;
+        assert!(raw > most, "the guide's own {what} would pass as well: {raw}");
+        found.compare(&format!("share of the {what} felt above 50 Hz"), 0.0, above, Within(most), 0);
         found.finish();
     }
 }

@@ -336,13 +336,13 @@ mod tests {
         let rim = (0..sides).map(|i| Vec3::new(at(i).1, at(i).0, 0.0));
         let positions = std::iter::once(Vec3::Z * height).chain(rim).collect();
         let triangles = (0..sides).map(|i| [0, 1 + i, 1 + (i + 1) % sides]).collect();
-        star_of(TriMesh { positions, triangles })
+        star_of(&TriMesh { positions, triangles })
     }
 
     /// That of vertex 0.
-    fn star_of(mesh: TriMesh) -> Star {
-        let mut rings = Rings::new(&mesh);
-        assert!(rings.link(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), mesh.positions.len()));
+    fn star_of(mesh: &TriMesh) -> Star {
+        let mut rings = Rings::new(mesh);
+        assert!(rings.link(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), mesh.positions.len()));
         let apex = (0..rings.len() as u32).find(|&v| rings.nodes[v as usize] == 0).unwrap();
         let mut star = Star::new();
         star.load(&rings, apex);
@@ -386,7 +386,7 @@ mod tests {
         // Seen from above, four quarters; vertex 3 lies on the edge to 4, so that the triangle between them has no area.
         let around = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::NEG_X * 0.5, Vec3::NEG_X, Vec3::NEG_Y];
         let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1]];
-        let star = star_of(TriMesh { positions: around.to_vec(), triangles });
+        let star = star_of(&TriMesh { positions: around.to_vec(), triangles });
         let along_x = |&j: &usize| star.edge(j).normalize().x > 0.9;
         let to = (0..5).find(along_x).unwrap();
         let after = |y: f32| star.worst_after(Vec3A::Y * y * star.edge(to).length(), to, 0.0, 0.0);
