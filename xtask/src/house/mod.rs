@@ -111,18 +111,17 @@ fn named(line: &str) -> (usize, Vec<String>) {
     let mut places = vec![root().to_path_buf(), root().join("src"), root().join("docs")];
     let (mut found, mut missing) = (0, Vec::new());
     let is_here = |name: &String| !ELSEWHERE.iter().any(|folder| name.starts_with(folder));
-    for name in documents::names(line).into_iter().filter(is_here) {
-        let of = |place: &Path| match name.split_once('*') {
-            Some((before, _)) => place.join(before).parent().map(Path::to_path_buf),
-            None => Some(place.join(&name)),
-        };
-        match places.iter().filter_map(|place| of(place)).find(|path| path.exists()) {
+    for (name, is_path) in documents::names(line).into_iter().filter(|(name, _)| is_here(name)) {
+        // Of names with a star the folder that it stands in.
+        let sought =
+            name.split_once('*').map_or(&*name, |(before, _)| before.rsplit_once('/').map_or("", |(at, _)| at));
+        match places.iter().map(|place| place.join(sought)).find(|path| path.exists()) {
             Some(path) => {
-                found += usize::from(documents::is_path(&name));
+                found += usize::from(is_path);
                 let folder = if path.is_dir() { Some(&*path) } else { path.parent() };
                 places.extend(folder.map(Path::to_path_buf));
             }
-            None if documents::is_path(&name) => missing.push(name),
+            None if is_path => missing.push(name),
             None => {}
         }
     }
@@ -131,8 +130,22 @@ fn named(line: &str) -> (usize, Vec<String>) {
 
 #[test]
 fn a_name_in_a_document_that_is_no_file_is_missed() {
+    let missed = |line| named(line).1;
     let line = "| `src/mesh` | `mending/`, `mending/{fill,none}.rs` or `none/`, `dist/`, `Event::Opened` |";
-    assert_eq!(named(line), (2, vec!["mending/none.rs".to_string(), "none/".to_string()]));
+    assert_eq!(named(line), (3, vec!["mending/none.rs".to_string(), "none/".to_string()]));
+    assert_eq!(missed("`locales/*/lesson.ftl`, `none/*/x.ftl`, `src/mesh/*.rs`"), ["none/*/x.ftl"]);
+    assert_eq!(missed("`src/none`, `none`, [a](none.md), [b](benchmarks.md#c), [d](#e)"), ["src/none", "none.md"]);
+}
+
+#[test]
+fn each_room_of_the_table_is_there() {
+    let architecture = Checkout(root()).text("ARCHITECTURE.md").unwrap();
+    let (_, table) = architecture.split_once("| room | what is in it |\n").unwrap();
+    let rows = table.lines().take_while(|line| line.starts_with('|')).skip(1);
+    let rooms: Vec<&str> = rows.map(|row| row.split('`').nth(1).unwrap()).collect();
+    assert!(rooms.len() > 20, "only {rooms:?} were found");
+    let missing: Vec<&&str> = rooms.iter().filter(|room| !root().join(room).exists()).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }
 
 /// A house that is made up: paths and texts.
@@ -233,5 +246,11 @@ fn rooms_are_folders_and_files_of_src_and_what_stands_before_another() {
 #[test]
 fn names_in_a_document_are_written_out() {
     let line = "`Action`, `src/{a,b/c}.rs`, `a < b/c`, [x](docs/x.md#y), [z](https://z) and `locales/*/lesson.ftl`";
-    assert_eq!(documents::names(line), ["Action", "src/a.rs", "src/b/c.rs", "locales/*/lesson.ftl", "docs/x.md"]);
+    let names = documents::names(line);
+    let (paths, others): (Vec<_>, Vec<_>) = names.into_iter().partition(|(_, is_path)| *is_path);
+    assert_eq!(
+        paths.iter().map(|(name, _)| name).collect::<Vec<_>>(),
+        ["src/a.rs", "src/b/c.rs", "locales/*/lesson.ftl", "docs/x.md"]
+    );
+    assert_eq!(others, [("Action".to_string(), false)]);
 }
