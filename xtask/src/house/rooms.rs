@@ -9,7 +9,7 @@ const BELOW_ALL: [&str; 3] = ["chance", "language", "lib"];
 const ALONE: [(&str, &[&str]); 1] = [("render", &["mesh"])];
 
 /// Files that know a room which theirs does not.
-const EXCEPT: [(&str, &[&str]); 2] = [
+pub(super) const EXCEPT: [(&str, &[&str]); 2] = [
     // Figures and the pictures of a report are the app's, drawn off screen.
     ("src/cli/figures.rs", &["app", "render"]),
     ("src/cli/pictures.rs", &["app"]),
