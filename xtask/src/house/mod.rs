@@ -1,5 +1,5 @@
 //! What ARCHITECTURE.md says of the house, held by tests: a room knows only those below it, in a room no two files know
-//! each other, directly or round about, and the files that are named are there.
+//! each other, directly or round about, some crates are for some rooms alone, and the files that are named are there.
 //! The firmware, the fuzzing, the benches and all tests that stand outside of `src`, `tests/ui` too, are not read.
 //!
 //! - `source`: what a file declares and names; `program`: which file uses which of that; `circles`: those that use each
@@ -16,7 +16,7 @@ use std::path::Path;
 
 use self::circles::circles;
 use self::program::{Files, Program, Uses};
-use self::rooms::{EXCEPT, Order, room};
+use self::rooms::{EXCEPT, Order, may_use, room};
 use crate::step::root;
 
 /// The programs and libraries, by the names that others know them by, with their first files.
@@ -53,6 +53,13 @@ fn upward(order: &Order, program: &Program) -> Vec<String> {
     wrong.map(|(file, other, names)| format!("{file} uses {other}: {names:?}")).collect()
 }
 
+/// Each crate of others in a file that it is not for.
+fn out_of_place(program: &Program) -> Vec<String> {
+    let others = program.others();
+    let named = others.iter().flat_map(|(file, crates)| crates.iter().map(move |name| (file, name)));
+    named.filter(|(file, name)| !may_use(file, name)).map(|(file, name)| format!("{file} uses {name}")).collect()
+}
+
 fn house() -> Program {
     let mut program = Program::default();
     CRATES.iter().for_each(|(name, first)| program.add(&Checkout(root()), name, first));
@@ -79,6 +86,32 @@ fn a_room_knows_only_those_below_it() {
             rooms.iter().all(|room| used.contains(room)),
             "{file} is an exception for {rooms:?}, but uses {used:?}"
         );
+    }
+}
+
+#[test]
+fn some_crates_are_for_some_rooms_alone() {
+    let wrong = out_of_place(&house());
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_crate_that_is_not_for_a_room_is_found() {
+    let found = |mesh| {
+        let files = [("src/lib.rs", "mod desktop; mod mesh;"), ("src/desktop.rs", "use rfd::FileDialog;")];
+        out_of_place(&made_up([files[0], files[1], ("src/mesh.rs", mesh)]))
+    };
+    assert_eq!(
+        found("use serde::Serialize; fn f(egui: u8) { rayon.wgpu(); \"web_sys::Blob\"; }"),
+        Vec::<String>::new()
+    );
+    for (mesh, name) in [
+        ("use rfd::FileDialog;", "rfd"),
+        ("use ::{egui as e};", "egui"),
+        ("fn f() { web_sys::window(); }", "web_sys"),
+        ("#[serde(with = \"wgpu::a\")] struct S;", "wgpu"),
+    ] {
+        assert_eq!(found(mesh), [format!("src/mesh.rs uses {name}")], "{mesh}");
     }
 }
 

@@ -127,6 +127,18 @@ impl Program {
         uses
     }
 
+    /// File by file, the crates that are not ours, by which a path or an import begins.
+    pub(super) fn others(&self) -> BTreeMap<String, BTreeSet<String>> {
+        let mut others = BTreeMap::<String, BTreeSet<String>>::new();
+        for module in &self.modules {
+            let longer = module.paths.iter().chain(&module.quoted).filter(|path| path.len() > 1);
+            let paths = module.imports.iter().map(|import| &import.path).chain(longer);
+            let first = paths.map(|path| path[0].clone()).filter(|name| !module.children.contains_key(name));
+            others.entry(module.file.clone()).or_default().extend(first);
+        }
+        others
+    }
+
     /// Imports of everything in a module of ours, which hide what a file uses.
     pub(super) fn globs(&self) -> Vec<String> {
         let ours = |index, import: &Import| !self.modules_at(index, &import.path, DEPTH).is_empty();

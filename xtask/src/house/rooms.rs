@@ -1,4 +1,4 @@
-//! The rooms of the house and their order, as ARCHITECTURE.md has it.
+//! The rooms of the house and their order, as ARCHITECTURE.md has it, and which crates are for which of them alone.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,6 +14,21 @@ pub(super) const EXCEPT: [(&str, &[&str]); 2] = [
     ("src/cli/figures.rs", &["app", "render"]),
     ("src/cli/pictures.rs", &["app"]),
 ];
+
+/// Crates of others, and the rooms that alone use them.
+const ONLY: [(&[&str], &[&str]); 5] = [
+    (&["eframe", "egui", "egui_plot", "egui_wgpu"], &["app", "desktop", "web"]),
+    (&["hidapi", "rfd", "tungstenite"], &["desktop"]),
+    (&["js_sys", "wasm_bindgen", "wasm_bindgen_futures", "web_sys"], &["web", "web/scan", "web/worker"]),
+    (&["rayon"], &["parallel"]),
+    (&["wgpu"], &["app", "render", "web"]),
+];
+
+/// Whether a file may use a crate of others.
+pub(super) fn may_use(file: &str, name: &str) -> bool {
+    let only = ONLY.iter().find(|(crates, _)| crates.contains(&name));
+    only.is_none_or(|(_, rooms)| rooms.contains(&room(file)))
+}
 
 /// For each room those below it.
 pub(super) struct Order(BTreeMap<String, BTreeSet<String>>);
