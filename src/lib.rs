@@ -5,6 +5,10 @@
 //!
 //! ```text
 //! parallel < mesh < volume < io, phantom, vessel < pipeline < sharing < report, trial < engine < app < desktop, web
+//! task < mesh < render < app
+//! transfer < trial
+//! haptics, transfer < engine < web/worker < web/scan, web
+//! engine < cli, desktop < main
 //! ```
 //!
 //! - [`mesh`]: the surface itself: triangles, topology, measures, nearest point.
@@ -26,7 +30,7 @@
 //! - [`task`]: long work in slices.
 //! - [`transfer`]: messages between threads that share no memory; it knows nothing of what is in them.
 //! - `chance`: numbers that a seed decides.
-//! - `cli`: the subcommands; the figures among them are `app`'s compare view, drawn off screen.
+//! - `cli`: the subcommands; the figures among them and the pictures of a report are `app`'s, drawn off screen.
 
 #[cfg(feature = "gui")]
 pub mod app;

@@ -62,21 +62,15 @@ fn described(info: &ArrayInfo) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Array;
-    use crate::mesh::arrays::{Scalar, Values};
-
-    fn array(scalar: Scalar, numbers: &[f64]) -> ArrayInfo {
-        let mut values = Values::new(scalar);
-        numbers.iter().for_each(|&x| values.push(x));
-        Array::new("Pressure", On::Point, 1, values).info()
-    }
+    use crate::app::arrays::tests::info;
+    use crate::mesh::arrays::Scalar;
 
     #[test]
     fn an_array_is_described_in_a_line() {
         assert_eq!(
-            described(&array(Scalar::F32, &[-10.0, 35.238_01])),
+            described(&info(Scalar::F32, &[-10.0, 35.238_01])),
             "Pressure: scalar on vertices, float32, -10 to 35.24"
         );
-        assert_eq!(described(&array(Scalar::U8, &[0.0, 3.0])), "Pressure: 2 labels on vertices, uint8, 0 to 3");
+        assert_eq!(described(&info(Scalar::U8, &[0.0, 3.0])), "Pressure: 2 labels on vertices, uint8, 0 to 3");
     }
 }

@@ -94,23 +94,22 @@ pub(super) fn label_legend(painter: &Painter, inner: Rect, info: &ArrayInfo, col
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::mesh::Array;
     use crate::mesh::arrays::{On, Scalar, Values};
 
-    fn array(scalar: Scalar, numbers: &[f64]) -> ArrayInfo {
-        let mut values = Values::new(scalar);
-        numbers.iter().for_each(|&x| values.push(x));
-        Array::new("Pressure", On::Point, 1, values).info()
+    /// What is told of an array `Pressure` of these numbers, one a vertex.
+    pub(in crate::app) fn info(scalar: Scalar, numbers: &[f64]) -> ArrayInfo {
+        Array::new("Pressure", On::Point, 1, Values::of(scalar, numbers.iter().copied())).info()
     }
 
     #[test]
     fn values_become_parts_of_the_range_and_labels_their_number() {
-        let pressure = array(Scalar::F32, &[-10.0, 30.0, f64::NAN]);
+        let pressure = info(Scalar::F32, &[-10.0, 30.0, f64::NAN]);
         assert_eq!([-10.0, 0.0, 30.0, 99.0].map(|x| shown_number(&pressure, x)), [0.0, 0.25, 1.0, 1.0]);
         assert!(shown_number(&pressure, f32::NAN) > ColourMap::UNKNOWN);
-        let parts = array(Scalar::I16, &[7.0, -3.0, 7.0, 100.0]);
+        let parts = info(Scalar::I16, &[7.0, -3.0, 7.0, 100.0]);
         assert_eq!([-3.0, 7.0, 100.0].map(|x| shown_number(&parts, x)), [0.0, 1.0, 2.0]);
     }
 

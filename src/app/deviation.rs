@@ -7,7 +7,7 @@ use egui::{Align2, Color32, FontId, Rect, Role, Sense, Ui, Vec2, pos2, vec2};
 
 use super::action::Action;
 use super::assist::name;
-pub use super::deviating::{Deviating, UpTo};
+use super::deviating::{Deviating, UpTo};
 use super::document::Document;
 use super::halo;
 use super::overlay::{self, Legend};

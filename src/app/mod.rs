@@ -4,8 +4,8 @@
 //! - [`LumenApp`]: the app, frame by frame; [`Action`]: all that can be asked of it. [`LastingApp`]: it outlives the
 //!   graphics device (`paint_guard`: and paints nothing with one that is gone).
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
-//! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`, `error_plot`, `icon` what they are
-//!   made of, `assist` what assistive tools are told of them, `theme` the look.
+//! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`,
+//!   `error_plot`, `icon` what they are made of, `assist` what assistive tools are told of them, `theme` the look.
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
 //! - `sharing`: settings as a file and in a link; `recovery`: what comes back after a reload.
 //! - [`compare`]: several settings side by side, in the window or as a figure.
@@ -15,7 +15,7 @@
 //! - [`record`]: reports, pictures and turntables, drawn by `portrait`.
 //! - [`lesson`]: lessons and the glossary; [`collapses`]: the steps of decimation, one by one.
 //! - [`measure`]: measures on the surface, and the plane that cuts it open.
-//! - [`deviation`]: how far the level is from what it was, in colours.
+//! - `deviation`: how far the level is from what it was, in colours; [`deviating`]: which of that.
 //! - `mending`: what is wrong with a file, where, and what is done about it.
 //! - `presenter`: for a projector; `spoken`: for those who do not see the window; `speech`: in which
 //!   language; `lettering`: over pictures for files.
@@ -33,8 +33,8 @@ mod classes;
 pub mod collapses;
 pub mod compare;
 mod control;
-mod deviating;
-pub mod deviation;
+pub mod deviating;
+mod deviation;
 pub mod document;
 mod drawer;
 mod error_plot;

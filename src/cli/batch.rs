@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use super::interrupt::Interrupted;
 use super::misuse::misuse;
-use super::outputs::{Outputs, milliseconds, told_with_remedies};
+use super::outputs::{Outputs, told_with_remedies};
 use super::places::write_whole;
 use super::running::advance_quietly;
 use super::scan::FOLDER_HINT;
@@ -27,6 +27,7 @@ use crate::io::Format;
 use crate::language::grouped;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::sharing::Digest;
+use crate::task::milliseconds;
 use crate::vessel::certificate::Verdict;
 
 /// The summary's name.
@@ -191,7 +192,7 @@ impl Batch {
     fn one(&self, item: &Item, asked: &Asked, written: &WrittenOptions) -> Result<Made> {
         let start = Instant::now();
         let (imported, digest) = source::read_quietly(&item.file, asked.unit)?;
-        let read = milliseconds(start.elapsed());
+        let read = milliseconds(start);
         let outputs = Outputs {
             surface: &item.surface,
             format: self.format,

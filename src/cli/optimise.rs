@@ -9,7 +9,7 @@ use clap::Args;
 use super::batch::BatchOptions;
 use super::mend::mended_rows;
 use super::misuse::misuse;
-use super::outputs::{Outputs, milliseconds, told_with_remedies};
+use super::outputs::{Outputs, told_with_remedies};
 use super::places::{output_format, write_whole};
 use super::rows::{row, shape_rows};
 use super::running::advance;
@@ -23,6 +23,7 @@ use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::results::Adapted;
 use crate::pipeline::safe::Safe;
 use crate::sharing::{SharedSettings, write_settings};
+use crate::task::milliseconds;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
 #[derive(Debug, Args)]
@@ -83,7 +84,7 @@ impl Optimise {
         self.check_outputs(file)?;
         let start = Instant::now();
         let imported = source::read_with(file, asked.unit, &self.scan)?;
-        let read = milliseconds(start.elapsed());
+        let read = milliseconds(start);
         let outputs = Outputs {
             surface: &self.output,
             format,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow};
 
@@ -15,6 +15,7 @@ use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{Report, UnitReport};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::verdict::{Finding, Verdict};
+use crate::task::milliseconds;
 
 /// What is written of one surface.
 pub(super) struct Outputs<'a> {
@@ -75,18 +76,13 @@ impl Outputs<'_> {
         report.stages_ms.read = read;
         report.axes = to;
         report.unit = Some(unit);
-        report.stages_ms.write = milliseconds(start.elapsed());
+        report.stages_ms.write = milliseconds(start);
         report.verdict = Some(Box::new(Verdict::of_run(&report, &import, Format::from_name(name).is_some())));
         if let Some(path) = self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
         }
         Ok((report, left_out))
     }
-}
-
-/// A time in ms.
-pub(super) fn milliseconds(duration: Duration) -> f64 {
-    duration.as_secs_f64() * 1e3
 }
 
 /// A finding with its place and what would help, in a line.

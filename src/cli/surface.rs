@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::Args;
 
-use super::places;
-use super::places::{output_format, write_whole};
+use super::places::{self, output_format, write_whole};
 use super::rows::row;
 use super::scan::{self, ScanOptions};
 use crate::io::{self, Imported};

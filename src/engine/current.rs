@@ -15,7 +15,6 @@ use super::found::{Calibre, Carried, Deviated, FaultsFound, Reduced};
 use super::message::{Event, Work};
 use super::progress::tell_progress;
 use super::record::Origin;
-use crate::io::Axes;
 use crate::mesh::TriMesh;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::{Advance, Pipeline};
@@ -29,7 +28,6 @@ pub const PATIENCE: Duration = Duration::from_millis(400);
 /// A surface that is open, under the newest settings.
 pub(super) struct Current {
     pub(super) name: String,
-    pub(super) axes: Axes,
     pub(super) origin: Origin,
     pub(super) pipeline: Pipeline,
     /// The surface that the app has: the opened one, or what mending made of it.
@@ -55,7 +53,6 @@ impl Current {
     pub(super) fn new(id: u64, name: String, origin: Origin, pipeline: Pipeline, read_ms: f64) -> Self {
         Self {
             name,
-            axes: origin.import.axes,
             origin,
             told: pipeline.opened().clone(),
             pipeline,

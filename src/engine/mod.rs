@@ -7,9 +7,10 @@
 //!
 //! - `message`: commands and events, with `source`, where a surface comes from, and `found`, what is found out about it;
 //!   `surfaces`: how the surfaces in them cross; `link`: the line.
-//! - `pipeline_engine`: what is asked, in its order; `current`: the surface that is open; `opening`: a source on its way in; `compare`: settings to compare ([`Command::Compare`]), which are worked on while
-//!   nothing else is to be done; `differing`: how far two of them are apart; `averaging`: plain Laplacian
-//!   smoothing, to be seen beside the filter; `progress`: how far all this is.
+//! - `pipeline_engine`: what is asked, in its order; `current`: the surface that is open; `opening`: a source on its way
+//!   in; `compare`: settings to compare ([`Command::Compare`]), which are worked on while nothing else is to be done;
+//!   `differing`: how far two of them are apart; `averaging`: plain Laplacian smoothing, to be seen beside the filter;
+//!   `progress`: how far all this is.
 //! - [`trial`]: the guidewire trial, an engine of its own on a line of its own. It keeps pace with the clock.
 //! - [`scan`]: scans and masks, an engine of its own as well; the surface that it makes is opened as [`Source::Made`].
 //! - [`Machine`]: what they are to whoever runs them.

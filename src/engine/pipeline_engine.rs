@@ -200,7 +200,8 @@ impl Engine {
     }
 
     fn write_level(&mut self, name: String, format: io::Format) {
-        match self.current.as_ref().and_then(|current| Some((current.pipeline.reduced()?, current.axes))) {
+        match self.current.as_ref().and_then(|current| Some((current.pipeline.reduced()?, current.origin.import.axes)))
+        {
             Some((reduced, axes)) => {
                 let mesh = (*reduced.mesh).clone();
                 self.write(Writing { name, format, mesh, axes, to: axes });

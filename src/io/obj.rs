@@ -162,8 +162,7 @@ impl Parsing {
         }
         // The cell of a triangle is its group here.
         if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
-            let mut numbers = Values::new(Scalar::I32);
-            (0..=self.groups.numbers.len()).for_each(|group| numbers.push(group as f64));
+            let numbers = Values::of(Scalar::I32, (0..=self.groups.numbers.len()).map(|group| group as f64));
             arrays.push(Array::new("Groups", On::Triangle, 1, numbers));
         }
         raw.carry((arrays, Vec::new()), Room::of(file));
@@ -222,10 +221,11 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Whether an array is a colour that can stand behind the coordinates.
-pub(super) fn is_colour(array: &Array) -> bool {
-    let is_named = array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
-    array.on == On::Point && matches!(array.components, 3 | 4) && is_named
+/// The one array that is written, a colour behind the coordinates: the first that can be one.
+pub(super) fn colour_of(arrays: &[Array]) -> Option<&Array> {
+    let is_named = |array: &Array| array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
+    let has_shape = |array: &Array| array.on == On::Point && matches!(array.components, 3 | 4);
+    arrays.iter().find(|array| is_named(array) && has_shape(array))
 }
 
 /// The parts of a vertex's colour, from 0 to 1.
@@ -241,7 +241,7 @@ fn colour(array: &Array, vertex: usize) -> [f32; 3] {
 /// Text with the shortest numbers that read back to the same bits.
 pub(super) fn write(output: &Output) -> Vec<u8> {
     let Output { mesh, normals, axes, .. } = *output;
-    let colours = output.arrays.iter().find(|array| is_colour(array));
+    let colours = colour_of(output.arrays);
     let mut out = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 24);
     // Writing to a String cannot fail.
     let _ = writeln!(out, "# Surface written by Lumen; millimetres{}", axes.said());

@@ -7,13 +7,12 @@ use crate::say;
 
 /// Each array, and whether `format` has a place for it.
 fn places(arrays: &[Array], format: Format) -> impl Iterator<Item = (&Array, bool)> {
-    let mut has_colour = false;
+    let colour = obj::colour_of(arrays);
     arrays.iter().map(move |array| {
         let has_place = match format {
             Format::Vtp | Format::Vtk | Format::Ply => true,
             Format::Glb => gltf::has_place(array),
-            // A vertex has one colour.
-            Format::Obj => obj::is_colour(array) && !std::mem::replace(&mut has_colour, true),
+            Format::Obj => colour.is_some_and(|colour| std::ptr::eq(colour, array)),
             Format::Stl => false,
         };
         (array, has_place)

@@ -1,3 +1,5 @@
+//! Numbers and tags in each language, and the catalogues: each message is there in all of them, is understood and is said.
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 

@@ -194,31 +194,25 @@ fn few_words(values: &Values) -> Option<Vec<u64>> {
 mod tests {
     use super::*;
 
-    fn values(scalar: Scalar, numbers: impl IntoIterator<Item = f64>) -> Values {
-        let mut values = Values::new(scalar);
-        numbers.into_iter().for_each(|x| values.push(x));
-        values
-    }
-
     #[test]
     fn few_whole_numbers_and_identifiers_are_labels() {
         let kind = |name, components, numbers| Array::new(name, On::Point, components, numbers).kind;
-        let many = || values(Scalar::I32, (0..300).map(f64::from));
-        assert_eq!(kind("Part", 1, values(Scalar::U8, (0..256).map(f64::from))), Kind::Label);
+        let many = || Values::of(Scalar::I32, (0..300).map(f64::from));
+        assert_eq!(kind("Part", 1, Values::of(Scalar::U8, (0..256).map(f64::from))), Kind::Label);
         assert_eq!(kind("Intensity", 1, many()), Kind::Continuous);
         assert_eq!(kind("GlobalNodeID", 1, many()), Kind::Label);
-        assert_eq!(kind("Part", 1, values(Scalar::F32, [1.0, 2.0])), Kind::Continuous);
-        let signs = Array::new("Side", On::Point, 1, values(Scalar::I16, [2.0, -1.0, 2.0, 0.0]));
+        assert_eq!(kind("Part", 1, Values::of(Scalar::F32, [1.0, 2.0])), Kind::Continuous);
+        let signs = Array::new("Side", On::Point, 1, Values::of(Scalar::I16, [2.0, -1.0, 2.0, 0.0]));
         assert_eq!((signs.info().labels, signs.info().range), (vec![-1.0, 0.0, 2.0], Some([-1.0, 2.0])));
-        assert_eq!(kind("RGB", 3, values(Scalar::U8, [1.0, 2.0, 3.0])), Kind::Continuous);
+        assert_eq!(kind("RGB", 3, Values::of(Scalar::U8, [1.0, 2.0, 3.0])), Kind::Continuous);
     }
 
     #[test]
     fn tuples_are_gathered_whole_and_ranges_are_of_magnitudes() {
-        let vectors = Array::new("Speed", On::Point, 2, values(Scalar::F64, [3.0, 4.0, 0.0, 1.0, f64::NAN, 0.0]));
+        let vectors = Array::new("Speed", On::Point, 2, Values::of(Scalar::F64, [3.0, 4.0, 0.0, 1.0, f64::NAN, 0.0]));
         assert_eq!((vectors.len(), vectors.range()), (3, Some([1.0, 5.0])));
         let gathered = vectors.gathered(&[1, 0, 1]);
         assert_eq!((gathered.len(), gathered.magnitude(1), gathered.values.get(5)), (3, 5.0, 1.0));
-        assert_eq!(Array::new("None", On::Triangle, 1, values(Scalar::F32, [f64::NAN])).range(), None);
+        assert_eq!(Array::new("None", On::Triangle, 1, Values::of(Scalar::F32, [f64::NAN])).range(), None);
     }
 }

@@ -153,9 +153,7 @@ mod tests {
     use crate::mesh::arrays::Scalar;
 
     fn array(scalar: Scalar, components: usize, numbers: &[f64]) -> Array {
-        let mut values = Values::new(scalar);
-        numbers.iter().for_each(|&x| values.push(x));
-        Array::new("a", On::Point, components, values)
+        Array::new("a", On::Point, components, Values::of(scalar, numbers.iter().copied()))
     }
 
     fn numbers(array: &Array) -> Vec<f64> {

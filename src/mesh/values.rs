@@ -91,6 +91,14 @@ impl Values {
         Self { scalar, bytes }
     }
 
+    /// These numbers, each as [`push`](Self::push) adds it.
+    pub fn of(scalar: Scalar, numbers: impl IntoIterator<Item = f64>) -> Self {
+        let (mut values, numbers) = (Self::new(scalar), numbers.into_iter());
+        values.reserve(numbers.size_hint().0);
+        numbers.for_each(|x| values.push(x));
+        values
+    }
+
     /// Single-precision numbers.
     pub fn from_floats(numbers: &[f32]) -> Self {
         Self { scalar: Scalar::F32, bytes: numbers.iter().flat_map(|x| x.to_le_bytes()).collect() }
@@ -168,10 +176,7 @@ impl Values {
     /// What `of` makes of each, by its place and its value, in the same type.
     #[must_use]
     pub fn mapped(&self, of: impl Fn(usize, f64) -> f64) -> Self {
-        let mut mapped = Self::new(self.scalar);
-        mapped.reserve(self.len());
-        (0..self.len()).for_each(|i| mapped.push(of(i, self.get(i))));
-        mapped
+        Self::of(self.scalar, (0..self.len()).map(|i| of(i, self.get(i))))
     }
 
     /// Adds the number that `word` is; whether it is one.
@@ -216,16 +221,10 @@ mod tests {
         Scalar::F64,
     ];
 
-    fn values(scalar: Scalar, numbers: impl IntoIterator<Item = f64>) -> Values {
-        let mut values = Values::new(scalar);
-        numbers.into_iter().for_each(|x| values.push(x));
-        values
-    }
-
     #[test]
     fn numbers_of_every_type_come_back_rounded_and_within_their_range() {
         for scalar in ALL {
-            let numbers = values(scalar, [0.0, 5.5, 127.0, -1.0]);
+            let numbers = Values::of(scalar, [0.0, 5.5, 127.0, -1.0]);
             let is_signed = !matches!(scalar, Scalar::U8 | Scalar::U16 | Scalar::U32 | Scalar::U64);
             let half = if scalar.is_whole() { 6.0 } else { 5.5 };
             let found: Vec<f64> = (0..numbers.len()).map(|i| numbers.get(i)).collect();

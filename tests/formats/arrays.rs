@@ -12,9 +12,7 @@ fn open(bytes: &[u8]) -> Imported {
 }
 
 fn array(name: &str, on: On, scalar: Scalar, components: usize, numbers: impl IntoIterator<Item = f64>) -> Array {
-    let mut values = Values::new(scalar);
-    numbers.into_iter().for_each(|x| values.push(x));
-    Array::new(name, on, components, values)
+    Array::new(name, on, components, Values::of(scalar, numbers))
 }
 
 fn numbers(array: &Array) -> Vec<f64> {

@@ -1,4 +1,5 @@
-//! The compare view in the window: a bar with what can be done, the grid, and a line on what all cells share.
+//! The compare view in the window: the grid of cells under one camera, and what of it stands in GPU memory. What
+//! stands around the grid is in `bar`.
 
 use egui::{Frame, Margin, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui};
 use egui::{UiBuilder, Vec2, WidgetInfo, vec2};

@@ -13,7 +13,7 @@ pub use self::format::{Lesson, LessonError, Show, Step, Trial};
 pub(super) use self::glossary::glossary;
 use super::action::Action as Ask;
 use super::collapses;
-use super::deviation::Deviating;
+use super::deviating::Deviating;
 use super::reveal::Reveal;
 use super::state::State;
 use super::views::{Colours, ViewOptions};

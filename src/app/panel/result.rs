@@ -1,4 +1,4 @@
-//! What came of it, in numbers.
+//! The result below the steps of the panel: what the method made of the surface, in numbers.
 
 use egui::{CollapsingHeader, Ui};
 

@@ -1,4 +1,4 @@
-//! The smoothing, and what it does.
+//! The second step of the panel: the controls of the smoothing filter, its response and what it did to the surface.
 
 use egui::{Button, ComboBox, Role, Ui};
 

@@ -1,4 +1,4 @@
-//! What can be asked of reports and pictures.
+//! What can be asked of reports and pictures, and what of it stays chosen.
 
 use crate::report::ReportFormat;
 

@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use super::action::Chosen;
 use crate::app::arrays;
-use crate::app::deviation::Deviating;
+use crate::app::deviating::Deviating;
 use crate::app::document::Document;
 use crate::app::portrait::{
     Alone, Behind, Marks, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, without_ground,

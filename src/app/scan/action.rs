@@ -1,4 +1,4 @@
-//! What can be asked of a scan.
+//! What can be asked of a scan, and which of its slices are shown behind the surface.
 
 use crate::volume::{Axis, Region, Selection};
 

@@ -1,5 +1,6 @@
-//! The two 3-D views: one camera, and what both show. What each of them draws and is written over it is in `picture`, how the
-//! camera is moved in `steering`, on which side it stands in `sides`, where a place is seen in `places`, what the user chooses to see in `options`.
+//! The two 3-D views: one camera, and what both show. What each of them draws and is written over it is in `picture`, how
+//! the camera is moved in `steering`, on which side it stands in `sides`, where a place is seen in `places`, what the user
+//! chooses to see in `options`.
 
 mod options;
 mod picture;

@@ -19,7 +19,7 @@ const EXACT: f64 = 16_777_216.0;
 
 /// Whether an array can be an attribute.
 pub(in crate::io) fn has_place(array: &Array) -> bool {
-    array.on == On::Point && array.components <= 4 && written_as(array).is_some()
+    Attribute::of(array).is_some()
 }
 
 /// An array as an attribute.
@@ -29,9 +29,10 @@ pub(super) struct Attribute<'a> {
 }
 
 impl<'a> Attribute<'a> {
-    /// The attribute of an array that has a place.
+    /// The attribute that an array is written as, if it has a place.
     pub(super) fn of(array: &'a Array) -> Option<Self> {
-        Some(Self { array, scalar: written_as(array)? })
+        let has_shape = array.on == On::Point && array.components <= 4;
+        Some(Self { array, scalar: written_as(array).filter(|_| has_shape)? })
     }
 
     /// The name, in quotes: with an underscore, which reading takes off again.
@@ -78,9 +79,8 @@ impl<'a> Attribute<'a> {
     pub(super) fn write(&self, out: &mut Vec<u8>) {
         let components = self.array.components;
         for row in 0..self.array.len() {
-            let mut tuple = Values::new(self.scalar);
-            (row * components..(row + 1) * components).for_each(|i| tuple.push(self.array.values.get(i)));
-            out.extend_from_slice(tuple.bytes());
+            let numbers = (row * components..(row + 1) * components).map(|i| self.array.values.get(i));
+            out.extend_from_slice(Values::of(self.scalar, numbers).bytes());
             out.resize(out.len().next_multiple_of(4), 0);
         }
     }

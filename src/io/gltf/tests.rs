@@ -1,3 +1,5 @@
+//! glTF texts and containers made for it: what is drawn and where it comes to lie, what is refused, and what is written.
+
 use base64::Engine as _;
 use glam::DVec3;
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::super::error::WriteError;
 use super::super::output::Output;
-use super::arrays::{Attribute, has_place};
+use super::arrays::Attribute;
 use super::container::{BIN_CHUNK, JSON_CHUNK};
 
 /// A GLB file of one mesh, with y up, in mm under a node scale of 0.001.
@@ -12,8 +12,7 @@ pub(in crate::io) fn write(output: &Output) -> Result<Vec<u8>, WriteError> {
     let Output { mesh, normals, .. } = *output;
     let (vertices, corners) = (mesh.positions.len(), 3 * mesh.triangles.len());
     let (vector_bytes, index_bytes) = (12 * vertices as u64, 4 * corners as u64);
-    let arrays: Vec<Attribute> =
-        output.arrays.iter().filter(|array| has_place(array)).filter_map(Attribute::of).collect();
+    let arrays: Vec<Attribute> = output.arrays.iter().filter_map(Attribute::of).collect();
     let bounds = mesh.bounds();
     let (one, other) = (y_up(bounds.min), y_up(bounds.max));
     let corner = |of: fn(f32, f32) -> f32| -> [f32; 3] { std::array::from_fn(|i| of(one[i], other[i])) };

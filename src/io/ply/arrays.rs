@@ -148,9 +148,7 @@ impl<'a> Written<'a> {
             out.extend_from_slice(&values.bytes()[numbers.start * size..numbers.end * size]);
             return;
         }
-        let mut converted = Values::new(self.scalar);
-        numbers.for_each(|i| converted.push(values.get(i)));
-        out.extend_from_slice(converted.bytes());
+        out.extend_from_slice(Values::of(self.scalar, numbers.map(|i| values.get(i))).bytes());
     }
 }
 

@@ -1,3 +1,5 @@
+//! PLY files made for it: what of them is read in each form, and what is refused.
+
 use glam::DVec3;
 
 use super::super::error::ReadError;

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::headers::{data_name, is_volume};
-use super::parts::HEAD;
-use super::parts::base_name;
+use super::parts::{HEAD, base_name};
 use crate::say;
 
 /// A file or a folder that cannot be read.

@@ -21,13 +21,27 @@ pub fn data_name(bytes: &[u8], name: &str) -> Option<String> {
     }
 }
 
-/// What the header says that is the file `at` of these, of a format whose numbers can be read piece by piece.
-pub(super) fn outline(content: Content, at: usize, heads: &[Head]) -> Option<Result<Outline, ScanError>> {
-    match content {
-        Content::Nifti => Some(nifti::outline(at, heads)),
-        Content::Nrrd => Some(nrrd::outline(at, heads)),
-        Content::MetaImage => Some(metaimage::outline(at, heads)),
-        Content::Vti | Content::Dicom => None,
+/// How a volume is read.
+pub(super) enum Way {
+    /// Piece by piece, by what its header says.
+    Pieces(Box<Outline>),
+    /// Whole, as VTI.
+    Vti,
+    /// Whole, slice by slice, as DICOM.
+    Dicom,
+}
+
+impl Way {
+    /// That of the volume whose header is the file `at` of these.
+    pub(super) fn of(content: Content, at: usize, heads: &[Head]) -> Result<Self, ScanError> {
+        let outline = match content {
+            Content::Nifti => nifti::outline(at, heads),
+            Content::Nrrd => nrrd::outline(at, heads),
+            Content::MetaImage => metaimage::outline(at, heads),
+            Content::Vti => return Ok(Self::Vti),
+            Content::Dicom => return Ok(Self::Dicom),
+        };
+        Ok(Self::Pieces(Box::new(outline?)))
     }
 }
 

@@ -35,8 +35,8 @@ pub use outline::Scan;
 pub use parts::{HEAD, Head, Part};
 pub use stream::{Stream, begin};
 
-use super::detect::Volume as Content;
 use super::error::ReadError;
+use headers::Way;
 use parts::base_name;
 
 /// Reads the volume in `parts`: one file, a header with its data, or the files of a DICOM series in any order.
@@ -57,12 +57,12 @@ pub fn read(parts: &[Part]) -> Result<Scan, ScanError> {
     let whole = |part: &Part<'_>| part.bytes.len() as u64;
     let heads: Vec<Head> =
         parts.iter().map(|part| Head { name: part.name, bytes: part.bytes, length: whole(part) }).collect();
-    if let Some(outline) = headers::outline(content, at, &heads) {
-        return stream::read_whole(outline?, parts);
+    match Way::of(content, at, &heads)? {
+        Way::Pieces(outline) => stream::read_whole(*outline, parts),
+        Way::Vti => vti::read(parts[at].bytes),
+        Way::Dicom => {
+            let is_slice = |part: &&Part| headers::content(part.bytes) == Some(content);
+            dicom::read(&parts.iter().filter(is_slice).collect::<Vec<_>>())
+        }
     }
-    if content == Content::Vti {
-        return vti::read(parts[at].bytes);
-    }
-    let slices: Vec<&Part> = parts.iter().filter(|part| headers::content(part.bytes) == Some(content)).collect();
-    dicom::read(&slices)
 }

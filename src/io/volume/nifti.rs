@@ -15,8 +15,7 @@ use super::axes::{ras_to_lps, silent};
 use super::error::ScanError;
 use super::numbers::{Layout, Packing, first_unfolded, is_gzip};
 use super::outline::Outline;
-use super::parts::Head;
-use super::parts::{base_name, named};
+use super::parts::{Head, base_name, named};
 use crate::say;
 use crate::volume::{Geometry, VolumeError};
 

@@ -14,8 +14,7 @@ use super::error::ScanError;
 use super::lines::lines;
 use super::numbers::{Layout, Packing};
 use super::outline::Outline;
-use super::parts::Head;
-use super::parts::named;
+use super::parts::{Head, named};
 use crate::say;
 use crate::volume::{Geometry, VolumeError};
 

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use flate2::write::{MultiGzDecoder, ZlibDecoder};
 
 use super::error::ScanError;
-use super::headers::{self, content};
+use super::headers::{Way, content};
 use super::numbers::{Layout, Packing};
 use super::outline::{Outline, Scan};
 use super::parts::{Head, Part};
@@ -47,7 +47,7 @@ struct Sink {
 pub fn begin(heads: &[Head]) -> Result<Option<Stream>, ScanError> {
     let found = heads.iter().enumerate().find_map(|(at, head)| content(head.bytes).map(|content| (at, content)));
     let Some((header, content)) = found else { return Ok(None) };
-    let Some(outline) = headers::outline(content, header, heads).transpose()? else { return Ok(None) };
+    let Way::Pieces(outline) = Way::of(content, header, heads)? else { return Ok(None) };
     let head = heads[outline.file];
     // The header may go on beyond what is known of it.
     let is_whole = |head: &Head| head.length == head.bytes.len() as u64;
@@ -55,7 +55,7 @@ pub fn begin(heads: &[Head]) -> Result<Option<Stream>, ScanError> {
     if outline.packing == Packing::Text || !is_known {
         return Ok(None);
     }
-    Stream::new(outline, head.length).map(Some)
+    Stream::new(*outline, head.length).map(Some)
 }
 
 /// Reads the volume of `outline` out of whole files.

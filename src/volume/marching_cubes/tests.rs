@@ -1,3 +1,5 @@
+//! Masks of bodies whose volume, area and topology are known, and of no body at all: what the surface of each has to be.
+
 use std::f64::consts::PI;
 
 use proptest::prelude::*;

@@ -27,6 +27,14 @@ struct Module {
     children: BTreeMap<String, Vec<usize>>,
     imports: Vec<Import>,
     paths: Vec<Vec<String>>,
+    quoted: Vec<Vec<String>>,
+}
+
+impl Module {
+    /// Whether it uses by itself what it imports so.
+    fn names(&self, import: &Import) -> bool {
+        self.paths.iter().chain(&self.quoted).any(|path| path[0] == import.name)
+    }
 }
 
 /// File by file, which others it uses, and by which names.
@@ -54,13 +62,14 @@ impl Program {
 
     fn module(&mut self, files: &impl Files, file: &str, folder: &str, parent: Option<usize>, source: Source) -> usize {
         let index = self.modules.len();
-        let Source { files: declared, parts, imports, paths } = source;
+        let Source { files: declared, parts, imports, paths, quoted } = source;
         self.modules.push(Module {
             file: file.to_string(),
             parent: parent.unwrap_or(index),
             children: BTreeMap::new(),
             imports,
             paths,
+            quoted,
         });
         for child in declared {
             let inside = format!("{folder}/{}", child.name);
@@ -83,26 +92,51 @@ impl Program {
 
     /// Which file uses which.
     pub(super) fn uses(&self) -> Uses {
+        self.by_file(|index, module| {
+            let is_used = |import: &&Import| !import.public || module.names(import);
+            let imported = module.imports.iter().filter(is_used).map(|import| &import.path);
+            let items = imported.chain(&module.paths).chain(&module.quoted);
+            let items = items.map(|path| (path, self.defining(index, path, DEPTH)));
+            // Between quotes a module may stand for what is in it, and one that no path begins with for all of that.
+            let unnamed = module.imports.iter().filter(|import| !import.public && !module.names(import));
+            let modules = unnamed.map(|import| &import.path).chain(&module.quoted);
+            items.chain(modules.map(|path| (path, self.files_at(index, path)))).collect()
+        })
+    }
+
+    /// What files hand on by `pub use` and do not use themselves.
+    pub(super) fn handed_on(&self) -> Uses {
+        self.by_file(|index, module| {
+            let handed_on = module.imports.iter().filter(|import| import.public && !module.names(import));
+            let files = |path| [self.defining(index, path, DEPTH), self.files_at(index, path)].concat();
+            handed_on.map(|import| (&import.path, files(&import.path))).collect()
+        })
+    }
+
+    /// File by file, what `named` says of its modules: paths, and the files that each means.
+    fn by_file<'a>(&'a self, named: impl Fn(usize, &'a Module) -> Vec<(&'a Vec<String>, Vec<String>)>) -> Uses {
         let mut uses = Uses::new();
         for (index, module) in self.modules.iter().enumerate() {
             let used = uses.entry(module.file.clone()).or_default();
-            let is_named = |import: &&Import| module.paths.iter().any(|path| path[0] == import.name);
-            let imported = module.imports.iter().filter(|import| !import.public || is_named(import));
-            let paths = imported.clone().map(|import| &import.path).chain(&module.paths);
-            let mut named: Vec<_> = paths.map(|path| (path, self.defining(index, path, DEPTH))).collect();
-            // A module that no path begins with is named in an attribute alone.
-            named.extend(imported.filter(|import| !is_named(import)).map(|import| {
-                let modules = self.modules_at(index, &import.path, DEPTH);
-                (&import.path, modules.into_iter().map(|module| self.modules[module].file.clone()).collect())
-            }));
-            for (path, files) in named {
-                for file in files {
+            for (path, files) in named(index, module) {
+                for file in files.into_iter().filter(|file| *file != module.file) {
                     used.entry(file).or_default().insert(path.join("::"));
                 }
             }
-            used.remove(&module.file);
         }
         uses
+    }
+
+    /// File by file, the crates that are not ours, by which a path or an import begins.
+    pub(super) fn others(&self) -> BTreeMap<String, BTreeSet<String>> {
+        let mut others = BTreeMap::<String, BTreeSet<String>>::new();
+        for module in &self.modules {
+            let longer = module.paths.iter().chain(&module.quoted).filter(|path| path.len() > 1);
+            let paths = module.imports.iter().map(|import| &import.path).chain(longer);
+            let first = paths.map(|path| path[0].clone()).filter(|name| !module.children.contains_key(name));
+            others.entry(module.file.clone()).or_default().extend(first);
+        }
+        others
     }
 
     /// Imports of everything in a module of ours, which hide what a file uses.
@@ -115,7 +149,7 @@ impl Program {
             .collect()
     }
 
-    /// The files that define what `path` means in the module `from`; none if it is a module, or is not ours.
+    /// The files that define what `path` means in the module `from`; none if it is a module alone, or is not ours.
     fn defining(&self, from: usize, path: &[String], depth: usize) -> Vec<String> {
         let [modules @ .., last] = path else { return Vec::new() };
         if modules.is_empty() {
@@ -123,18 +157,19 @@ impl Program {
         }
         let mut files = Vec::new();
         for end in 1..path.len() {
-            // Behind the last module stands an item, and behind that at most what belongs to it.
+            // Behind the last module stands an item, and behind that at most what belongs to it. An item may bear the
+            // name of a module.
             let found = self.modules_at(from, &path[..end], depth);
             let deeper = self.modules_at(from, &path[..=end], depth);
-            if found.is_empty() || !deeper.is_empty() {
+            let is_last = end + 1 == path.len();
+            if found.is_empty() || !deeper.is_empty() && !is_last {
                 continue;
             }
             for module in found {
-                let handed_on = self.imported(module, &path[end], depth);
                 let has = |import: &Import| import.name == path[end];
                 if self.modules[module].imports.iter().any(has) {
-                    files.extend(handed_on);
-                } else {
+                    files.extend(self.imported(module, &path[end], depth));
+                } else if deeper.is_empty() {
                     files.push(self.modules[module].file.clone());
                 }
             }
@@ -149,6 +184,11 @@ impl Program {
         let Some(depth) = depth.checked_sub(1) else { return Vec::new() };
         let imports = self.modules[module].imports.iter().filter(|import| import.name == name);
         imports.flat_map(|import| self.defining(module, &import.path, depth)).collect()
+    }
+
+    /// The files of the modules that `path` means in the module `from`.
+    fn files_at(&self, from: usize, path: &[String]) -> Vec<String> {
+        self.modules_at(from, path, DEPTH).into_iter().map(|module| self.modules[module].file.clone()).collect()
     }
 
     /// The modules that `path` means in the module `from`.

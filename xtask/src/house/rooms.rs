@@ -1,4 +1,4 @@
-//! The rooms of the house and their order, as ARCHITECTURE.md has it.
+//! The rooms of the house and their order, as ARCHITECTURE.md has it, and which crates are for which of them alone.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,11 +9,26 @@ const BELOW_ALL: [&str; 3] = ["chance", "language", "lib"];
 const ALONE: [(&str, &[&str]); 1] = [("render", &["mesh"])];
 
 /// Files that know a room which theirs does not.
-const EXCEPT: [(&str, &[&str]); 2] = [
+pub(super) const EXCEPT: [(&str, &[&str]); 2] = [
     // Figures and the pictures of a report are the app's, drawn off screen.
     ("src/cli/figures.rs", &["app", "render"]),
     ("src/cli/pictures.rs", &["app"]),
 ];
+
+/// Crates of others, and the rooms that alone use them.
+const ONLY: [(&[&str], &[&str]); 5] = [
+    (&["eframe", "egui", "egui_plot", "egui_wgpu"], &["app", "desktop", "web"]),
+    (&["hidapi", "rfd", "tungstenite"], &["desktop"]),
+    (&["js_sys", "wasm_bindgen", "wasm_bindgen_futures", "web_sys"], &["web", "web/scan", "web/worker"]),
+    (&["rayon"], &["parallel"]),
+    (&["wgpu"], &["app", "render", "web"]),
+];
+
+/// Whether a file may use a crate of others.
+pub(super) fn may_use(file: &str, name: &str) -> bool {
+    let only = ONLY.iter().find(|(crates, _)| crates.contains(&name));
+    only.is_none_or(|(_, rooms)| rooms.contains(&room(file)))
+}
 
 /// For each room those below it.
 pub(super) struct Order(BTreeMap<String, BTreeSet<String>>);

@@ -1,11 +1,11 @@
 //! What a Rust file declares and names, without what only its tests do: child modules, imports and paths.
 //!
 //! Words and signs are read one after another, with no grammar behind them. That is enough, since a name of another
-//! file comes in by `use` or by a path and by nothing else. What it does not see are methods: `a.b()` does not say
-//! where `b` is written.
+//! file comes in by `use` or by a path, in attributes also between quotes, and by nothing else. What it does not see are
+//! methods: `a.b()` does not say where `b` is written.
 
 /// A file, or a part of one: `mod name { ... }`.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Default)]
 pub(super) struct Source {
     /// `mod name;`
     pub(super) files: Vec<Declared>,
@@ -14,10 +14,11 @@ pub(super) struct Source {
     pub(super) imports: Vec<Import>,
     /// What stands as `a::b::c` or `a`, imports left out.
     pub(super) paths: Vec<Vec<String>>,
+    /// What stands so between quotes in an attribute: `#[serde(with = "a::b")]`.
+    pub(super) quoted: Vec<Vec<String>>,
 }
 
 /// A module in a file of its own.
-#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Declared {
     pub(super) name: String,
     /// What `#[path = "..."]` says.
@@ -25,7 +26,6 @@ pub(super) struct Declared {
 }
 
 /// One name out of a `use`.
-#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Import {
     pub(super) path: Vec<String>,
     /// Under which it is known here: `*` for all of them, `_` for none.
@@ -143,13 +143,20 @@ impl Reader<'_> {
         let mut source = Source::default();
         let mut depth = 0_usize;
         let mut path = None;
+        // Where the attribute ends that is being read.
+        let mut end = 0;
         while self.at < self.tokens.len() {
             match self.peek(0) {
                 "#" => match self.attribute() {
                     Attribute::Test => self.skip_item(),
                     Attribute::Path(file) => path = Some(file),
-                    Attribute::Other => {}
+                    Attribute::Condition => {}
+                    Attribute::Other { begin } => end = std::mem::replace(&mut self.at, begin),
                 },
+                text if self.at < end && text.starts_with('"') => {
+                    source.quoted.extend(quoted_path(text));
+                    self.at += 1;
+                }
                 "{" => {
                     depth += 1;
                     self.at += 1;
@@ -244,15 +251,16 @@ impl Reader<'_> {
             self.at += 1;
         }
         if self.peek(0) != "[" {
-            return Attribute::Other;
+            return Attribute::Other { begin: self.at };
         }
         let begin = self.at + 1;
         self.skip_brackets();
         let inside: Vec<&str> = self.tokens[begin..self.at - 1].iter().map(String::as_str).collect();
         match inside.as_slice() {
             ["cfg", "(", "test", ")"] | ["cfg", "(", "all", "(", "test", ..] => Attribute::Test,
+            ["cfg", "(", ..] => Attribute::Condition,
             ["path", "=", file] => Attribute::Path(file.trim_start_matches('"').to_string()),
-            _ => Attribute::Other,
+            _ => Attribute::Other { begin },
         }
     }
 
@@ -308,9 +316,18 @@ impl Reader<'_> {
 enum Attribute {
     /// `#[cfg(test)]`
     Test,
+    /// Another `#[cfg(...)]`.
+    Condition,
     /// `#[path = "..."]`
     Path(String),
-    Other,
+    /// What may name others: its words are read as code, from the one at `begin` on.
+    Other { begin: usize },
+}
+
+/// The path that a text in quotes is, which stands with its first quote.
+fn quoted_path(text: &str) -> Option<Vec<String>> {
+    let words: Vec<String> = text.strip_prefix('"')?.split("::").map(str::to_string).collect();
+    words.iter().all(|name| is_word(name) && word(name) == name.len()).then_some(words)
 }
 
 fn is_word(token: &str) -> bool {

@@ -1,3 +1,5 @@
+//! Reports of the peers' bench, made up, and what is read and drawn of them.
+
 use serde_json::{Value, json};
 
 use super::*;

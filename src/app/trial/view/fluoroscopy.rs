@@ -15,7 +15,7 @@ use crate::app::trial::scene::TrialScene;
 use crate::app::trial::state::Trial;
 use crate::app::views::pixels;
 use crate::language::{decimal, grouped};
-use crate::render::{Camera, Exposure, SurfaceError};
+use crate::render::{Camera, Exposure};
 use crate::say;
 
 /// How fast the blood takes contrast along, in mm/s.
@@ -42,26 +42,21 @@ impl Fluoroscopy {
         self.held = None;
     }
 
-    /// Shows it in `rect`, where there is a scene to take it of.
-    ///
-    /// # Errors
-    /// As the device says why it could not be taken; the last one is shown.
+    /// Shows it in `rect`, where there is a scene to take it of. Where it could not be taken the last one is shown, and
+    /// `failure` says why.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         rect: Rect,
         trial: &mut Trial,
         scene: Option<&mut TrialScene>,
-    ) -> Result<(), SurfaceError> {
+        failure: &mut Option<String>,
+    ) {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, &say!("trial-fluoroscopy-view"));
         steer(ui, &response, trial);
-        let mut taken = Ok(());
-        match scene.and_then(|scene| self.expose(ui, rect, trial, scene)) {
-            Some((texture, exposed)) => {
-                image(ui, rect, texture);
-                taken = exposed;
-            }
+        match scene.and_then(|scene| self.expose(ui, rect, trial, scene, failure)) {
+            Some(texture) => image(ui, rect, texture),
             None => empty(ui, rect),
         }
         let inner = rect.shrink(8.0);
@@ -89,18 +84,18 @@ impl Fluoroscopy {
             overlay::ring_at(ui, rect, at, &say!("trial-missed-fork-ring"), ui.visuals().error_fg_color);
         }
         plate(ui, inner.right_bottom(), Align2::RIGHT_BOTTOM, &NOT_CLINICAL.say(), false);
-        taken
     }
 
     /// Takes a fluoroscopy where a pulse is due and would show something else, and gives the texture that the last one
-    /// is in, with whether a new one could be taken.
+    /// is in; where it could not be taken, `failure` says why.
     fn expose(
         &mut self,
         ui: &Ui,
         rect: Rect,
         trial: &mut Trial,
         scene: &mut TrialScene,
-    ) -> Option<(TextureId, Result<(), SurfaceError>)> {
+        failure: &mut Option<String>,
+    ) -> Option<TextureId> {
         let now = ui.input(|input| input.time);
         let Trial { carm, stage, .. } = trial;
         let session = stage.session()?;
@@ -127,10 +122,13 @@ impl Fluoroscopy {
                 exposed
             }
         };
+        if let Err(error) = exposed {
+            *failure = Some(say!("trial-fluoroscopy-not-drawn", why = error.to_string()));
+        }
         if carm.is_on && (exposure.contrast_s.is_some() || is_news && !is_due) {
             ui.ctx().request_repaint_after(Duration::from_secs_f64(carm.until_pulse(now)));
         }
-        Some((texture, exposed))
+        Some(texture)
     }
 }
 

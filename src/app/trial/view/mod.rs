@@ -151,12 +151,12 @@ impl TrialView {
         views.measure_rate(ui, trial.is_moving());
         // What lies over another comes after it.
         if is_large {
-            self.expose(ui, second.shrink(0.5), trial);
+            self.fluoroscopy.show(ui, second.shrink(0.5), trial, self.scene.as_mut(), &mut self.failure);
             ui.painter().rect_filled(first.union(third), 0.0, ui.visuals().widgets.noninteractive.bg_stroke.color);
         }
         let picked = self.vessel(ui, first.shrink(0.5), trial, views, document, keep);
         if !is_large {
-            self.expose(ui, second.shrink(0.5), trial);
+            self.fluoroscopy.show(ui, second.shrink(0.5), trial, self.scene.as_mut(), &mut self.failure);
         }
         if self.shows_tip {
             self.tip(ui, third.shrink(0.5), trial);
@@ -166,12 +166,6 @@ impl TrialView {
         tip_button(ui, tip, &mut self.shows_tip);
         let asked = large_button(ui, large, is_large);
         asked.or_else(|| Some(Action::Place(trial.pick?, picked?)))
-    }
-
-    fn expose(&mut self, ui: &mut Ui, rect: Rect, trial: &mut Trial) {
-        if let Err(error) = self.fluoroscopy.show(ui, rect, trial, self.scene.as_mut()) {
-            self.failure = Some(say!("trial-fluoroscopy-not-drawn", why = error.to_string()));
-        }
     }
 
     /// Brings what is in memory up to the trial.
