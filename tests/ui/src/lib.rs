@@ -22,10 +22,18 @@ pub const DESKTOP: [f32; 2] = [1280.0, 800.0];
 /// That of a phone.
 pub const PHONE: [f32; 2] = [390.0, 844.0];
 
-/// The app in a window of `size` points that is not there, drawn by a real (software) graphics device.
+/// The app in a window of `size` points that is not there, drawn by a real (software) graphics device. Its samples are
+/// [coarse](Memory::coarse_samples).
 pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     // What egui_kittest takes by default.
     app_at(size, 0.25)
+}
+
+/// The same with samples as users have them, for what the paper or their own makers tell of them.
+pub fn app_in_full(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    let (platform, memory) = platform();
+    memory.borrow_mut().coarse_samples = None;
+    app_on((platform, memory), size, 0.25)
 }
 
 /// The same, with so many seconds between two frames.

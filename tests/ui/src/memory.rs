@@ -8,7 +8,7 @@ use std::time::Duration;
 use lumen::app::{Gamepad, Offer, Platform, PlatformEvent, Store, Tone};
 use lumen::engine::scan::{ScanCommand, ScanEngine, ScanEvent, ScanLink};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
-use lumen::engine::{Command, Engine, Event, Link, Machine, TrialEngine};
+use lumen::engine::{Command, Engine, Event, Link, Machine, Source, TrialEngine};
 
 /// What the test sees of the platform.
 #[derive(Default)]
@@ -29,6 +29,8 @@ pub struct Memory {
     pub windows: usize,
     /// Lets the engine work when it is listened to.
     pub runs: bool,
+    /// How many triangles a sample is opened with, where they are not those that a user's has.
+    pub coarse_samples: Option<u32>,
     /// How long it works in each frame.
     pub slice: Duration,
     /// What the trial was asked.
@@ -179,7 +181,10 @@ impl Link<TrialCommand, TrialEvent> for MemoryTrial {
 }
 
 impl Link for MemoryPlatform {
-    fn send(&mut self, command: Command) {
+    fn send(&mut self, mut command: Command) {
+        if let Command::Open { source: Source::Sample { triangles, .. }, .. } = &mut command {
+            *triangles = self.memory.borrow().coarse_samples.unwrap_or(*triangles);
+        }
         self.engine.handle(command);
     }
 
@@ -283,10 +288,20 @@ impl Platform for MemoryPlatform {
     }
 }
 
+/// Triangles of a sample whose numbers do not matter: a test then spends its time in the window and not in the pipeline. With
+/// `--long` each is as users have it.
+const COARSE: u32 = 10_000;
+
 /// The platform, and what the test sees of it.
 pub(crate) fn platform() -> (MemoryPlatform, Rc<RefCell<Memory>>) {
-    let memory =
-        Rc::new(RefCell::new(Memory { runs: true, slice: Duration::from_millis(50), engines: 1, ..Memory::default() }));
+    let memory = Memory {
+        runs: true,
+        coarse_samples: std::env::var_os("LUMEN_LONG").is_none().then_some(COARSE),
+        slice: Duration::from_millis(50),
+        engines: 1,
+        ..Memory::default()
+    };
+    let memory = Rc::new(RefCell::new(memory));
     let trial = MemoryTrial { engine: TrialEngine::new(), now_s: 0.0, has_advanced: false, memory: memory.clone() };
     let scans = MemoryScans::default();
     let platform = MemoryPlatform { engine: Engine::new(), has_advanced: false, trial, scans, memory: memory.clone() };

@@ -9,7 +9,7 @@ use lumen::app::compare::{Arrangement, Cell, Made, Outcome};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::paper;
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, PHONE, app, drag, says, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, says, settle, settle_wholly};
 
 fn press(harness: &mut Harness<'_, LumenApp>, button: &str) {
     harness.get_by_role_and_label(Role::Button, button).click();
@@ -18,7 +18,15 @@ fn press(harness: &mut Harness<'_, LumenApp>, button: &str) {
 
 /// The app with the compare view open and all results there.
 fn open() -> Harness<'static, LumenApp> {
-    let (mut harness, _) = app(DESKTOP);
+    comparing(app(DESKTOP).0)
+}
+
+/// The same of the sample that users have.
+fn open_in_full() -> Harness<'static, LumenApp> {
+    comparing(app_in_full(DESKTOP).0)
+}
+
+fn comparing(mut harness: Harness<'static, LumenApp>) -> Harness<'static, LumenApp> {
     settle(&mut harness);
     press(&mut harness, "Compare");
     settle(&mut harness);
@@ -43,7 +51,7 @@ fn titles(harness: &Harness<'_, LumenApp>) -> Vec<String> {
 
 #[test]
 fn the_button_opens_figure_seven_with_its_counts_and_closes_again() {
-    let mut harness = open();
+    let mut harness = open_in_full();
     assert_eq!(titles(&harness), ["Reduction 10 %", "Reduction 90 %", "Reduction 99 %"]);
     // Table II of the paper.
     for (cell, printed) in cells(&harness).iter().zip([66_875, 7_430, 743]) {
@@ -61,7 +69,7 @@ fn the_button_opens_figure_seven_with_its_counts_and_closes_again() {
 
 #[test]
 fn figure_six_has_six_settings_and_a_click_takes_one() {
-    let mut harness = open();
+    let mut harness = open_in_full();
     press(&mut harness, "Figure 6");
     settle(&mut harness);
     assert_eq!(
@@ -192,7 +200,7 @@ fn all_pictures_turn_together_and_go_with_the_theme_and_the_arrangement() {
 
 #[test]
 fn another_surface_is_compared_anew() {
-    let mut harness = open();
+    let mut harness = open_in_full();
     press(&mut harness, "Sample");
     harness.get_by_label_contains("oronary").click();
     harness.run_steps(3);

@@ -7,10 +7,10 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::filter::Filter;
 use lumen::pipeline::settings::{Method, Target, Window};
-use lumen_ui_tests::{DESKTOP, app, says, settle};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle};
 
 pub(crate) fn open() -> Harness<'static, LumenApp> {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = app_in_full(DESKTOP);
     settle(&mut harness);
     harness
 }
@@ -45,7 +45,7 @@ pub(crate) fn shown(harness: &Harness<'_, LumenApp>) -> usize {
 
 #[test]
 fn the_reduction_slider_shows_another_level_in_the_same_frame() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     memory.borrow_mut().runs = false;
     let before = shown(&harness);

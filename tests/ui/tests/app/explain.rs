@@ -9,7 +9,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::decimation::Fate;
 use lumen::pipeline::progressive::Level;
 use lumen::pipeline::settings::Target;
-use lumen_ui_tests::{DESKTOP, app, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle, tube};
 
 use crate::recovery::tell;
 use crate::teaching::click;
@@ -131,7 +131,7 @@ fn a_collapse_on_and_one_back_is_the_same_surface() {
 
 #[test]
 fn a_vertex_that_is_clicked_says_where_it_may_go() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = app_in_full(DESKTOP);
     settle(&mut harness);
     assert!(harness.state().collapses().ways().is_none());
     collapses(&mut harness);

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, app, offered, settle};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, offered, settle};
 
 use crate::controls::{open, press_at, shown};
 
@@ -131,7 +131,7 @@ fn the_coronary_sample_opens_from_the_menu() {
 
 #[test]
 fn cancel_goes_back_to_the_last_result() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     let before = harness.state().state().settings.clone();
     memory.borrow_mut().slice = std::time::Duration::ZERO;
@@ -146,7 +146,7 @@ fn cancel_goes_back_to_the_last_result() {
 
 #[test]
 fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     let before = shown(&harness);
     memory.borrow_mut().slice = std::time::Duration::ZERO;
@@ -187,7 +187,7 @@ fn an_engine_that_stops_is_started_again_and_nothing_is_lost() {
 
 #[test]
 fn a_surface_of_one_triangle_leaves_the_settings_for_the_next() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     let bytes = b"v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n".to_vec();
     memory.borrow_mut().events.push_back(PlatformEvent::Chosen { name: "one.obj".to_owned(), bytes });

@@ -5,12 +5,12 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, says, settle_wholly};
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app_in_full, offered, says, settle_wholly};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
 fn opened(size: [f32; 2]) -> (Harness<'static, LumenApp>, Shared) {
-    let (mut harness, memory) = app(size);
+    let (mut harness, memory) = app_in_full(size);
     settle_wholly(&mut harness);
     (harness, memory)
 }

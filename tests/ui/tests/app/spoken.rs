@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::settings::Target;
-use lumen_ui_tests::{DESKTOP, app, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, settle, settle_wholly};
 
 fn target(harness: &Harness<'_, LumenApp>) -> Target {
     harness.state().state().settings.target
@@ -77,7 +77,7 @@ fn space_holds_the_surface_as_it_was_opened_where_no_control_has_the_focus() {
 
 #[test]
 fn views_and_what_goes_on_are_told_and_headings_are_headings() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = app_in_full(DESKTOP);
     settle_wholly(&mut harness);
     let what = |harness: &Harness<'_, LumenApp>| {
         let view = harness.get_by_role_and_label(Role::Image, "Shaded view");

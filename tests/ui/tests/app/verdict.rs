@@ -10,7 +10,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, app, open, phone, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube};
 
 use crate::targets::fits_a_finger;
 
@@ -21,7 +21,7 @@ fn click(harness: &mut Harness<'_, LumenApp>, label: &str) {
 
 #[test]
 fn what_is_safe_is_told_above_everything_and_leads_to_the_vessels() {
-    let (mut harness, _) = app(DESKTOP);
+    let (mut harness, _) = app_in_full(DESKTOP);
     assert!(!says(&harness, "Safe to simulate on"), "before it is known");
     settle_wholly(&mut harness);
     let head = harness.get_by_label("Safe to simulate on").rect();

@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{DESKTOP, PHONE, app, offered, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, offered, says, settle, tube};
 
 /// What the level makes of the vessels, once that is known: it comes after the other numbers.
 fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {
@@ -25,7 +25,7 @@ fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {
 
 /// Opens the sample and shows its vessels.
 fn vessels(size: [f32; 2]) -> Harness<'static, LumenApp> {
-    let (mut harness, _) = app(size);
+    let (mut harness, _) = app_in_full(size);
     settle(&mut harness);
     calibre(&mut harness);
     harness.key_press(Key::V);

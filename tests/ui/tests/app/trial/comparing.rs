@@ -10,13 +10,15 @@ use lumen::trial::setup::Entry;
 use lumen::trial::stopwatch::StationResult;
 use lumen::trial::summary::Summary;
 use lumen_ui_tests::told::{
-    DESKTOP, asked, at_entry, frame, id_of_start, now, on, press, ready, refused, retarget, says, start, tell,
+    DESKTOP, asked, at_entry, frame, id_of_start, now, on, press, put_on, ready, refused, retarget, says, start, tell,
 };
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app_in_full, settle};
 
 #[test]
 fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() {
-    let (mut harness, memory) = on(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
+    settle(&mut harness);
+    put_on(&mut harness, &memory);
     press(&mut harness, "Compare with the unreduced surface");
     let commands = asked(&memory);
     let Some(TrialCommand::Compare { id, mesh }) = commands.first() else { panic!("{commands:?}") };
@@ -79,7 +81,7 @@ fn a_row_that_is_refused_says_why_and_the_tables_are_cancelled_without_the_trial
 
 #[test]
 fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     press(&mut harness, "Tables III and IV");
     let station = StationResult { simulation_ms: Some(8.0), ..StationResult::default() };

@@ -8,7 +8,7 @@ use lumen_ui_tests::told::{
     App, DESKTOP, as_the_paper, asked, frame, id_of_start, now, on, open_coronary, press, ready, refused, retarget,
     says, start, tell, wait,
 };
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app, app_in_full, settle};
 
 use super::{ADAPT, picture};
 
@@ -79,7 +79,7 @@ fn a_refusal_keeps_the_vessel_in_view_and_goes_to_the_place_that_is_too_thin() {
 
 #[test]
 fn the_wire_fits_into_the_coronary_arteries_with_no_button_pressed_before() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     open_coronary(&mut harness);
     memory.borrow_mut().trial_runs = true;
@@ -90,7 +90,7 @@ fn the_wire_fits_into_the_coronary_arteries_with_no_button_pressed_before() {
 
 #[test]
 fn where_smoothing_leaves_no_room_for_the_wire_less_of_it_is_offered_and_the_trial_starts_with_that() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     open_coronary(&mut harness);
     as_the_paper(&mut harness);

@@ -12,13 +12,13 @@ use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, as_the_paper, asked, choose, frame, id_of_start, now, on, press, put_on, ready, refused,
     retarget, says, start, tell,
 };
-use lumen_ui_tests::{app, settle};
+use lumen_ui_tests::{app, app_in_full, settle};
 
 use super::{ADAPT, unfold};
 
 #[test]
 fn the_trial_starts_with_the_level_that_is_shown_and_its_views_take_the_place_of_the_others() {
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     settle(&mut harness);
     press(&mut harness, "Start trial");
     let commands = asked(&memory);
