@@ -106,7 +106,7 @@ async function differing(page, view, from) {
   return differences.filter((difference) => difference > least).length / scale ** 2;
 }
 
-/** Pixels of a picture that are not as the ones at its left edge. */
+/** Pixels of a picture that are not as the ones at its left edge, in points, however many pixels a point has. */
 export async function drawn(page, control) {
   const { width, height, data } = await picture(page, control);
   let count = 0;
@@ -117,7 +117,7 @@ export async function drawn(page, control) {
       if (Math.abs(data[at] - data[ground]) + Math.abs(data[at + 2] - data[ground + 2]) > 48) count++;
     }
   }
-  return count;
+  return count / (await page.evaluate(() => devicePixelRatio)) ** 2;
 }
 
 /** Waits until the app says something. */

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { drawn, grouped, settled } from "./app.mjs";
-import { eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { COARSE, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 /** Table II of the paper at the rates of its Figure 7. */
 const PRINTED = [66_875, 7_430, 743];
@@ -21,7 +21,7 @@ const compared = (page, count) =>
   ).then(({ all }) => all);
 
 test("six settings are compared, and a click takes one", async (t) => {
-  const { page, wrong } = await openApp(t, browser);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE });
   await settled(page);
   await press(page, "button", "Compare");
   const seven = await compared(page, 3);

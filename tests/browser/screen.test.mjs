@@ -3,13 +3,19 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { REDUCTION, atEntry, atRest, fed, settled, shownTriangles, silhouette, views } from "./app.mjs";
-import { eventually, frames, launch, openApp, press, twin, value } from "./browser.mjs";
+import { COARSE, eventually, frames, launch, openApp, press, twin, value } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
 after(() => browser.close());
 
-const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+/** A phone; with `--long` with the pixels it has, else with another number than one a point: drawing is what takes the time. */
+const PHONE = {
+  viewport: { width: 390, height: 844 },
+  deviceScaleFactor: process.env.LUMEN_LONG ? 2 : COARSE.deviceScaleFactor,
+  hasTouch: true,
+  isMobile: true,
+};
 
 /** Size of the canvas in CSS pixels and in its own. */
 const sizes = (page) =>
@@ -118,7 +124,7 @@ test("a finger moves the slider, turns the view, and two of them zoom", async (t
 });
 
 test("a finger on the pad feeds the wire for as long as it is there", async (t) => {
-  const { page, wrong } = await openApp(t, browser, { context: { viewport: { width: 1280, height: 800 }, hasTouch: true } });
+  const { page, wrong } = await openApp(t, browser, { context: { ...COARSE, viewport: { width: 1280, height: 800 }, hasTouch: true } });
   await settled(page);
   const session = await page.context().newCDPSession(page);
   await press(page, "button", "Trial");

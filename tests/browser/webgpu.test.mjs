@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { atEntry, drawn, fed, settled, silhouette, views } from "./app.mjs";
-import { WEBGPU, contextKind, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
+import { COARSE, WEBGPU, contextKind, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch(WEBGPU)));
@@ -25,7 +25,7 @@ test("the app draws with WebGPU where there is one, and with WebGL2 when it is a
 });
 
 test("with WebGPU settings are compared", async (t) => {
-  const { page, wrong } = await openApp(t, browser);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE });
   assert.equal(await contextKind(page), "webgpu");
   await settled(page);
   await press(page, "button", "Compare");
@@ -43,7 +43,7 @@ test("with WebGPU settings are compared", async (t) => {
 });
 
 test("with WebGPU a wire is steered, and all three views show it", async (t) => {
-  const { page, wrong } = await openApp(t, browser);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE });
   assert.equal(await contextKind(page), "webgpu");
   await settled(page);
   await press(page, "button", "Trial");
