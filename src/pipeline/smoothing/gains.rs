@@ -16,6 +16,9 @@ const STEP: f64 = 0.025;
 /// Filters in a row at most: a power of two, so that a number is cut to it without a look.
 const FILTERS: usize = 64;
 
+/// Vertices whose place in the row is found in one go.
+const MIXES: usize = 4096;
+
 /// `c_n` of each filter, and what the next one's is more.
 pub(super) type Row = [[f32; 2]; FILTERS];
 
@@ -79,7 +82,10 @@ impl Gains {
             let filter = (at as u32).min(count as u32 - 2);
             Mix { filter, part: (at - filter as f32).clamp(0.0, 1.0) }
         };
-        (Self::Rows(rows), pass_bands.iter().map(mix).collect())
+        let mixes = parallel::map_ranges(pass_bands.len(), MIXES, |range| -> Vec<Mix> {
+            pass_bands[range].iter().map(mix).collect()
+        });
+        (Self::Rows(rows), mixes.concat())
     }
 
     /// The number of terms less one.
