@@ -184,6 +184,25 @@ mod tests {
     }
 
     #[test]
+    fn what_is_left_of_a_device_whose_axes_cannot_be_opened_says_so() {
+        let feeder = Arc::new(Mutex::new(VirtualFeeder::default()));
+        let [axes, effects] = halves();
+        let interface = |descriptor: &[u8], has_effects| Interface {
+            feeder: Arc::clone(&feeder),
+            descriptor: descriptor.to_vec(),
+            has_effects,
+            told_ms: 0,
+        };
+        let has_axes = |interfaces| JoinedPort::new(&identity(), interfaces).map(|port| port.has_axes());
+        assert_eq!(has_axes(vec![interface(&effects, true), interface(&axes, false)]), Some(true));
+        assert_eq!(has_axes(vec![interface(&axes, false)]), Some(true));
+        assert_eq!(has_axes(vec![interface(&effects, true)]), Some(false));
+        // Cut off within its first collection.
+        assert_eq!(has_axes(vec![interface(&axes[..3], false)]), Some(false));
+        assert_eq!(has_axes(Vec::new()), None);
+    }
+
+    #[test]
     fn a_device_whose_axes_and_effects_are_apart_is_held_and_pushes_back() {
         for effects_first in [false, true] {
             let feeder = Arc::new(Mutex::new(VirtualFeeder::default()));

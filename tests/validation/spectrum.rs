@@ -223,7 +223,8 @@ fn what_is_felt_in_the_aorta_has_no_more_above_50_hz_than_rows_leave() {
         let [above, raw] = [&felt, &guide].map(|of| share_above(of));
         // To four digits, down.
         let most = (1e4 * most_above()).floor() / 1e4;
-        assert!(raw > most, "the guide's own {what} would pass as well: {raw}");
+        // The guide's own torque has less than rows leave: it says that nothing is added.
+        assert!(above < raw && (raw > most || what == "torque"), "{above} of the {what}, {raw} of the guide's own");
         found.compare(&format!("share of the {what} felt above 50 Hz"), 0.0, above, Within(most), 0);
         found.finish();
     }
