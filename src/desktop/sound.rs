@@ -170,7 +170,7 @@ fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Hands samples on to the first program that plays, until nobody tells any more what to sound.
 fn sound(programs: &[(PathBuf, &[&str])], first: &AtomicUsize, inbox: &Receiver<Tone>, player: &Player) {
     let mut synth = Synth::default();
-    let mut has_rested = false;
+    let (mut has_rested, mut has_failed) = (false, false);
     // To start a program for silence would be for nothing, but for the first: it is there when it is needed.
     while let Some(tone) = inbox.iter().find(|tone| tone.loudness > 0.0 || !has_rested) {
         synth.set(tone);
@@ -178,13 +178,19 @@ fn sound(programs: &[(PathBuf, &[&str])], first: &AtomicUsize, inbox: &Receiver<
             let Some((program, arguments)) = programs.get(first.load(Ordering::Relaxed)) else { return };
             let since = Instant::now();
             if feed(program, arguments, &mut synth, inbox, player).is_ok() {
+                has_failed = false;
                 break;
             }
             player.end(true);
-            if since.elapsed() < EARLY {
-                // It has no server to play through, or does not understand what it is told.
-                first.fetch_add(1, Ordering::Relaxed);
+            let lasted = since.elapsed();
+            if lasted > REST || !has_failed && lasted > EARLY {
+                // It has played: it is started again for the next tone.
+                has_failed = true;
+                break;
             }
+            // It has no server to play through, does not understand what it is told, or hangs each time.
+            first.fetch_add(1, Ordering::Relaxed);
+            has_failed = false;
         }
         has_rested = true;
     }

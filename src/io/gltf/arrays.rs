@@ -32,7 +32,8 @@ impl<'a> Attribute<'a> {
     /// The attribute that an array is written as, if it has a place.
     pub(super) fn of(array: &'a Array) -> Option<Self> {
         let has_shape = array.on == On::Point && array.components <= 4;
-        Some(Self { array, scalar: written_as(array).filter(|_| has_shape)? })
+        let scalar = if has_shape { written_as(array) } else { None }?;
+        Some(Self { array, scalar })
     }
 
     /// The name, in quotes: with an underscore, which reading takes off again.

@@ -29,19 +29,19 @@ pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) 
     app_at(size, 0.25)
 }
 
-/// The same with samples as users have them, for what the paper or their own makers tell of them.
+/// The same, with so many seconds between two frames.
+pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    app_on(platform(), size, step_dt)
+}
+
+/// [`app`] with samples as users have them, for what the paper or their own makers tell of them.
 pub fn app_in_full(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
     memory.borrow_mut().coarse_samples = None;
     app_on((platform, memory), size, 0.25)
 }
 
-/// The same, with so many seconds between two frames.
-pub fn app_at(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
-    app_on(platform(), size, step_dt)
-}
-
-/// The same where what moves by itself is welcome.
+/// [`app_at`] where what moves by itself is welcome.
 pub fn moving_app(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
     memory.borrow_mut().likes_motion = true;

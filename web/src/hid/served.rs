@@ -38,6 +38,8 @@ const LOOK_MS: i32 = 4;
 const TELL_MS: f64 = 50.0;
 /// Requests of the virtual device that are carried out in a look at most.
 const REQUESTS: usize = 4;
+/// For how long what a page hands on that has hung is of the past, in ms.
+const BURST_MS: f64 = 20.0;
 
 /// The hand at the engine's side.
 #[derive(Clone)]
@@ -168,19 +170,22 @@ impl Hands {
                 let is_serial = matches!(choice, Choice::Serial { .. });
                 let attempt = async move {
                     let is_wanted = || hands.0.number.get() == number;
-                    let opened = match is_serial {
+                    let opened = if !is_wanted() {
                         // Another was chosen before it was its turn.
-                        _ if !is_wanted() => Ok(()),
-                        true => hands.open_serial(&identity, number).await,
-                        false => hands.open(&identity, number).await,
+                        Ok(())
+                    } else if is_serial {
+                        hands.open_serial(&identity, number).await
+                    } else {
+                        hands.open(&identity, number).await
                     };
                     if hands.0.opening.get() == Some(number) {
                         hands.0.opening.set(None);
                     }
-                    if let Err(why) = opened
-                        && is_wanted()
-                    {
-                        hands.failed(&identity.name, why.say());
+                    match opened {
+                        _ if !is_wanted() => {}
+                        Ok(()) if hands.0.again.take() => hands.take_force_up(),
+                        Ok(()) => {}
+                        Err(why) => hands.failed(&identity.name, why.say()),
                     }
                 };
                 // A port that is asked who is there takes its time, and is its own.
@@ -231,7 +236,7 @@ impl Hands {
         {
             // What the hand did while the page hung comes now, all at once, and is over.
             if now - *heard_ms > STALE_MS {
-                *moves_from_ms = now + STALE_MS;
+                *moves_from_ms = now + BURST_MS;
             }
             *heard_ms = now;
         }
@@ -288,18 +293,35 @@ impl Hands {
         if wanted != Some(Choice::of(interface)) {
             return;
         }
-        let lacks = match &*self.0.served.borrow() {
-            Some(Served { service, line: Line::Device { device, .. }, .. }) => {
-                !service.status().has_force && !device.have(interface)
-            }
-            Some(_) => return,
-            None => false,
-        };
-        if lacks {
-            self.let_go();
+        if self.0.served.borrow().is_some() {
+            self.take_force_up();
+        } else {
+            // To serve a paired device is asked for, and takes no answer.
+            let _ = self.serve(wanted);
         }
-        // To serve a paired device is asked for, and takes no answer.
-        let _ = self.serve(wanted);
+    }
+
+    /// Serves a device without a force anew, where one of its interfaces that are there now takes forces.
+    fn take_force_up(&self) {
+        let hands = self.clone();
+        self.0.turns.next(async move {
+            let identity = match &*hands.0.served.borrow() {
+                Some(Served { service, line: Line::Device { .. }, .. }) if !service.status().has_force => {
+                    hands.0.wanted.borrow().as_ref().map(Choice::identity)
+                }
+                _ => None,
+            };
+            let (Some(hid), Some(identity), number) = (api::hid(), identity, hands.0.number.get()) else { return };
+            let found = Interfaces::find(&hid, &identity).await.ok();
+            let device = found.and_then(|(_, told)| interfaces::device(&identity, &told));
+            let has_force = device.is_some_and(|device| device.has_force());
+            if has_force && hands.0.number.get() == number && hands.0.served.borrow().is_some() {
+                let wanted = hands.0.wanted.borrow().clone();
+                hands.let_go();
+                // As in `plugged_in`.
+                let _ = hands.serve(wanted);
+            }
+        });
     }
 
     fn begin(&self, service: Service, line: Line) -> Result<(), JsValue> {

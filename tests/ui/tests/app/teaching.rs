@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Settings, Target};
-use lumen_ui_tests::{DESKTOP, Kept, app, page, says, settle};
+use lumen_ui_tests::{DESKTOP, Kept, app, app_in_full, page, says, settle};
 
 use crate::recovery::{notice, tell};
 
@@ -53,7 +53,7 @@ fn the_lecture_can_be_given_as_it_is_written() {
     let script = include_str!("../../../../docs/teaching.md");
     let lines: Vec<&str> = script.lines().filter(|line| line.starts_with("- ")).collect();
     assert!(lines.len() > 30, "the script is there");
-    let (mut harness, memory) = app(DESKTOP);
+    let (mut harness, memory) = app_in_full(DESKTOP);
     memory.borrow_mut().trial_runs = true;
     settle(&mut harness);
     for line in lines {
