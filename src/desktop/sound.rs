@@ -377,6 +377,18 @@ mod tests {
     }
 
     #[test]
+    fn one_that_hangs_each_time_gives_way_to_the_next() {
+        let folder =
+            Folder::new("gives-way", &[("pw-play", "echo >> starts; exec sleep 60"), ("aplay", "cat > heard")]);
+        let mut sound = folder.sound();
+        assert!(until(|| {
+            sound.play(TONE);
+            !folder.samples().is_empty()
+        }));
+        assert_eq!(folder.read("starts").len(), 2, "it is tried once more, and no more");
+    }
+
+    #[test]
     fn one_that_hangs_is_killed() {
         let folder = Folder::new("hangs", &[("paplay", "echo $$ > pid; exec sleep 60")]);
         let mut sound = folder.sound();

@@ -148,6 +148,10 @@ mod tests {
     }
 
     impl Interface {
+        fn of(feeder: &Arc<Mutex<VirtualFeeder>>, descriptor: &[u8], has_effects: bool) -> Self {
+            Self { feeder: Arc::clone(feeder), descriptor: descriptor.to_vec(), has_effects, told_ms: 0 }
+        }
+
         fn ask<T>(&self, id: u8, ask: impl FnOnce(&mut VirtualFeeder) -> Result<T, PortError>) -> Result<T, PortError> {
             if !self.has_effects {
                 return Err(PortError::Refused { id, reason: "it has no such report".to_owned() });
@@ -187,12 +191,7 @@ mod tests {
     fn what_is_left_of_a_device_whose_axes_cannot_be_opened_says_so() {
         let feeder = Arc::new(Mutex::new(VirtualFeeder::default()));
         let [axes, effects] = halves();
-        let interface = |descriptor: &[u8], has_effects| Interface {
-            feeder: Arc::clone(&feeder),
-            descriptor: descriptor.to_vec(),
-            has_effects,
-            told_ms: 0,
-        };
+        let interface = |descriptor: &[u8], has_effects| Interface::of(&feeder, descriptor, has_effects);
         let has_axes = |interfaces| JoinedPort::new(&identity(), interfaces).map(|port| port.has_axes());
         assert_eq!(has_axes(vec![interface(&effects, true), interface(&axes, false)]), Some(true));
         assert_eq!(has_axes(vec![interface(&axes, false)]), Some(true));
@@ -207,13 +206,7 @@ mod tests {
         for effects_first in [false, true] {
             let feeder = Arc::new(Mutex::new(VirtualFeeder::default()));
             let [axes, effects] = halves();
-            let interface = |descriptor: &[u8], has_effects| Interface {
-                feeder: Arc::clone(&feeder),
-                descriptor: descriptor.to_vec(),
-                has_effects,
-                told_ms: 0,
-            };
-            let mut interfaces = vec![interface(&axes, false), interface(&effects, true)];
+            let mut interfaces = vec![Interface::of(&feeder, &axes, false), Interface::of(&feeder, &effects, true)];
             if effects_first {
                 interfaces.reverse();
             }

@@ -165,7 +165,7 @@ fn evaluate(coefficients: &[f64], angle: f64) -> f64 {
 /// Where `f` comes down to 0 between two places, as near as `CLOSE`: a place where it is 0 or less. `at` is what it is at the
 /// two, more than 0 and not. By the secant, where an end that stays counts half each time (Illinois: Dowell and Jarratt 1971).
 fn crossing(f: impl Fn(f64) -> f64, [mut above, mut below]: [f64; 2], [mut at_above, mut at_below]: [f64; 2]) -> f64 {
-    /// In radians. The response changes by less than 1e-11 over it, and single precision hears of nothing below 6e-8.
+    /// In radians. The response changes by less than 1e-10 over it, and single precision hears of nothing below 6e-8.
     const CLOSE: f64 = 1e-13;
     let mut last = 0.0;
     while below - above > CLOSE {

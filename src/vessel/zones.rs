@@ -3,9 +3,9 @@
 //! It is not within one radius of an open end or two of a cap, where smoothing draws in rims and rounds caps, nor at a
 //! fork, where the plane across one vessel cuts the wall of another. A fork goes as far as the two vessels are attached
 //! to each other and one radius of the side branch beyond (one diameter, along the vessel that it comes out of): from
-//! where it leaves, place by place, while its cross-section does not close or is more than half as wide again as the ball in it, or the plane
-//! of one of the two vessels meets the balls of the other. A branch that comes back to the tree at its far end, as
-//! around a loop, is attached there in the same way.
+//! where it leaves, place by place, while its cross-section does not close or is more than half as wide again as the
+//! ball in it, or the plane of one of the two vessels meets the balls of the other. A branch that comes back to the
+//! tree at its far end, as around a loop, is attached there in the same way.
 
 use super::stations::{Station, Stations};
 use super::tree::{Branch, End};
