@@ -64,6 +64,12 @@ pub trait Platform {
         false
     }
 
+    /// How many triangles the user wants samples to have, where that is another number than
+    /// [theirs](crate::phantom::Sample::default_triangles).
+    fn sample_triangles(&self) -> Option<u32> {
+        None
+    }
+
     /// The most memory, in bytes, that an engine can have; `None` where it is the machine's.
     fn memory_limit(&self) -> Option<u64> {
         None

@@ -71,6 +71,9 @@ pub struct State {
     pub notice: Option<Notice>,
     /// The unit that was chosen for the next file, if one was.
     pub next_unit: Option<Unit>,
+    /// How many triangles samples are opened with, where that is not for them to say; what they cannot have is brought to
+    /// what they can.
+    pub sample_triangles: Option<u32>,
     /// The axes that surfaces are saved in; `None` for those that they have.
     pub written_axes: Option<Axes>,
     /// The settings that the engine has, and their number.
@@ -145,6 +148,7 @@ impl Default for State {
         Self {
             history: History::new(Step::of(&settings)),
             measures: Arc::default(),
+            sample_triangles: None,
             sent: settings.clone(),
             settings,
             document: None,

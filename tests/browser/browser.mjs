@@ -27,10 +27,13 @@ const START_MS = 60_000;
 export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
 /**
- * A page that is drawn with half as many pixels a point: for tests that do not look at single ones. Drawing is what takes
- * the time where there is no graphics card.
+ * A page that is drawn with a quarter of the pixels a point has: for tests that do not look at single ones. Drawing is what
+ * takes the time where there is no graphics card.
  */
-export const COARSE = { deviceScaleFactor: 0.5 };
+export const COARSE = { deviceScaleFactor: 0.25 };
+
+/** Samples of few triangles, where a test wants nothing of theirs; with `--long` all open them as users have them. */
+const COARSE_SAMPLES = process.env.LUMEN_LONG ? "" : "?samples=10000";
 
 /** A browser that draws without a graphics card and talks to nobody by itself. */
 export function launch(more = []) {
@@ -38,8 +41,8 @@ export function launch(more = []) {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [
       "--no-sandbox",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
+      "--use-angle=gl-egl",
+      "--ignore-gpu-blocklist",
       "--disable-background-networking",
       "--disable-component-update",
       "--disable-sync",
@@ -55,7 +58,7 @@ export function launch(more = []) {
  * the server with its address, and what went wrong so far: errors that were thrown or written to the console, where the
  * browser writes violations of the page's policy too.
  */
-export async function openPage(t, browser, { before, query = "", slow, files, folder = dist, context: options = {} } = {}) {
+export async function openPage(t, browser, { before, query = COARSE_SAMPLES, slow, files, folder = dist, context: options = {} } = {}) {
   const server = await serve(folder, { slow, files });
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: "reduce", ...options });
   t.after(async () => {
@@ -195,15 +198,21 @@ export async function picture(page, control) {
   // The page decodes it, so that no image library is needed here; a page of its own, so that the app's policy holds.
   const decoder = await page.context().browser().newPage();
   try {
-    return await decoder.evaluate(async (base64) => {
+    const { width, height, address } = await decoder.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
       const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
       const canvas = new OffscreenCanvas(image.width, image.height);
       const context = canvas.getContext("2d");
       context.drawImage(image, 0, 0);
       const { width, height, data } = context.getImageData(0, 0, image.width, image.height);
-      return { width, height, data: Array.from(data) };
+      // As a text: an array of as many numbers takes the protocol seconds.
+      const reader = new FileReader();
+      const read = new Promise((done) => (reader.onload = done));
+      reader.readAsDataURL(new Blob([data]));
+      await read;
+      return { width, height, address: reader.result };
     }, png.toString("base64"));
+    return { width, height, data: Buffer.from(address.slice(address.indexOf(",") + 1), "base64") };
   } finally {
     await decoder.close();
   }

@@ -21,7 +21,7 @@ const compared = (page, count) =>
   ).then(({ all }) => all);
 
 test("six settings are compared, and a click takes one", async (t) => {
-  const { page, wrong } = await openApp(t, browser, { context: COARSE });
+  const { page, wrong } = await openApp(t, browser, { context: COARSE, query: "" });
   await settled(page);
   await press(page, "button", "Compare");
   const seven = await compared(page, 3);

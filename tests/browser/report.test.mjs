@@ -5,7 +5,7 @@ import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { inflateSync } from "node:zlib";
 import { settled } from "./app.mjs";
-import { launch, openApp, press, twin } from "./browser.mjs";
+import { COARSE, launch, openApp, press, twin } from "./browser.mjs";
 
 let browser;
 before(async () => (browser = await launch()));
@@ -36,7 +36,7 @@ async function saved(page, item) {
 }
 
 test("a report is saved as PDF, whose text can be searched, and as a page that needs nothing else", async (t) => {
-  const { page, wrong } = await openApp(t, browser);
+  const { page, wrong } = await openApp(t, browser, { context: COARSE, query: "" });
   await settled(page);
   // The vessels come last.
   await twin(page, "button", "Show vessels").and(page.locator(":not([aria-disabled=true])")).waitFor();

@@ -18,6 +18,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Document, Element, HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, Window, console};
 
+use crate::address;
 use crate::platform::{Browser, TYPED};
 use crate::screen::Screen;
 
@@ -101,9 +102,7 @@ impl Stage {
     /// WebGPU and then WebGL2; `?renderer=webgl` or `?renderer=webgpu` in the address decides otherwise. WebGPU that was
     /// lost twice of late is left alone.
     fn kinds(&self) -> Vec<Backends> {
-        let asked = self.window.location().search().ok();
-        let asked = asked.and_then(|search| web_sys::UrlSearchParams::new_with_str(&search).ok());
-        match asked.and_then(|asked| asked.get("renderer")).as_deref() {
+        match address::asked("renderer").as_deref() {
             Some("webgl") => vec![Backends::GL],
             Some("webgpu") => vec![Backends::BROWSER_WEBGPU],
             _ if self.with_webgpu.get() && self.restarts.borrow().of_late() > 1 => vec![Backends::GL],

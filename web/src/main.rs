@@ -4,7 +4,7 @@
 //!   where it is lost; [`screen`]: painted again on a screen of other pixels.
 //! - [`twins`]: the controls' twins in the page, for assistive tools and tests.
 //! - [`platform`]: what the app asks of a browser, with [`files`], the file dialog and downloads, and [`store`], what
-//!   outlives the page.
+//!   outlives the page; [`address`]: what stands after `?` in the page's.
 //! - [`hid`]: haptic devices, asked for in the page and served in the trial's Worker; [`sound`]: a tone in place of a force.
 //! - [`texts`]: the messages of other languages than English.
 //! - [`worker`]: the page's end of the line to a Worker, whose other end is the crate `lumen-worker`'s; [`job`]: which engines
@@ -12,6 +12,8 @@
 //!
 //! The page itself is in `www/`; `cargo xtask build` puts both together.
 
+#[cfg(target_arch = "wasm32")]
+mod address;
 #[cfg(target_arch = "wasm32")]
 mod files;
 #[cfg(target_arch = "wasm32")]

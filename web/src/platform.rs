@@ -25,7 +25,7 @@ use crate::job::{Pipeline, Trial};
 use crate::link::WorkerLink;
 use crate::scans::{self, ScanLine};
 use crate::texts::AllTexts;
-use crate::{files, store};
+use crate::{address, files, store};
 
 /// By what the page's field for what is typed is found.
 pub(crate) const TYPED: &str = "typed";
@@ -177,6 +177,11 @@ impl Platform for Browser {
     fn memory_limit(&self) -> Option<u64> {
         // Of a program with addresses of 32 bits.
         Some(1 << 32)
+    }
+
+    /// `?samples=10000` at the end of the page's address.
+    fn sample_triangles(&self) -> Option<u32> {
+        address::asked("samples")?.parse().ok()
     }
 
     fn prefers_less_motion(&self) -> bool {

@@ -76,6 +76,7 @@ impl LumenApp {
         mut platform: Box<dyn Platform>,
     ) -> Self {
         let mut state = State::default();
+        state.sample_triangles = platform.sample_triangles();
         let mut trial = Trial::new();
         // Before anything is said.
         let speech = Speech::begin(recovery::language(&mut *platform), &mut *platform);

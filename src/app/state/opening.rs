@@ -7,7 +7,7 @@ use super::{Effect, Engine, Notice, Opening, State};
 use crate::app::document::Document;
 use crate::engine::{Command, Link, Opened, Source, Work};
 use crate::io::{ImportOptions, Unit};
-use crate::phantom::Sample;
+use crate::phantom::{MAX_TRIANGLES, MIN_TRIANGLES, Sample};
 use crate::pipeline::settings::{Keep, Settings};
 
 impl State {
@@ -19,7 +19,10 @@ impl State {
 
     /// Opens a sample.
     pub fn open_sample(&mut self, sample: Sample, link: &mut dyn Link) {
-        self.open(Source::sample(sample), link);
+        let range = MIN_TRIANGLES as u32..=MAX_TRIANGLES as u32;
+        let asked = self.sample_triangles.map(|asked| asked.clamp(*range.start(), *range.end()));
+        let triangles = asked.unwrap_or(sample.default_triangles() as u32);
+        self.open(Source::Sample { sample, triangles }, link);
     }
 
     /// Opens a surface, of all of which the largest piece is kept.

@@ -8,7 +8,7 @@ use std::time::Duration;
 use lumen::app::{Gamepad, Offer, Platform, PlatformEvent, Store, Tone};
 use lumen::engine::scan::{ScanCommand, ScanEngine, ScanEvent, ScanLink};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
-use lumen::engine::{Command, Engine, Event, Link, Machine, Source, TrialEngine};
+use lumen::engine::{Command, Engine, Event, Link, Machine, TrialEngine};
 
 /// What the test sees of the platform.
 #[derive(Default)]
@@ -181,10 +181,7 @@ impl Link<TrialCommand, TrialEvent> for MemoryTrial {
 }
 
 impl Link for MemoryPlatform {
-    fn send(&mut self, mut command: Command) {
-        if let Command::Open { source: Source::Sample { triangles, .. }, .. } = &mut command {
-            *triangles = self.memory.borrow().coarse_samples.unwrap_or(*triangles);
-        }
+    fn send(&mut self, command: Command) {
         self.engine.handle(command);
     }
 
@@ -220,6 +217,10 @@ impl Platform for MemoryPlatform {
 
     fn scans(&mut self) -> Option<&mut ScanLink> {
         Some(&mut self.scans)
+    }
+
+    fn sample_triangles(&self) -> Option<u32> {
+        self.memory.borrow().coarse_samples
     }
 
     fn prefers_less_motion(&self) -> bool {
