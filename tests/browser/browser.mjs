@@ -20,6 +20,9 @@ export const data = process.env.LUMEN_DATA ?? `${checkout}../shared/data`;
 /** The command line, whose files the browser's are compared with. */
 export const program = process.env.LUMEN_PROGRAM ?? `${checkout}target/debug/lumen`;
 
+/** What WebGL is drawn by: the SwiftShader that Chromium brings, or, faster, Mesa's driver ("gl-egl") where there is one. */
+const ANGLE = process.env.LUMEN_ANGLE ?? "swiftshader";
+
 /** How long the app may take to draw its first frame: there is no graphics card here. */
 const START_MS = 60_000;
 
@@ -41,8 +44,8 @@ export function launch(more = []) {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [
       "--no-sandbox",
-      "--use-angle=gl-egl",
-      "--ignore-gpu-blocklist",
+      `--use-angle=${ANGLE}`,
+      ANGLE === "swiftshader" ? "--enable-unsafe-swiftshader" : "--ignore-gpu-blocklist",
       "--disable-background-networking",
       "--disable-component-update",
       "--disable-sync",

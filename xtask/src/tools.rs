@@ -171,6 +171,21 @@ pub(crate) fn vulkan() -> Result<()> {
     apt("A Vulkan driver", "mesa-vulkan-drivers", "install the driver of your graphics card")
 }
 
+/// What the browser draws with, as it calls it: Mesa where it is there or can be had, which takes half as long as
+/// the SwiftShader that Chromium brings.
+pub(crate) fn angle() -> &'static str {
+    const MESA: &str = "gl-egl";
+    const OWN: &str = "swiftshader";
+    let is_there = || Path::new("/usr/share/glvnd/egl_vendor.d/50_mesa.json").is_file();
+    if !cfg!(target_os = "linux") {
+        return OWN;
+    }
+    if !is_there() && apt("Mesa", "libegl1 libegl-mesa0 libgl1-mesa-dri", "wait longer").is_err() {
+        println!("    Without Mesa (sudo apt-get install libegl-mesa0) the browser tests take longer.");
+    }
+    if is_there() { MESA } else { OWN }
+}
+
 /// What makes a root with a Debian of its own.
 pub(crate) fn debootstrap() -> Result<()> {
     if on_path(&["debootstrap"]).is_some() {

@@ -297,6 +297,18 @@ fn a_broken_file_opened_with_the_first_surface_is_not_passed_over() {
     assert!(state.notice.as_ref().is_some_and(|notice| notice.is_error && notice.text.starts_with("b.stl: ")));
 }
 
+#[test]
+fn samples_have_the_triangles_that_are_asked_for_within_what_they_can_have() {
+    for (asked, wanted) in [(0, phantom::MIN_TRIANGLES), (5_000, 5_000), (20_000, 20_000)] {
+        let (mut state, mut line) = (State::default(), Line::default());
+        state.sample_triangles = Some(asked);
+        state.open_sample(Sample::Coronary, &mut line);
+        settle(&mut state, &mut line);
+        let wanted = phantom::generate(Sample::Coronary, wanted).unwrap();
+        assert_eq!(*state.document.as_ref().unwrap().opened, wanted, "{asked} were asked for");
+    }
+}
+
 /// Triangles of the level that is shown.
 fn shown(state: &State) -> usize {
     state.document.as_ref().unwrap().shown.as_ref().unwrap().level.triangles.len()
