@@ -26,6 +26,8 @@ REAL = ["aorta-surface-open-ends.stl", "aorta-surface-segment-2.stl", "beamadapt
         "vmr_kawasaki_aorta_coronaries.vtp", "vmtk_aorta_mra_iso1000.ply", "vmtk_aorta_mra_iso800.stl"]
 #: Percent of the radius that a vessel may change by; the rate above is this much higher, in percent.
 TOLERANCE, NEXT = 2.0, 0.1
+# A section so many times as wide as the ball inside is of two vessels.
+TWO_VESSELS = 1.6
 
 
 def surfaces():
@@ -136,8 +138,7 @@ def stations(lines, opened):
             if other != branch:
                 gap = np.linalg.norm(one["points"][:, None] - two["points"][None], axis=2) - two["inside"]
                 counts &= gap.min(1) > 1.5 * radii
-        # A section far wider than the ball inside is of two vessels.
-        one["counts"] = counts & (radii < 1.6 * one["inside"])
+        one["counts"] = counts & (radii < TWO_VESSELS * one["inside"])
     return found
 
 
@@ -149,8 +150,11 @@ def worst(found, areas, edge, leave_out, where="counts"):
         if branch in leave_out or not here.any():
             continue
         lost += int(np.isnan(areas[branch][here]).sum())
-        # Of the same sections on both.
+        # Of the same sections on both, and where none is judged of the vessel's alone: on either surface a cut beside a fork
+        # may go around both its vessels.
         closed = np.isfinite(one["areas"] + areas[branch])
+        widest = np.sqrt(np.fmax(one["areas"], areas[branch]) / np.pi)
+        closed &= one["counts"] | (widest < TWO_VESSELS * one["inside"])
         both = [stretch_radii(one["along"], np.where(closed, of, np.nan), one["radii"], edge)
                 for of in [one["areas"], areas[branch]]]
         change = np.nan_to_num(100 * (both[1] / both[0] - 1)[here])
