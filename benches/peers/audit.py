@@ -150,11 +150,12 @@ def worst(found, areas, edge, leave_out, where="counts"):
         if branch in leave_out or not here.any():
             continue
         lost += int(np.isnan(areas[branch][here]).sum())
-        # Of the same sections on both, and where none is judged of the vessel's alone: on either surface a cut beside a fork
-        # may go around both its vessels.
+        # Of the same sections on both. Beside a fork, where none is judged, a cut may go around one vessel on one surface and
+        # around two on the other: those are not the same.
         closed = np.isfinite(one["areas"] + areas[branch])
-        widest = np.sqrt(np.fmax(one["areas"], areas[branch]) / np.pi)
-        closed &= one["counts"] | (widest < TWO_VESSELS * one["inside"])
+        with np.errstate(invalid="ignore", divide="ignore"):
+            apart = np.abs(np.log(areas[branch] / one["areas"])) > 2 * np.log(TWO_VESSELS)
+        closed &= one["counts"] | ~apart
         both = [stretch_radii(one["along"], np.where(closed, of, np.nan), one["radii"], edge)
                 for of in [one["areas"], areas[branch]]]
         change = np.nan_to_num(100 * (both[1] / both[0] - 1)[here])
