@@ -22,6 +22,7 @@ mod kept_terms;
 mod layout;
 mod order;
 mod placement;
+mod restore;
 mod stencil;
 mod strip;
 mod terms;
@@ -38,6 +39,7 @@ pub(crate) use self::kept_terms::{KeptTerms, Preparation, TERMS_BYTES, kept_term
 use self::layout::Layout;
 use self::order::Order;
 use self::placement::Placement;
+pub(crate) use self::restore::RestoreTask;
 use self::stencil::Stencil;
 use self::strip::{Strip, Wave};
 pub use self::terms::Terms;

@@ -174,7 +174,7 @@ fn turned(before: &TriMesh, after: &TriMesh) -> f64 {
 }
 
 /// The directions in which vertices may move: along their normals, on a loop in its plane.
-fn directions(smoothed: &[Vec3], normals: &[Vec3], loops: &[Vec<u32>]) -> Vec<DVec3> {
+pub(super) fn directions(smoothed: &[Vec3], normals: &[Vec3], loops: &[Vec<u32>]) -> Vec<DVec3> {
     let mut directions: Vec<DVec3> = normals.iter().map(|n| n.as_dvec3()).collect();
     let at = |v: u32| smoothed[v as usize].as_dvec3();
     for chain in loops {

@@ -1,4 +1,4 @@
-//! Smoothing as a stage: the filter, or the terms of an earlier run, and then the volume.
+//! Smoothing as a stage: the filter, or the terms of an earlier run, then what vessels lost of their calibre, and the volume.
 
 use std::sync::Arc;
 
@@ -11,7 +11,8 @@ use crate::pipeline::response::{SmoothingResponse, edge_length};
 use crate::pipeline::results::{Adapted, Smoothed, Surface};
 use crate::pipeline::settings::{SettingsError, Smoothing};
 use crate::pipeline::smoothing::{
-    Before, GuardTask, Guarded, LeastPassBands, SmoothingTask, TERMS_BYTES, VOLUME_TOLERANCE, VolumeTask, kept_terms,
+    Before, GuardTask, Guarded, LeastPassBands, RestoreTask, SmoothingTask, TERMS_BYTES, VOLUME_TOLERANCE, VolumeTask,
+    kept_terms,
 };
 use crate::pipeline::store::Store;
 use crate::pipeline::task::{Budget, Progress, Task as _};
@@ -32,6 +33,7 @@ enum Step {
     Calibre(Box<WidthTask<Arc<TriMesh>, Arc<Topology>>>),
     Bands(Box<LeastPassBands<Arc<TriMesh>, Arc<Topology>>>),
     Filter(Box<SmoothingTask<Arc<Topology>>>),
+    Restore(Box<RestoreTask>),
     Volume(Box<VolumeTask>),
     /// And whether the volume was held.
     Guard(Box<GuardTask>, Option<bool>),
@@ -73,13 +75,10 @@ impl Filtering {
     fn filter_step(&self, store: &Store, bands: Option<&Arc<[f32]>>) -> Step {
         let Self { kept, settings, filter, .. } = self;
         if let Some(known) = store.terms.as_ref().filter(|terms| terms.suit(kept, settings)) {
-            return self.after_filter(
-                store,
-                match bands {
-                    Some(bands) => known.terms().smooth_varying(settings, bands),
-                    None => known.terms().smooth(filter),
-                },
-            );
+            return match bands {
+                Some(bands) => self.restore(store, known.terms().smooth_varying(settings, bands), bands),
+                None => self.after_filter(store, known.terms().smooth(filter)),
+            };
         }
         let (positions, topology) = (&kept.mesh.positions, kept.topology.clone());
         let task = match bands {
@@ -87,6 +86,13 @@ impl Filtering {
             None => SmoothingTask::new(positions, topology, settings.boundary, filter),
         };
         Step::Filter(Box::new(if store.is_smoothed_again { task.keeping_terms(TERMS_BYTES) } else { task }))
+    }
+
+    fn restore(&self, store: &Store, positions: Vec<Vec3>, bands: &Arc<[f32]>) -> Step {
+        match RestoreTask::new(&self.kept, positions, &self.settings, bands) {
+            Ok(task) => Step::Restore(Box::new(task)),
+            Err(positions) => self.after_filter(store, positions),
+        }
     }
 
     fn after_filter(&self, store: &Store, positions: Vec<Vec3>) -> Step {
@@ -169,6 +175,7 @@ impl Filtering {
             Step::Bands(_) => 0.5 * share,
             Step::Filter(_) if self.settings.adapt => 0.6 * share,
             Step::Filter(_) => 0.0,
+            Step::Restore(_) => 0.9 * share,
             Step::Volume(_) => share,
             Step::Guard(..) => end,
             Step::Measure(..) | Step::Done(..) => 1.0,
@@ -211,14 +218,24 @@ impl Run for Filtering {
                 Step::Filter(mut task) => match task.advance(budget) {
                     Progress::Working(fraction) => {
                         self.step = Step::Filter(task);
-                        let done = if self.settings.adapt { 0.6 + 0.4 * fraction } else { fraction };
+                        let done = if self.settings.adapt { 0.6 + 0.3 * fraction } else { fraction };
                         return Ok(Progress::Working(done * share));
                     }
                     Progress::Done(positions) => {
                         let terms = kept_terms(*task, self.kept.clone(), self.settings.boundary);
                         store.terms = terms.or(store.terms.take());
-                        self.after_filter(store, positions)
+                        match store.bands.as_ref().filter(|_| self.settings.adapt) {
+                            Some((_, bands)) => self.restore(store, positions, bands),
+                            None => self.after_filter(store, positions),
+                        }
                     }
+                },
+                Step::Restore(mut task) => match task.advance(budget) {
+                    Progress::Working(fraction) => {
+                        self.step = Step::Restore(task);
+                        return Ok(Progress::Working((0.9 + 0.1 * fraction) * share));
+                    }
+                    Progress::Done(positions) => self.after_filter(store, positions),
                 },
                 Step::Volume(mut task) => {
                     let advanced = self.before().map(|before| task.advance(&before, budget));
