@@ -225,13 +225,8 @@ mod tests {
         let restored = restored(&kept, &drawn_in);
         assert!(off(&restored) < 1e-4, "{}", off(&restored));
         // Open ends stay in their planes.
-        assert!(
-            restored[..24]
-                .iter()
-                .chain(&restored[restored.len() - 24..])
-                .zip(drawn_in[..24].iter().chain(&drawn_in[drawn_in.len() - 24..]))
-                .all(|(a, b)| a.z == b.z)
-        );
+        let rims = (0..24).chain(restored.len() - 24..restored.len());
+        assert!(rims.into_iter().all(|v| (restored[v].z - drawn_in[v].z).abs() < 1e-6));
     }
 
     #[test]
@@ -300,7 +295,7 @@ mod tests {
         let mut kept = surface(mesh);
         // Such a surface has no inside; as if it had.
         Arc::get_mut(&mut kept).unwrap().loops = Some(Vec::new());
-        let smoothed: Vec<Vec3> = kept.mesh.positions.iter().map(|p| *p * 0.98).collect();
+        let smoothed: Vec<Vec3> = kept.mesh.positions.iter().map(|p| *p * 0.98 + Vec3::Z * 0.1).collect();
         let restored = restored(&kept, &smoothed);
         assert!(restored[first as usize..first as usize + 2] == smoothed[first as usize..first as usize + 2]);
         assert!(restored[first as usize + 2] != smoothed[first as usize + 2]);
