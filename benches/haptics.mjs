@@ -13,6 +13,7 @@ const fake = [collections, await text("../tests/browser/fake-feeder.js"), await 
 const browser = await launch();
 const ends = [];
 const { page } = await openApp({ after: (end) => ends.push(end) }, browser, {
+  query: "",
   before: (page) => page.addInitScript(fake),
   files: { "worker.js": { type: "text/javascript", body: `${fake}\n${await readFile(`${dist}/worker.js`, "utf8")}` } },
 });

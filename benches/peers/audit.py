@@ -155,6 +155,7 @@ def worst(found, areas, edge, leave_out, where="counts"):
         closed = np.isfinite(one["areas"] + areas[branch])
         with np.errstate(invalid="ignore", divide="ignore"):
             apart = np.abs(np.log(areas[branch] / one["areas"])) > 2 * np.log(TWO_VESSELS)
+            apart &= np.sqrt(np.fmax(areas[branch], one["areas"]) / np.pi) > TWO_VESSELS * one["inside"]
         closed &= one["counts"] | ~apart
         both = [stretch_radii(one["along"], np.where(closed, of, np.nan), one["radii"], edge)
                 for of in [one["areas"], areas[branch]]]

@@ -190,7 +190,10 @@ fn take_unit(unit: Option<Unit>, state: &mut State, link: &mut dyn EngineLink) -
 fn surface(state: &State) -> Option<SharedSurface> {
     let document = state.document.as_ref()?;
     match &document.source {
-        Source::Sample { sample, .. } => Some(SharedSurface::Sample(*sample)),
+        // One of another number of triangles is another surface, which no link asks for.
+        Source::Sample { sample, triangles } => {
+            (*triangles as usize == sample.default_triangles()).then_some(SharedSurface::Sample(*sample))
+        }
         Source::File { .. } => document.digest.map(|digest| SharedSurface::File(digest.short())),
         Source::Made { .. } => None,
     }

@@ -109,15 +109,17 @@ async function differing(page, view, from) {
 /** Pixels of a picture that are not as the ones at its left edge, in points, however many pixels a point has. */
 export async function drawn(page, control) {
   const { width, height, data } = await picture(page, control);
+  const scale = await page.evaluate(() => devicePixelRatio);
+  const margin = Math.ceil(8 * scale);
   let count = 0;
-  for (let y = 8; y < height - 8; y++) {
-    const ground = (y * width + 8) * 4;
-    for (let x = 8; x < width - 8; x++) {
+  for (let y = margin; y < height - margin; y++) {
+    const ground = (y * width + margin) * 4;
+    for (let x = margin; x < width - margin; x++) {
       const at = (y * width + x) * 4;
       if (Math.abs(data[at] - data[ground]) + Math.abs(data[at + 2] - data[ground + 2]) > 48) count++;
     }
   }
-  return count / (await page.evaluate(() => devicePixelRatio)) ** 2;
+  return count / scale ** 2;
 }
 
 /** Waits until the app says something. */

@@ -30,8 +30,8 @@ const START_MS = 60_000;
 export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
 /**
- * A page that is drawn with a quarter of the pixels a point has: for tests that do not look at single ones. Drawing is what
- * takes the time where there is no graphics card.
+ * A page that is drawn with a quarter of a pixel a point in each direction, a sixteenth of all: for tests that do not look at
+ * single ones. Drawing is what takes the time where there is no graphics card.
  */
 export const COARSE = { deviceScaleFactor: 0.25 };
 
@@ -45,7 +45,9 @@ export function launch(more = []) {
     args: [
       "--no-sandbox",
       `--use-angle=${ANGLE}`,
-      ANGLE === "swiftshader" ? "--enable-unsafe-swiftshader" : "--ignore-gpu-blocklist",
+      // What is there where Mesa does not start.
+      "--enable-unsafe-swiftshader",
+      ...(ANGLE === "swiftshader" ? [] : ["--ignore-gpu-blocklist"]),
       "--disable-background-networking",
       "--disable-component-update",
       "--disable-sync",
@@ -57,7 +59,7 @@ export function launch(more = []) {
 
 /**
  * Serves dist/ and opens a page of its own for one test, closed when the test ends. `before(page)` runs before the
- * address is opened; `files` are served in place of those in dist/, or all of another `folder`. The result has the page,
+ * address is opened; `query` ends it, "" for what users open; `files` are served in place of those in dist/, or all of another `folder`. The result has the page,
  * the server with its address, and what went wrong so far: errors that were thrown or written to the console, where the
  * browser writes violations of the page's policy too.
  */

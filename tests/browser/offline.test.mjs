@@ -88,7 +88,7 @@ async function served(name, folder) {
 test("after the first visit the page starts and opens files with the network cut", async (t) => {
   const requests = [];
   const listen = (page) => page.context().on("request", (request) => requests.push(request.url()));
-  const { page, server, address, wrong } = await openApp(t, browser, { context: COARSE, before: listen });
+  const { page, server, address, wrong } = await openApp(t, browser, { context: COARSE, query: "", before: listen });
   await settled(page);
   await kept(page);
   assert.equal((await caches(page)).length, 1);

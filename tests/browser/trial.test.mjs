@@ -22,7 +22,8 @@ const told = (page, pattern, what, timeout = 60_000) =>
   );
 
 test("the autopilot steers the wire to the target, and the log is saved", { timeout: 4 * LIMIT }, async (t) => {
-  const { page, wrong } = await openApp(t, browser, { context: COARSE });
+  // On the surface that users have.
+  const { page, wrong } = await openApp(t, browser, { context: COARSE, query: "" });
   await settled(page);
   assert.equal(workersOn(page, "trial").length, 0, "no Worker before it is needed");
 

@@ -136,7 +136,7 @@ fn browser(dist: &Path, long: bool, estimate: &mut Estimate) -> Result<(Counts, 
         .args(["--test", "--test-concurrency=1", "--test-reporter=spec"])
         .args(files)
         .env("CHROMIUM", chromium)
-        .env("LUMEN_ANGLE", tools::angle())
+        .envs(tools::angle())
         .env("LUMEN_DIST", dist)
         .env("LUMEN_NPM", npm)
         .env(

@@ -171,19 +171,39 @@ pub(crate) fn vulkan() -> Result<()> {
     apt("A Vulkan driver", "mesa-vulkan-drivers", "install the driver of your graphics card")
 }
 
-/// What the browser draws with, as it calls it: Mesa where it is there or can be had, which takes half as long as
-/// the SwiftShader that Chromium brings.
-pub(crate) fn angle() -> &'static str {
-    const MESA: &str = "gl-egl";
-    const OWN: &str = "swiftshader";
-    let is_there = || Path::new("/usr/share/glvnd/egl_vendor.d/50_mesa.json").is_file();
+/// Where Mesa says that it is there: what takes it in place of another driver.
+const MESA_VENDOR: &str = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
+
+/// What the browser draws with, as `LUMEN_ANGLE` and the variables beside it: Mesa on the processor where it is there or can
+/// be had, which takes half as long as the SwiftShader that Chromium brings. What the user has set in `LUMEN_ANGLE` stays.
+pub(crate) fn angle() -> Vec<(&'static str, &'static str)> {
+    const PACKAGES: &str = "libegl1 libegl-mesa0 libgl1-mesa-dri";
+    if std::env::var_os("LUMEN_ANGLE").is_some() {
+        return Vec::new();
+    }
+    let own = vec![("LUMEN_ANGLE", "swiftshader")];
     if !cfg!(target_os = "linux") {
-        return OWN;
+        return own;
     }
-    if !is_there() && apt("Mesa", "libegl1 libegl-mesa0 libgl1-mesa-dri", "wait longer").is_err() {
-        println!("    Without Mesa (sudo apt-get install libegl-mesa0) the browser tests take longer.");
+    if !has_mesa()
+        && let Err(error) = apt("Mesa", PACKAGES, "wait longer for the browser tests")
+    {
+        eprintln!("    {error}");
     }
-    if is_there() { MESA } else { OWN }
+    if !has_mesa() {
+        return own;
+    }
+    vec![("LUMEN_ANGLE", "gl-egl"), ("LIBGL_ALWAYS_SOFTWARE", "1"), ("__EGL_VENDOR_LIBRARY_FILENAMES", MESA_VENDOR)]
+}
+
+/// Whether all of Mesa is there: what finds a driver, its EGL, and what draws on the processor.
+fn has_mesa() -> bool {
+    let libraries = output(Command::new("/sbin/ldconfig").arg("-p")).unwrap_or_default();
+    let folders = std::fs::read_dir("/usr/lib").into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
+    Path::new(MESA_VENDOR).is_file()
+        && libraries.contains("libEGL.so.1")
+        && (libraries.contains("libgallium")
+            || folders.into_iter().any(|folder| folder.join("dri/swrast_dri.so").is_file()))
 }
 
 /// What makes a root with a Debian of its own.

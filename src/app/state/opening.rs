@@ -7,7 +7,7 @@ use super::{Effect, Engine, Notice, Opening, State};
 use crate::app::document::Document;
 use crate::engine::{Command, Link, Opened, Source, Work};
 use crate::io::{ImportOptions, Unit};
-use crate::phantom::{MAX_TRIANGLES, MIN_TRIANGLES, Sample};
+use crate::phantom::{MIN_TRIANGLES, Sample};
 use crate::pipeline::settings::{Keep, Settings};
 
 impl State {
@@ -19,10 +19,10 @@ impl State {
 
     /// Opens a sample.
     pub fn open_sample(&mut self, sample: Sample, link: &mut dyn Link) {
-        let range = MIN_TRIANGLES as u32..=MAX_TRIANGLES as u32;
-        let asked = self.sample_triangles.map(|asked| asked.clamp(*range.start(), *range.end()));
-        let triangles = asked.unwrap_or(sample.default_triangles() as u32);
-        self.open(Source::Sample { sample, triangles }, link);
+        let usual = sample.default_triangles() as u32;
+        // Fewer, not more: what asks may be a link from anybody, and a sample is made in one go.
+        let asked = self.sample_triangles.map(|asked| asked.clamp(MIN_TRIANGLES as u32, usual));
+        self.open(Source::Sample { sample, triangles: asked.unwrap_or(usual) }, link);
     }
 
     /// Opens a surface, of all of which the largest piece is kept.

@@ -310,6 +310,16 @@ fn samples_have_the_triangles_that_are_asked_for_within_what_they_can_have() {
     }
 }
 
+#[test]
+fn more_triangles_than_a_sample_has_are_not_to_be_had() {
+    for asked in [Sample::Aorta.default_triangles() as u32 + 1, u32::MAX] {
+        let mut state = State { sample_triangles: Some(asked), ..State::default() };
+        state.open_sample(Sample::Aorta, &mut Line::default());
+        let source = &state.opening.last().unwrap().source;
+        assert!(matches!(source, Source::Sample { triangles: 74_307, .. }), "{asked}");
+    }
+}
+
 /// Triangles of the level that is shown.
 fn shown(state: &State) -> usize {
     state.document.as_ref().unwrap().shown.as_ref().unwrap().level.triangles.len()

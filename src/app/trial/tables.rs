@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use crate::app::document::Document;
+use crate::engine::Source;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
@@ -46,6 +47,8 @@ pub struct Tables {
     pub(super) rows: Vec<Row>,
     levels: Option<Arc<ProgressiveMesh>>,
     pub(super) sample: Option<Sample>,
+    /// The same where it has as many triangles as it has by itself: beside those the paper's figures stand.
+    pub(super) printed: Option<Sample>,
     setup: Setup,
     pub(super) name: String,
     /// The number of the measurement that is going on.
@@ -75,6 +78,10 @@ impl Tables {
         self.rows = rates.iter().map(|&rate| Row { rate, ..Row::default() }).collect();
         self.levels = Some(levels.clone());
         self.sample = sample;
+        self.printed = match document.source {
+            Source::Sample { sample, triangles } if triangles as usize == sample.default_triangles() => Some(sample),
+            _ => None,
+        };
         // Places that were picked by hand are places in this surface; others are those that the first row proposes.
         self.setup = setup.clone();
         document.name.clone_into(&mut self.name);

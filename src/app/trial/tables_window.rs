@@ -69,7 +69,7 @@ fn content(ui: &mut Ui, tables: &Tables, asked: &mut Vec<Action>) {
             }
             ui.end_row();
             for row in &tables.rows {
-                for (i, cell) in cells(row, tables.sample).into_iter().enumerate() {
+                for (i, cell) in cells(row, tables.printed).into_iter().enumerate() {
                     aligned(ui, i, |ui| {
                         ui.label(cell);
                     });
@@ -111,7 +111,7 @@ fn aligned(ui: &mut Ui, column: usize, content: impl FnOnce(&mut Ui)) {
 fn text(tables: &Tables) -> String {
     let line = |cells: &[String]| format!("{}\n", cells.join("\t"));
     let heads: Vec<String> = COLUMNS.iter().map(|(head, _)| head.say()).collect();
-    let rows = tables.rows.iter().map(|row| line(&cells(row, tables.sample)));
+    let rows = tables.rows.iter().map(|row| line(&cells(row, tables.printed)));
     format!("{}\n{}{}", tables.name, line(&heads), rows.collect::<String>())
 }
 
