@@ -268,6 +268,26 @@ fn a_vessel_that_narrows_keeps_both_its_calibres() {
     }
 }
 
+#[test]
+fn a_stenosis_keeps_its_radius_at_its_throat_and_its_shoulders() {
+    // 70 % by diameter, of a vessel of 6 mm, sampled at half a millimetre.
+    let radius = |z: f64| 3.0 - 1.05 * (1.0 + (PI * ((z - 30.0) / 6.0).clamp(-1.0, 1.0)).cos());
+    let mesh = Arc::new(turned(38, 60.0, 0.5, 0.1, radius));
+    let smoothing = Smoothing { adapt: true, ..Smoothing::PAPER };
+    let after = smoothed(&mut Pipeline::new(mesh.clone(), all_pieces(smoothing))).mesh.clone();
+    for (from, to) in [(14.0, 22.0), (22.0, 25.0), (25.0, 28.0), (29.0, 31.0), (32.0, 35.0), (35.0, 38.0), (38.0, 46.0)]
+    {
+        let of = |mesh: &TriMesh| {
+            let within = mesh.positions.iter().filter(|p| (from..to).contains(&p.z));
+            let parts: Vec<f64> = within.map(|p| f64::from(p.truncate().length()) / radius(f64::from(p.z))).collect();
+            parts.iter().sum::<f64>() / parts.len() as f64 - 1.0
+        };
+        let change = of(&after) - of(&mesh);
+        // 1 % is asked; without what is put back it is 1.4 % at the first shoulder.
+        assert!(change.abs() < 0.008, "from {from} mm: {:+.2} %", 100.0 * change);
+    }
+}
+
 /// The faces that cross others after smoothing and crossed none before.
 fn newly_crossing(before: &TriMesh, after: &TriMesh) -> usize {
     let crossed = self_intersections(before);
