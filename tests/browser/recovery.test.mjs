@@ -124,7 +124,7 @@ test("a link has the settings and tells whether the file is the same", async (t)
 });
 
 test("a link is followed once: a reload brings back what was made of it since", async (t) => {
-  const { page, address } = await openApp(t, browser, { context: COARSE });
+  const { page, address } = await openApp(t, browser, { context: COARSE, query: "" });
   const opened = page.url();
   await settled(page);
   await page.evaluate((link) => (location.hash = link), LINK);

@@ -136,7 +136,7 @@ const told = (tasks) =>
 test("a million triangles are worked on beside a page that stays responsive", { skip: existsSync(program) ? false : `${program} is not built` }, async (t) => {
   const file = join(folder, "million.stl");
   await promisify(execFile)(program, ["phantom", "aorta", "--triangles", String(TRIANGLES), "-o", file]);
-  const { page } = await openApp(t, browser, { query: "", before: (page) => page.addInitScript(markMessages) });
+  const { page } = await openApp(t, browser, { before: (page) => page.addInitScript(markMessages) });
   await settled(page);
   const [worker] = workersOn(page, "pipeline");
   await worker.evaluate(watchCancelHeard);
