@@ -257,6 +257,7 @@ app-measures-not-saved = Die Messungen sind nicht bei den Einstellungen: Diese O
 app-link-copied-file = Der Link wurde kopiert. Er enthält die Einstellungen und die ersten Ziffern der Prüfsumme der Datei, und nichts von der Oberfläche: Wer ihn öffnet, braucht dieselbe Datei.
 app-link-copied-sample = Der Link wurde kopiert. Er enthält die Einstellungen und sagt, für welches Beispiel sie sind.
 app-link-nothing = Es gibt noch nichts, worauf ein Link zeigen könnte.
+app-link-fewer = Dieses Beispiel hat weniger Dreiecke als von sich aus: Kein Link führt darauf. Öffnen Sie die Seite ohne ?samples=.
 app-step-link-copied = Der Link zu diesem Schritt wurde kopiert.
 app-link-taken = Die Einstellungen des Links gelten.
 app-link-same = Zu dieser Oberfläche gehört der Link: Es ist dasselbe zu sehen.

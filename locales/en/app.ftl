@@ -274,6 +274,7 @@ app-measures-not-saved = The measures are not with the settings: this surface ha
 app-link-copied-file = The link was copied. It has the settings and the first digits of the file's hash, and nothing of the surface: whoever opens it needs the same file.
 app-link-copied-sample = The link was copied. It has the settings and says which sample they are for.
 app-link-nothing = There is nothing yet that a link could be to.
+app-link-fewer = This sample has fewer triangles than it has by itself: no link leads to it. Open the page without ?samples=.
 app-step-link-copied = The link to this step was copied.
 app-link-taken = The settings of the link are in force.
 app-link-same = This is what the link belongs to: you see the same.

@@ -257,6 +257,7 @@ app-measures-not-saved = Les mesures ne sont pas avec les réglages : cette sur
 app-link-copied-file = Le lien a été copié. Il contient les réglages et les premiers chiffres de l'empreinte du fichier, et rien de la surface : pour l'ouvrir, il faut le même fichier.
 app-link-copied-sample = Le lien a été copié. Il contient les réglages et dit pour quel exemple ils sont.
 app-link-nothing = Il n'y a encore rien vers quoi un lien pourrait mener.
+app-link-fewer = Cet exemple a moins de triangles que de lui-même : aucun lien n'y mène. Ouvrez la page sans ?samples=.
 app-step-link-copied = Le lien vers cette étape a été copié.
 app-link-taken = Les réglages du lien sont en vigueur.
 app-link-same = C'est bien ce à quoi le lien appartient : la même chose est affichée.

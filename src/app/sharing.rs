@@ -59,6 +59,7 @@ impl Sharing {
                     };
                     state.tell(&text);
                 }
+                _ if has_fewer(state) => state.tell(&say!("app-link-fewer")),
                 _ => state.tell(&say!("app-link-nothing")),
             },
         }
@@ -113,6 +114,11 @@ impl Sharing {
 
     /// Hears that a surface was opened: is it the link's?
     pub(super) fn opened(&mut self, state: &mut State, link: &mut dyn EngineLink) {
+        let wants_sample = self.followed.as_ref().is_some_and(|link| matches!(link.surface, SharedSurface::Sample(_)));
+        if wants_sample && has_fewer(state) {
+            self.followed = None;
+            return state.tell(&say!("app-link-fewer"));
+        }
         let (Some(followed), Some(opened)) = (&self.followed, surface(state)) else { return };
         match (opened, followed.surface) {
             (opened, wanted) if opened == wanted => {
@@ -186,14 +192,18 @@ fn take_unit(unit: Option<Unit>, state: &mut State, link: &mut dyn EngineLink) -
     is_other
 }
 
+/// Whether a sample is open that has other triangles than by itself.
+fn has_fewer(state: &State) -> bool {
+    let sample = state.document.as_ref().map(|document| &document.source);
+    matches!(sample, Some(Source::Sample { sample, triangles }) if *triangles as usize != sample.default_triangles())
+}
+
 /// By what the surface that is open is known.
 fn surface(state: &State) -> Option<SharedSurface> {
     let document = state.document.as_ref()?;
     match &document.source {
-        // One of another number of triangles is another surface, which no link asks for.
-        Source::Sample { sample, triangles } => {
-            (*triangles as usize == sample.default_triangles()).then_some(SharedSurface::Sample(*sample))
-        }
+        // One of other triangles is another surface, which no link asks for.
+        Source::Sample { sample, .. } => (!has_fewer(state)).then_some(SharedSurface::Sample(*sample)),
         Source::File { .. } => document.digest.map(|digest| SharedSurface::File(digest.short())),
         Source::Made { .. } => None,
     }

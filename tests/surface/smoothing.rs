@@ -494,26 +494,28 @@ fn a_thin_tree_is_not_torn_for_its_volume() {
 
 #[test]
 fn a_change_of_pass_band_or_window_goes_by_the_terms_and_gives_what_a_fresh_run_gives() {
-    let mesh = &PHANTOMS[0];
-    let first = Smoothing { iterations: 60, ..Smoothing::PAPER };
-    let mut pipeline = Pipeline::new(mesh.clone(), all_pieces(first)).with_samples(500);
-    pipeline.finish().unwrap();
-    assert!(pipeline.can_prepare());
-    while pipeline.prepare(Budget::new(Duration::ZERO)) {}
-    assert!(!pipeline.can_prepare());
-    for change in [
-        Smoothing { pass_band: 0.2, ..first },
-        Smoothing { window: Window::Nuttall, iterations: 20, ..first },
-        Smoothing { preserve_volume: true, ..first },
-        Smoothing { iterations: 80, ..first },
-        Smoothing { iterations: 75, pass_band: 0.05, ..first },
-        Smoothing { boundary: Boundary::Vtk15, ..first },
-    ] {
-        pipeline.set(all_pieces(change)).unwrap();
-        assert_eq!(pipeline.next_stage(), Some(Stage::Smoothing));
-        let after = smoothed(&mut pipeline);
-        let fresh = smoothed(&mut Pipeline::new(mesh.clone(), all_pieces(change)));
-        assert!(after.mesh == fresh.mesh && after.volume_held == fresh.volume_held, "{change:?}");
+    for base in [Smoothing::PAPER, Smoothing { adapt: true, ..Smoothing::PAPER }] {
+        let mesh = &PHANTOMS[0];
+        let first = Smoothing { iterations: 60, ..base };
+        let mut pipeline = Pipeline::new(mesh.clone(), all_pieces(first)).with_samples(500);
+        pipeline.finish().unwrap();
+        assert!(pipeline.can_prepare());
+        while pipeline.prepare(Budget::new(Duration::ZERO)) {}
+        assert!(!pipeline.can_prepare());
+        for change in [
+            Smoothing { pass_band: 0.2, ..first },
+            Smoothing { window: Window::Nuttall, iterations: 20, ..first },
+            Smoothing { preserve_volume: true, ..first },
+            Smoothing { iterations: 80, ..first },
+            Smoothing { iterations: 75, pass_band: 0.05, ..first },
+            Smoothing { boundary: Boundary::Vtk15, ..first },
+        ] {
+            pipeline.set(all_pieces(change)).unwrap();
+            assert_eq!(pipeline.next_stage(), Some(Stage::Smoothing));
+            let after = smoothed(&mut pipeline);
+            let fresh = smoothed(&mut Pipeline::new(mesh.clone(), all_pieces(change)));
+            assert!(after.mesh == fresh.mesh && after.volume_held == fresh.volume_held, "{change:?}");
+        }
     }
 }
 
