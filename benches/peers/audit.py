@@ -18,7 +18,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 from quality import polydata, volume
 from real import crossing, read
-from sections import DATA, document, largest_piece, lumen, mean_edge, optimise, stretch_radii, write_ply
+from sections import DATA, TWO_VESSELS, document, largest_piece, lumen, mean_edge, optimise, stretch_radii, write_ply
 from trees import stenosis, stepped
 
 REAL = ["aorta-surface-open-ends.stl", "aorta-surface-segment-2.stl", "beamadapter_carotids.stl", "beamadapter_phantom.obj",
@@ -26,8 +26,6 @@ REAL = ["aorta-surface-open-ends.stl", "aorta-surface-segment-2.stl", "beamadapt
         "vmr_kawasaki_aorta_coronaries.vtp", "vmtk_aorta_mra_iso1000.ply", "vmtk_aorta_mra_iso800.stl"]
 #: Percent of the radius that a vessel may change by; the rate above is this much higher, in percent.
 TOLERANCE, NEXT = 2.0, 0.1
-# A section so many times as wide as the ball inside is of two vessels.
-TWO_VESSELS = 1.6
 
 
 def surfaces():
@@ -211,6 +209,8 @@ def row(name, make):
     told = lambda found: f"{found[0]:+.2f}" + (f", {found[1]} no longer close" if found[1] else "")  # noqa: E731
     over, beside = (abs(found[0]) - TOLERANCE for found in here[:2])
     says = "not audited: vessels of less than two edges" if not judged else "holds" if over <= 0 else f"**over by {over:.3f}**"
+    # A vessel that the plane no longer cuts around its line has lost its calibre there.
+    says = f"**{here[0][1]} no longer close**" if here[0][1] else says
     says += f"; {beside:.2f} over where Lumen does not look" if beside > max(over, 0) else ""
     cells = [f"{name}" + (f" ({len(changed)} of {len(safe['branches'])} branches left out)" if changed else ""),
              f"{safe['percent']:.1f}", f"{judged}", f"{max(own, key=abs):+.2f}" if own else "–",

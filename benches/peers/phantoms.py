@@ -14,15 +14,13 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from sections import PAPER, ROOT, Cuts, document, largest_piece, optimise, stretch_radii, windowed_sinc, write_ply
+from sections import PAPER, ROOT, TWO_VESSELS, Cuts, document, largest_piece, optimise, stretch_radii, windowed_sinc, write_ply
 from trees import NARROW, cone, sample, stenosis, stepped, tube
 
 VOXELS = [0.3, 0.5, 0.7]
 DIAMETERS = [1, 2, 3, 5, 10, 20, 30]
 #: What is asked of a vessel of three voxels or more: percent of its radius, and part of a voxel.
 PERCENT, OF_VOXEL, WIDE = 1.0, 0.1, 3.0
-#: A section so many times as wide as its vessel goes around two.
-TWO_VESSELS = 1.6
 SURFACES = ["opened", "lumen", "vtk"]
 
 
@@ -45,13 +43,14 @@ def measured(phantom, voxel, folder):
                  warnings=report["warnings"], lines=[])
     for line in phantom.lines:
         row = dict(name=line.name, along=line.along.tolist(), truth=line.radii.tolist(), counts=line.counts.tolist())
-        # The truth too, over the same stretches: a narrow place is no wider for being measured.
-        row["stretched"] = stretch_radii(line.along, np.pi * line.radii**2, line.radii, surfaces[0].edge).tolist()
         cut = [cuts.areas(line.points, line.directions, line.radii) for cuts in surfaces]
         # Beside a fork, where nothing is judged, a cut may go around two vessels, and on another surface around one: such are of
         # no vessel, and on none a part of the stretch of the next station.
         with np.errstate(invalid="ignore"):
             two = ~line.counts.astype(bool) & (np.sqrt(np.fmax.reduce(cut) / np.pi) > TWO_VESSELS * line.radii)
+        # The truth too, over the same stretches: a narrow place is no wider for being measured.
+        truth = np.where(two, np.nan, np.pi * line.radii**2)
+        row["stretched"] = stretch_radii(line.along, truth, line.radii, surfaces[0].edge).tolist()
         for name, areas in zip(SURFACES, cut):
             areas = np.where(two, np.nan, areas)
             row[name] = stretch_radii(line.along, areas, line.radii, surfaces[0].edge).tolist()

@@ -22,6 +22,8 @@ PROGRAM = os.environ.get("LUMEN_PROGRAM", str(ROOT / "target/release/lumen"))
 DATA = Path(os.environ.get("LUMEN_DATA", ROOT / "../shared/data"))
 #: The paper's setting: pass band and iterations, Hamming window.
 PAPER = (0.01, 100)
+#: A section so many times as wide as its vessel goes around two.
+TWO_VESSELS = 1.6
 
 
 def lumen(*arguments):
