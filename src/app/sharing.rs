@@ -114,10 +114,16 @@ impl Sharing {
 
     /// Hears that a surface was opened: is it the link's?
     pub(super) fn opened(&mut self, state: &mut State, link: &mut dyn EngineLink) {
-        let wants_sample = self.followed.as_ref().is_some_and(|link| matches!(link.surface, SharedSurface::Sample(_)));
-        if wants_sample && has_fewer(state) {
-            self.followed = None;
-            return state.tell(&say!("app-link-fewer"));
+        if has_fewer(state) {
+            match self.followed.as_ref().map(|link| link.surface) {
+                Some(SharedSurface::File(wanted)) => ask_for(wanted, state),
+                Some(SharedSurface::Sample(_)) => {
+                    self.followed = None;
+                    state.tell(&say!("app-link-fewer"));
+                }
+                None => {}
+            }
+            return;
         }
         let (Some(followed), Some(opened)) = (&self.followed, surface(state)) else { return };
         match (opened, followed.surface) {

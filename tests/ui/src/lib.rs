@@ -64,18 +64,31 @@ pub fn in_hand(size: [f32; 2], step_dt: f32, likes_motion: bool) -> (Harness<'st
 
 /// The same as a page, which has an address, and of which `kept` outlives it.
 pub fn page(size: [f32; 2], kept: Kept) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
-    page_with(size, kept, true)
+    page_with(size, kept, |_| {})
+}
+
+/// The same with samples as users have them: those that links lead to.
+pub fn page_in_full(size: [f32; 2], kept: Kept) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+    page_with(size, kept, |memory| memory.coarse_samples = None)
 }
 
 /// The same where the engine comes to nothing, as one that ends the page while it opens what was kept.
 pub fn dying_page(size: [f32; 2], kept: Kept) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
-    page_with(size, kept, false)
+    page_with(size, kept, |memory| memory.runs = false)
 }
 
-fn page_with(size: [f32; 2], kept: Kept, runs: bool) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
+fn page_with(
+    size: [f32; 2],
+    kept: Kept,
+    change: impl FnOnce(&mut Memory),
+) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
-    *memory.borrow_mut() =
-        Memory { kept: Some(kept), address: Some("https://page.test/lumen/".to_owned()), runs, ..memory.take() };
+    {
+        let mut memory = memory.borrow_mut();
+        memory.kept = Some(kept);
+        memory.address = Some("https://page.test/lumen/".to_owned());
+        change(&mut memory);
+    }
     app_on((platform, memory), size, 0.25)
 }
 

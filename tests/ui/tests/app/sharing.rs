@@ -6,7 +6,7 @@ use lumen::io::Unit;
 use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Keep, Settings, Target};
 use lumen::sharing::{Digest, Link, SharedSettings, SharedSurface, write_settings};
-use lumen_ui_tests::{DESKTOP, Kept, offered, page, settle};
+use lumen_ui_tests::{DESKTOP, Kept, offered, page, page_in_full, settle};
 
 use crate::recovery::{choose, notice, settings_at, tell, vessel};
 
@@ -94,7 +94,7 @@ fn the_unit_of_a_link_counts_whenever_it_is_followed() {
 
 #[test]
 fn the_piece_of_a_link_is_asked_of_its_own_surface_alone() {
-    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    let (mut harness, memory) = page_in_full(DESKTOP, Kept::default());
     settle(&mut harness);
     let settings = Settings { keep: Keep::Component(40_000), ..half() };
     let to = SharedSurface::File(Digest::of(b"another").short());
@@ -115,12 +115,12 @@ fn a_link_to_a_sample_counts_more_than_the_file_that_comes_back() {
     choose(&mut harness, "Keep opened surfaces on this device");
     harness.run_steps(12);
     let kept = memory.borrow().kept.clone().unwrap();
-    let (mut harness, memory) = page(DESKTOP, kept);
+    let (mut harness, memory) = page_in_full(DESKTOP, kept);
     // The address is read before the store answers.
-    memory.borrow_mut().events.push_front(link(SharedSurface::Sample(Sample::Coronary), None, half()));
+    memory.borrow_mut().events.push_front(link(SharedSurface::Sample(Sample::Aorta), None, half()));
     harness.run_steps(2);
     settle(&mut harness);
-    assert_eq!(harness.state().state().document.as_ref().unwrap().name, Sample::Coronary.label());
+    assert_eq!(harness.state().state().document.as_ref().unwrap().name, Sample::Aorta.label());
     assert_eq!(notice(&harness), "This is what the link belongs to: you see the same.");
 }
 
@@ -149,5 +149,17 @@ fn settings_are_saved_as_a_file_and_opened_as_one() {
     assert_eq!(harness.state().state().settings, half());
     tell(&mut harness, &memory, chosen("{}"));
     assert_eq!(notice(&harness), "s.JSON: This is no file of Lumen's settings.");
+    assert_eq!(harness.state().state().settings, half());
+}
+
+#[test]
+fn a_sample_of_fewer_triangles_is_no_surface_of_a_link() {
+    let (mut harness, memory) = page(DESKTOP, Kept::default());
+    settle(&mut harness);
+    choose(&mut harness, "Copy link");
+    let fewer = "This sample has fewer triangles than it has by itself: no link leads to it.";
+    assert!(notice(&harness).starts_with(fewer), "{}", notice(&harness));
+    tell(&mut harness, &memory, link(SharedSurface::Sample(Sample::Aorta), None, half()));
+    assert!(notice(&harness).starts_with(fewer), "{}", notice(&harness));
     assert_eq!(harness.state().state().settings, half());
 }
