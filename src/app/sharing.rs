@@ -198,18 +198,17 @@ fn take_unit(unit: Option<Unit>, state: &mut State, link: &mut dyn EngineLink) -
     is_other
 }
 
-/// Whether a sample is open that has other triangles than by itself.
+/// Whether a sample is open that has fewer triangles than by itself: no link is to such.
 fn has_fewer(state: &State) -> bool {
-    let sample = state.document.as_ref().map(|document| &document.source);
-    matches!(sample, Some(Source::Sample { sample, triangles }) if *triangles as usize != sample.default_triangles())
+    let source = state.document.as_ref().map(|document| &document.source);
+    source.is_some_and(|source| matches!(source, Source::Sample { .. }) && source.usual_sample().is_none())
 }
 
 /// By what the surface that is open is known.
 fn surface(state: &State) -> Option<SharedSurface> {
     let document = state.document.as_ref()?;
     match &document.source {
-        // One of other triangles is another surface, which no link asks for.
-        Source::Sample { sample, .. } => (!has_fewer(state)).then_some(SharedSurface::Sample(*sample)),
+        source @ Source::Sample { .. } => source.usual_sample().map(SharedSurface::Sample),
         Source::File { .. } => document.digest.map(|digest| SharedSurface::File(digest.short())),
         Source::Made { .. } => None,
     }

@@ -53,6 +53,14 @@ impl Source {
         Self::Sample { sample, triangles: sample.default_triangles() as u32 }
     }
 
+    /// The sample, if it is one with as many triangles as it has by itself: one of fewer is another surface.
+    pub fn usual_sample(&self) -> Option<Sample> {
+        match *self {
+            Self::Sample { sample, triangles } if triangles as usize == sample.default_triangles() => Some(sample),
+            _ => None,
+        }
+    }
+
     /// What the surface is called, whatever is spoken: files are named by it.
     pub fn name(&self) -> &str {
         match self {

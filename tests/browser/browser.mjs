@@ -59,9 +59,9 @@ export function launch(more = []) {
 
 /**
  * Serves dist/ and opens a page of its own for one test, closed when the test ends. `before(page)` runs before the
- * address is opened; `query` ends it, "" for what users open; `files` are served in place of those in dist/, or all of another `folder`. The result has the page,
- * the server with its address, and what went wrong so far: errors that were thrown or written to the console, where the
- * browser writes violations of the page's policy too.
+ * address is opened; `query` ends it, "" for what users open; `files` are served in place of those in dist/, or all of another
+ * `folder`. The result has the page, the server with its address, and what went wrong so far: errors that were thrown or
+ * written to the console, where the browser writes violations of the page's policy too.
  */
 export async function openPage(t, browser, { before, query = COARSE_SAMPLES, slow, files, folder = dist, context: options = {} } = {}) {
   const server = await serve(folder, { slow, files });

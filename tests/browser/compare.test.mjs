@@ -5,8 +5,8 @@ import { after, before, test } from "node:test";
 import { drawn, grouped, settled } from "./app.mjs";
 import { COARSE, eventually, frames, launch, openApp, press, texts, twin } from "./browser.mjs";
 
-/** Table II of the paper at the rates of its Figure 7. */
-const PRINTED = [66_875, 7_430, 743];
+/** What the rates of Figure 7 leave of 74,307; Table II of the paper has 66,875 for the first. */
+const MOST = [66_876, 7_430, 743];
 
 let browser;
 before(async () => (browser = await launch()));
@@ -25,8 +25,8 @@ test("six settings are compared, and a click takes one", async (t) => {
   await settled(page);
   await press(page, "button", "Compare");
   const seven = await compared(page, 3);
-  for (const count of PRINTED) {
-    assert([-1, 0, 1, 2].some((less) => seven.includes(grouped(count - less))), `${count} in ${seven.join("; ")}`);
+  for (const count of MOST) {
+    assert([0, 1, 2].some((less) => seven.includes(grouped(count - less))), `${count} in ${seven.join("; ")}`);
   }
   await press(page, "button", "Figure 6");
   await compared(page, 6);

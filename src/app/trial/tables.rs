@@ -4,7 +4,6 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use crate::app::document::Document;
-use crate::engine::Source;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::pipeline::progressive::ProgressiveMesh;
@@ -78,10 +77,7 @@ impl Tables {
         self.rows = rates.iter().map(|&rate| Row { rate, ..Row::default() }).collect();
         self.levels = Some(levels.clone());
         self.sample = sample;
-        self.printed = match document.source {
-            Source::Sample { sample, triangles } if triangles as usize == sample.default_triangles() => Some(sample),
-            _ => None,
-        };
+        self.printed = document.source.usual_sample();
         // Places that were picked by hand are places in this surface; others are those that the first row proposes.
         self.setup = setup.clone();
         document.name.clone_into(&mut self.name);

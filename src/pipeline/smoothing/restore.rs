@@ -11,9 +11,11 @@
 //! 3. `x = S x + w n loss`, with `n` the normal after smoothing and `w` from 0 where the pass band is the setting's to
 //!    1 where it is twice as wide: on wide vessels the filter's own result stays, to the bit.
 //!
-//! Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane: the tips
-//! of an end that is cut off at a slant stay as far off as the filter left them (at 60 degrees a sixth of the radius). It is Tukey's twicing
-//! (1977) along the normals, as in `super::volume`, but by a short filter, and each place for itself.
+//! Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane: the tips of an end
+//! that is cut off at a slant stay as far off as the filter left them (at 60 degrees a sixth of the radius).
+//!
+//! It is Tukey's twicing (1977) along the normals, as in `super::volume`, but by a short filter, and each place for
+//! itself.
 
 use std::sync::Arc;
 
@@ -24,6 +26,7 @@ use super::volume::directions;
 use crate::mesh::Topology;
 use crate::parallel;
 use crate::pipeline::normals::{Weighting, vertex_normals};
+use crate::pipeline::response::edge_length;
 use crate::pipeline::results::Surface;
 use crate::pipeline::settings::Smoothing;
 use crate::pipeline::task::{Budget, Progress, Task};
@@ -31,6 +34,8 @@ use crate::pipeline::task::{Budget, Progress, Task};
 /// Means with the neighbours. They reach as far as around vessels of some five edges' radius; of a wave of four edges
 /// they leave less than a hundredth.
 const MEANS: usize = 16;
+/// Typical edges of the surface, root mean square, that an edge is long from.
+const LONG: f32 = 2.0;
 /// Vertices that a core works on in one go.
 const PIECE: usize = 4096;
 /// Vertices between two looks at the clock.
@@ -57,7 +62,7 @@ pub(crate) struct RestoreTask {
     done: usize,
 }
 
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 enum Step {
     Normals,
     Losses,
@@ -105,12 +110,14 @@ impl RestoreTask {
         let after = self.normals_of(&self.smoothed);
         let (opened, before, smoothed) = (&self.kept.mesh.positions, &self.normals, &self.smoothed);
         let topology = &self.kept.topology;
+        let typical = edge_length(&self.kept.mesh) as f32;
         let loss = |v: usize| {
             let loss = (opened[v] - smoothed[v]).dot((before[v] + after[v]).normalize_or_zero());
-            // What moved by more than an edge was no vessel's wall: a flap, a spike, a short slit drawn together.
+            // What moved by more than an edge was no vessel's wall: a flap, a short slit drawn together, or a spike, whose own
+            // edges are as long as it is.
             let around = topology.neighbours(v as u32);
             let lengths = around.iter().map(|&n| opened[v].distance(opened[n as usize])).sum::<f32>();
-            let edge = lengths / around.len().max(1) as f32;
+            let edge = (lengths / around.len().max(1) as f32).min(LONG * typical);
             loss.max(-edge).min(edge)
         };
         self.losses = parallel::map_ranges(smoothed.len(), PIECE, |range| range.map(loss).collect::<Vec<_>>()).concat();
@@ -261,6 +268,20 @@ mod tests {
         assert!(off(&toothed.mesh.positions) > 0.049);
         let restored = restored(&toothed, &kept.mesh.positions);
         assert!(off(&restored) < 0.002, "{}", off(&restored));
+    }
+
+    #[test]
+    fn a_spike_that_was_taken_off_leaves_the_wall_around_it_alone() {
+        // One vertex ten radii out, as a stray one of a scan: without a bound its loss swells the wall by a third of its radius.
+        let kept = kept();
+        let (spike, wall) = (24 * 30, kept.mesh.positions.clone());
+        let mut spiked = wall.clone();
+        spiked[spike] = wall[spike] * Vec3::new(10.0, 10.0, 1.0);
+        let spiked = surface(TriMesh { positions: spiked, triangles: kept.mesh.triangles.clone() });
+        let restored = restored(&spiked, &wall);
+        let (edge, mut others) = (wall[spike].distance(wall[spike + 24]), restored);
+        others[spike] = wall[spike];
+        assert!(off(&others) * RADIUS < edge / 4.0, "{} mm of edges of {edge}", off(&others) * RADIUS);
     }
 
     #[test]

@@ -53,10 +53,10 @@ fn titles(harness: &Harness<'_, LumenApp>) -> Vec<String> {
 fn the_button_opens_figure_seven_with_its_counts_and_closes_again() {
     let mut harness = open_in_full();
     assert_eq!(titles(&harness), ["Reduction 10 %", "Reduction 90 %", "Reduction 99 %"]);
-    // Table II of the paper, which has one less than a tenth off leaves: 66,876.3.
-    for (cell, printed) in cells(&harness).iter().zip([66_875, 7_430, 743]) {
+    // What the rates leave of 74,307; Table II of the paper has 66,875 for the first.
+    for (cell, most) in cells(&harness).iter().zip([66_876, 7_430, 743]) {
         let made = made(cell);
-        assert!((printed - 2..=printed + 1).contains(&made.mesh.triangles.len()), "{}", made.mesh.triangles.len());
+        assert!((most - 2..=most).contains(&made.mesh.triangles.len()), "{}", made.mesh.triangles.len());
         assert_eq!(made.report.output.triangles, made.mesh.triangles.len());
         assert!(made.report.deviation_mm.is_some() && made.report.volume_change_percent.is_some());
     }

@@ -94,8 +94,8 @@ fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
         target: Some([4.0, 5.0, 6.0]),
         ..Summary::default()
     };
-    // Table II of the paper, which has one less than a tenth off leaves: 66,876.3.
-    for (row, printed) in [66_875, 37_153, 18_576].into_iter().enumerate() {
+    // What the rates leave of 74,307; Table II of the paper has 66,875 for the first.
+    for (row, most) in [66_876, 37_153, 18_576].into_iter().enumerate() {
         harness.run_steps(3);
         let commands = asked(&memory);
         let [TrialCommand::Measure { id, mesh, sample, setup }] = &commands[..] else { panic!("{commands:?}") };
@@ -104,7 +104,7 @@ fn the_tables_run_one_rate_after_another_and_can_be_cancelled() {
         let with = (setup.proposes_wire, setup.entry, setup.target);
         assert_eq!(with, if row == 0 { (true, None, None) } else { proposed });
         assert!(row == 0 || setup.wire.name == "stiff");
-        assert!((printed - 2..=printed + 1).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
+        assert!((most - 2..=most).contains(&mesh.triangles.len()), "{}", mesh.triangles.len());
         assert_eq!(*sample, Some(Sample::Aorta));
         // Later rows tell of other places, which nothing is taken from.
         let mut told = Box::new(summary.clone());
