@@ -5,9 +5,9 @@
 //!    a bent tip lies on one side of the lumen, and would turn for ever to look at the middle.
 //! 2. When the tip is off the route, when it has not come on for a while, or when the wire has turned back on itself:
 //!    withdraw along the route by one of [`BY`], and a little more while the tip does not look where it should.
-//! 3. Try again, at one speed of [`AGAIN`] after another. The first time at a place, come to it with the tip turned from the wrong branch towards
-//!    the right one; then as in 1, turned more and more to the one side or the other by [`OFFSETS`]. After [`ATTEMPTS`]
-//!    give up.
+//! 3. Try again, at the fastest feed that a hand gives. The first time at a place, come to it with the tip turned from
+//!    the wrong branch towards the right one; then as in 1, turned more and more to the one side or the other by
+//!    [`OFFSETS`]. After [`ATTEMPTS`] give up.
 //!
 //! The tip reaches no farther to the side than its bend is long: a branch on the far side of a wide lumen, from where the
 //! shaft lies, takes many tries, or a wire with a longer bend.
@@ -20,9 +20,9 @@ use crate::say;
 
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;
-/// Speeds of the feed where it is tried again, in mm/s, one attempt at a place after another: there most of the time goes by,
-/// and a mouth that the tip slides past at the one it springs into at the other.
-const AGAIN: [f64; 2] = [40.0, 60.0];
+/// Speed of the feed where it is tried again, in mm/s: most of the time goes by there, and at 20 and 40 mm/s more
+/// forks are missed.
+const AGAIN: f64 = Input::MOST_FEED as f64;
 /// Speed of withdrawal in mm/s.
 const BACK: f64 = 30.0;
 /// Feed and withdrawal while the tip looks the wrong way, in mm/s.
@@ -95,7 +95,7 @@ struct Trouble {
     arc: f64,
     /// From the wrong branch to the right one, if it was in a wrong one.
     away: Option<DVec3>,
-    /// Times that it went wrong there, at least one.
+    /// Times that it went wrong there.
     times: usize,
 }
 
@@ -158,12 +158,12 @@ impl Autopilot {
                 }
             }
         }
-        let again = |trouble: Trouble| AGAIN[(trouble.times - 1) % AGAIN.len()];
         let feed = match self.doing {
             Doing::Withdrawing { arc, .. } if seen.is_off || seen.arc > arc => -BACK,
             Doing::Withdrawing { .. } => -CAREFUL,
             Doing::Advancing if error.abs() > WRONG => CAREFUL,
-            Doing::Advancing => self.trouble.map_or(FEED, again),
+            Doing::Advancing if self.trouble.is_some() => AGAIN,
+            Doing::Advancing => FEED,
         };
         let roll = (ROLL.1 * error).clamp(-ROLL.0, ROLL.0);
         Some(Input { feed: feed as f32, roll: roll as f32 })
