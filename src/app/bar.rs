@@ -1,6 +1,9 @@
 //! The bars: files and help above, what is going on below.
 
-use egui::{Button, Context, Response, RichText, Role, Ui};
+use std::sync::Arc;
+
+use egui::text::LayoutJob;
+use egui::{Button, Context, Galley, Response, RichText, Role, TextStyle, TextWrapMode, Ui, WidgetText};
 
 use super::action::Action;
 use super::assist::name;
@@ -322,6 +325,43 @@ fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl 
     ask(ui.button(say!("app-about")).clicked(), Action::About);
 }
 
+/// The most lines that a notice takes in the bar below.
+const MOST_LINES: usize = 5;
+
+/// What stands at the right of the bar below, from there on: counts and words that are always true.
+fn standing(state: &State, views: &Views) -> Vec<RichText> {
+    let shown = state.document.as_ref().and_then(|document| document.shown.as_ref());
+    let shown = shown.into_iter().flat_map(|shown| {
+        let count = say!("app-triangles", count = shown.level.triangles.len());
+        [RichText::new(views.rate()).weak(), RichText::new(count)]
+    });
+    std::iter::once(RichText::new(say!("about-not-clinical")).small().weak()).chain(shown).collect()
+}
+
+/// The notice as it is laid out in a bar of so many points: in as many lines as it takes, beside what stands at the right.
+fn laid_out(ui: &Ui, state: &State, views: &Views, is_narrow: bool, width: f32) -> Option<Arc<Galley>> {
+    let notice = state.notice.as_ref()?;
+    let text_width = |text: RichText| {
+        let text = WidgetText::from(text);
+        text.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Body).size().x
+    };
+    // A line between two of them, and room around it.
+    let gap = 6.0 + 2.0 * ui.spacing().item_spacing.x;
+    let right: f32 =
+        if is_narrow { 0.0 } else { standing(state, views).into_iter().map(|text| text_width(text) + gap).sum() };
+    let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+    let font = TextStyle::Body.resolve(ui.style());
+    let mut job = LayoutJob::simple(notice.text.clone(), font, colour, (width - right).max(120.0));
+    job.wrap.max_rows = MOST_LINES;
+    Some(ui.fonts_mut(|fonts| fonts.layout_job(job)))
+}
+
+/// The height of the bar below, whatever is told of work in it meanwhile: the views would move with it.
+pub(super) fn status_height(ui: &Ui, state: &State, views: &Views, is_narrow: bool, width: f32) -> f32 {
+    let notice = laid_out(ui, state, views, is_narrow, width).map_or(0.0, |notice| notice.size().y);
+    notice.max(theme::row(ui.ctx(), 28.0))
+}
+
 /// The bar below.
 pub(super) fn status(
     ui: &mut Ui,
@@ -332,6 +372,7 @@ pub(super) fn status(
     asked: &mut Vec<Action>,
 ) {
     spoken::announce(ui, state);
+    let told = laid_out(ui, state, views, is_narrow, ui.available_width());
     ui.horizontal_centered(|ui| {
         if let Some((what, fraction)) = drawing {
             progress(ui, fraction, if is_narrow { 96.0 } else { 160.0 }, &say!("app-progress"));
@@ -349,26 +390,23 @@ pub(super) fn status(
             if ui.button(say!("app-cancel")).on_hover_text(say!("app-cancel-help")).clicked() {
                 asked.push(Action::Cancel);
             }
-        } else if let Some(notice) = &state.notice {
-            let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
-            let text = RichText::new(&notice.text).color(colour);
-            let response = ui.add(egui::Label::new(text).truncate()).on_hover_text(notice.text.clone());
+        } else if let (Some(notice), Some(told)) = (&state.notice, told) {
+            let is_whole = !told.elided;
+            let response = ui.add(egui::Label::new(told));
+            let response = if is_whole { response } else { response.on_hover_text(notice.text.clone()) };
             name(&response, Role::Label, &notice.text);
         } else if let Some(document) = &state.document {
             ui.label(RichText::new(document.title()).weak());
         }
         if !is_narrow || state.told_work().is_none() && state.notice.is_none() {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                if !is_narrow {
-                    ui.label(RichText::new(say!("about-not-clinical")).small().weak());
-                    ui.separator();
-                }
-                if let Some(shown) = state.document.as_ref().and_then(|document| document.shown.as_ref()) {
-                    if !is_narrow {
-                        ui.label(RichText::new(views.rate()).weak());
+                let standing = standing(state, views);
+                // A phone has room for the count alone.
+                for (i, text) in standing.into_iter().skip(if is_narrow { 2 } else { 0 }).enumerate() {
+                    if i > 0 {
                         ui.separator();
                     }
-                    ui.label(say!("app-triangles", count = shown.level.triangles.len()));
+                    ui.label(text);
                 }
             });
         }

@@ -46,10 +46,12 @@ impl LumenApp {
             };
             bar::top(ui, &self.state, &self.views, shown, &mut asked);
         });
-        let line = theme::row(ui.ctx(), 28.0);
-        Panel::bottom("status").frame(bar).exact_size(line + 12.0).show(ui, |ui| {
-            // Of one height whatever is told, or the views would move with it: of egui's least the panel's edge is taken off.
-            ui.set_min_height(line);
+        let inside = ui.available_width() - bar.inner_margin.sum().x;
+        let height = bar::status_height(ui, &self.state, &self.views, is_narrow, inside);
+        Panel::bottom("status").frame(bar).exact_size(height + 12.0).show(ui, |ui| {
+            // Of one height whatever is told of work, or the views would move with it: of egui's least the panel's edge is
+            // taken off.
+            ui.set_min_height(height);
             if let Some(opening) = self.scans.opening() {
                 let mut of_scan = Vec::new();
                 ui.horizontal_centered(|ui| scan::status(ui, opening, is_narrow, &mut of_scan));

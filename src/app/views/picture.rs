@@ -43,10 +43,11 @@ impl Views {
         let seen = Seen { index, rect, camera: &camera, document, keep, parts: &measured, is_lines, measures };
         measuring.show_cut(ui, &seen);
         self.write(ui, index, rect, &picture, subject, colours);
-        self.mark(ui, rect, &picture, document);
         if reveals {
             self.divider.show(ui, rect, index, is_averaged.then(|| before_title(document, keep)));
         }
+        // Over all else: what is wrong there counts more than which side is which.
+        self.mark(ui, rect, &picture, document);
         if response.has_focus() {
             let ring = Stroke::new(2.0, ui.visuals().hyperlink_color);
             ui.painter().rect_stroke(rect, 0.0, ring, StrokeKind::Inside);

@@ -3,7 +3,8 @@
 
 use egui::Key;
 use egui::accesskit::Role;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::Node;
+use egui_kittest::kittest::{AccessKitNode, NodeT as _, Queryable as _};
 use lumen::app::PlatformEvent;
 use lumen::language::{self, Language};
 use lumen::say;
@@ -46,6 +47,26 @@ fn is_laid_out_in(language: Language, screen: Screen) {
     }
     harness.key_press(Key::M);
     harness.run_steps(4);
+    let bytes = b"# vtk DataFile Version 3.0\nct\nBINARY\nDATASET STRUCTURED_POINTS\n".to_vec();
+    memory
+        .borrow_mut()
+        .events
+        .push_back(PlatformEvent::Chosen { name: "carotid_of_the_left_side.vtk".to_owned(), bytes });
+    harness.run_steps(10);
+    let refusal = harness.state().state().notice.clone().filter(|notice| notice.is_error).expect("a refusal").text;
+    check(&harness, &told("a refusal"), screen, &views);
+    let label = harness.get_by_label(&refusal);
+    let (rect, bar) = (label.rect(), label.accesskit_node().parent().expect("a bar").id());
+    let is_in_bar = |node: &Node<'_>| {
+        std::iter::successors(node.accesskit_node().parent(), AccessKitNode::parent).any(|above| above.id() == bar)
+    };
+    let in_bar: Vec<_> = harness.query_all_by_role(Role::Label).filter(is_in_bar).collect();
+    assert!(in_bar.len() > 1 || size[0] < 600.0, "nothing else stands in the bar");
+    let over = in_bar.iter().filter(|label| label.rect().shrink(1.0).intersects(rect));
+    assert_eq!(over.count(), 1, "something else stands where {refusal:?} does on {size:?}");
+    let lines = rect.height() / 15.0;
+    let least = refusal.len() as f32 * 5.0 / size[0];
+    assert!(lines >= least.ceil(), "{lines} lines of {refusal:?} on {size:?}");
     let trial = say!("app-trial");
     if harness.query_by_role_and_label(Role::Button, &trial).is_none() {
         press(&mut harness, &say!("app-menu"));
