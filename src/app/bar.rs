@@ -328,7 +328,8 @@ fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl 
 /// The most lines that a notice takes in the bar below.
 const MOST_LINES: usize = 5;
 
-/// What stands at the right of the bar below, from there on: counts and words that are always true.
+/// What stands at the right of the bar below, the rightmost first: what always holds, then the rate and the triangles of what
+/// is shown.
 fn standing(state: &State, views: &Views) -> Vec<RichText> {
     let shown = state.document.as_ref().and_then(|document| document.shown.as_ref());
     let shown = shown.into_iter().flat_map(|shown| {
@@ -338,41 +339,40 @@ fn standing(state: &State, views: &Views) -> Vec<RichText> {
     std::iter::once(RichText::new(say!("about-not-clinical")).small().weak()).chain(shown).collect()
 }
 
-/// The notice as it is laid out in a bar of so many points: in as many lines as it takes, beside what stands at the right.
-fn laid_out(ui: &Ui, state: &State, views: &Views, is_narrow: bool, width: f32) -> Option<Arc<Galley>> {
+/// The notice for a bar below of so many points, in as many lines as it takes beside what stands at the right.
+pub(super) fn notice(ui: &Ui, state: &State, views: &Views, is_narrow: bool, width: f32) -> Option<Arc<Galley>> {
     let notice = state.notice.as_ref()?;
-    let text_width = |text: RichText| {
-        let text = WidgetText::from(text);
-        text.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Body).size().x
-    };
-    // A line between two of them, and room around it.
-    let gap = 6.0 + 2.0 * ui.spacing().item_spacing.x;
-    let right: f32 =
-        if is_narrow { 0.0 } else { standing(state, views).into_iter().map(|text| text_width(text) + gap).sum() };
     let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
-    let font = TextStyle::Body.resolve(ui.style());
-    let mut job = LayoutJob::simple(notice.text.clone(), font, colour, (width - right).max(120.0));
-    job.wrap.max_rows = MOST_LINES;
-    Some(ui.fonts_mut(|fonts| fonts.layout_job(job)))
+    let lay_out = |width: f32| {
+        let mut job = LayoutJob::simple(notice.text.clone(), TextStyle::Body.resolve(ui.style()), colour, width);
+        job.wrap.max_rows = MOST_LINES;
+        ui.fonts_mut(|fonts| fonts.layout_job(job))
+    };
+    let told = lay_out(width);
+    if is_narrow {
+        return Some(told);
+    }
+    // Each with a line before it, and room around that.
+    let gap = 6.0 + 2.0 * ui.spacing().item_spacing.x;
+    let right = standing(state, views).into_iter().map(|text| {
+        WidgetText::from(text).into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Body).size().x
+            + gap
+    });
+    let room = width - right.sum::<f32>();
+    Some(if told.rows.len() == 1 && told.size().x <= room { told } else { lay_out(room) })
 }
 
-/// The height of the bar below, whatever is told of work in it meanwhile: the views would move with it.
-pub(super) fn status_height(ui: &Ui, state: &State, views: &Views, is_narrow: bool, width: f32) -> f32 {
-    let notice = laid_out(ui, state, views, is_narrow, width).map_or(0.0, |notice| notice.size().y);
-    notice.max(theme::row(ui.ctx(), 28.0))
-}
-
-/// The bar below.
+/// The bar below, with the [`notice`] as it is laid out.
 pub(super) fn status(
     ui: &mut Ui,
     state: &State,
     views: &Views,
+    notice: Option<Arc<Galley>>,
     drawing: Option<(String, f32)>,
     is_narrow: bool,
     asked: &mut Vec<Action>,
 ) {
     spoken::announce(ui, state);
-    let told = laid_out(ui, state, views, is_narrow, ui.available_width());
     ui.horizontal_centered(|ui| {
         if let Some((what, fraction)) = drawing {
             progress(ui, fraction, if is_narrow { 96.0 } else { 160.0 }, &say!("app-progress"));
@@ -390,11 +390,9 @@ pub(super) fn status(
             if ui.button(say!("app-cancel")).on_hover_text(say!("app-cancel-help")).clicked() {
                 asked.push(Action::Cancel);
             }
-        } else if let (Some(notice), Some(told)) = (&state.notice, told) {
-            let is_whole = !told.elided;
-            let response = ui.add(egui::Label::new(told));
-            let response = if is_whole { response } else { response.on_hover_text(notice.text.clone()) };
-            name(&response, Role::Label, &notice.text);
+        } else if let Some(notice) = notice {
+            let response = ui.label(notice.clone());
+            name(&response, Role::Label, notice.text());
         } else if let Some(document) = &state.document {
             ui.label(RichText::new(document.title()).weak());
         }

@@ -47,7 +47,8 @@ impl LumenApp {
             bar::top(ui, &self.state, &self.views, shown, &mut asked);
         });
         let inside = ui.available_width() - bar.inner_margin.sum().x;
-        let height = bar::status_height(ui, &self.state, &self.views, is_narrow, inside);
+        let notice = bar::notice(ui, &self.state, &self.views, is_narrow, inside);
+        let height = notice.as_ref().map_or(0.0, |notice| notice.size().y).max(theme::row(ui.ctx(), 28.0));
         Panel::bottom("status").frame(bar).exact_size(height + 12.0).show(ui, |ui| {
             // Of one height whatever is told of work, or the views would move with it: of egui's least the panel's edge is
             // taken off.
@@ -57,7 +58,7 @@ impl LumenApp {
                 ui.horizontal_centered(|ui| scan::status(ui, opening, is_narrow, &mut of_scan));
                 return asked.extend(of_scan.into_iter().map(Action::Scan));
             }
-            bar::status(ui, &self.state, &self.views, self.record.progress(), is_narrow, &mut asked);
+            bar::status(ui, &self.state, &self.views, notice, self.record.progress(), is_narrow, &mut asked);
         });
         let has_pads = in_trial && !self.scans.is_open();
         if has_pads && is_narrow {

@@ -46,7 +46,7 @@ impl Views {
         if reveals {
             self.divider.show(ui, rect, index, is_averaged.then(|| before_title(document, keep)));
         }
-        // Over all else: what is wrong there counts more than which side is which.
+        // Over its words: what is wrong at a place counts more than which side is which.
         self.mark(ui, rect, &picture, document);
         if response.has_focus() {
             let ring = Stroke::new(2.0, ui.visuals().hyperlink_color);

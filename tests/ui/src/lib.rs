@@ -22,9 +22,6 @@ pub const DESKTOP: [f32; 2] = [1280.0, 800.0];
 /// That of a phone.
 pub const PHONE: [f32; 2] = [390.0, 844.0];
 
-/// Pixels a point, in each direction, until somebody [looks](drawn): drawing is a good part of what these tests take.
-const UNSEEN: f32 = 0.5;
-
 /// The app in a window of `size` points that is not there, drawn by a real (software) graphics device. Its samples are
 /// [coarse](Memory::coarse_samples).
 pub fn app(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
@@ -103,7 +100,6 @@ fn app_on(
     let harness = Harness::builder()
         .with_size(size)
         .with_max_steps(4000)
-        .with_pixels_per_point(UNSEEN)
         .with_step_dt(step_dt)
         .wgpu()
         .build_eframe(move |cc| LumenApp::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), Box::new(platform)));
@@ -171,21 +167,6 @@ fn is_settled(state: &State) -> bool {
             .is_some_and(|measured| !measured.deviation.is_empty() && measured.generation == state.generation())
     });
     is_measured && !state.is_busy()
-}
-
-/// What is seen in the window, with a pixel a point; so it is drawn from then on, and what is laid out to whole pixels may
-/// have moved by one.
-///
-/// # Panics
-/// Where it cannot be drawn.
-pub fn drawn(harness: &mut Harness<'_, LumenApp>) -> image::RgbaImage {
-    let pixels_per_point = Some(1.0);
-    if harness.ctx.native_pixels_per_point() != pixels_per_point {
-        let window = harness.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
-        window.native_pixels_per_point = pixels_per_point;
-        harness.run_steps(2);
-    }
-    harness.render().expect("a picture")
 }
 
 /// Presses the pointer's button at a place, moves the pointer, and lets the button go.

@@ -9,7 +9,7 @@ use lumen::app::compare::{Arrangement, Cell, Made, Outcome};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::paper;
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, drawn, says, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drag, says, settle, settle_wholly};
 
 fn press(harness: &mut Harness<'_, LumenApp>, button: &str) {
     harness.get_by_role_and_label(Role::Button, button).click();
@@ -140,7 +140,7 @@ fn a_view_that_is_left_and_opened_again_shows_the_same() {
     let picture = |harness: &mut Harness<'_, LumenApp>| {
         harness.hover_at(egui::pos2(640.0, 20.0));
         harness.run_steps(12);
-        drawn(harness)
+        harness.render().unwrap()
     };
     let before = picture(&mut harness);
     press(&mut harness, "Compare");
@@ -171,7 +171,7 @@ fn all_pictures_turn_together_and_go_with_the_theme_and_the_arrangement() {
         // The pointer would mark the cell that it is over.
         harness.hover_at(egui::pos2(640.0, 20.0));
         harness.run_steps(3);
-        let picture = drawn(harness);
+        let picture = harness.render().unwrap();
         let crop = |rect: &egui::Rect| {
             let rect = rect.shrink(4.0);
             let rows = rect.top() as u32..rect.bottom() as u32;
@@ -262,7 +262,7 @@ fn pictures_of_the_compare_view() {
                 harness.ctx.set_theme(theme);
                 harness.run_steps(3);
                 let name = format!("compare-{name}-{}-{theme:?}", figure.replace(' ', "-")).to_lowercase();
-                let picture = drawn(&mut harness);
+                let picture = harness.render().unwrap();
                 let colours: std::collections::BTreeSet<_> = picture.pixels().map(|pixel| pixel.0).collect();
                 assert!(colours.len() > 200, "{}", colours.len());
                 crate::save(&name, [picture.width(), picture.height()], picture.as_raw());
@@ -273,8 +273,8 @@ fn pictures_of_the_compare_view() {
 
 /// The pixels of a cell's picture below what is written over it.
 fn pixels(harness: &mut Harness<'_, LumenApp>, cell: usize) -> Vec<[u8; 4]> {
-    let whole = drawn(harness);
     let rect = harness.query_all_by_role(Role::RadioButton).nth(cell).unwrap().rect().shrink(3.0);
+    let whole = harness.render().unwrap();
     // Of pictures that are as wide to a pixel.
     let (left, top, width, height) =
         (rect.left().round() as u32, rect.top() as u32 + 30, 300, rect.height() as u32 - 34);

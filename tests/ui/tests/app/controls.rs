@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::filter::Filter;
 use lumen::pipeline::settings::{Method, Target, Window};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, drawn, says, settle};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle};
 
 pub(crate) fn open() -> Harness<'static, LumenApp> {
     let (mut harness, _) = app_in_full(DESKTOP);
@@ -65,7 +65,7 @@ fn the_picture_follows_the_slider_in_the_same_frame() {
     let view = harness.get_by_role_and_label(Role::Image, "Wireframe view").rect().shrink(2.0);
     let picture = |harness: &mut Harness<'_, LumenApp>| {
         let [left, top] = [view.left() as u32, view.top() as u32];
-        let whole = drawn(harness);
+        let whole = harness.render().unwrap();
         // Below the writing.
         let part = (top + 60..view.bottom() as u32).flat_map(|y| (left..view.right() as u32).map(move |x| (x, y)));
         part.map(|(x, y)| whole.get_pixel(x, y).0).collect::<Vec<_>>()

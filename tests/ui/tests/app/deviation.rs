@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::pipeline::deviation::Deviation;
-use lumen_ui_tests::{DESKTOP, app, drawn, says, settle};
+use lumen_ui_tests::{DESKTOP, app, says, settle};
 
 /// The numbers: from the smoothed surface, and from the one that was opened.
 fn numbers(harness: &Harness<'_, LumenApp>) -> [Deviation; 2] {
@@ -66,7 +66,7 @@ fn with_a_sign_small_deviations_are_white_and_the_steps_are_fixed() {
     };
     let at = place(&harness);
     let colour = |harness: &mut Harness<'_, LumenApp>| {
-        let picture = drawn(harness);
+        let picture = harness.render().unwrap();
         picture.get_pixel(at.x as u32, at.y as u32).0.map(i32::from)
     };
     choose(&mut harness, Role::RadioButton, "Colours up to 0.5 mm");

@@ -9,7 +9,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::decimation::Fate;
 use lumen::pipeline::progressive::Level;
 use lumen::pipeline::settings::Target;
-use lumen_ui_tests::{DESKTOP, app, app_in_full, drawn, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle, tube};
 
 use crate::recovery::tell;
 use crate::teaching::click;
@@ -31,7 +31,7 @@ fn the_classes_of_a_tube_are_counted_beside_their_colours() {
     let bytes = tube(4.0, 40.0, 0.8);
     tell(&mut harness, &memory, PlatformEvent::Chosen { name: "tube.obj".to_owned(), bytes });
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
-    let plain = drawn(&mut harness);
+    let plain = harness.render().unwrap();
     for entry in ["Colour by vertex class", "Feature edges and open ends"] {
         click(&mut harness, "View");
         click(&mut harness, entry);
@@ -53,7 +53,7 @@ fn the_classes_of_a_tube_are_counted_beside_their_colours() {
     };
     assert!(ends(true) >= 3 && ends(false) >= 3);
     assert!(says(&harness, &format!("simple {simple}, complex 0, boundary {boundary},")));
-    let coloured = drawn(&mut harness);
+    let coloured = harness.render().unwrap();
     let at = |x: f32, y: f32| (x as u32, y as u32);
     let (x, y) = at(view.center().x, view.center().y);
     assert_ne!(plain.get_pixel(x, y), coloured.get_pixel(x, y), "the surface has other colours");

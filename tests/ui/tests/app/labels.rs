@@ -6,11 +6,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
 use lumen::render::{Colour, contrast};
-use lumen_ui_tests::{DESKTOP, app, drawn, open, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, open, settle_wholly};
 
 /// The contrast of the brightest and the darkest pixel in a part of the window.
 fn contrast_in(harness: &mut Harness<'_, LumenApp>, part: Rect) -> f32 {
-    let picture = drawn(harness);
+    let picture = harness.render().unwrap();
     let [left, right, top, bottom] = [part.left(), part.right(), part.top(), part.bottom()].map(|at| at as u32);
     let colours = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y))).map(|(x, y)| {
         let [r, g, b, _] = picture.get_pixel(x, y).0;
@@ -40,7 +40,7 @@ fn labels_over_the_outside_and_the_inside_of_a_wall_have_their_contrast_in_both_
             let title = Rect::from_min_size(view.left_top() + vec2(13.0, 12.0), vec2(70.0, 18.0));
             let foot = view.left_bottom();
             let scale = Rect::from_min_max(foot + vec2(13.0, -36.0), foot + vec2(90.0, -24.0));
-            let ground = drawn(&mut harness);
+            let ground = harness.render().unwrap();
             for at in [pos2(view.left() + 6.0, view.top() + 20.0), pos2(view.left() + 6.0, view.bottom() - 30.0)] {
                 let [r, g, _, _] = ground.get_pixel(at.x as u32, at.y as u32).0.map(i32::from);
                 assert!(r > g + 20, "{side:?}: the wall is below what is written: {r} {g}");

@@ -5,14 +5,14 @@ use egui::{Rect, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, app, drawn, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, settle, settle_wholly};
 
 /// The sum of all colours in the shaded view, or where the comparison is.
 fn brightness(harness: &mut Harness<'_, LumenApp>) -> u64 {
     let view = harness
         .query_by_role_and_label(Role::Image, "Shaded view")
         .map_or(Rect::from_min_max(pos2(330.0, 120.0), pos2(1270.0, 500.0)), |view| view.rect());
-    let picture = drawn(harness);
+    let picture = harness.render().unwrap();
     let pixels = (view.top() as u32..view.bottom() as u32)
         .flat_map(|y| (view.left() as u32..view.right() as u32).map(move |x| (x, y)));
     pixels.map(|(x, y)| picture.get_pixel(x, y).0[..3].iter().map(|&c| u64::from(c)).sum::<u64>()).sum()

@@ -12,7 +12,7 @@ use lumen::phantom::Sample;
 use lumen::pipeline::settings::{Preset, Settings, Target};
 use lumen::sharing::measures::{Found, MadeOn, Measure};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, drawn, offered, open, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, Memory, PHONE, app, offered, open, says, settle, settle_wholly, tube};
 
 type Shared = std::rc::Rc<std::cell::RefCell<Memory>>;
 
@@ -263,7 +263,7 @@ fn the_clip_plane_opens_the_surface_in_both_views_and_is_flipped() {
         harness.run_steps(3);
         let (views, at) = (["Shaded view", "Wireframe view"], spot(harness, Vec3::new(0.0, 0.0, z)));
         let wireframe = harness.get_by_role_and_label(Role::Image, "Wireframe view").rect();
-        let picture = drawn(harness);
+        let picture = harness.render().unwrap();
         views.map(|view| {
             let rect = harness.get_by_role_and_label(Role::Image, view).rect();
             let at = rect.min + (at - wireframe.min);

@@ -4,7 +4,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, PHONE, app, drawn, open, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, open, says, settle, settle_wholly, tube};
 
 fn press(harness: &mut Harness<'_, LumenApp>, role: Role, label: &str) {
     harness.get_by_role_and_label(role, label).click();
@@ -128,6 +128,6 @@ fn a_phone_has_room_for_it() {
 
 /// Leaves a picture to look at.
 fn picture(harness: &mut Harness<'_, LumenApp>, name: &str) {
-    let picture = drawn(harness);
+    let picture = harness.render().unwrap();
     crate::save(name, [picture.width(), picture.height()], picture.as_raw());
 }

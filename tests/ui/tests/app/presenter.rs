@@ -5,10 +5,10 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::LumenApp;
-use lumen_ui_tests::{DESKTOP, PHONE, app, drawn, says, settle};
+use lumen_ui_tests::{DESKTOP, PHONE, app, says, settle};
 
 fn picture(harness: &mut Harness<'_, LumenApp>) -> Vec<[u8; 4]> {
-    drawn(harness).pixels().map(|pixel| pixel.0).collect()
+    harness.render().unwrap().pixels().map(|pixel| pixel.0).collect()
 }
 
 /// How many pixels of the page are not as they were.

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::LumenApp;
 use lumen::pipeline::settings::Keep;
-use lumen_ui_tests::{DESKTOP, app, drag, drawn, moving_app, settle, settle_wholly};
+use lumen_ui_tests::{DESKTOP, app, drag, moving_app, settle, settle_wholly};
 
 /// The line in the shaded view.
 const LINE: &str = "Divider between as opened and now";
@@ -35,7 +35,7 @@ fn the_line_parts_what_was_opened_from_what_it_has_become() {
 
 /// The pixels between two parts of the width of a view.
 fn part(harness: &mut Harness<'_, LumenApp>, view: egui::Rect, left: f32, right: f32) -> Vec<[u8; 4]> {
-    let picture = drawn(harness);
+    let picture = harness.render().unwrap();
     let x = (view.left() + left * view.width()) as u32..(view.left() + right * view.width()) as u32;
     let y = (view.top() + 110.0) as u32..(view.bottom() - 130.0) as u32;
     Vec::from_iter(y.flat_map(|y| x.clone().map(move |x| (x, y))).map(|(x, y)| picture.get_pixel(x, y).0))
@@ -135,7 +135,7 @@ fn laplacian_smoothing_is_seen_at_the_left_of_the_line_and_goes_again() {
     let line = harness.get_by_role_and_label(Role::Slider, "Divider between as opened and now").rect().center().x;
     // The pixels that are not as they were, at the left of the line and at its right.
     let picture = |harness: &mut Harness<'_, LumenApp>| -> Vec<[u8; 4]> {
-        drawn(harness).pixels().map(|pixel| pixel.0).collect()
+        harness.render().unwrap().pixels().map(|pixel| pixel.0).collect()
     };
     let changed = |before: &[[u8; 4]], after: &[[u8; 4]]| {
         let at = |x: u32, y: u32| y as usize * DESKTOP[0] as usize + x as usize;

@@ -11,7 +11,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::scan::NamedFile;
 use lumen::io::{Axes, Format, ImportOptions, read, write};
 use lumen::phantom::{Sample, generate};
-use lumen_ui_tests::{DESKTOP, Kept, Memory, app, drawn, offered, page, says, settle};
+use lumen_ui_tests::{DESKTOP, Kept, Memory, app, offered, page, says, settle};
 
 use crate::recovery::{choose, tell};
 
@@ -173,7 +173,7 @@ fn choose_sample(harness: &mut Harness<'_, LumenApp>) {
 
 /// What both views show; the whole window is also written beside what is built, to be looked at.
 fn picture(harness: &mut Harness<'_, LumenApp>, name: &str) -> Vec<[u8; 4]> {
-    let picture = drawn(harness);
+    let picture = harness.render().unwrap();
     crate::save(&format!("slices-{name}"), [picture.width(), picture.height()], picture.as_raw());
     // Beside the panel, above the bar below.
     let places = (140..picture.height() - 60).flat_map(|y| (460..picture.width()).map(move |x| (x, y)));

@@ -8,7 +8,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::engine::Calibre;
 use lumen::pipeline::settings::Smoothing;
 use lumen::vessel::certificate::Verdict;
-use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, drawn, offered, says, settle, tube};
+use lumen_ui_tests::{DESKTOP, PHONE, app, app_in_full, offered, says, settle, tube};
 
 /// What the level makes of the vessels, once that is known: it comes after the other numbers.
 fn calibre(harness: &mut Harness<'_, LumenApp>) -> Calibre {
@@ -79,7 +79,7 @@ fn colours_show_one_thing_at_a_time_and_change_the_picture() {
     let mut harness = vessels(DESKTOP);
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect().shrink(2.0);
     let middle = |harness: &mut Harness<'_, LumenApp>| {
-        let picture = drawn(harness);
+        let picture = harness.render().unwrap();
         picture.get_pixel(view.center().x as u32, view.center().y as u32).0
     };
     let plain = middle(&mut harness);

@@ -3,7 +3,7 @@
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use lumen_ui_tests::{PHONE, app, drag, drawn, settle};
+use lumen_ui_tests::{PHONE, app, drag, settle};
 
 use crate::controls::{open, safe_percent};
 
@@ -31,25 +31,25 @@ fn the_views_turn_under_a_drag_and_show_the_surface_as_opened_while_b_is_held() 
     let mut harness = open();
     // What comes in the background changes the panel, and must not come between two pictures.
     safe_percent(&mut harness);
-    let picture = drawn(&mut harness);
+    let picture = harness.render().unwrap();
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
     drag(&mut harness, view.center(), egui::vec2(80.0, 0.0));
-    let turned = drawn(&mut harness);
+    let turned = harness.render().unwrap();
     assert_ne!(picture.as_raw(), turned.as_raw());
     harness.key_down(Key::B);
     harness.run_steps(2);
-    let before = drawn(&mut harness);
+    let before = harness.render().unwrap();
     assert_ne!(before.as_raw(), turned.as_raw());
     harness.key_up(Key::B);
     harness.run_steps(2);
-    assert_eq!(drawn(&mut harness).as_raw(), turned.as_raw());
+    assert_eq!(harness.render().unwrap().as_raw(), turned.as_raw());
     // A slider that was moved keeps the focus.
     harness.get_by_role_and_label(Role::Slider, "Pass band").focus();
     harness.run_steps(2);
-    let focused = drawn(&mut harness);
+    let focused = harness.render().unwrap();
     harness.key_down(Key::B);
     harness.run_steps(2);
-    assert_ne!(drawn(&mut harness).as_raw(), focused.as_raw());
+    assert_ne!(harness.render().unwrap().as_raw(), focused.as_raw());
 }
 
 #[test]

@@ -12,7 +12,6 @@ mod telling;
 
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use lumen_ui_tests::drawn;
 use lumen_ui_tests::told::App;
 
 /// What is offered where smoothing left no room for the wire.
@@ -29,7 +28,7 @@ fn unfold(harness: &mut App) {
 /// The part of the window in which a view is, below its writing.
 fn picture(harness: &mut App, view: &str) -> Vec<[u8; 4]> {
     let rect = harness.get_by_role_and_label(Role::Image, view).rect().shrink(2.0);
-    let whole = drawn(harness);
+    let whole = harness.render().unwrap();
     let rows = rect.top() as u32 + 90..rect.bottom() as u32 - 30;
     rows.flat_map(|y| (rect.left() as u32..rect.right() as u32).map(move |x| (x, y)))
         .map(|(x, y)| whole.get_pixel(x, y).0)

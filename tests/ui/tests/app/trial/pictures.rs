@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use lumen::phantom::Sample;
 use lumen_ui_tests::told::{App, DESKTOP, PHONE, as_the_paper, open_coronary, press, start, wait};
-use lumen_ui_tests::{app, drawn, settle};
+use lumen_ui_tests::{app, settle};
 
 use super::ADAPT;
 
@@ -60,7 +60,7 @@ fn pictures_of_the_trial() {
 }
 
 fn save(harness: &mut App, name: &str) {
-    let picture = drawn(harness);
+    let picture = harness.render().unwrap();
     let colours: std::collections::BTreeSet<_> = picture.pixels().map(|pixel| pixel.0).collect();
     assert!(colours.len() > 200, "{}", colours.len());
     crate::save(name, [picture.width(), picture.height()], picture.as_raw());

@@ -6,7 +6,6 @@ use lumen::engine::trial::TrialEvent;
 use lumen::trial::frame::{Frame, Progress, Touch};
 use lumen::trial::report::{StepCounts, StepKind, StepReport};
 use lumen::trial::summary::Summary;
-use lumen_ui_tests::drawn;
 use lumen_ui_tests::told::{
     App, DESKTOP, FIRST, asked, at_entry, ended, frame, id_of_start, now, on, press, says, tell,
 };
@@ -101,7 +100,7 @@ fn a_fork_that_was_missed_is_gone_to_and_ringed_until_the_wire_is_back_at_its_en
     let view = harness.get_by_role_and_label(Role::Image, "Trial view").rect();
     // The part of a circle of 14 points about the middle of the view that is red.
     let ringed = |harness: &mut App| {
-        let picture = drawn(harness);
+        let picture = harness.render().unwrap();
         let is_red = |i: &i32| {
             let angle = std::f32::consts::TAU * *i as f32 / 64.0;
             let at = view.center() + egui::vec2(14.0 * angle.cos(), 14.0 * angle.sin());
@@ -113,7 +112,7 @@ fn a_fork_that_was_missed_is_gone_to_and_ringed_until_the_wire_is_back_at_its_en
     // The parts of the fluoroscopy that are red: of the ring and its words alone.
     let red = |harness: &mut App| {
         let place = harness.get_by_role_and_label(Role::Image, "Fluoroscopy view").rect();
-        let picture = drawn(harness);
+        let picture = harness.render().unwrap();
         let points = (place.top() as u32..place.bottom() as u32)
             .flat_map(|y| (place.left() as u32..place.right() as u32).map(move |x| (x, y)));
         let is_red = |&(x, y): &(u32, u32)| {
