@@ -4,42 +4,15 @@
 //!
 //! By its licence (Ubuntu Font Licence 1.0, 2c) what was changed is called "derivative" and what of. `write-fonts` could
 //! do it too, for a minute of compiling in every profile.
-//!
-//! Puts together what the program says in English, without comments and empty lines: a sixth of it.
-
-use std::path::Path;
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed=locales/en");
-    let folder = std::env::var_os("OUT_DIR").expect("cargo sets it");
-    std::fs::write(Path::new(&folder).join("english.ftl"), english()).expect("the folder is cargo's own");
     #[cfg(feature = "gui")]
     {
+        let folder = std::env::var_os("OUT_DIR").expect("cargo sets it");
         let font = letters::without_instructions(epaint_default_fonts::UBUNTU_LIGHT).expect("it is a TrueType font");
-        std::fs::write(Path::new(&folder).join("letters.ttf"), font).expect("the folder is cargo's own");
+        std::fs::write(std::path::Path::new(&folder).join("letters.ttf"), font).expect("the folder is cargo's own");
     }
-}
-
-/// The messages of `locales/en`, one file after another in the order of their names.
-fn english() -> String {
-    let files = std::fs::read_dir("locales/en").expect("it is there");
-    let mut paths: Vec<_> = files.map(|file| file.expect("it can be listed").path()).collect();
-    paths.sort();
-    let mut all = String::new();
-    for path in paths {
-        let text = std::fs::read_to_string(path).expect("it can be read");
-        // An empty line ends a message unless an indented one follows.
-        let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
-        for (i, line) in lines.iter().enumerate() {
-            let next = lines[i + 1..].iter().find(|line| !line.is_empty());
-            if !line.is_empty() || next.is_some_and(|next| next.starts_with(' ')) {
-                all.push_str(line);
-                all.push('\n');
-            }
-        }
-    }
-    all
 }
 
 #[cfg(feature = "gui")]

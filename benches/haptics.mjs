@@ -8,7 +8,7 @@ import { dist, dragTo, eventually, frames, launch, openApp, press, texts, twin }
 
 const [file, seconds = 20] = process.argv.slice(2);
 const text = (name) => readFile(new URL(name, import.meta.url), "utf8");
-const collections = `const COLLECTIONS = ${await text("../tests/haptics/feeder-collections.json")};`;
+const collections = `const COLLECTIONS = ${await text("../crates/lumen-haptics/fixtures/feeder-collections.json")};`;
 const fake = [collections, await text("../tests/browser/fake-feeder.js"), await text("../tests/browser/fake-hid.js")].join("\n");
 const browser = await launch();
 const ends = [];

@@ -34,25 +34,25 @@
 
 #[cfg(feature = "gui")]
 pub mod app;
-mod chance;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;
 #[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
 pub mod desktop;
 pub mod engine;
-pub mod haptics;
-pub mod io;
-pub mod language;
-pub mod mesh;
-pub mod parallel;
-pub mod phantom;
-pub mod pipeline;
-#[cfg(feature = "gui")]
-pub mod render;
 pub mod report;
 pub mod sharing;
-pub mod task;
-pub mod transfer;
-pub mod trial;
-pub mod vessel;
-pub mod volume;
+
+pub use lumen_haptics as haptics;
+pub use lumen_io as io;
+pub use lumen_language as language;
+pub use lumen_language::say;
+pub use lumen_mesh as mesh;
+pub use lumen_mesh::{parallel, task};
+pub use lumen_pipeline as pipeline;
+#[cfg(feature = "gui")]
+pub use lumen_render as render;
+pub use lumen_transfer as transfer;
+pub use lumen_trial as trial;
+pub use lumen_vessel as vessel;
+pub use lumen_vessel::phantom;
+pub use lumen_volume as volume;

@@ -210,7 +210,7 @@ class Heart:
 
 def read_vessels(name):
     """(name, parent, whether the far end is open, control points) of each vessel, out of the Rust source, which alone has the coordinates."""
-    source = re.sub(r"//.*", "", (ROOT / f"src/phantom/{name}.rs").read_text())
+    source = re.sub(r"//.*", "", (ROOT / f"crates/lumen-vessel/src/phantom/{name}.rs").read_text())
     heart, names = Heart(), dict(re.findall(r'const (\w+): &str = "(.*?)";', source))
     places = {key: heart.at(*map(float, at.split(",")))
               for key, at in re.findall(r"let (division) = heart\.at\((.*?)\)", source)}

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::misuse::misuse;
 use super::source::UnitOption;
@@ -19,7 +20,7 @@ pub(super) struct SettingsOptions {
     settings: Option<PathBuf>,
     /// How to smooth: auto leaves every vessel its calibre and makes no triangles cross; paper is 0.01 and 100 iterations
     /// everywhere [default: auto]
-    #[arg(long, value_name = "NAME", value_enum, ignore_case = true)]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&Preset::ALL, Preset::name), ignore_case = true)]
     smoothing: Option<Preset>,
     /// Pass band of the smoothing filter, 0.001 to 2; with auto that of wide vessels [auto and paper: 0.01]
     #[arg(long, value_name = "F")]
@@ -28,7 +29,7 @@ pub(super) struct SettingsOptions {
     #[arg(long, value_name = "N")]
     iterations: Option<u32>,
     /// Window of the smoothing filter [hamming]
-    #[arg(long, value_name = "NAME", value_enum, ignore_case = true)]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&Window::ALL, Window::name), ignore_case = true)]
     window: Option<Window>,
     /// Hold the volume to 0.01 % of what it is before smoothing, open ends capped
     #[arg(long)]
@@ -51,7 +52,7 @@ pub(super) struct SettingsOptions {
     #[arg(long, value_name = "MM", value_parser = micrometres, conflicts_with_all = ["reduction", "triangles"])]
     max_deviation: Option<u32>,
     /// How to reduce [default: schroeder]
-    #[arg(long, value_name = "NAME", value_enum, ignore_case = true)]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&Method::ALL, Method::name), ignore_case = true)]
     method: Option<Method>,
     /// Edges sharper than this are kept as edges, degrees, 0 to 180; for schroeder [default: 60]
     #[arg(long, value_name = "DEG")]
@@ -183,38 +184,13 @@ fn read(path: &Path) -> Result<SharedSettings> {
     sharing::read_settings(&bytes).with_context(name)
 }
 
-impl ValueEnum for Window {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-        Some(clap::builder::PossibleValue::new(self.name().to_lowercase()))
-    }
-}
-
-impl ValueEnum for Preset {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-        Some(clap::builder::PossibleValue::new(match self {
-            Self::Auto => "auto",
-            Self::Paper => "paper",
-            Self::None => "none",
-        }))
-    }
-}
-
-impl ValueEnum for Method {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-        Some(clap::builder::PossibleValue::new(self.name().to_lowercase()))
-    }
+/// Parses one of `all` by its name.
+fn one_of<T: Copy + Send + Sync>(all: &'static [T], name: fn(T) -> &'static str) -> impl TypedValueParser<Value = T> {
+    let word = move |value: &T| name(*value).to_lowercase();
+    PossibleValuesParser::new(all.iter().map(word)).map(move |given| {
+        let found = all.iter().find(|value| word(value).eq_ignore_ascii_case(&given));
+        *found.expect("clap lets no other value through")
+    })
 }
 
 /// How far to reduce.

@@ -284,7 +284,7 @@ mod tests {
     use crate::io::ImportOptions;
     use crate::phantom::Sample;
     use crate::pipeline::settings::Keep;
-    use crate::transfer::tests::sent;
+    use crate::transfer::sent;
 
     #[test]
     fn every_event_of_a_run_and_every_command_comes_through_unchanged() {

@@ -1,6 +1,6 @@
 // The open feeder behind `navigator.hid`, as a browser would have it: in the page, where it can be asked for, and in the
 // Worker, where its reports go. A script for either, after fake-feeder.js; COLLECTIONS is what Chromium tells of its descriptor
-// (tests/haptics/feeder-collections.json). Exact lengths, states and user activation are enforced as WebHID says.
+// (crates/lumen-haptics/fixtures/feeder-collections.json). Exact lengths, states and user activation are enforced as WebHID says.
 //
 // Page and Worker share a channel: the test moves the hand and pulls the plug in the page, and reads there what the
 // device has heard. With SERVED_IN_PAGE, in front of this script, Workers have no `navigator.hid`, as before Chromium 131, and

@@ -9,14 +9,14 @@ import { atEntry, atRest, fed, inserted, says, settled } from "./app.mjs";
 import { COARSE, dist, eventually, frames, launch, openApp, press, started, twin } from "./browser.mjs";
 
 const beside = (name) => readFile(new URL(name, import.meta.url), "utf8");
-const [feeder, collections] = [await beside("fake-feeder.js"), await beside("../haptics/feeder-collections.json")];
+const [feeder, collections] = [await beside("fake-feeder.js"), await beside("../../crates/lumen-haptics/fixtures/feeder-collections.json")];
 const fake = [`const COLLECTIONS = ${collections};`, feeder, await beside("fake-hid.js")].join("\n");
 /** The same where Workers have no WebHID: before Chromium 131. */
 const fakeInPage = `const SERVED_IN_PAGE = true;\n${fake}`;
 
 /** The feeder at a serial port, in a browser without WebHID: its descriptor's bytes are those of the app's source. */
 async function bySerial() {
-  const source = await beside("../../src/haptics/feeder.rs");
+  const source = await beside("../../crates/lumen-feeder-protocol/src/feeder.rs");
   const table = source.slice(source.indexOf("DESCRIPTOR: &[u8]")).replace(/\/\/.*/g, "");
   const descriptor = (table.match(/0x[0-9A-F]{2}\b/g) ?? []).map(Number);
   const known = `const FEEDER = { collections: ${collections}, descriptor: ${JSON.stringify(descriptor)} };`;

@@ -10,6 +10,7 @@ use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::pipeline::task::Budget;
 use lumen::trial::audit::Audit;
+use lumen::trial::route::{Proposals as _, Routes as _};
 use lumen::vessel::{Tree, TreeError};
 
 /// File; least and most ends; least and most length in mm of the route from the best entry to the best target; a wire that

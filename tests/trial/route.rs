@@ -9,7 +9,7 @@ use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Target};
 use lumen::pipeline::task::Budget;
 use lumen::trial::audit::Audit;
-use lumen::trial::route::{Route, phantom_task};
+use lumen::trial::route::{Route, Routes as _, phantom_task};
 use lumen::vessel::Tree;
 
 /// What is left of the surface at a reduction of so many tenths of a percent, for each.

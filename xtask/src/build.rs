@@ -100,7 +100,7 @@ fn lay_out(made: &Path) -> Result<()> {
         std::fs::copy(&file, made.join(name)).with_context(|| format!("{} cannot be copied", file.display()))?;
     }
     for tag in LANGUAGES {
-        let mut files = files_below(&root().join("locales").join(tag))?;
+        let mut files = files_below(&root().join("crates/lumen-language/locales").join(tag))?;
         files.sort();
         let texts: Vec<String> = files.iter().map(std::fs::read_to_string).collect::<Result<_, _>>()?;
         std::fs::write(made.join(format!("lumen-{tag}.{MESSAGES}")), texts.join("\n"))?;
@@ -180,7 +180,7 @@ fn inputs() -> Result<String> {
     let mut files = files_below(&root().join("www"))?;
     files.push(root().join("xtask/npm/package-lock.json"));
     for tag in LANGUAGES {
-        files.extend(files_below(&root().join("locales").join(tag))?);
+        files.extend(files_below(&root().join("crates/lumen-language/locales").join(tag))?);
     }
     files.extend(PROGRAMS.map(compiled));
     files.push(std::env::current_exe()?);

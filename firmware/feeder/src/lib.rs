@@ -6,20 +6,17 @@
 //! ```
 //!
 //! [`device`] joins these, a ms at a time. Reports come by USB's human interface or by [`serial`]; [`turn`] says which of both
-//! is heard. The report descriptor, the ids and the frames on the serial line are Lumen's own files, [`feeder`] and
-//! [`framing`]: the firmware cannot say anything else. Lumen's virtual feeder is the same device written a second time; a test of Lumen's gives both
-//! the same reports.
+//! is heard. The report descriptor, the ids and the frames on the serial line ([`feeder`], [`framing`]) are the crate that Lumen
+//! uses too. Lumen's virtual feeder is the same device written a second time; a test of Lumen's gives both the same reports.
 
 #![no_std]
 
 pub mod axis;
 pub mod device;
 pub mod effects;
-#[path = "../../../src/haptics/feeder.rs"]
-pub mod feeder;
-#[path = "../../../src/haptics/framing.rs"]
-pub mod framing;
 pub mod motor;
 pub mod quadrature;
 pub mod serial;
 pub mod turn;
+
+pub use lumen_feeder_protocol::{feeder, framing};

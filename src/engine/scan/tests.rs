@@ -3,7 +3,7 @@
 use super::super::machine::Machine;
 use super::*;
 use crate::mesh::Topology;
-use crate::transfer::tests::sent;
+use crate::transfer::sent;
 use crate::volume::{Axis, Region, Selection};
 
 const RADIUS: f32 = 12.0;

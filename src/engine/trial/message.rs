@@ -289,7 +289,7 @@ fn sentence(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transfer::tests::sent;
+    use crate::transfer::sent;
     use crate::trial::frame::Progress;
     use crate::trial::report::{StepCounts, StepKind, StepReport};
     use crate::trial::route::WayEnd;

@@ -84,7 +84,7 @@ mod tests {
             endings.push(glob.split('"').next().unwrap().to_owned());
         }
         // As `lumen --help` and the window's dialog have them (`Format::OPENED`).
-        let formats = text("src/io/format.rs");
+        let formats = text("crates/lumen-io/src/format.rs");
         let (_, opened) = formats.split_once("pub const OPENED:").unwrap();
         let (_, opened) = opened.split_once("= [").unwrap();
         let (opened, _) = opened.split_once(']').unwrap();

@@ -1,0 +1,101 @@
+//! Bytes to mesh and back, one file a format, with a report of what was found and what was mended.
+//!
+//! Reading is two steps. A format's file (`stl`, `obj`) or folder (`ply`, `gltf`, `vtk`) turns bytes into the polygons that stand in
+//! them and judges nothing but its own syntax; the import stage (`import`) then welds, triangulates, cleans and
+//! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
+//! the content first and by the extension only where the content does not say (`detect`).
+//!
+//! Scans and masks are read by `volume` (feature `scans`), which knows nothing of the rest but its texts and errors.
+//!
+//! glTF has y upwards by its specification and Lumen z: it is turned on the way in and back on the way out. Which way a
+//! patient lies is known only where a file says so (`axes`).
+//!
+//! Numbers in a file are millimetres unless [`ImportOptions::unit`] says otherwise; glTF is metres, as its
+//! specification has it. Nothing is rescaled silently: a size that no vessel has draws a warning.
+//!
+//! A surface far from the origin of its coordinates is read relative to a place within it (`far`), so that its detail
+//! is not rounded away; the report says by what it was moved.
+//!
+//! No memory is allocated because a header claims it: every count is checked against the bytes that are there, and what
+//! a few bytes unfold to against the room that a file of their number has (`room`).
+
+mod axes;
+mod columns;
+mod detect;
+mod error;
+mod estimate;
+mod far;
+mod format;
+mod gltf;
+mod import;
+mod numbers;
+mod obj;
+mod output;
+mod pace;
+mod parsing;
+mod places;
+mod ply;
+mod polygons;
+mod raw;
+mod reading;
+mod report;
+mod room;
+mod size;
+mod stl;
+mod text;
+#[cfg(feature = "scans")]
+pub mod volume;
+mod vtk;
+mod warnings;
+mod weld;
+
+pub use axes::{Axes, UnknownAxes};
+pub use detect::may_be_volume;
+pub use error::{ReadError, WriteError};
+pub use estimate::{Estimate, estimate};
+pub use format::{Format, Unit, UnknownUnit};
+pub use import::import_mesh;
+pub use output::Output;
+pub use places::left_out;
+pub use reading::{Reading, read};
+pub use report::{ImportReport, Imported, Skipped};
+pub use size::UnusualSize;
+pub use warnings::NO_INSIDE;
+
+use serde::{Deserialize, Serialize};
+
+use lumen_mesh::{TriMesh, Vec3};
+
+/// What the user says about a file that the file does not say itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ImportOptions {
+    /// The unit of the file's numbers; `None` takes millimetres, and metres for glTF.
+    pub unit: Option<Unit>,
+}
+
+/// The bytes of `mesh` in `format`, in mm (GLB: in mm under a node scale of 0.001, since glTF is metres, and with y
+/// upwards).
+/// `normals` are unit vectors, one a vertex; STL has no place for them and writes each facet's own.
+/// The same mesh gives the same bytes everywhere.
+///
+/// # Errors
+/// [`WriteError`] when the mesh is empty or not well formed, or too large for the format.
+pub fn write(mesh: &TriMesh, normals: Option<&[Vec3]>, format: Format) -> Result<Vec<u8>, WriteError> {
+    write_output(&Output { normals, ..Output::new(mesh) }, format)
+}
+
+/// As [`write`], with arrays and axes beside. Arrays that the format has no place for are not written ([`left_out`]).
+///
+/// # Errors
+/// [`WriteError`] as there, and when an array has another length than the surface.
+pub fn write_output(output: &Output, format: Format) -> Result<Vec<u8>, WriteError> {
+    output.check()?;
+    match format {
+        Format::Stl => stl::write(output),
+        Format::Ply => Ok(ply::write(output)),
+        Format::Obj => Ok(obj::write(output)),
+        Format::Vtp => Ok(vtk::write_xml(output)),
+        Format::Vtk => vtk::write_legacy(output),
+        Format::Glb => gltf::write(output),
+    }
+}

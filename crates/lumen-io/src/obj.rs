@@ -1,0 +1,313 @@
+//! OBJ (Wavefront 1995): lines of text, of which `v` and `f` make the surface.
+//!
+//! Three numbers after the coordinates of every vertex are its colour, the array `RGB`, as ZBrush and MeshLab write it.
+//! Where faces stand in several groups (`g`, or `o`), their array `Groups` says in which, by the order in which groups are
+//! first named, from 1; 0 is before any. Texture coordinates, normals and materials are passed over. The crate `tobj` is not used: it
+//! splits the surface by group and material, takes a face of two corners for a line without saying so, and fans
+//! concave faces.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::mem;
+
+use glam::DVec3;
+
+use super::error::ReadError;
+use super::output::Output;
+use super::polygons::Faces;
+use super::raw::RawSurface;
+use super::room::Room;
+use super::text;
+use lumen_language::say;
+use lumen_mesh::arrays::{On, Scalar, Values};
+use lumen_mesh::task::{Budget, Progress};
+use lumen_mesh::{Array, Vec3};
+
+/// Lines between two looks at the clock.
+const BLOCK: usize = 1 << 14;
+
+/// Whether a text without a telling name has vertices as OBJ writes them among its first lines.
+pub(super) fn looks_like(bytes: &[u8]) -> bool {
+    let mut lines = bytes[..bytes.len().min(4096)].split(|&byte| byte == b'\n');
+    text::is_text(bytes)
+        && lines.any(|line| {
+            let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+            words.next() == Some(b"v") && (0..3).all(|_| words.next().and_then(text::number::<f32>).is_some())
+        })
+}
+
+/// An OBJ file on its way to a surface, in slices, with positions relative to an origin.
+pub(super) struct Parsing {
+    origin: DVec3,
+    /// Where the next line begins, behind a byte-order mark, and its number.
+    at: usize,
+    line: usize,
+    positions: Vec<Vec3>,
+    faces: Faces,
+    colours: Values,
+    groups: Groups,
+    lines: usize,
+    points: usize,
+    faces_read: usize,
+    /// The farthest vertex that a face names, and that face.
+    farthest: (u32, usize),
+}
+
+impl Parsing {
+    /// Of `bytes`, which are handed over again with each slice.
+    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
+        if !text::is_text(bytes) {
+            let problem = say!("errors-no-text");
+            return Err(ReadError::Malformed { format: "OBJ", problem });
+        }
+        Ok(Self {
+            origin,
+            at: 0,
+            line: 1,
+            positions: Vec::new(),
+            faces: Faces::default(),
+            colours: Values::new(Scalar::F32),
+            groups: Groups::default(),
+            lines: 0,
+            points: 0,
+            faces_read: 0,
+            farthest: (0, 0),
+        })
+    }
+
+    pub(super) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        let text = text::without_mark(bytes);
+        let mut lines = Lines { bytes: text, at: self.at, line: self.line };
+        loop {
+            for _ in 0..BLOCK {
+                let Some((line, row)) = lines.next() else { return Progress::Done(self.surface(bytes.len())) };
+                if let Err(error) = self.take(line, &row) {
+                    return Progress::Done(Err(error));
+                }
+            }
+            if budget.is_spent() {
+                (self.at, self.line) = (lines.at, lines.line);
+                return Progress::Working(self.at.min(text.len()) as f32 / text.len().max(1) as f32);
+            }
+        }
+    }
+
+    /// Takes a line.
+    fn take(&mut self, line: usize, row: &[u8]) -> Result<(), ReadError> {
+        let mut words = row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let syntax = |problem: String| ReadError::Syntax { format: "OBJ", line, problem };
+        match words.next() {
+            Some(b"v") => {
+                let mut coordinates = [0.0; 3];
+                for (coordinate, origin) in coordinates.iter_mut().zip(self.origin.to_array()) {
+                    let word = words.next().ok_or_else(|| syntax(say!("errors-obj-vertex")))?;
+                    let broken = || syntax(say!("errors-no-coordinate", word = text::quoted(word)));
+                    *coordinate = text::coordinate(word, origin).ok_or_else(broken)?;
+                }
+                let colour: [Option<f32>; 3] = std::array::from_fn(|_| words.next().and_then(text::number));
+                if let ([Some(r), Some(g), Some(b)], None, true) =
+                    (colour, words.next(), self.colours.len() == 3 * self.positions.len())
+                {
+                    [r, g, b].iter().for_each(|&part| self.colours.push(f64::from(part)));
+                }
+                self.positions.push(Vec3::from(coordinates));
+            }
+            Some(b"f") => {
+                self.faces_read += 1;
+                for word in words {
+                    // A corner is v, v/vt, v//vn or v/vt/vn.
+                    let vertex = word.split(|&byte| byte == b'/').next().unwrap_or(word);
+                    let broken = || syntax(say!("errors-no-vertex", word = text::quoted(word)));
+                    let index: i64 = text::number(vertex).ok_or_else(broken)?;
+                    // Negative numbers count back from the vertex read last; positive ones may look ahead.
+                    let place =
+                        if index < 0 { index.checked_add(self.positions.len() as i64) } else { index.checked_sub(1) };
+                    let corner =
+                        place.and_then(|place| u32::try_from(place).ok()).ok_or(ReadError::IndexOutOfRange {
+                            format: "OBJ",
+                            face: self.faces_read,
+                            index,
+                            vertices: self.positions.len(),
+                        })?;
+                    self.farthest = self.farthest.max((corner, self.faces_read));
+                    self.faces.push_corner(corner);
+                }
+                self.faces.of_cell(self.groups.present);
+                self.faces.finish_face();
+            }
+            Some(b"g" | b"o") => self.groups.enter(row.get(1..).unwrap_or_default().trim_ascii()),
+            Some(b"l") => self.lines += 1,
+            Some(b"p") => self.points += 1,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// The surface, once all lines are read, of a file of `file` bytes.
+    fn surface(&mut self, file: usize) -> Result<RawSurface, ReadError> {
+        let (corner, face) = self.farthest;
+        if face > 0 && corner as usize >= self.positions.len() {
+            let (index, vertices) = (i64::from(corner) + 1, self.positions.len());
+            return Err(ReadError::IndexOutOfRange { format: "OBJ", face, index, vertices });
+        }
+        let mut raw = RawSurface::of_faces("OBJ", mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        (raw.has_doubles, raw.origin) = (true, self.origin);
+        raw.skipped.lines = self.lines;
+        raw.skipped.points = self.points;
+        let mut arrays = Vec::new();
+        if self.colours.len() == 3 * raw.positions.len() {
+            let colours = mem::replace(&mut self.colours, Values::new(Scalar::F32));
+            arrays.push(Array::new("RGB", On::Point, 3, colours));
+        }
+        // The cell of a triangle is its group here.
+        if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
+            let numbers = Values::of(Scalar::I32, (0..=self.groups.numbers.len()).map(|group| group as f64));
+            arrays.push(Array::new("Groups", On::Triangle, 1, numbers));
+        }
+        raw.carry((arrays, Vec::new()), Room::of(file));
+        Ok(raw)
+    }
+}
+
+/// The groups that faces are in.
+#[derive(Default)]
+struct Groups {
+    /// From 1, in the order in which they are first named.
+    numbers: BTreeMap<Vec<u8>, u32>,
+    /// That of the next face.
+    present: u32,
+}
+
+impl Groups {
+    /// Faces that follow are in the group `name`.
+    fn enter(&mut self, name: &[u8]) {
+        let next = self.numbers.len() as u32 + 1;
+        self.present = match self.numbers.get(name) {
+            Some(&number) => number,
+            None => *self.numbers.entry(name.to_owned()).or_insert(next),
+        };
+    }
+}
+
+/// The lines of a text with their numbers, those that end in a backslash joined with the next.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    /// Where the next one begins: behind the text where there is none.
+    at: usize,
+    line: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn physical(&mut self) -> Option<&'a [u8]> {
+        let rest = self.bytes.get(self.at..)?;
+        let length = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+        self.at += length + 1;
+        self.line += 1;
+        Some(&rest[..length])
+    }
+
+    fn next(&mut self) -> Option<(usize, Cow<'a, [u8]>)> {
+        let number = self.line;
+        let mut line = Cow::Borrowed(self.physical()?);
+        while let Some(start) = line.trim_ascii_end().strip_suffix(b"\\") {
+            let length = start.trim_ascii_end().len();
+            let joined = line.to_mut();
+            joined.truncate(length);
+            joined.push(b' ');
+            joined.extend_from_slice(self.physical().unwrap_or_default());
+        }
+        Some((number, line))
+    }
+}
+
+/// The one array that is written, a colour behind the coordinates: the first that can be one.
+pub(super) fn colour_of(arrays: &[Array]) -> Option<&Array> {
+    let is_named = |array: &Array| array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
+    let has_shape = |array: &Array| array.on == On::Point && matches!(array.components, 3 | 4);
+    arrays.iter().find(|array| is_named(array) && has_shape(array))
+}
+
+/// The parts of a vertex's colour, from 0 to 1.
+fn colour(array: &Array, vertex: usize) -> [f32; 3] {
+    let most = match array.values.scalar() {
+        Scalar::U8 => 255.0,
+        Scalar::U16 => 65535.0,
+        _ => 1.0,
+    };
+    std::array::from_fn(|part| (array.values.get(vertex * array.components + part) / most) as f32)
+}
+
+/// Text with the shortest numbers that read back to the same bits.
+pub(super) fn write(output: &Output) -> Vec<u8> {
+    let Output { mesh, normals, axes, .. } = *output;
+    let colours = colour_of(output.arrays);
+    let mut out = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 24);
+    // Writing to a String cannot fail.
+    let _ = writeln!(out, "# Surface written by Lumen; millimetres{}", axes.said());
+    for (v, p) in mesh.positions.iter().enumerate() {
+        let _ = write!(out, "v {} {} {}", p.x, p.y, p.z);
+        if let Some([r, g, b]) = colours.map(|array| colour(array, v)) {
+            let _ = write!(out, " {r} {g} {b}");
+        }
+        out.push('\n');
+    }
+    for n in normals.unwrap_or_default() {
+        let _ = writeln!(out, "vn {} {} {}", n.x, n.y, n.z);
+    }
+    for &t in &mesh.triangles {
+        let [a, b, c] = t.map(|v| u64::from(v) + 1);
+        let _ = if normals.is_some() {
+            writeln!(out, "f {a}//{a} {b}//{b} {c}//{c}")
+        } else {
+            writeln!(out, "f {a} {b} {c}")
+        };
+    }
+    out.into_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+        match Parsing::new(bytes, DVec3::ZERO)?.advance(bytes, Budget::UNLIMITED) {
+            Progress::Done(read) => read,
+            Progress::Working(_) => panic!("without a limit it runs to its end"),
+        }
+    }
+
+    #[test]
+    fn every_way_to_write_a_corner_is_read() {
+        let text = "# square\r\nv 0 0 0 1 .5 nan\r\nv 1 0 0\\\r\n 1.0\r\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n\
+            o a\ns off\nf 1/1/1 2//1 \\\n 3/1\nf -4 -2 -1\nf 1 2\nl 1 2\np 1\nf 1 2 3 4";
+        let raw = read(text.as_bytes()).unwrap();
+        assert_eq!(raw.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
+        assert_eq!(raw.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2], [0, 2, 3]]);
+        assert_eq!((raw.skipped.short_faces, raw.skipped.lines, raw.skipped.points), (1, 1, 1));
+    }
+
+    #[test]
+    fn faces_may_name_vertices_that_come_after_them() {
+        let raw = read(b"f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").unwrap();
+        assert_eq!((raw.triangles, raw.positions[2]), (vec![[0, 1, 2]], Vec3::Y));
+    }
+
+    #[test]
+    fn broken_lines_are_refused_with_their_number() {
+        let problem = |text: &str| read(text.as_bytes()).err().unwrap().to_string();
+        assert_eq!(problem("v 1 2\n"), "The OBJ file is broken at line 1: a vertex needs three coordinates.");
+        assert!(problem("\nv 1 2 x\n").contains("line 2: \"x\" stands where a coordinate should"));
+        assert!(problem("v 0 0 0\nf 1 1 one\n").contains("line 2: \"one\" stands where a vertex number should"));
+        let refers = "Face 1 of the OBJ file refers to vertex";
+        assert_eq!(problem("v 0 0 0\nf 1 1 2"), format!("{refers} 2, but the file has 1 vertices."));
+        assert_eq!(problem("v 0 0 0\nf 1 0 1"), format!("{refers} 0, but the file has 1 vertices."));
+        assert_eq!(problem("v 0 0 0\nf 1 -2 1"), format!("{refers} -2, but the file has 1 vertices."));
+    }
+
+    #[test]
+    fn vertices_among_the_first_lines_tell_an_obj() {
+        assert!(looks_like(b"# a\ng b\nv 1 2 3\n"));
+        assert!(!looks_like(b"v is the fifth Roman numeral\n"));
+    }
+}

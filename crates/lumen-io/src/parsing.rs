@@ -1,0 +1,264 @@
+//! The bytes of a file on their way to the polygons in them, in slices.
+//!
+//! STL, PLY and OBJ keep what stands between two slices themselves; the readers of VTK's files and of glTF rest between
+//! blocks of work (`pace`).
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::axes::{self, Axes};
+use super::detect::{self, Content};
+use super::error::ReadError;
+use super::pace::Paced;
+use super::raw::RawSurface;
+use super::room::Room;
+use super::{ImportOptions, Unit, far, gltf, obj, ply, stl, vtk};
+use lumen_mesh::task::{Budget, Progress};
+
+/// The polygons in a file, the unit of its numbers and its axes.
+pub(super) type Parsed = (RawSurface, Unit, Axes);
+
+/// The bytes of a file: of a caller who waits, or kept until they are parsed.
+#[derive(Clone)]
+pub(super) enum Bytes<'a> {
+    Lent(&'a [u8]),
+    Kept(Arc<Vec<u8>>),
+}
+
+impl Deref for Bytes<'_> {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        match self {
+            Self::Lent(bytes) => bytes,
+            Self::Kept(bytes) => bytes,
+        }
+    }
+}
+
+/// A file that is being parsed.
+pub(super) struct Parsing<'a> {
+    bytes: Bytes<'a>,
+    content: Content,
+    unit: Unit,
+    parser: Parser<'a>,
+    /// Whether it is read once more, relative to a place within the surface (`far`).
+    is_again: bool,
+    /// The largest fraction so far: what is read again is not undone.
+    told: f32,
+}
+
+/// What parses.
+enum Parser<'a> {
+    Stl(stl::Parsing),
+    Ply(Box<ply::Parsing>),
+    Obj(Box<obj::Parsing>),
+    /// VTP, VTK, GLB or glTF.
+    Paced(Paced<'a>),
+}
+
+impl<'a> Parser<'a> {
+    /// Of positions relative to an origin.
+    fn new(content: Content, bytes: &Bytes<'a>, unit: Unit, origin: DVec3) -> Result<Self, ReadError> {
+        let (own, file) = (bytes.clone(), bytes.len());
+        Ok(match content {
+            Content::Stl => Self::Stl(stl::Parsing::new(bytes, origin)?),
+            Content::Ply => Self::Ply(Box::new(ply::Parsing::new(bytes, origin)?)),
+            Content::Obj => Self::Obj(Box::new(obj::Parsing::new(bytes, origin)?)),
+            Content::Vtp => {
+                Self::Paced(Paced::new(file, move |pace| async move { vtk::read_xml(&own, origin, &pace).await }))
+            }
+            Content::Vtk => {
+                Self::Paced(Paced::new(file, move |pace| async move { vtk::read_legacy(&own, origin, &pace).await }))
+            }
+            Content::Glb => {
+                Self::Paced(Paced::new(
+                    file,
+                    move |pace| async move { gltf::read_binary(&own, unit, origin, &pace).await },
+                ))
+            }
+            Content::Gltf => {
+                Self::Paced(Paced::new(
+                    file,
+                    move |pace| async move { gltf::read_text(&own, unit, origin, &pace).await },
+                ))
+            }
+        })
+    }
+}
+
+impl<'a> Parsing<'a> {
+    pub(super) fn new(bytes: Bytes<'a>, name: &str, options: &ImportOptions) -> Result<Self, ReadError> {
+        let content = detect::detect(&bytes, name)?;
+        let unit = options.unit.unwrap_or(match content {
+            Content::Glb | Content::Gltf => Unit::Metre,
+            _ => Unit::Millimetre,
+        });
+        let parser = Parser::new(content, &bytes, unit, DVec3::ZERO)?;
+        Ok(Self { bytes, content, unit, parser, is_again: false, told: 0.0 })
+    }
+
+    /// Parses on; the fraction never falls.
+    pub(super) fn advance(&mut self, budget: Budget) -> Progress<Result<Parsed, ReadError>> {
+        let bytes = &self.bytes;
+        let progress = match &mut self.parser {
+            Parser::Stl(parsing) => parsing.advance(bytes, budget),
+            Parser::Ply(parsing) => parsing.advance(bytes, budget),
+            Parser::Obj(parsing) => parsing.advance(bytes, budget),
+            Parser::Paced(reader) => reader.advance(budget),
+        };
+        match progress {
+            Progress::Working(fraction) => self.told = self.told.max(fraction),
+            Progress::Done(Err(error)) => return Progress::Done(Err(error)),
+            Progress::Done(Ok(raw)) => {
+                let origin = if self.is_again { None } else { far::origin_for(&raw, self.unit) };
+                let Some(origin) = origin else { return Progress::Done(self.parsed(raw)) };
+                // Never both at once.
+                drop(raw);
+                self.is_again = true;
+                match Parser::new(self.content, &self.bytes, self.unit, origin) {
+                    Ok(parser) => self.parser = parser,
+                    Err(error) => return Progress::Done(Err(error)),
+                }
+            }
+        }
+        Progress::Working(self.told)
+    }
+
+    fn parsed(&self, raw: RawSurface) -> Result<Parsed, ReadError> {
+        let bytes = &self.bytes;
+        Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
+        let axes = match self.content {
+            Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
+            Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,
+        };
+        Ok((raw, self.unit, axes))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::{Imported, Reading, read};
+    use lumen_mesh::shapes::icosphere;
+    use lumen_mesh::task::Task as _;
+    use lumen_mesh::{TriMesh, Vec3};
+
+    /// A sphere in each format that has room for doubles or STL's facets, `offset` from the origin.
+    fn texts(offset: f64) -> (TriMesh, Vec<(&'static str, Vec<u8>)>) {
+        let mesh = icosphere(6, 20.0, Vec3::ZERO);
+        let at = |v: u32| mesh.positions[v as usize].as_dvec3().to_array().map(|x| x + offset);
+        let words = |v: u32| at(v).map(|x| x.to_string()).join(" ");
+        let corners = mesh.triangles.as_flattened();
+        let count = mesh.positions.len() as u32;
+        let header = |encoding: &str| {
+            format!(
+                "ply\nformat {encoding} 1.0\nelement vertex {count}\nproperty double x\nproperty double y\n\
+                 property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                mesh.triangles.len()
+            )
+        };
+        let mut facets = vec![b' '; 80];
+        facets.extend_from_slice(&(mesh.triangles.len() as u32).to_le_bytes());
+        for t in &mesh.triangles {
+            facets.extend_from_slice(&[0; 12]);
+            t.iter().for_each(|&v| facets.extend(at(v).iter().flat_map(|&x| (x as f32).to_le_bytes())));
+            facets.extend_from_slice(&[0; 2]);
+        }
+        let [mut little, mut big] = ["binary_little_endian", "binary_big_endian"].map(|kind| header(kind).into_bytes());
+        for x in (0..count).flat_map(at) {
+            little.extend_from_slice(&x.to_le_bytes());
+            big.extend_from_slice(&x.to_be_bytes());
+        }
+        for t in &mesh.triangles {
+            little.push(3);
+            big.push(3);
+            little.extend(t.iter().flat_map(|v| v.to_le_bytes()));
+            big.extend(t.iter().flat_map(|v| v.to_be_bytes()));
+        }
+        let (mut solid, mut obj, mut ascii) = ("solid a\n".to_owned(), String::new(), header("ascii"));
+        for three in corners.chunks(3) {
+            solid += "facet normal 0 0 0\nouter loop\n";
+            three.iter().for_each(|&v| solid += &format!("vertex {}\n", words(v)));
+            solid += "endloop\nendfacet\n";
+        }
+        solid += "endsolid a\n";
+        for v in 0..count {
+            obj += &format!("v {}\n", words(v));
+            // A number that the header does not announce: the text is read a second time, row by row.
+            ascii += &format!("{} 7\n", words(v));
+        }
+        let (mut rows, mut ids) = (String::new(), String::new());
+        for &[a, b, c] in &mesh.triangles {
+            obj += &format!("f {} {} {}\n", a + 1, b + 1, c + 1);
+            rows += &format!("3 {a} {b} {c}\n");
+            ids += &format!("{a} {b} {c}\n");
+        }
+        ascii += &rows;
+        let triangles = mesh.triangles.len();
+        let points: String = (0..count).map(|v| words(v) + "\n").collect();
+        let ends: String = (1..=triangles).map(|t| format!("{} ", 3 * t)).collect();
+        let legacy = format!(
+            "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS {count} double\n{points}\
+             POLYGONS {triangles} {}\n{rows}",
+            4 * triangles
+        );
+        let array = |kind: &str, name: &str, numbers: &str| {
+            format!(
+                "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"3\" format=\"ascii\">{numbers}</DataArray>"
+            )
+        };
+        let vtp = format!(
+            "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"{count}\" NumberOfPolys=\"{triangles}\">\
+             <Points>{}</Points><Polys>{}{}</Polys></Piece></PolyData></VTKFile>",
+            array("Float64", "Points", &points),
+            array("Int64", "connectivity", &ids),
+            array("Int64", "offsets", &ends),
+        );
+        let files = vec![
+            ("a.stl", facets),
+            ("text.stl", solid.into_bytes()),
+            ("little.ply", little),
+            ("big.ply", big),
+            ("text.ply", ascii.into_bytes()),
+            ("a.obj", obj.into_bytes()),
+            ("text.vtk", legacy.into_bytes()),
+            ("text.vtp", vtp.into_bytes()),
+        ];
+        (mesh, files)
+    }
+
+    /// What is read in the smallest slices, and the fractions that were told.
+    fn in_slices(bytes: Vec<u8>, name: &str) -> (Imported, Vec<f32>) {
+        let mut reading = Reading::new(Arc::new(bytes), name.to_owned(), ImportOptions::default());
+        let mut told = Vec::new();
+        loop {
+            match reading.advance(Budget::new(Duration::ZERO)) {
+                Progress::Working(fraction) => told.push(fraction),
+                Progress::Done(read) => return (read.unwrap(), told),
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_read_in_slices_is_the_file_read_at_once() {
+        for offset in [0.0, 3e7] {
+            let (sphere, files) = texts(offset);
+            // Far away the text is read once more.
+            for (name, bytes) in files.into_iter().filter(|(name, _)| offset == 0.0 || name.starts_with("text")) {
+                let whole = read(&bytes, name, &ImportOptions::default()).unwrap();
+                let (sliced, told) = in_slices(bytes, name);
+                assert_eq!(sliced, whole, "{name}");
+                let counts = (sliced.mesh.positions.len(), sliced.mesh.triangles.len());
+                assert_eq!(counts, (sphere.positions.len(), sphere.triangles.len()), "{name}");
+                assert!(told.windows(2).all(|two| two[0] <= two[1]), "{name}: {told:?}");
+                let parsing = told.iter().filter(|&&fraction| fraction > 0.0 && fraction < 0.2).count();
+                assert!(parsing >= 2, "{name}: {told:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Which format has a place for which array.
+
+use super::{Format, gltf, obj};
+use lumen_language::say;
+use lumen_mesh::Array;
+use lumen_mesh::arrays::On;
+
+/// Each array, and whether `format` has a place for it.
+fn places(arrays: &[Array], format: Format) -> impl Iterator<Item = (&Array, bool)> {
+    let colour = obj::colour_of(arrays);
+    arrays.iter().map(move |array| {
+        let has_place = match format {
+            Format::Vtp | Format::Vtk | Format::Ply => true,
+            Format::Glb => gltf::has_place(array),
+            Format::Obj => colour.is_some_and(|colour| std::ptr::eq(colour, array)),
+            Format::Stl => false,
+        };
+        (array, has_place)
+    })
+}
+
+/// A sentence about the arrays that a file of `format` does not hold, if there are any.
+pub fn left_out(arrays: &[Array], format: Format) -> Option<String> {
+    let homeless = || places(arrays, format).filter(|&(_, has_place)| !has_place).map(|(array, _)| array);
+    let names: Vec<&str> = homeless().map(|array| array.name.as_str()).collect();
+    if names.is_empty() {
+        return None;
+    }
+    let of_triangles = homeless().all(|array| array.on == On::Triangle);
+    let (label, count, names) = (format.label(), names.len(), names.join(", "));
+    Some(match format {
+        Format::Glb if of_triangles => {
+            say!("errors-no-place-triangles", format = label, count = count, names = names)
+        }
+        Format::Obj => say!("errors-no-place-colour", format = label, count = count, names = names),
+        Format::Stl => say!("errors-no-place-arrays", format = label, count = count, names = names),
+        _ => say!("errors-no-place-such", format = label, count = count, names = names),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumen_mesh::arrays::{Scalar, Values};
+
+    #[test]
+    fn what_a_format_leaves_out_is_one_sentence() {
+        let zeros = |scalar| Values::from_bytes(scalar, vec![0; 96]);
+        let height = Array::new("Height", On::Point, 1, zeros(Scalar::F32));
+        let face = Array::new("Face", On::Triangle, 1, zeros(Scalar::I32));
+        let colour = Array::new("RGB", On::Point, 3, zeros(Scalar::F32));
+        let tensor = Array::new("Stress", On::Point, 9, zeros(Scalar::F64));
+        let all = [height, face, colour, tensor];
+        for format in [Format::Vtp, Format::Vtk, Format::Ply] {
+            assert_eq!(left_out(&all, format), None);
+        }
+        let said = |arrays: &[Array], format| left_out(arrays, format).unwrap();
+        assert_eq!(said(&all, Format::Stl), "STL has no place for arrays: Height, Face, RGB, Stress are left out.");
+        assert_eq!(
+            said(&all[..3], Format::Obj),
+            "OBJ has no place for arrays other than one colour: Height, Face are left out."
+        );
+        let two = [all[2].clone(), Array { name: "RGBA".to_owned(), ..all[2].clone() }];
+        assert_eq!(said(&two, Format::Obj), "OBJ has no place for arrays other than one colour: RGBA is left out.");
+        assert_eq!(said(&all[..3], Format::Glb), "GLB has no place for arrays of triangles: Face is left out.");
+        assert_eq!(said(&all, Format::Glb), "GLB has no place for such arrays: Face, Stress are left out.");
+    }
+}

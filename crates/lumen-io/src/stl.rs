@@ -1,0 +1,287 @@
+//! STL, text and binary (3D Systems 1988): triangles without shared vertices.
+//!
+//! Binary is recognised by its length, `84 + 50 n` bytes for n triangles, before anything else: many writers begin
+//! the free text of a binary header with "solid", which the crate `stl_io` takes for text; that is why the format is
+//! read here. Facet normals are not used: they are often wrong, and the winding says the same.
+
+use std::mem;
+
+use glam::DVec3;
+
+use super::error::{ReadError, WriteError};
+use super::output::Output;
+use super::polygons::Faces;
+use super::raw::{RawSurface, check_size};
+use super::text::{self, Words};
+use lumen_language::say;
+use lumen_mesh::Vec3;
+use lumen_mesh::task::{Budget, Progress};
+
+/// Facets, or words, between two looks at the clock.
+const BLOCK: usize = 1 << 15;
+const HEADER: usize = 80;
+const FACET: usize = 50;
+const BINARY: &str = "STL binary";
+const ASCII: &str = "STL ascii";
+
+/// Whether `bytes` are exactly as long as the binary file that their header announces.
+pub(super) fn has_binary_length(bytes: &[u8]) -> bool {
+    announced(bytes).is_some_and(|facets| binary_length(facets) == bytes.len() as u64)
+}
+
+/// The number of facets that a binary header announces.
+fn announced(bytes: &[u8]) -> Option<u32> {
+    Some(u32::from_le_bytes(*bytes.get(HEADER..)?.first_chunk()?))
+}
+
+fn binary_length(facets: u32) -> u64 {
+    (HEADER + 4) as u64 + FACET as u64 * u64::from(facets)
+}
+
+/// A file of either kind on its way to a surface, in slices; the text, which may have more digits than f32, with positions
+/// relative to an origin.
+pub(super) enum Parsing {
+    Binary(Facets),
+    Text(Box<Solids>),
+}
+
+impl Parsing {
+    /// Of `bytes`, which are handed over again with each slice.
+    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
+        if !has_binary_length(bytes) && text::is_text(bytes) {
+            Ok(Self::Text(Box::new(Solids::new(origin))))
+        } else {
+            Facets::new(bytes).map(Self::Binary)
+        }
+    }
+
+    pub(super) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        match self {
+            Self::Binary(facets) => facets.advance(bytes, budget),
+            Self::Text(solids) => solids.advance(bytes, budget),
+        }
+    }
+}
+
+/// The binary form.
+pub(super) struct Facets {
+    count: u32,
+    /// The corners of those that are read.
+    positions: Vec<Vec3>,
+}
+
+impl Facets {
+    fn new(bytes: &[u8]) -> Result<Self, ReadError> {
+        let cut_short = |what: String, announced: u64, found: usize| ReadError::CutShort {
+            format: BINARY,
+            what,
+            announced,
+            found: found as u64,
+        };
+        let count = announced(bytes).ok_or_else(|| cut_short(say!("errors-header-bytes"), 84, bytes.len()))?;
+        if binary_length(count) > bytes.len() as u64 {
+            return Err(cut_short(say!("errors-triangles"), u64::from(count), (bytes.len() - HEADER - 4) / FACET));
+        }
+        check_size(0, count as usize)?;
+        Ok(Self { count, positions: Vec::with_capacity(3 * count as usize) })
+    }
+
+    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        let count = self.count as usize;
+        let (body, trailing) = bytes[HEADER + 4..].split_at(FACET * count);
+        let left = &body.as_chunks::<FACET>().0[self.positions.len() / 3..];
+        for block in left.chunks(BLOCK) {
+            for facet in block {
+                // A facet is its normal, its corners and two bytes of its own.
+                for corner in facet[12..48].as_chunks::<12>().0 {
+                    let [x, y, z] =
+                        [0, 4, 8].map(|i| f32::from_le_bytes([corner[i], corner[i + 1], corner[i + 2], corner[i + 3]]));
+                    self.positions.push(Vec3::new(x, y, z));
+                }
+            }
+            let done = self.positions.len() / 3;
+            if done < count && budget.is_spent() {
+                return Progress::Working(done as f32 / count as f32);
+            }
+        }
+        let triangles = (0..self.count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let mut raw = RawSurface::new(BINARY, mem::take(&mut self.positions), triangles);
+        if !trailing.is_empty() {
+            raw.warnings.push(say!("errors-stl-trailing", bytes = trailing.len().to_string()));
+        }
+        Progress::Done(Ok(raw))
+    }
+}
+
+/// The text form, word by word: `solid`, `facet`, `outer loop`, `vertex`, in any case and with any indenting, any number
+/// of solids. Words that are none of these, such as colours, are passed over.
+pub(super) struct Solids {
+    origin: DVec3,
+    /// Where the next word is looked for, behind a byte-order mark, and the line there.
+    at: usize,
+    line: usize,
+    positions: Vec<Vec3>,
+    faces: Faces,
+    in_loop: bool,
+    in_solid: bool,
+    /// Whether any word was one of the format's.
+    known: bool,
+}
+
+impl Solids {
+    fn new(origin: DVec3) -> Self {
+        let (positions, faces) = (Vec::new(), Faces::default());
+        Self { origin, at: 0, line: 1, positions, faces, in_loop: false, in_solid: false, known: false }
+    }
+
+    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        let text = text::without_mark(bytes);
+        let mut words = Words::new(&text[self.at..], self.line);
+        loop {
+            for _ in 0..BLOCK {
+                let Some(word) = words.next() else { return Progress::Done(self.surface(words.line())) };
+                if let Err(error) = self.take(word, &mut words) {
+                    return Progress::Done(Err(error));
+                }
+            }
+            if budget.is_spent() {
+                (self.at, self.line) = (text.len() - words.remaining(), words.line());
+                return Progress::Working(self.at as f32 / text.len() as f32);
+            }
+        }
+    }
+
+    /// Takes a word, and what belongs to it.
+    fn take(&mut self, word: &[u8], words: &mut Words) -> Result<(), ReadError> {
+        let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
+        if is(b"vertex") {
+            self.faces.push_corner(self.positions.len() as u32);
+            self.positions.push(vertex(words, self.origin)?);
+            self.in_loop = true;
+        } else if is(b"endloop") || is(b"endfacet") {
+            // Some writers leave out one of the two.
+            if self.in_loop {
+                self.faces.finish_face();
+            }
+            self.in_loop = false;
+        } else if is(b"solid") || is(b"endsolid") {
+            // What follows is a name, and a name may be any word.
+            words.skip_line();
+            self.in_solid = is(b"solid");
+        } else if is(b"facet") {
+            self.in_solid = true;
+        } else {
+            return Ok(());
+        }
+        self.known = true;
+        Ok(())
+    }
+
+    /// The surface, once there is no word left in `line`, the last.
+    fn surface(&mut self, line: usize) -> Result<RawSurface, ReadError> {
+        if !self.known {
+            let problem = say!("errors-stl-no-facet");
+            return Err(ReadError::Malformed { format: "STL", problem });
+        }
+        if self.in_loop {
+            let problem = say!("errors-stl-ends");
+            return Err(ReadError::Syntax { format: ASCII, line, problem });
+        }
+        let mut raw = RawSurface::of_faces(ASCII, mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        (raw.has_doubles, raw.origin) = (true, self.origin);
+        if self.in_solid {
+            raw.warnings.push(say!("errors-stl-open"));
+        }
+        Ok(raw)
+    }
+}
+
+/// The three coordinates after the word `vertex`, relative to `origin`.
+fn vertex(words: &mut Words, origin: DVec3) -> Result<Vec3, ReadError> {
+    let mut coordinates = [0.0; 3];
+    for (coordinate, origin) in coordinates.iter_mut().zip(origin.to_array()) {
+        let word = words.next();
+        *coordinate = word.and_then(|word| text::coordinate(word, origin)).ok_or_else(|| ReadError::Syntax {
+            format: ASCII,
+            line: words.line(),
+            problem: match word {
+                Some(word) => say!("errors-no-coordinate", word = text::quoted(word)),
+                None => say!("errors-stl-ends"),
+            },
+        })?;
+    }
+    Ok(Vec3::from(coordinates))
+}
+
+/// The binary form, with each facet's own normal (zero where it has no area).
+pub(super) fn write(&Output { mesh, axes, .. }: &Output) -> Result<Vec<u8>, WriteError> {
+    let bytes = (HEADER + 4) as u64 + FACET as u64 * mesh.triangles.len() as u64;
+    let facets = u32::try_from(mesh.triangles.len()).map_err(|_| WriteError::TooLarge { format: "STL", bytes })?;
+    let mut out = Vec::with_capacity(bytes as usize);
+    out.extend_from_slice(format!("Surface written by Lumen; binary STL; millimetres{}", axes.said()).as_bytes());
+    out.resize(HEADER, b' ');
+    out.extend_from_slice(&facets.to_le_bytes());
+    for t in 0..mesh.triangles.len() {
+        let corners = mesh.corners(t);
+        let [a, b, c] = corners.map(Vec3::as_dvec3);
+        let normal = (b - a).cross(c - a).normalize_or_zero().as_vec3();
+        for p in [normal].iter().chain(&corners) {
+            out.extend_from_slice(bytemuck::cast_slice(&p.to_array().map(f32::to_le_bytes)));
+        }
+        out.extend_from_slice(&[0, 0]);
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumen_mesh::TriMesh;
+
+    fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
+        match Parsing::new(bytes, DVec3::ZERO)?.advance(bytes, Budget::UNLIMITED) {
+            Progress::Done(read) => read,
+            Progress::Working(_) => panic!("without a limit it runs to its end"),
+        }
+    }
+
+    const TWO: &str = "SOLID vertex of facets\n Facet Normal 0 0 1\n outer loop\nVERTEX 0 0 0\nvertex 1 0 0\n\
+        vertex 0 1e0 0\n endloop endfacet\nendsolid vertex\nsolid\nfacet normal 0 0 0 outer loop\n\
+        vertex 5 0 0 vertex 6 0 0 vertex 6 1 0 vertex 5 1 0 endloop endfacet endsolid";
+
+    #[test]
+    fn text_of_several_solids_in_any_case_is_read() {
+        let raw = read(TWO.as_bytes()).unwrap();
+        assert_eq!((raw.positions.len(), raw.triangles.len(), raw.polygons), (7, 3, 1));
+        assert_eq!(raw.positions[2], Vec3::Y);
+        assert!(raw.warnings.is_empty());
+    }
+
+    #[test]
+    fn broken_text_is_refused_with_its_line() {
+        let problem = |text: &str| read(text.as_bytes()).err().unwrap().to_string();
+        assert_eq!(
+            problem(&TWO.replace("1e0", "1,0")),
+            "The STL ascii file is broken at line 6: \"1,0\" stands where a coordinate should."
+        );
+        assert!(problem(TWO.split(" endloop").next().unwrap()).contains("ends in the middle of a triangle"));
+        assert!(problem("Dear colleague, please find enclosed").contains("without a single \"facet\""));
+    }
+
+    #[test]
+    fn a_binary_that_begins_with_solid_trails_or_ends_early_is_told_apart() {
+        let mesh = TriMesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]] };
+        let mut bytes = write(&Output::new(&mesh)).unwrap();
+        bytes[..5].copy_from_slice(b"solid");
+        assert!(has_binary_length(&bytes));
+        assert_eq!(read(&bytes).unwrap().positions, mesh.positions);
+        assert_eq!(f32::from_le_bytes(*bytes[92..].first_chunk().unwrap()), 1.0, "the normal is +z");
+        bytes.extend_from_slice(b"etc");
+        assert_eq!(read(&bytes).unwrap().warnings, ["3 bytes after the last triangle left out."]);
+        bytes[80..84].copy_from_slice(&60_000_000u32.to_le_bytes());
+        assert_eq!(
+            read(&bytes[..100]).err().unwrap().to_string(),
+            "The STL binary file is cut short: it announces 60000000 triangles and holds 0."
+        );
+    }
+}

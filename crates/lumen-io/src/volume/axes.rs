@@ -1,0 +1,28 @@
+//! From the axes of a file to those of the patient, and what is said where a file does not name them.
+
+use glam::{DMat3, DVec3};
+
+use lumen_language::say;
+
+/// Turns steps and an origin in RAS into LPS: right is left reversed, front is back reversed.
+pub(super) fn ras_to_lps(steps: DMat3, origin: DVec3) -> (DMat3, DVec3) {
+    let turn = DVec3::new(-1.0, -1.0, 1.0);
+    (DMat3::from_diagonal(turn) * steps, turn * origin)
+}
+
+/// What is said of a file of `format` that does not name its axes.
+pub(super) fn silent(format: &str) -> String {
+    say!("scan-silent", format = format)
+}
+
+/// `count` numbers between white space or any of `,()`; `None` where there are not as many, or more.
+pub(super) fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let words = text.split(|c: char| c.is_ascii_whitespace() || ",()".contains(c)).filter(|word| !word.is_empty());
+    let mut found = [0.0; N];
+    let mut count = 0;
+    for word in words {
+        *found.get_mut(count)? = word.parse().ok()?;
+        count += 1;
+    }
+    (count == N).then_some(found)
+}

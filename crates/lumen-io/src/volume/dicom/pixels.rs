@@ -1,0 +1,114 @@
+//! The pixels of a frame: as they are, by run lengths (DICOM PS3.5, annex G), or as a JPEG picture.
+//!
+//! The codecs of `dicom-transfer-syntax-registry` are not used: where a picture is smaller than the file says, or a run ends
+//! early, they index beyond it and panic. Its JPEG decoder is used directly; run lengths are thirty lines.
+
+use jpeg_decoder::{Decoder, PixelFormat};
+
+use super::super::error::ScanError;
+use super::super::numbers::MOST_UNFOLDED;
+use super::file::{FORMAT, File, Packing};
+use lumen_language::say;
+
+/// The pixels of frame `frame` of a file, in little-endian order.
+pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
+    let size = file.bits_allocated as usize / 8;
+    let bytes = file.rows * file.columns * size;
+    let short = || ScanError::malformed(FORMAT, say!("scan-dicom-pixels"));
+    match file.packing {
+        Some(Packing::Rle | Packing::Jpeg) => {
+            let packed = packed(file, frame).ok_or_else(short)?;
+            if bytes as u64 > MOST_UNFOLDED * packed.len() as u64 {
+                return Err(short());
+            }
+            if file.packing == Some(Packing::Rle) {
+                run_lengths(&packed, size, bytes).ok_or_else(short)
+            } else {
+                picture(&packed, file)
+            }
+        }
+        is_big_endian => {
+            let all = file.pixels.first().copied().unwrap_or_default();
+            let start = frame.checked_mul(bytes).ok_or_else(short)?;
+            let mut pixels = all.get(start..).and_then(|rest| rest.get(..bytes)).ok_or_else(short)?.to_vec();
+            if is_big_endian == Some(Packing::Big) {
+                pixels.chunks_exact_mut(size).for_each(<[u8]>::reverse);
+            }
+            Ok(pixels)
+        }
+    }
+}
+
+/// The fragments of a frame, one after another: a fragment for each frame, or all of them for a file's only one.
+fn packed(file: &File, frame: usize) -> Option<Vec<u8>> {
+    match file.frames {
+        1 => Some(file.pixels.concat()),
+        frames if frames == file.pixels.len() => file.pixels.get(frame).map(|fragment| fragment.to_vec()),
+        _ => None,
+    }
+}
+
+/// Unfolds run lengths: a segment for each byte of a pixel, the highest first, into little-endian pixels. `None` where a
+/// segment is too short.
+fn run_lengths(packed: &[u8], size: usize, bytes: usize) -> Option<Vec<u8>> {
+    let word = |index: usize| {
+        packed.get(4 * index..4 * index + 4)?.first_chunk().map(|&word| u32::from_le_bytes(word) as usize)
+    };
+    if word(0)? != size {
+        return None;
+    }
+    let mut pixels = vec![0; bytes];
+    for segment in 0..size {
+        let end = if segment + 1 < size { word(segment + 2)? } else { packed.len() };
+        let mut input = packed.get(word(segment + 1)?..end)?.iter().copied();
+        let mut output = pixels.iter_mut().skip(size - 1 - segment).step_by(size);
+        let mut left = bytes / size;
+        while left > 0 {
+            match input.next()? as i8 {
+                -128 => {}
+                count @ 0.. => {
+                    for _ in 0..=count {
+                        let byte = input.next()?;
+                        if let Some(pixel) = output.next() {
+                            *pixel = byte;
+                        }
+                    }
+                    left = left.saturating_sub(count as usize + 1);
+                }
+                count => {
+                    let (byte, run) = (input.next()?, 1 + usize::from(count.unsigned_abs()));
+                    output.by_ref().take(run).for_each(|pixel| *pixel = byte);
+                    left = left.saturating_sub(run);
+                }
+            }
+        }
+    }
+    Some(pixels)
+}
+
+/// Decodes a JPEG picture of one channel.
+fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
+    let damaged = || ScanError::malformed(FORMAT, say!("scan-dicom-jpeg"));
+    let mut decoder = Decoder::new(packed);
+    decoder.read_info().map_err(|_| damaged())?;
+    let info = decoder.info().ok_or_else(damaged)?;
+    let (width, height) = (usize::from(info.width), usize::from(info.height));
+    let size = match info.pixel_format {
+        PixelFormat::L8 => 1,
+        PixelFormat::L16 => 2,
+        _ => return Err(damaged()),
+    };
+    if (width, height) != (file.columns, file.rows) || size > file.bits_allocated as usize / 8 {
+        return Err(ScanError::malformed(FORMAT, say!("scan-dicom-jpeg-size")));
+    }
+    decoder.set_max_decoding_buffer_size(width * height * size);
+    let pixels = decoder.decode().map_err(|_| damaged())?;
+    if pixels.len() != width * height * size {
+        return Err(damaged());
+    }
+    Ok(match (size, file.bits_allocated) {
+        (1, 16) => pixels.into_iter().flat_map(|byte| [byte, 0]).collect(),
+        (2, _) => pixels.as_chunks().0.iter().flat_map(|&word| u16::from_ne_bytes(word).to_le_bytes()).collect(),
+        _ => pixels,
+    })
+}

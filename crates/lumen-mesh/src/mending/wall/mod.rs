@@ -1,0 +1,201 @@
+//! A wall with two sides: a vessel that was modelled as its wall, from which the lumen is taken.
+//!
+//! Two cases. As two pieces, one in the other: straight out of the inner one the outer one is met first, nearly parallel,
+//! and straight into the outer one the inner, everywhere about as far. As one piece that is joined at the open rims: some
+//! of it lines a space that is closed nearly all around, with a wall behind it that is thinner than the space is wide and
+//! whose other side lines no such space. Both are asked of places spread evenly over the area of the largest pieces.
+//!
+//! The lumen is the inner side, its triangles turned so that it bounds the blood (a piece of its own does already), cut
+//! where the way through the wall no longer ends on its other side: at the rims. The rest of that piece, and the outer
+//! piece, are left out; pieces that have nothing to do with the wall stay.
+//!
+//! Limits: a wall whose thickness varies by more than [`SPREAD`] times, or one of a vessel narrower than its wall, is not
+//! recognised. Windings must agree and face outwards.
+
+mod looks;
+mod parting;
+mod regions;
+mod search;
+
+use std::sync::Arc;
+
+use self::looks::Looks;
+use self::search::FoundIn;
+pub use self::search::{SPREAD, Wall};
+use super::BUILD;
+use crate::parallel;
+use crate::task::{Budget, Progress};
+use crate::{Blend, Components, IndexBuild, SurfaceIndex, TriMesh, components};
+
+/// Triangles between two looks at the clock, and of one thread.
+const SLICE: usize = 8_192;
+const CHUNK: usize = 256;
+
+/// The lumen of a wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lumen {
+    /// The surface without the wall's outer side and rims.
+    pub mesh: TriMesh,
+    /// What each vertex was made of.
+    pub vertices: Blend,
+    /// What each triangle was made of.
+    pub triangles: Blend,
+    /// Triangles that were left out.
+    pub left_out: usize,
+    /// The wall.
+    pub wall: Wall,
+}
+
+/// Looks for a wall, and takes its lumen where that is asked for, in slices.
+#[derive(Debug)]
+pub struct WallTask {
+    takes_lumen: bool,
+    pieces: Components,
+    build: IndexBuild,
+    index: Option<Arc<SurfaceIndex>>,
+    found: Option<Vec<FoundIn>>,
+    /// For each triangle of a piece that is a wall by itself, whether the other side is behind it.
+    is_walled: Vec<bool>,
+}
+
+/// What a [`WallTask`] ends in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallFound {
+    /// The wall, if there is one: of several the first.
+    pub wall: Option<Wall>,
+    /// Its lumen, where that was asked for; `None` also where the sides cannot be told apart.
+    pub lumen: Option<Lumen>,
+}
+
+impl WallTask {
+    /// In `mesh`, whose windings agree and face outwards.
+    pub fn new(mesh: &TriMesh, takes_lumen: bool) -> Self {
+        let pieces = components(mesh.positions.len(), &mesh.triangles);
+        let (build, index, found) = (IndexBuild::new(), None, None);
+        Self { takes_lumen, pieces, build, index, found, is_walled: Vec::new() }
+    }
+
+    /// With an index of that surface, where there is one.
+    #[must_use]
+    pub fn with_index(mut self, index: Option<Arc<SurfaceIndex>>) -> Self {
+        self.index = index;
+        self
+    }
+
+    /// Works on `mesh`, which it was made for.
+    pub fn advance(&mut self, mesh: &TriMesh, budget: Budget) -> Progress<WallFound> {
+        while self.index.is_none() {
+            if let std::task::Poll::Ready(index) = self.build.advance(&mesh.positions, &mesh.triangles, BUILD) {
+                self.index = Some(Arc::new(index));
+            }
+            if budget.is_spent() {
+                return Progress::Working(0.4 * self.build.fraction());
+            }
+        }
+        let Some(index) = &self.index else { return Progress::Working(0.4) };
+        let looks = Looks { mesh, index, pieces: &self.pieces };
+        let Some(found) = &self.found else {
+            self.found = Some(looks.walls());
+            return Progress::Working(0.5);
+        };
+        let wall = found.first().map(|found| found.wall);
+        if !self.takes_lumen || found.is_empty() {
+            return Progress::Done(WallFound { wall, lumen: None });
+        }
+        if found.iter().any(|found| !found.wall.is_two_pieces) {
+            while self.is_walled.len() < mesh.triangles.len() {
+                let from = self.is_walled.len();
+                let to = mesh.triangles.len().min(from + SLICE);
+                let flags = parallel::map_ranges(to - from, CHUNK, |range| {
+                    range.map(|t| looks.is_walled((from + t) as u32, found)).collect::<Vec<_>>()
+                });
+                self.is_walled.extend(flags.into_iter().flatten());
+                if budget.is_spent() {
+                    return Progress::Working(0.5 + 0.5 * to as f32 / mesh.triangles.len() as f32);
+                }
+            }
+        }
+        Progress::Done(WallFound { wall, lumen: looks.lumen(found, &self.is_walled) })
+    }
+}
+
+/// Looks for a wall in `mesh`, and takes its lumen if `takes_lumen`.
+pub fn find(mesh: &TriMesh, takes_lumen: bool) -> WallFound {
+    let mut task = WallTask::new(mesh, takes_lumen);
+    loop {
+        if let Progress::Done(found) = task.advance(mesh, Budget::UNLIMITED) {
+            return found;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mending::holes::{Opening, holes};
+    use crate::shapes::{icosphere, joined, tube};
+    use crate::{Topology, Vec3, volume};
+
+    /// A tube in a tube, joined at the rims by a ring of triangles.
+    fn joined_tubes(scale: f32) -> TriMesh {
+        let (sides, rings) = (48, 100);
+        let outer = tube(sides, rings, 60.0 * scale, |_| 5.0 * scale);
+        let inner = tube(sides, rings, 60.0 * scale, |_| 4.0 * scale);
+        let first = outer.positions.len() as u32;
+        let mut mesh = joined(&[outer, inner]);
+        mesh.triangles[(2 * sides * rings) as usize..].iter_mut().for_each(|t| t.swap(1, 2));
+        for side in 0..sides {
+            let next = (side + 1) % sides;
+            let (low, high) = (0, rings * sides);
+            let [a, b, c, d] = [low + side, low + next, first + low + side, first + low + next];
+            mesh.triangles.extend([[a, c, b], [b, c, d]]);
+            let [a, b, c, d] = [high + side, high + next, first + high + side, first + high + next];
+            mesh.triangles.extend([[a, b, c], [b, d, c]]);
+        }
+        mesh
+    }
+
+    #[test]
+    fn the_lumen_of_tubes_joined_at_their_rims_is_the_inner_tube() {
+        for scale in [0.1, 1.0, 1000.0] {
+            let mesh = joined_tubes(scale);
+            let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+            let edges = topology.edge_counts();
+            assert_eq!((edges.boundary, edges.flipped), (0, 0), "the wall is closed");
+            assert!(volume(&mesh, &topology) > 0.0);
+            let found = find(&mesh, true);
+            let wall = found.wall.expect("it is a wall");
+            assert!(!wall.is_two_pieces && (wall.thickness_mm / f64::from(scale) - 1.0).abs() < 0.03, "{wall:?}");
+            let lumen = found.lumen.expect("its sides can be told apart");
+            assert_eq!((lumen.mesh.triangles.len(), lumen.mesh.positions.len()), (2 * 48 * 100, 48 * 101));
+            assert_eq!(lumen.left_out, 2 * 48 * 100 + 4 * 48);
+            let topology = Topology::new(lumen.mesh.positions.len(), &lumen.mesh.triangles);
+            let ends = holes(&lumen.mesh, &topology);
+            assert!(ends.len() == 2 && ends.iter().all(|end| end.opening == Opening::VesselEnd));
+            // It bounds the blood: the volume of 48 sides of radius 4 and length 60, facing outwards.
+            let section = 48.0 / 2.0 * 16.0 * libm::sin(std::f64::consts::TAU / 48.0);
+            let part = volume(&lumen.mesh, &topology) / (60.0 * section * f64::from(scale).powi(3));
+            assert!((part - 1.0).abs() < 0.01, "{part}");
+        }
+    }
+
+    #[test]
+    fn of_two_pieces_the_inner_one_stays() {
+        let (outer, inner) = (icosphere(4, 10.0, Vec3::ONE), icosphere(4, 9.8, Vec3::ONE));
+        let found = find(&joined(&[outer.clone(), inner.clone()]), true);
+        let wall = found.wall.expect("it is a wall");
+        assert!(wall.is_two_pieces && (wall.thickness_mm - 0.2).abs() < 0.03, "{wall:?}");
+        assert_eq!(found.lumen.expect("it is a piece").mesh, inner);
+        let tubes = joined(&[tube(32, 40, 30.0, |_| 3.0), tube(32, 40, 30.0, |_| 3.6)]);
+        assert!(find(&tubes, false).wall.is_some_and(|wall| (wall.thickness_mm - 0.6).abs() < 0.05));
+    }
+
+    #[test]
+    fn bodies_beside_or_far_inside_others_have_no_wall() {
+        let beside = joined(&[icosphere(3, 5.0, Vec3::ZERO), icosphere(3, 5.0, Vec3::X * 10.2)]);
+        assert_eq!(find(&beside, false).wall, None);
+        let within = joined(&[icosphere(3, 10.0, Vec3::ZERO), icosphere(3, 2.0, Vec3::X * 6.0)]);
+        assert_eq!(find(&within, false).wall, None);
+        assert_eq!(find(&tube(32, 60, 40.0, |_| 3.0), false).wall, None);
+    }
+}

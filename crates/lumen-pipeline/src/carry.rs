@@ -1,0 +1,178 @@
+//! The arrays of a level: what the file says of its vertices and triangles, carried to those of the reduced surface.
+//!
+//! Smoothing moves vertices and keeps them: a vertex takes its values with it. Decimation by half-edge collapses
+//! (`schroeder`) keeps vertices too, so that each vertex of a level has exactly its own values. Where a method places new
+//! vertices (`quadric`), one has the values at the closest point of the surface that entered decimation: of scalars the
+//! mean of the triangle's corners by the point's barycentric weights, of labels that of the corners with most weight.
+//!
+//! Values on triangles go the other way, so that none is lost between samples: each triangle of the surface that entered
+//! gives its area to that of the level which is closest to its centroid. A triangle of the level has the mean of what
+//! it was given, weighted by area; of labels the one with the largest area. One that was given nothing takes the
+//! value at the point closest to its own centroid.
+//!
+//! Values are carried for the level that is asked for, when it is asked for. The result does not depend on how the work
+//! is sliced or on the number of threads.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::progressive::MADE;
+use super::task::{Budget, Progress, Task};
+use lumen_mesh::arrays::On;
+use lumen_mesh::parallel;
+use lumen_mesh::{Array, Blend, Nearest, SurfaceIndex, Topology, TriMesh, Vec3, triangle_area, used_vertices};
+
+/// Closest points between two looks at the clock, and of one thread.
+const SLICE: usize = 16_384;
+const CHUNK: usize = 2_048;
+
+/// The surface that entered decimation, as its own triangles are numbered and as those of the progressive mesh are.
+#[derive(Clone, Debug)]
+pub struct Entered {
+    /// Its arrays, for the vertices and triangles of `mesh`.
+    pub arrays: Arc<Vec<Array>>,
+    /// The surface.
+    pub mesh: Arc<TriMesh>,
+    /// Adjacency of its triangles.
+    pub topology: Arc<Topology>,
+    /// The same surface over the nodes of the progressive mesh.
+    pub finest: Arc<TriMesh>,
+    /// An index of `finest`.
+    pub index: Arc<SurfaceIndex>,
+    /// For each node the vertex of `mesh` that it is, [`MADE`] where it is none.
+    pub vertex_of_node: Arc<[u32]>,
+}
+
+/// Carries arrays to a level, in slices.
+#[derive(Debug)]
+pub struct CarryTask {
+    from: Entered,
+    level: Arc<TriMesh>,
+    index: Arc<SurfaceIndex>,
+    /// The node that each vertex of the level is.
+    nodes: Vec<u32>,
+    vertices: Blend,
+    /// The triangle of the level that each triangle gives its area to, so far.
+    heirs: Vec<u32>,
+}
+
+impl CarryTask {
+    /// To the level of these `triangles` over the nodes; `level` is the same over its own vertices, `index` of that.
+    pub fn new(from: Entered, triangles: &[[u32; 3]], level: Arc<TriMesh>, index: Arc<SurfaceIndex>) -> Self {
+        let nodes = used_vertices(from.vertex_of_node.len(), triangles);
+        let vertices = Blend::with_capacity(nodes.len(), nodes.len());
+        Self { from, level, index, nodes, vertices, heirs: Vec::new() }
+    }
+
+    /// How many points are looked for on the one surface and on the other.
+    fn counts(&self) -> [usize; 2] {
+        let has = |on: On| self.from.arrays.iter().any(|array| array.on == on);
+        let wanted = |on: On, count: usize| if has(on) { count } else { 0 };
+        [wanted(On::Point, self.nodes.len()), wanted(On::Triangle, self.from.mesh.triangles.len())]
+    }
+
+    /// Finds what the next vertices of the level are made of.
+    fn follow_vertices(&mut self, range: Range<usize>) {
+        let Entered { index, vertex_of_node, .. } = &self.from;
+        let (nodes, positions) = (&self.nodes, &self.level.positions);
+        let found = nearest(range.clone(), |v| {
+            (vertex_of_node[nodes[v] as usize] == MADE).then(|| positions[v]).map(|p| (index.as_ref(), p))
+        });
+        for (v, found) in range.zip(found) {
+            let own = vertex_of_node[nodes[v] as usize];
+            if own != MADE {
+                self.vertices.push(own, 1.0);
+            } else if let Some(found) = found {
+                let corners = self.from.finest.triangles[found.triangle as usize];
+                for (node, weight) in corners.into_iter().zip(found.barycentric) {
+                    self.vertices.push(vertex_of_node[node as usize], weight);
+                }
+            }
+            self.vertices.finish_row();
+        }
+    }
+
+    /// Finds the triangles of the level that the next triangles give their area to.
+    fn follow_triangles(&mut self, range: Range<usize>) {
+        let (index, mesh) = (&self.index, &self.from.mesh);
+        let found = nearest(range, |t| Some((index.as_ref(), centroid(mesh.corners(t)))));
+        self.heirs.extend(found.iter().map(|found| found.map_or(u32::MAX, |found| found.triangle)));
+    }
+
+    /// What the triangles of the level are made of.
+    fn triangles(&self) -> Blend {
+        let mesh = &self.from.mesh;
+        // A triangle without area still counts for something.
+        let area = |t: usize| (triangle_area(mesh.corners(t)) as f32).max(f32::MIN_POSITIVE);
+        let given = Blend::of_groups(self.level.triangles.len(), &self.heirs, area);
+        let mut blend = Blend::with_capacity(given.len(), self.heirs.len());
+        for t in 0..given.len() {
+            match given.sources(t) {
+                [] => {
+                    if let Some(source) = self.below(centroid(self.level.corners(t))) {
+                        blend.push(source, 1.0);
+                    }
+                }
+                sources => sources.iter().for_each(|&(source, weight)| blend.push(source, weight)),
+            }
+            blend.finish_row();
+        }
+        blend
+    }
+
+    /// The triangle of the surface that entered which is closest to a point.
+    fn below(&self, p: Vec3) -> Option<u32> {
+        let Entered { index, finest, topology, mesh, vertex_of_node, .. } = &self.from;
+        let found = index.nearest(p)?;
+        let corners = finest.triangles[found.triangle as usize].map(|node| vertex_of_node[node as usize]);
+        let is_it = |&&t: &&u32| corners.iter().all(|v| mesh.triangles[t as usize].contains(v));
+        topology.triangles(corners[0]).iter().find(is_it).copied()
+    }
+}
+
+impl Task for CarryTask {
+    type Output = Vec<Array>;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Vec<Array>> {
+        let [vertices, triangles] = self.counts();
+        loop {
+            let (at, to) = (self.vertices.len(), self.heirs.len());
+            if at < vertices {
+                self.follow_vertices(at..(at + SLICE).min(vertices));
+            } else if to < triangles {
+                self.follow_triangles(to..(to + SLICE).min(triangles));
+            } else {
+                let of_triangles = if triangles > 0 { self.triangles() } else { Blend::default() };
+                return Progress::Done(lumen_mesh::blended(&self.from.arrays, &self.vertices, &of_triangles));
+            }
+            if budget.is_spent() {
+                return Progress::Working((at + to) as f32 / (vertices + triangles).max(1) as f32);
+            }
+        }
+    }
+}
+
+/// The closest points to the points that `query` names with an index; none where it names none.
+fn nearest<'a>(
+    range: Range<usize>,
+    query: impl Fn(usize) -> Option<(&'a SurfaceIndex, Vec3)> + Sync + Send,
+) -> Vec<Option<Nearest>> {
+    let chunks = parallel::map_ranges(range.len(), CHUNK, |chunk| {
+        let mut last: Option<Nearest> = None;
+        let mut found = Vec::with_capacity(chunk.len());
+        for at in chunk {
+            let answer = query(range.start + at).and_then(|(index, p)| match &last {
+                Some(last) => index.nearest_from(p, last),
+                None => index.nearest(p),
+            });
+            last = answer.or(last);
+            found.push(answer);
+        }
+        found
+    });
+    chunks.concat()
+}
+
+fn centroid([a, b, c]: [Vec3; 3]) -> Vec3 {
+    ((a.as_dvec3() + b.as_dvec3() + c.as_dvec3()) / 3.0).as_vec3()
+}

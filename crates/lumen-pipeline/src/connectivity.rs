@@ -1,0 +1,144 @@
+//! Connectivity: which pieces the surface has, and the ones that go on (the paper's section II-A).
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::settings::{Keep, SettingsError};
+use lumen_mesh::{Bounds, Components, TriMesh, Vec3, components, triangle_area, used_vertices};
+
+/// One connected piece.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Component {
+    /// Its triangles.
+    pub triangles: u32,
+    /// Its area in mm2.
+    pub area_mm2: f64,
+    /// The box around it.
+    pub bounds: Bounds,
+}
+
+/// The rows of a surface that are kept, ascending.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KeptRows {
+    /// Its vertices.
+    pub vertices: Vec<u32>,
+    /// Its triangles.
+    pub triangles: Vec<u32>,
+}
+
+/// The pieces of a surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Connectivity {
+    /// The piece of each triangle.
+    pub labels: Components,
+    /// The pieces, numbered by their first triangle.
+    pub components: Vec<Component>,
+}
+
+impl Connectivity {
+    /// Finds the pieces of `mesh` and measures them.
+    pub fn of(mesh: &TriMesh) -> Self {
+        let mut found = Self::unmeasured(mesh);
+        found.measure(mesh);
+        found
+    }
+
+    /// Finds the pieces of `mesh`; [`Self::components`] is empty until [`Self::measure`].
+    pub fn unmeasured(mesh: &TriMesh) -> Self {
+        Self { labels: components(mesh.positions.len(), &mesh.triangles), components: Vec::new() }
+    }
+
+    /// Measures the pieces of `mesh`, in which they were found.
+    pub fn measure(&mut self, mesh: &TriMesh) {
+        let empty = Component { triangles: 0, area_mm2: 0.0, bounds: Bounds::EMPTY };
+        self.components = vec![empty; self.labels.count()];
+        let mut t = 0;
+        for run in self.labels.of_triangle.chunk_by(|a, b| a == b) {
+            let piece = &mut self.components[run[0] as usize];
+            let (mut min, mut max) = (Vec3::from(piece.bounds.min), Vec3::from(piece.bounds.max));
+            let mut area = piece.area_mm2;
+            for triangle in &mesh.triangles[t..t + run.len()] {
+                let corners = triangle.map(|v| mesh.positions[v as usize]);
+                area += triangle_area(corners);
+                for p in corners {
+                    (min, max) = (min.min(p), max.max(p));
+                }
+            }
+            piece.triangles += run.len() as u32;
+            piece.area_mm2 = area;
+            piece.bounds = Bounds { min: min.into(), max: max.into() };
+            t += run.len();
+        }
+    }
+
+    /// The part of `mesh` that `keep` names: all of it where it is the only piece.
+    ///
+    /// # Errors
+    /// When there is no such component.
+    pub fn kept(&self, mesh: &Arc<TriMesh>, keep: Keep) -> Result<Arc<TriMesh>, SettingsError> {
+        Ok(match self.chosen(keep)? {
+            Some(c) => Arc::new(mesh.filtered(|t| self.labels.of_triangle[t] == c)),
+            None => mesh.clone(),
+        })
+    }
+
+    /// Which vertices and triangles of `mesh` those of [`Self::kept`] are; `None` where that is the whole surface.
+    ///
+    /// # Errors
+    /// When there is no such component.
+    pub fn kept_rows(&self, mesh: &TriMesh, keep: Keep) -> Result<Option<KeptRows>, SettingsError> {
+        Ok(self.chosen(keep)?.map(|piece| {
+            let of_triangle = &self.labels.of_triangle;
+            let rows: Vec<u32> = (0..of_triangle.len() as u32).filter(|&t| of_triangle[t as usize] == piece).collect();
+            let triangles: Vec<[u32; 3]> = rows.iter().map(|&t| mesh.triangles[t as usize]).collect();
+            KeptRows { vertices: used_vertices(mesh.positions.len(), &triangles), triangles: rows }
+        }))
+    }
+
+    /// The piece that `keep` names; `None` where that is the whole surface.
+    ///
+    /// # Errors
+    /// When there is no such component.
+    pub fn chosen(&self, keep: Keep) -> Result<Option<u32>, SettingsError> {
+        let count = self.labels.count();
+        let chosen = match keep {
+            Keep::All => None,
+            Keep::Largest => self.labels.largest(),
+            Keep::Component(c) if (c as usize) < count => Some(c),
+            Keep::Component(wanted) => return Err(SettingsError::Component { wanted, count }),
+        };
+        Ok(chosen.filter(|_| count > 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_piece_is_kept_and_the_others_can_be() {
+        let positions: Vec<Vec3> = (0..7).map(|i| Vec3::new(i as f32, (i * i) as f32, 0.0)).collect();
+        let mesh = Arc::new(TriMesh { positions, triangles: vec![[4, 5, 6], [0, 1, 2], [1, 3, 2]] });
+        let found = Connectivity::of(&mesh);
+        assert_eq!(found.components.iter().map(|c| c.triangles).collect::<Vec<_>>(), [1, 2]);
+        assert_eq!(found.kept(&mesh, Keep::Largest).unwrap().triangles, [[0, 1, 2], [1, 3, 2]]);
+        let small = found.kept(&mesh, Keep::Component(0)).unwrap();
+        assert_eq!((small.positions.len(), &small.triangles[..]), (3, &[[0, 1, 2]][..]));
+        assert_eq!(found.kept(&mesh, Keep::All).unwrap(), mesh);
+        assert!(found.kept(&mesh, Keep::Component(2)).is_err());
+        let nothing = Arc::new(TriMesh::default());
+        assert_eq!(Connectivity::of(&nothing).kept(&nothing, Keep::Largest).unwrap(), nothing);
+    }
+
+    #[test]
+    fn pieces_are_measured_however_their_triangles_take_turns() {
+        let positions =
+            vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(5.0), Vec3::new(5.0, 7.0, 5.0), Vec3::new(9.0, 5.0, 5.0)];
+        let mesh = TriMesh { positions, triangles: vec![[0, 1, 2], [3, 4, 5], [0, 2, 1], [5, 4, 3]] };
+        let [small, large] = &Connectivity::of(&mesh).components[..] else { panic!("there are two pieces") };
+        assert_eq!((small.triangles, small.area_mm2, small.bounds.max), (2, 1.0, [1.0, 1.0, 0.0]));
+        assert_eq!((large.triangles, large.area_mm2), (2, 8.0));
+        assert_eq!((large.bounds.min, large.bounds.max), ([5.0; 3], [9.0, 7.0, 5.0]));
+    }
+}

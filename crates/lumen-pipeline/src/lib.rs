@@ -1,0 +1,40 @@
+//! The method: connectivity, smoothing, normals, decimation to a progressive mesh, deviation.
+//!
+//! Each algorithm is a file. [`stage`] says what the stages are and what each rests on, `stages/` what each does, and
+//! [`run`] goes through them and remembers what each made, so that a change of a setting recomputes from the first stage
+//! that it touches.
+
+pub mod bound;
+pub mod carry;
+pub mod classes;
+pub mod connectivity;
+pub mod decimation;
+pub mod deviation;
+pub mod error_curve;
+pub mod filter;
+pub mod histogram;
+pub mod laplacian;
+mod lines;
+pub mod lumen;
+pub mod narrowest;
+pub mod normals;
+pub mod one_collapse;
+pub mod paper;
+pub mod pinch;
+pub mod progressive;
+pub mod report;
+pub mod response;
+pub mod results;
+pub mod run;
+pub mod safe;
+pub mod settings;
+pub mod shape;
+pub mod smoothing;
+pub mod stage;
+mod stages;
+mod store;
+mod times;
+pub mod verdict;
+mod widths;
+
+pub use lumen_mesh::task;

@@ -1,0 +1,284 @@
+//! Whether a level still has the vessels of the surface it comes from: pinched and lost branches.
+//!
+//! The middles of the vessels are sampled once: the centres of inner balls (`mesh/inner_ball.rs`) of the finest level,
+//! one in each cell of half a ball's radius, each with its clearance, the distance to the wall. On a level the same
+//! points have to lie inside and clear of the wall: where the clearance has fallen below half of what it was, or the
+//! point lies outside, the vessel is pinched or lost there. At a pinch between two samples, the wall comes nearer to
+//! one of them than half the radius, so it is not missed.
+//!
+//! Where the nearest wall is an open end, which side is inside cannot be told; there the distance alone counts.
+
+use std::collections::HashSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::narrowest::{CLEAR, ball_centre, is_inside, ring_median};
+use super::response::edge_length;
+use lumen_mesh::parallel;
+use lumen_mesh::{InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
+
+/// The part of the clearance below which a vessel counts as pinched.
+pub const PINCHED: f32 = 0.5;
+
+/// Samples at most, the narrowest first.
+const MOST: usize = 20_000;
+/// A ball's radius must agree with the median around it to this factor, to be a sample.
+const AGREE: f32 = 1.4;
+/// A vessel of less than so many mean edges in diameter counts as drawn shut by smoothing: reduction cannot lose it.
+pub(super) const SHUT: f64 = 0.25;
+/// Samples that are measured in one piece.
+const PIECE: usize = 64;
+
+/// A point in the middle of a vessel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Where, in mm.
+    pub at: Vec3,
+    /// Its distance from the wall in mm.
+    pub clearance: f32,
+}
+
+/// Where a level has narrowed the vessels most.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Narrowing {
+    /// Clearance on the level over that on the smoothed surface; 0 where the vessel is gone, 1 where all is as it was.
+    pub ratio: f64,
+    /// Where, in mm.
+    pub at_mm: [f32; 3],
+    /// Diameter there before, in mm.
+    pub diameter_before_mm: f64,
+    /// Diameter there on the level, in mm; 0 where the vessel is gone.
+    pub diameter_after_mm: f64,
+    /// Places where less than half is left.
+    pub pinched_places: usize,
+}
+
+/// Samples of the vessels of `mesh`, from its inner balls; `index` is of this surface, in whatever numbering.
+pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> Vec<Sample> {
+    let mut sampling = Sampling::new(mesh);
+    sampling.choose(mesh, topology, balls, usize::MAX);
+    while !sampling.advance(index, usize::MAX) {}
+    sampling.finish()
+}
+
+/// The taking of samples, in slices: [`Self::choose`] until all balls are looked at, then [`Self::advance`].
+#[derive(Debug)]
+pub(super) struct Sampling {
+    /// Radius that a ball must have, in mm.
+    least: f32,
+    /// Balls that were looked at.
+    looked: usize,
+    /// The cells that have a ball.
+    taken: HashSet<(i32, [i32; 3])>,
+    /// Middles and radii of the balls that may be samples.
+    chosen: Vec<(Vec3, f32)>,
+    next: usize,
+    found: Vec<Sample>,
+}
+
+impl Sampling {
+    /// Of the vessels of `mesh`.
+    pub(super) fn new(mesh: &TriMesh) -> Self {
+        let least = (edge_length(mesh) * SHUT / 2.0) as f32;
+        Self { least, looked: 0, taken: HashSet::new(), chosen: Vec::new(), next: 0, found: Vec::new() }
+    }
+
+    /// Looks at the next `count` inner balls of the surface, about 200 ns each; whether these were the last.
+    pub(super) fn choose(&mut self, mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, count: usize) -> bool {
+        let end = balls.own.len().min(self.looked.saturating_add(count));
+        let mut ring = Vec::new();
+        for &v in &balls.own[self.looked..end] {
+            let radius = balls.radii[v as usize];
+            let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > self.least) else {
+                continue;
+            };
+            let median = ring_median(topology, &balls.radii, v, &mut ring);
+            let agrees = radius * AGREE >= median && radius <= median * AGREE;
+            if agrees && self.taken.insert(cell(centre, radius)) {
+                self.chosen.push((centre, radius));
+            }
+        }
+        self.looked = end;
+        end == balls.own.len()
+    }
+
+    /// Looks at the next `count`, by an index of the surface in whatever numbering; whether these were the last. What is
+    /// found does not depend on `count`.
+    pub(super) fn advance(&mut self, index: &SurfaceIndex, count: usize) -> bool {
+        let end = self.chosen.len().min(self.next.saturating_add(count));
+        let chosen = &self.chosen[self.next..end];
+        let found = parallel::map_ranges(chosen.len(), PIECE, |piece| {
+            chosen[piece].iter().filter_map(|&(at, radius)| sample(at, radius, index)).collect::<Vec<_>>()
+        });
+        self.found.extend(found.into_iter().flatten());
+        self.next = end;
+        end == self.chosen.len()
+    }
+
+    /// The part that is done, 0 to 1.
+    pub(super) fn fraction(&self) -> f32 {
+        self.next as f32 / self.chosen.len().max(1) as f32
+    }
+
+    /// What was found: the narrowest, where they are too many.
+    pub(super) fn finish(self) -> Vec<Sample> {
+        let mut found = self.found;
+        if found.len() > MOST {
+            found.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
+            found.truncate(MOST);
+        }
+        found
+    }
+}
+
+/// A ball's middle, if it is inside and clear of the wall.
+fn sample(at: Vec3, radius: f32, index: &SurfaceIndex) -> Option<Sample> {
+    let clearance = index.nearest(at)?.distance;
+    (clearance >= CLEAR * radius && is_inside(at, index)).then_some(Sample { at, clearance })
+}
+
+/// The cell of half a radius, rounded down to a power of two, in which a ball's middle lies.
+fn cell(centre: Vec3, radius: f32) -> (i32, [i32; 3]) {
+    let level = libm::ilogb(f64::from(radius)) - 1;
+    let size = libm::exp2(f64::from(level));
+    (level, centre.to_array().map(|x| (f64::from(x) / size).floor() as i32))
+}
+
+/// For each of a range of samples the clearance on another surface, in mm: 0 outside of it.
+pub(super) fn clearances(samples: &[Sample], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Vec<f32> {
+    let sides = Sides::new(mesh, topology);
+    let clearance = |sample: &Sample| {
+        let Some(nearest) = index.nearest(sample.at) else { return 0.0 };
+        if sides.is_outside(sample.at, &nearest) == Some(true) { 0.0 } else { nearest.distance }
+    };
+    parallel::map_ranges(samples.len(), PIECE, |piece| samples[piece].iter().map(clearance).collect::<Vec<_>>())
+        .concat()
+}
+
+/// What a level makes of the samples; `None` without a sample. `index` is of `mesh`.
+pub fn narrowing(samples: &[Sample], mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> Option<Narrowing> {
+    let clearances = clearances(samples, mesh, topology, index);
+    let (worst, ratio) = worst(samples, &clearances)?;
+    let pinched: Vec<Sample> =
+        samples.iter().zip(&clearances).filter(|(s, c)| **c < PINCHED * s.clearance).map(|(s, _)| *s).collect();
+    Some(Narrowing {
+        ratio: f64::from(ratio),
+        at_mm: samples[worst].at.to_array(),
+        diameter_before_mm: 2.0 * f64::from(samples[worst].clearance),
+        diameter_after_mm: 2.0 * f64::from(clearances[worst]),
+        pinched_places: places(pinched),
+    })
+}
+
+/// The sample with the least part of its clearance left, and that part; of several, the widest.
+pub(super) fn worst(samples: &[Sample], clearances: &[f32]) -> Option<(usize, f32)> {
+    let ratios = samples.iter().zip(clearances).map(|(sample, left)| left / sample.clearance).enumerate();
+    ratios.reduce(|least, next| {
+        let wider = samples[next.0].clearance > samples[least.0].clearance;
+        if next.1 < least.1 || (next.1 == least.1 && wider) { next } else { least }
+    })
+}
+
+/// In how many groups of samples, whose balls touch each other, these lie.
+fn places(mut pinched: Vec<Sample>) -> usize {
+    pinched.sort_by(|a, b| a.at.x.total_cmp(&b.at.x));
+    let widest = pinched.iter().map(|sample| sample.clearance).fold(0.0, f32::max);
+    let mut group: Vec<usize> = (0..pinched.len()).collect();
+    let root = |group: &mut Vec<usize>, mut i: usize| {
+        while group[i] != i {
+            group[i] = group[group[i]];
+            i = group[i];
+        }
+        i
+    };
+    for (i, a) in pinched.iter().enumerate() {
+        for (j, b) in pinched.iter().enumerate().skip(i + 1) {
+            if b.at.x - a.at.x > a.clearance + widest {
+                break;
+            }
+            if a.at.distance(b.at) <= a.clearance + b.clearance {
+                let (one, other) = (root(&mut group, i), root(&mut group, j));
+                group[one.max(other)] = one.min(other);
+            }
+        }
+    }
+    (0..group.len()).filter(|&i| group[i] == i).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumen_mesh::inner_radii;
+    use lumen_mesh::shapes::{icosphere, tube};
+
+    fn indexed(mesh: &TriMesh) -> (Topology, SurfaceIndex) {
+        (Topology::new(mesh.positions.len(), &mesh.triangles), SurfaceIndex::new(&mesh.positions, &mesh.triangles))
+    }
+
+    fn samples_of(mesh: &TriMesh) -> Vec<Sample> {
+        let (topology, index) = indexed(mesh);
+        samples(mesh, &topology, &inner_radii(mesh, &topology, &index), &index)
+    }
+
+    fn narrowing_of(before: &TriMesh, after: &TriMesh) -> Option<Narrowing> {
+        let (topology, index) = indexed(after);
+        narrowing(&samples_of(before), after, &topology, &index)
+    }
+
+    /// A tube of 1.5 mm with a waist at z = 20.
+    fn waisted(waist: f32) -> TriMesh {
+        tube(32, 160, 40.0, |z| 0.75 - (0.75 - waist) * (-(z - 20.0) * (z - 20.0)).exp())
+    }
+
+    #[test]
+    fn samples_lie_on_the_axis_close_enough_together() {
+        let mut samples = samples_of(&waisted(0.75));
+        samples.sort_by(|a, b| a.at.z.total_cmp(&b.at.z));
+        for sample in &samples {
+            assert!(sample.at.truncate().length() < 0.02 && (sample.clearance - 0.75).abs() < 0.02, "{sample:?}");
+        }
+        assert!(samples.windows(2).all(|pair| pair[1].at.z - pair[0].at.z <= 0.75 / 2.0), "{samples:?}");
+        assert!(samples[0].at.z < 0.4 && samples[samples.len() - 1].at.z > 39.6);
+    }
+
+    #[test]
+    fn a_surface_narrows_itself_nowhere() {
+        let mesh = waisted(0.4);
+        let found = narrowing_of(&mesh, &mesh).unwrap();
+        assert_eq!((found.ratio, found.pinched_places), (1.0, 0));
+        assert_eq!(narrowing_of(&TriMesh::default(), &mesh), None);
+    }
+
+    #[test]
+    fn a_waist_is_found_where_it_is_and_as_narrow_as_it_is() {
+        for waist in [0.5, 0.38, 0.3, 0.05] {
+            let found = narrowing_of(&waisted(0.75), &waisted(waist)).unwrap();
+            // The nearest sample may lie a quarter of a millimetre beside the waist, and the wall is in facets.
+            let slack = 2.0 * (0.75 - f64::from(waist)) * (1.0 - (-0.0625f64).exp()) + 0.02;
+            let error = found.diameter_after_mm - 2.0 * f64::from(waist);
+            assert!((-0.02..slack + 0.02).contains(&error), "{waist}: {found:?}");
+            assert!((found.at_mm[2] - 20.0).abs() < 0.3 && (found.diameter_before_mm - 1.5).abs() < 0.03, "{found:?}");
+            assert_eq!(found.pinched_places, usize::from(waist < 0.36), "{waist}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn two_waists_are_two_places() {
+        let bump = |z: f32, at: f32| (-(z - at) * (z - at) * 4.0).exp();
+        let pinched = tube(32, 160, 40.0, |z| 0.75 - 0.6 * (bump(z, 10.0) + bump(z, 30.0)));
+        assert_eq!(narrowing_of(&waisted(0.75), &pinched).unwrap().pinched_places, 2);
+    }
+
+    #[test]
+    fn a_vessel_that_is_gone_is_lost() {
+        let (large, mut both) = (icosphere(3, 10.0, Vec3::ZERO), icosphere(3, 10.0, Vec3::ZERO));
+        let small = icosphere(3, 1.0, Vec3::X * 30.0);
+        let first = both.positions.len() as u32;
+        both.positions.extend(&small.positions);
+        both.triangles.extend(small.triangles.iter().map(|t| t.map(|v| v + first)));
+        let found = narrowing_of(&both, &large).unwrap();
+        assert_eq!((found.ratio, found.diameter_after_mm, found.pinched_places), (0.0, 0.0, 1));
+        assert!(Vec3::from(found.at_mm).distance(Vec3::X * 30.0) < 0.1, "{found:?}");
+        assert!((found.diameter_before_mm - 2.0).abs() < 0.1, "{found:?}");
+    }
+}

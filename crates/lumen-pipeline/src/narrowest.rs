@@ -1,0 +1,175 @@
+//! Where a vessel is narrowest: the smallest ball in the middle of it.
+//!
+//! Of the inner balls (`mesh/inner_ball.rs`) those are taken that are smallest as the median over a vertex and its
+//! neighbours: a single vertex with a bad normal or a dent does not make the smallest lumen. Each is then moved to the
+//! middle of the vessel, away from the nearest wall by half of what the opposite one is farther, as long as it grows.
+//! What counts is the distance of that middle from the nearest wall, whichever it is.
+//!
+//! In a round vessel that is its diameter. In a flat one the walls already face each other beside the middle, where they
+//! are nearer: the smallest lumen of an ellipse 2.5 times as wide as high comes out up to a quarter less than its height.
+
+use serde::{Deserialize, Serialize};
+
+use lumen_mesh::{InnerRadii, SurfaceIndex, Topology, TriMesh, Vec3, outward_normal};
+
+/// A ball's middle is at least this part of the radius away from the wall, or it is no lumen.
+pub(super) const CLEAR: f32 = 0.85;
+
+/// Balls that are moved to the middle of the vessel, at most.
+const CANDIDATES: usize = 256;
+/// Balls that are looked at, and that are moved, in one piece of work.
+const LOOKED: usize = 4096;
+const MOVED: usize = 4;
+/// Moves of a ball. Each halves what is left of the way in a round vessel.
+const MOVES: usize = 6;
+/// Directions without relation to any axis or to each other.
+const RAYS: [[f32; 3]; 3] =
+    [[0.534_522, 0.267_261, 0.801_784], [-0.742_781, 0.557_086, 0.371_391], [0.196_116, -0.784_465, -0.588_348]];
+
+/// The narrowest place of a vessel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Narrowest {
+    /// Diameter of the lumen there, in mm: twice the distance of its middle from the wall.
+    pub diameter_mm: f64,
+    /// The middle of the lumen there, in mm.
+    pub at_mm: [f32; 3],
+}
+
+/// The search for the narrowest place of a surface, in pieces of about a millisecond.
+#[derive(Debug, Default)]
+pub struct NarrowestSearch {
+    /// Inner balls that were looked at.
+    looked: usize,
+    /// The smallest of them, with their vertices: up to [`CANDIDATES`].
+    smallest: Vec<(f32, u32)>,
+    /// Of these, those that were moved to the middle.
+    moved: usize,
+    /// The least clearance in a middle, and where.
+    least: Option<(f32, Vec3)>,
+}
+
+impl NarrowestSearch {
+    /// The next piece of the search in `mesh`, whose inner balls are `balls`; whether it was the last. `index` is of this
+    /// surface, in whatever numbering.
+    pub fn advance(&mut self, mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> bool {
+        if self.looked < balls.own.len() {
+            self.look(topology, balls);
+            return false;
+        }
+        if self.moved == 0 {
+            self.smallest.sort_unstable_by(by_radius);
+        }
+        let end = self.smallest.len().min(self.moved + MOVED);
+        for &(radius, v) in &self.smallest[self.moved..end] {
+            let middle = ball_centre(mesh, topology, &balls.radii, v).and_then(|centre| centred(centre, index));
+            let Some((at, clearance)) = middle else { continue };
+            let is_less = self.least.is_none_or(|(least, _)| clearance < least);
+            if is_less && clearance >= CLEAR * radius && is_inside(at, index) {
+                self.least = Some((clearance, at));
+            }
+        }
+        self.moved = end;
+        end == self.smallest.len()
+    }
+
+    fn look(&mut self, topology: &Topology, balls: &InnerRadii) {
+        let end = balls.own.len().min(self.looked + LOOKED);
+        let mut ring = Vec::new();
+        let median = |&v: &u32| (ring_median(topology, &balls.radii, v, &mut ring), v);
+        self.smallest.extend(balls.own[self.looked..end].iter().map(median).filter(|(radius, _)| radius.is_finite()));
+        if self.smallest.len() > CANDIDATES {
+            self.smallest.select_nth_unstable_by(CANDIDATES, by_radius);
+            self.smallest.truncate(CANDIDATES);
+        }
+        self.looked = end;
+    }
+
+    /// The narrowest place that was found; `None` where no wall faces another.
+    pub fn found(&self) -> Option<Narrowest> {
+        let (clearance, at) = self.least?;
+        Some(Narrowest { diameter_mm: 2.0 * f64::from(clearance), at_mm: at.to_array() })
+    }
+}
+
+fn by_radius(a: &(f32, u32), b: &(f32, u32)) -> std::cmp::Ordering {
+    a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+}
+
+/// Moves a point to the middle between the nearest wall and the one behind it while its clearance grows.
+fn centred(mut at: Vec3, index: &SurfaceIndex) -> Option<(Vec3, f32)> {
+    let mut nearest = index.nearest(at)?;
+    for _ in 0..MOVES {
+        let Some(away) = (at - nearest.point).try_normalize() else { break };
+        let Some(behind) = index.depth(at, away) else { break };
+        let moved = at + away * ((behind - nearest.distance) / 2.0);
+        let Some(next) = index.nearest(moved).filter(|next| next.distance > nearest.distance) else { break };
+        (at, nearest) = (moved, next);
+    }
+    Some((at, nearest.distance))
+}
+
+/// Whether a point lies inside, as three of six rays have it: near an open end, half of them may leave by that.
+pub(super) fn is_inside(at: Vec3, index: &SurfaceIndex) -> bool {
+    let rays = RAYS.iter().flat_map(|&ray| [Vec3::from(ray), -Vec3::from(ray)]);
+    rays.filter(|&ray| index.winding(at, ray) > 0).count() >= 3
+}
+
+/// Median of the radii at `v` and its neighbours; `ring` is room for them.
+pub(super) fn ring_median(topology: &Topology, radii: &[f32], v: u32, ring: &mut Vec<f32>) -> f32 {
+    ring.clear();
+    ring.push(radii[v as usize]);
+    ring.extend(topology.neighbours(v).iter().map(|&n| radii[n as usize]));
+    let middle = ring.len() / 2;
+    *ring.select_nth_unstable_by(middle, f32::total_cmp).1
+}
+
+/// Where the inner ball at `v` has its middle.
+pub(super) fn ball_centre(mesh: &TriMesh, topology: &Topology, radii: &[f32], v: u32) -> Option<Vec3> {
+    let radius = radii[v as usize];
+    let normal = outward_normal(mesh, topology, v).filter(|_| radius.is_finite())?;
+    Some(mesh.positions[v as usize] - normal * radius)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumen_mesh::shapes::tube;
+    use lumen_mesh::{inner_radii, shapes::icosphere};
+
+    fn of(mesh: &TriMesh) -> Option<Narrowest> {
+        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        let balls = inner_radii(mesh, &topology, &index);
+        let mut search = NarrowestSearch::default();
+        while !search.advance(mesh, &topology, &balls, &index) {}
+        search.found()
+    }
+
+    #[test]
+    fn of_a_flat_vessel_the_short_axis_counts() {
+        let mut mesh = tube(64, 200, 40.0, |_| 3.0);
+        mesh.positions.iter_mut().for_each(|p| p.y *= 0.4);
+        let found = of(&mesh).unwrap();
+        // Walls that face each other to within 30 degrees are down to 2.06 mm apart beside the middle, and the
+        // tolerance of what is in the middle takes its part.
+        assert!((1.75..2.42).contains(&found.diameter_mm), "{found:?}");
+    }
+
+    #[test]
+    fn a_ball_grows_until_it_is_in_the_middle() {
+        let mesh = tube(64, 80, 20.0, |_| 2.0);
+        let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
+        for off in [Vec3::X * 1.5, Vec3::new(-0.7, 0.9, 0.0), Vec3::ZERO] {
+            let (at, clearance) = centred(Vec3::Z * 10.0 + off, &index).unwrap();
+            assert!(at.truncate().length() < 0.1 && (clearance - 2.0).abs() < 0.1, "{off}: {at} {clearance}");
+        }
+    }
+
+    #[test]
+    fn turned_inside_out_a_vessel_has_no_lumen() {
+        let mut sphere = icosphere(3, 5.0, Vec3::ZERO);
+        assert!((of(&sphere).unwrap().diameter_mm - 10.0).abs() < 0.2);
+        sphere.triangles.iter_mut().for_each(|t| t.swap(0, 1));
+        assert_eq!(of(&sphere), None);
+    }
+}

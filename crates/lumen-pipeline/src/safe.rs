@@ -1,0 +1,304 @@
+//! How far a reduction is safe: up to which rate every branch of the vessel tree keeps its calibre.
+//!
+//! A level is judged as the certificate of calibre judges it (`lumen_vessel::certificate`), at the stations of the
+//! opened surface. Looked at are a row of rates, from 0 on, closer together where reductions are strong, and then,
+//! between the last at which all vessels kept their calibre and the first at which one did not, halves of halves, down
+//! to a tenth of a percent. So the rate that is marked was looked at, and so was the next one above, which is not safe;
+//! a vessel that is changed at a rate in between the others and comes back is not seen. A rate at which a vessel is
+//! pinched anywhere (`super::pinch`, which looks at every rate) is not safe either. That no triangles cross that did
+//! not is so at every rate.
+//!
+//! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A
+//! branch of which a tenth can no longer be measured counts as changed, but for places where the plane has another loop
+//! though the wall has not moved (`Standing::Ambiguous`): of these there is nothing to say, neither for nor against.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::pinch::Pinch;
+use super::progressive::ProgressiveMesh;
+use super::settings::{Target, reduction_percent};
+use super::task::{Budget, Progress, Task};
+use lumen_language::say;
+use lumen_language::{decimal, signed};
+use lumen_mesh::TriMesh;
+use lumen_vessel::Subject;
+use lumen_vessel::certificate::{Basis, BranchCalibre, Candidate, Standing, Verdict};
+
+/// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
+const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
+
+/// The part of a branch's stations that have to be measured still: where the surface is folded a cut does not close.
+const MEASURED: f64 = 0.9;
+
+/// How far a reduction is safe.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Safe {
+    /// The change of calibre in percent that is allowed.
+    pub tolerance_percent: f64,
+    /// The highest rate up to which every vessel keeps its calibre, in percent; null where no vessel can be measured.
+    pub percent: Option<f64>,
+    /// Triangles at that rate.
+    pub triangles: Option<usize>,
+    /// Why it does not go further: a branch that is changed at the next rate, or a pinch; null where nothing stops it.
+    pub stopped_by: Option<String>,
+    /// Each branch by itself.
+    pub branches: Vec<BranchSafe>,
+    /// Why there is no such rate; null where there is one.
+    pub refused: Option<String>,
+}
+
+/// How far a reduction is safe for a branch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BranchSafe {
+    /// Its number, from 1.
+    pub number: u32,
+    /// "branch 1" for the first.
+    pub name: String,
+    /// Whether smoothing alone has changed it by more than is allowed: then it does not count.
+    pub changed_by_smoothing: bool,
+    /// The highest rate that was looked at with all those below it keeping the branch, in percent; null where there is none.
+    pub kept_to_percent: Option<f64>,
+    /// The next rate that was looked at, at which it is changed; null where it is kept as far as was looked.
+    pub changed_from_percent: Option<f64>,
+}
+
+impl Safe {
+    /// No rate, for this reason.
+    pub fn refused(tolerance_percent: f64, why: &impl ToString) -> Self {
+        let refused = Some(why.to_string());
+        Self { tolerance_percent, percent: None, triangles: None, stopped_by: None, branches: Vec::new(), refused }
+    }
+}
+
+/// The search in slices.
+pub struct SafeTask {
+    basis: Arc<Basis>,
+    progressive: Arc<ProgressiveMesh>,
+    pinch: Option<Pinch>,
+    tolerance_percent: f64,
+    step: Step,
+    /// What was found at each rate that was looked at.
+    looks: Vec<Look>,
+}
+
+enum Step {
+    /// A level is measured; its branches are not known yet.
+    Level(Look, Box<Candidate>),
+    Done,
+}
+
+/// A rate that was looked at.
+struct Look {
+    /// That was asked for.
+    per_mille: u32,
+    /// That was reached, where the surface goes no further: then no higher one is looked at.
+    reached: Option<f64>,
+    triangles: usize,
+    branches: Vec<BranchCalibre>,
+}
+
+impl Look {
+    /// The level for a rate, not judged yet, and its surface.
+    fn at(progressive: &ProgressiveMesh, per_mille: u32) -> (Self, TriMesh) {
+        let level = progressive.level(Target::Reduction(per_mille));
+        let (count, triangles) = (progressive.triangles.len(), level.triangles.len());
+        let reached = level.shortfall.is_some().then(|| (10.0 * reduction_percent(count, triangles)).floor() / 10.0);
+        (Self { per_mille, reached, triangles, branches: Vec::new() }, progressive.extract(&level.triangles))
+    }
+
+    fn percent(&self) -> f64 {
+        self.reached.unwrap_or(f64::from(self.per_mille) / 10.0)
+    }
+}
+
+impl SafeTask {
+    /// Of all levels of `progressive`, which was made from the smoothed surface of `basis`; `pinch` is the first.
+    pub fn new(
+        basis: Arc<Basis>,
+        progressive: Arc<ProgressiveMesh>,
+        pinch: Option<Pinch>,
+        tolerance_percent: f64,
+    ) -> Self {
+        let (triangles, branches) = (progressive.triangles.len(), basis.of_smoothed(tolerance_percent));
+        let looks = vec![Look { per_mille: 0, reached: None, triangles, branches }];
+        let mut task = Self { basis, progressive, pinch, tolerance_percent, step: Step::Done, looks };
+        task.step = task.next();
+        task
+    }
+
+    /// Whether smoothing left branch `i` its calibre, as far as it can be measured.
+    fn counts(&self, i: usize) -> bool {
+        self.looks.first().is_some_and(|look| look.branches[i].verdict_smoothed != Verdict::Changed)
+    }
+
+    /// Whether branch `i` has changed there by more than it may, or can no longer be measured, as it could before.
+    fn is_changed(&self, look: &Look, i: usize) -> bool {
+        let Some(first) = self.looks.first().map(|first| &first.branches[i]) else { return false };
+        let branch = &look.branches[i];
+        match branch.verdict {
+            Verdict::Changed => true,
+            Verdict::Kept => is_lost(first, branch),
+            Verdict::NotMeasured => first.verdict == Verdict::Kept && is_lost(first, branch),
+        }
+    }
+
+    /// The first branch that counts and is changed there.
+    fn changed<'a>(&self, look: &'a Look) -> Option<&'a BranchCalibre> {
+        let changed = (0..look.branches.len()).find(|&i| self.counts(i) && self.is_changed(look, i));
+        changed.map(|i| &look.branches[i])
+    }
+
+    fn is_pinched(&self, per_mille: u32) -> bool {
+        self.pinch.is_some_and(|pinch| f64::from(per_mille) / 10.0 >= pinch.from_percent - 1e-6)
+    }
+
+    fn is_safe(&self, look: &Look) -> bool {
+        self.changed(look).is_none() && !self.is_pinched(look.per_mille)
+    }
+
+    /// The last rate that is safe with all before it, and the first that is not.
+    fn bounds(&self) -> (Option<&Look>, Option<&Look>) {
+        let first_bad = self.looks.iter().find(|look| !self.is_safe(look));
+        let last_good = self.looks.iter().take_while(|look| self.is_safe(look)).last();
+        (last_good, first_bad)
+    }
+
+    /// The rate to look at next: of the row, as long as some branch is still kept, then halves.
+    fn next_rate(&self) -> Option<u32> {
+        let last_of_row = self.looks.iter().map(|look| look.per_mille).filter(|rate| RATES.contains(rate)).max();
+        let is_any_kept = self.looks.last().is_none_or(|look| {
+            let kept = |i: &usize| self.counts(*i) && look.branches[*i].verdict == Verdict::Kept;
+            (0..look.branches.len()).any(|i| kept(&i))
+        });
+        let goes_on = self.looks.iter().all(|look| look.reached.is_none());
+        let next_of_row = RATES.into_iter().find(|&rate| goes_on && last_of_row.is_none_or(|last| rate > last));
+        // Beyond a pinch branches are still told apart, as long as the row goes.
+        if let Some(rate) = next_of_row.filter(|_| is_any_kept) {
+            return Some(rate);
+        }
+        let (good, bad) = self.bounds();
+        let (good, bad) = (good?.per_mille, bad?.per_mille);
+        (bad - good > 1).then(|| good.midpoint(bad))
+    }
+
+    /// Begins with the next level, if there is one to look at.
+    fn next(&self) -> Step {
+        let Some(rate) = self.next_rate() else { return Step::Done };
+        let (look, mesh) = Look::at(&self.progressive, rate);
+        Step::Level(look, Box::new(Candidate::new(Subject::new(&Arc::new(mesh)))))
+    }
+
+    fn add(&mut self, look: Look) {
+        let at = self.looks.partition_point(|other| other.per_mille < look.per_mille);
+        self.looks.insert(at, look);
+    }
+
+    /// The part that is done, 0 to 1.
+    fn fraction(&self) -> f32 {
+        (self.looks.len() as f32 / (RATES.len() + 6) as f32).min(1.0)
+    }
+
+    fn found(&self) -> Safe {
+        let (good, bad) = self.bounds();
+        let first = self.looks.first().map_or(&[][..], |look| &look.branches);
+        let has = |verdict: Verdict| first.iter().any(|branch| branch.verdict == verdict);
+        let can_measure = has(Verdict::Kept);
+        let refused = match (can_measure, has(Verdict::Changed)) {
+            (true, _) => None,
+            (false, true) => Some(say!("verdict-safe-none-kept")),
+            (false, false) => Some(say!("verdict-safe-none-measured")),
+        };
+        let good = good.filter(|_| can_measure);
+        let stopped_by = bad.filter(|_| can_measure).and_then(|look| match self.changed(look) {
+            Some(branch) => Some(match branch.reduced.largest_change {
+                Some(change) if branch.verdict == Verdict::Changed => {
+                    let [x, y, z] = change.at_mm.map(|mm| decimal(mm, 1));
+                    let (rate, by) = (decimal(look.percent(), 1), signed(change.percent, 1));
+                    say!("verdict-safe-changed", rate = rate, name = branch.label(), by = by, x = x, y = y, z = z)
+                }
+                _ => say!("verdict-safe-unmeasured", rate = decimal(look.percent(), 1), name = branch.label()),
+            }),
+            None => self.pinch.map(|pinch| pinch.to_string()),
+        });
+        Safe {
+            tolerance_percent: self.tolerance_percent,
+            percent: good.map(Look::percent),
+            triangles: good.map(|look| look.triangles),
+            stopped_by,
+            branches: first.iter().enumerate().map(|(i, branch)| self.branch(i, branch)).collect(),
+            refused,
+        }
+    }
+
+    fn branch(&self, i: usize, branch: &BranchCalibre) -> BranchSafe {
+        let is_kept = |look: &&Look| look.branches[i].verdict == Verdict::Kept;
+        BranchSafe {
+            number: branch.number,
+            name: branch.name.clone(),
+            changed_by_smoothing: !self.counts(i),
+            kept_to_percent: self.looks.iter().take_while(is_kept).last().map(Look::percent),
+            changed_from_percent: self.looks.iter().find(|look| self.is_changed(look, i)).map(Look::percent),
+        }
+    }
+}
+
+/// Whether so much of what was measured of a branch is measured no more that there is no saying it is kept.
+fn is_lost(first: &BranchCalibre, now: &BranchCalibre) -> bool {
+    let was_counted = first.standings.iter().zip(&now.standings).filter(|of| *of.0 == Standing::Counts);
+    let still = was_counted.filter(|of| matches!(of.1, Standing::Counts | Standing::Ambiguous)).count();
+    (still as f64) < MEASURED * first.stations_counted as f64
+}
+
+impl Task for SafeTask {
+    type Output = Safe;
+
+    /// To take a level out is one piece.
+    fn advance(&mut self, budget: Budget) -> Progress<Safe> {
+        loop {
+            self.step = match std::mem::replace(&mut self.step, Step::Done) {
+                Step::Level(look, mut candidate) => {
+                    match candidate.advance(&self.basis, self.tolerance_percent, budget) {
+                        None => {
+                            self.step = Step::Level(look, candidate);
+                            return Progress::Working(self.fraction());
+                        }
+                        Some(branches) => {
+                            self.add(Look { branches, ..look });
+                            self.next()
+                        }
+                    }
+                }
+                Step::Done => return Progress::Done(self.found()),
+            };
+            if budget.is_spent() && !matches!(self.step, Step::Done) {
+                return Progress::Working(self.fraction());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumen_vessel::summary::fixtures::branch;
+
+    #[test]
+    fn what_can_no_longer_be_measured_is_lost_but_for_places_without_a_saying() {
+        let with = |counts: usize, ambiguous: usize, open: usize| {
+            let mut branch = branch(1, Some(0.5));
+            branch.standings = vec![Standing::Counts; counts];
+            branch.standings.extend(vec![Standing::Ambiguous; ambiguous]);
+            branch.standings.extend(vec![Standing::NotClosed; open]);
+            branch.stations_counted = counts;
+            branch
+        };
+        let first = with(20, 0, 0);
+        for (now, expected) in
+            [(with(20, 0, 0), false), (with(18, 0, 2), false), (with(17, 0, 3), true), (with(2, 18, 0), false)]
+        {
+            assert_eq!(is_lost(&first, &now), expected, "{:?}", now.standings);
+        }
+    }
+}

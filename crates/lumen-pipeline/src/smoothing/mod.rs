@@ -1,0 +1,288 @@
+//! Windowed-sinc smoothing of a surface: Taubin, Zhang and Golub, "Optimal surface smoothing as filter design" (1996).
+//!
+//! With uniform (umbrella) weights, `K x_i = x_i - mean of x_i's neighbours` and `M = I - K/2`, the filtered surface
+//! is `sum of c_n T_n(M) x` (`super::filter` has the `c_n`), evaluated by the Chebyshev recurrence
+//!
+//! ```text
+//! x_0 = x,   x_1 = (x_0 + mean(x_0)) / 2,   x_{n+1} = x_n + mean(x_n) - x_{n-1}
+//! ```
+//!
+//! in as many passes over the neighbours as there are iterations. Boundary vertices see the two neighbours along
+//! their loop only; vertices on non-manifold edges, and those where several loops meet, stay where they are
+//! (`stencil`). Positions are kept relative to the middle of the surface in f32, four lanes a vertex.
+//!
+//! Vertices are put in an `order` in which neighbours are close, and the order is cut into one `strip` a thread. What
+//! comes out depends on neither: each vertex's sums have one order. The `terms` `x_n` are kept where they are few:
+//! another filter of the same degree or less is then but another sum of them.
+
+mod calibre;
+mod gains;
+mod guard;
+mod kept_terms;
+mod layout;
+mod order;
+mod placement;
+mod restore;
+mod stencil;
+mod strip;
+mod terms;
+mod volume;
+
+use std::ops::Deref;
+
+use glam::{Vec3, Vec4};
+
+pub use self::calibre::LeastPassBands;
+use self::gains::{Gains, Mix};
+pub use self::guard::{GuardTask, Guarded};
+pub(crate) use self::kept_terms::{KeptTerms, Preparation, TERMS_BYTES, kept_terms};
+use self::layout::Layout;
+use self::order::Order;
+use self::placement::Placement;
+pub use self::restore::RestoreTask;
+use self::stencil::Stencil;
+use self::strip::{Strip, Wave};
+pub use self::terms::Terms;
+pub use self::volume::{Before, TOLERANCE as VOLUME_TOLERANCE, VolumeTask};
+use super::filter::Filter;
+use super::settings::{Boundary, Smoothing};
+use super::task::{Budget, Progress, Task};
+use lumen_mesh::parallel;
+use lumen_mesh::{Bounds, Topology};
+
+/// Passes in a wave, at most.
+const DEEPEST: usize = 16;
+
+/// Bytes that the chunks under a wave may have: about a core's share of the cache.
+const CACHE: usize = 1 << 20;
+
+/// Bytes of a vertex and its row that a pass touches.
+const BYTES_A_VERTEX: usize = 3 * 16 + 6 * 4;
+
+/// A smoothing run in slices; `T` is any pointer to the topology.
+pub struct SmoothingTask<T> {
+    /// Until the strips are laid out.
+    layout: Option<Layout<T>>,
+    strips: Vec<Strip>,
+    gains: Gains,
+    placement: Placement,
+    /// `f(0)`.
+    gain: f64,
+    /// Whether the terms are kept.
+    keeps_terms: bool,
+    /// The wave under way, and the passes in one.
+    wave: Wave,
+    depth: usize,
+}
+
+impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
+    /// Starts smoothing `positions` (mm) with `filter`; `topology` is that of the surface.
+    pub fn new(positions: &[Vec3], topology: T, boundary: Boundary, filter: &Filter) -> Self {
+        let stencil = Stencil::new(positions, topology.clone(), boundary);
+        Self::of_field(positions.to_vec(), &topology, stencil, filter)
+    }
+
+    /// Starts smoothing each vertex with a pass band of its own, or that of `settings` if it is larger; the rest is as
+    /// `settings` say.
+    pub fn varying(positions: &[Vec3], topology: T, settings: &Smoothing, pass_bands: &[f32]) -> Self {
+        let stencil = Stencil::new(positions, topology.clone(), settings.boundary);
+        let (gains, mixes) = Gains::varying(settings, pass_bands);
+        Self::with_gains(positions.to_vec(), &topology, stencil, gains, mixes, 1.0)
+    }
+
+    /// Starts smoothing any three numbers at each vertex.
+    fn of_field(values: Vec<Vec3>, topology: &Topology, stencil: Stencil<T>, filter: &Filter) -> Self {
+        Self::with_gains(values, topology, stencil, Gains::of(filter), Vec::new(), filter.dc_gain())
+    }
+
+    /// `mixes` is empty where the gains are the same everywhere; `gain` is `f(0)`.
+    fn with_gains(
+        values: Vec<Vec3>,
+        topology: &Topology,
+        stencil: Stencil<T>,
+        gains: Gains,
+        mixes: Vec<Mix>,
+        gain: f64,
+    ) -> Self {
+        let centre = Bounds::of_most(&values).centre();
+        let mut order = Order::new(topology, &stencil, &mixes);
+        let chunks = order.chunks.len() - 1;
+        let count = strip_count(chunks);
+        let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);
+        let depth = (CACHE / (widest * BYTES_A_VERTEX)).clamp(2, DEEPEST).min((chunks / count / 2).max(1));
+        let own = |i: usize| i * chunks / count..(i + 1) * chunks / count;
+        let fixed = (0..values.len() as u32).filter(|&v| stencil.stays(v));
+        let fixed = fixed.map(|v| (v, values[v as usize])).collect();
+        Self {
+            strips: (0..count).map(|i| Strip::new(&order, own(i), depth)).collect(),
+            gains,
+            placement: Placement { fixed, places: std::mem::take(&mut order.places), centre },
+            layout: Some(Layout { order, stencil, values, centre, mixes }),
+            gain,
+            keeps_terms: false,
+            wave: Wave { first: 1, count: 0 },
+            depth,
+        }
+    }
+
+    /// Keeps the terms, for [`Self::into_terms`], if they take no more than `bytes`.
+    #[must_use]
+    pub fn keeping_terms(mut self, bytes: usize) -> Self {
+        let degree = self.gains.degree();
+        self.keeps_terms = Terms::bytes(self.placement.places.len(), degree) <= bytes as u64;
+        self
+    }
+
+    /// Lays out the strips; whether they are.
+    fn lay_out(&mut self, budget: Budget) -> bool {
+        let Some(layout) = &self.layout else { return true };
+        let (gains, places) = (&self.gains, &self.placement.places);
+        let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
+        let done = parallel::map(strips, |strip| strip.lay_out(layout, places, gains, budget));
+        if !done.into_iter().all(|done| done) {
+            return false;
+        }
+        self.layout = None;
+        if self.keeps_terms {
+            let degree = self.gains.degree();
+            self.strips.iter_mut().for_each(|strip| strip.keep_terms(degree));
+        }
+        self.next_wave(1);
+        true
+    }
+
+    fn next_wave(&mut self, first: usize) {
+        self.wave = Wave { first, count: self.depth.min(self.gains.degree() + 1 - first) };
+        self.strips.iter_mut().for_each(Strip::rewind);
+    }
+
+    fn progress(&self) -> f32 {
+        let strips = self.strips.iter().map(|strip| strip.progress(self.wave)).sum::<f32>() / self.strips.len() as f32;
+        let passes = (self.wave.first - 1) as f32 + strips * self.wave.count as f32;
+        passes / self.gains.degree().max(1) as f32
+    }
+
+    /// What was kept of a run that is done.
+    pub fn into_terms(self) -> Option<Terms> {
+        let blocks = self.strips.into_iter().map(|strip| strip.terms).collect();
+        self.keeps_terms.then(|| Terms::new(blocks, self.gains.degree(), self.placement))
+    }
+}
+
+impl<T: Deref<Target = Topology> + Clone + Sync> Task for SmoothingTask<T> {
+    type Output = Vec<Vec3>;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Vec<Vec3>> {
+        if !self.lay_out(budget) {
+            return Progress::Working(0.0);
+        }
+        while self.wave.count > 0 {
+            let (wave, gains) = (self.wave, &self.gains);
+            let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
+            let done = parallel::map(strips, |strip| strip.advance(wave, gains, budget));
+            if !done.into_iter().all(|done| done) {
+                return Progress::Working(self.progress());
+            }
+            for seam in 1..self.strips.len() {
+                let (before, after) = self.strips.split_at_mut(seam);
+                before[seam - 1].exchange(&mut after[0]);
+            }
+            self.next_wave(wave.first + wave.count);
+            if self.wave.count > 0 && budget.is_spent() {
+                return Progress::Working(self.progress());
+            }
+        }
+        let sums: Vec<&[Vec4]> = self.strips.iter().map(Strip::own_sum).collect();
+        Progress::Done(self.placement.place(&sums, self.gain))
+    }
+}
+
+/// The smoothed positions of a surface.
+pub fn smooth(positions: &[Vec3], topology: &Topology, boundary: Boundary, filter: &Filter) -> Vec<Vec3> {
+    SmoothingTask::new(positions, topology, boundary, filter).finish()
+}
+
+/// Strips for so many chunks: one a thread, but none so small that the halos would be most of it.
+fn strip_count(chunks: usize) -> usize {
+    (chunks / 8).clamp(1, parallel::threads())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A flat n x n grid of quads split in two, spacing 1 mm.
+    fn grid(n: u32, z: impl Fn(u32, u32) -> f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        let at = |x: u32, y: u32| y * (n + 1) + x;
+        let positions = (0..=n).flat_map(|y| (0..=n).map(move |x| (x, y)));
+        let triangles = (0..n).flat_map(|y| (0..n).map(move |x| (x, y))).flat_map(|(x, y)| {
+            let (a, b, c, d) = (at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
+            [[a, b, c], [a, c, d]]
+        });
+        (positions.map(|(x, y)| Vec3::new(x as f32, y as f32, z(x, y))).collect(), triangles.collect())
+    }
+
+    #[test]
+    fn the_origin_does_not_matter() {
+        let (positions, triangles) = grid(20, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
+        let topology = Topology::new(positions.len(), &triangles);
+        for window in crate::settings::Window::ALL {
+            let filter = Filter::new(&Smoothing { window, ..Smoothing::PAPER });
+            let here = smooth(&positions, &topology, Boundary::Loop, &filter);
+            // A shift that f32 holds exactly, so that nothing but the filter can differ.
+            let shifted: Vec<Vec3> = positions.iter().map(|&p| p + 512.0).collect();
+            let there = smooth(&shifted, &topology, Boundary::Loop, &filter);
+            let worst = here.iter().zip(&there).map(|(a, b)| (*a + 512.0 - *b).length()).fold(0.0, f32::max);
+            assert!(worst < 2e-4, "{window:?} moved by {worst} mm"); // three ulp at 512
+        }
+    }
+
+    #[test]
+    fn a_vertex_far_away_moves_none_that_it_does_not_reach() {
+        let (positions, triangles) = grid(40, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
+        let topology = Topology::new(positions.len(), &triangles);
+        let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::PAPER });
+        let without = smooth(&positions, &topology, Boundary::Loop, &filter);
+        let stray = 41 * 20 + 3;
+        for far in [1e6, 1e8] {
+            let mut strayed = positions.clone();
+            strayed[stray].z = far;
+            let with = smooth(&strayed, &topology, Boundary::Loop, &filter);
+            let out_of_reach =
+                (0..positions.len()).filter(|&v| (positions[v] - positions[stray]).truncate().length() > 11.0);
+            let worst = out_of_reach.map(|v| (with[v] - without[v]).length()).fold(0.0, f32::max);
+            assert!(worst < 2e-5, "{far}: moved by {worst} mm");
+        }
+    }
+
+    #[test]
+    fn slices_give_what_one_run_gives() {
+        let (positions, triangles) = grid(150, |x, y| ((x * 7 + y * 3) % 5) as f32 * 0.2);
+        let topology = Topology::new(positions.len(), &triangles);
+        let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::PAPER });
+        let whole = smooth(&positions, &topology, Boundary::Loop, &filter);
+        let mut task = SmoothingTask::new(&positions, &topology, Boundary::Loop, &filter);
+        let mut slices = 0;
+        let sliced = loop {
+            match task.advance(Budget::new(std::time::Duration::ZERO)) {
+                Progress::Working(fraction) => assert!((0.0..=1.0).contains(&fraction)),
+                Progress::Done(result) => break result,
+            }
+            slices += 1;
+        };
+        assert!(slices >= 7);
+        assert_eq!(whole, sliced);
+    }
+
+    #[test]
+    fn vertices_on_a_non_manifold_edge_stay_to_the_bit() {
+        let positions = vec![Vec3::X * 0.1, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Z];
+        let triangles = [[0, 1, 2], [1, 0, 3], [0, 1, 4]];
+        let topology = Topology::new(5, &triangles);
+        let filter = Filter::new(&Smoothing::PAPER);
+        let smoothed = smooth(&positions, &topology, Boundary::Loop, &filter);
+        assert_eq!(smoothed[..2], positions[..2]);
+        // The others are pulled between them: a filter of unit gain keeps them near.
+        assert!(smoothed.iter().all(|p| p.length() < 2.0), "{smoothed:?}");
+    }
+}

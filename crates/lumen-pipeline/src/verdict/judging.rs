@@ -1,0 +1,253 @@
+//! What of a result is to be said, and how much it weighs.
+
+use super::super::pinch::Pinch;
+use super::super::report::Report;
+use super::super::settings::{Keep, Mending, Preset, Settings, Smoothing, Target};
+use super::super::shape::Shape;
+use super::finding::{Finding, Remedied, Remedy, Verdict};
+use lumen_io::{ImportReport, NO_INSIDE, Unit, UnusualSize};
+use lumen_language::decimal;
+use lumen_language::say;
+use lumen_mesh::mending::{FaultCounts, FaultKind, FaultPlace};
+use lumen_vessel::certificate::{BranchCalibre, Certificate, Verdict as Calibre};
+use lumen_vessel::summary::{in_order, place, sentence};
+
+/// What becomes of that which is not known of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rest {
+    /// It is on its way.
+    Coming,
+    /// It was, and is no longer.
+    Stopped,
+    /// Nobody has asked for it.
+    NotAsked,
+}
+
+/// What is known of a result, from which the verdict follows.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<'a> {
+    /// The settings in force.
+    pub settings: &'a Settings,
+    /// What was found when the surface was opened.
+    pub import: &'a ImportReport,
+    /// Whether it can be read in another unit: samples and scans are in mm.
+    pub has_units: bool,
+    /// The numbers, if they are those of the settings.
+    pub report: Option<&'a Report>,
+    /// The vessel that is pinched or lost, if one is: it may be known before the numbers.
+    pub pinch: Option<&'a Pinch>,
+    /// What became of the vessels, or why there are none.
+    pub calibre: Option<&'a Result<Certificate, String>>,
+    /// The highest rate that is safe, in percent, where more is taken away.
+    pub safe_percent: Option<f64>,
+    /// What is wrong with the file, and where, if that is known.
+    pub faults: Option<(&'a FaultCounts, &'a [FaultPlace])>,
+    /// What becomes of that which is not known.
+    pub rest: Rest,
+}
+
+impl Verdict {
+    /// On what is known.
+    pub fn new(known: &Known<'_>) -> Self {
+        let mut findings = Vec::new();
+        let unusual = known.import.unusual_size();
+        let is_wall = known.faults.is_some_and(|(counts, _)| counts.wall.is_some());
+        let of_vessels = unusual.as_ref().filter(|found| !(is_wall && found.is_calibre));
+        findings.extend(of_vessels.map(|found| size(known, found)));
+        // What is measured of a wall says nothing of vessels.
+        findings.extend(faults(known));
+        findings.extend(pinch(known));
+        if let Some(report) = known.report {
+            findings.extend(of_report(known, report));
+        }
+        findings.extend(calibre(known));
+        let (of_file, no_inside) = (known.import.warnings_now().into_iter(), NO_INSIDE.say());
+        let of_file = of_file.filter(|text| unusual.as_ref().is_none_or(|found| found.sentence != *text));
+        findings.extend(of_file.map(|text| Finding { is_grave: text == no_inside, ..Finding::note(text) }));
+        findings.sort_by_key(|finding| !finding.is_grave);
+        let grave = findings.iter().filter(|finding| finding.is_grave).count();
+        let is_known = known.report.is_some() && known.calibre.is_some();
+        let is_measured = matches!(known.calibre, Some(Ok(found)) if found.verdict == Calibre::Kept);
+        let head = match grave {
+            0 if is_known && is_measured => say!("verdict-safe"),
+            0 if is_known || known.rest == Rest::NotAsked => say!("verdict-nothing-wrong"),
+            0 if known.rest == Rest::Stopped => say!("verdict-not-measured"),
+            0 => say!("verdict-coming"),
+            count => say!("verdict-to-look-at", count = count),
+        };
+        let is_safe = if grave > 0 { Some(false) } else { is_known.then_some(is_measured) };
+        Self { head, is_safe, calibre: known.calibre.map(sentence), findings }
+    }
+
+    /// On a run that is over.
+    pub fn of_run(report: &Report, import: &ImportReport, has_units: bool) -> Self {
+        let found = report.calibre.as_ref().map(|calibre| match (&calibre.refused, &report.branches) {
+            (None, Some(branches)) => Ok(Certificate::new(branches.clone(), calibre.tolerance_percent)),
+            (refused, _) => Err(refused.clone().unwrap_or_default()),
+        });
+        let entering = report.after_connectivity.triangles;
+        let takes_more = |percent: &f64| report.output.triangles < rate(*percent).triangles(entering);
+        // A coarser level may open a vessel again.
+        let is_open = report.narrowing.is_some_and(|found| found.pinched_places == 0);
+        let pinch = report.pinch.as_ref().filter(|pinch| !is_open && report.output.triangles <= pinch.triangles);
+        Self::new(&Known {
+            settings: &report.settings,
+            import,
+            has_units,
+            report: Some(report),
+            pinch,
+            calibre: found.as_ref(),
+            safe_percent: report.safe.as_ref().and_then(|safe| safe.percent).filter(takes_more),
+            faults: None,
+            rest: Rest::NotAsked,
+        })
+    }
+}
+
+/// The target of a rate in percent, to a tenth.
+pub fn rate(percent: f64) -> Target {
+    Target::Reduction((percent * 10.0).round() as u32)
+}
+
+/// Other settings for a remedy, if they are others.
+fn remedy(known: &Known<'_>, words: &str, change: impl FnOnce(&mut Settings)) -> Option<Remedy> {
+    let mut settings = known.settings.clone();
+    change(&mut settings);
+    let is_other = settings != *known.settings;
+    is_other.then(|| Remedy { words: words.to_owned(), change: Remedied::Settings(Box::new(settings)) })
+}
+
+/// The smoothing that suits the surface, where another is set.
+fn suit(known: &Known<'_>) -> Option<Remedy> {
+    remedy(known, &Preset::Auto.label(), |settings| {
+        let preserve_volume = settings.smoothing.preserve_volume;
+        settings.smoothing = Smoothing { preserve_volume, ..Preset::Auto.smoothing() };
+    })
+}
+
+/// The highest rate that is safe, where more is taken away.
+fn less(known: &Known<'_>) -> Option<Remedy> {
+    let percent = known.safe_percent?;
+    remedy(known, &say!("verdict-reduce-to", percent = decimal(percent, 1)), |settings| settings.target = rate(percent))
+}
+
+fn size(known: &Known<'_>, found: &UnusualSize) -> Finding {
+    let mut finding = Finding::grave(found.sentence.clone());
+    if known.has_units {
+        let read = |&unit: &Unit| Remedy {
+            words: say!("verdict-read-in", unit = unit.to_string()),
+            change: Remedied::Unit(unit),
+        };
+        finding.remedies = found.units.iter().map(read).collect();
+    }
+    finding
+}
+
+/// What is wrong with the file and not mended under these settings.
+fn faults(known: &Known<'_>) -> Vec<Finding> {
+    let Some((counts, places)) = known.faults else { return Vec::new() };
+    let asked = known.settings.mending;
+    let helped = |words: &str, change: &dyn Fn(&mut Mending)| {
+        let mut mending = asked;
+        change(&mut mending);
+        let is_other = mending != asked;
+        remedy(known, words, |settings| {
+            settings.mending = mending;
+            // A piece that is kept by its number may be another one then.
+            if matches!(settings.keep, Keep::Component(_)) {
+                settings.keep = Keep::Largest;
+            }
+        })
+        .filter(|_| is_other)
+    };
+    let mut findings = Vec::new();
+    if let Some(wall) = counts.wall.filter(|_| !asked.lumen) {
+        let text = say!("verdict-wall", thickness = decimal(wall.thickness_mm, 2));
+        findings.push(Finding::grave(text).helped_by(helped(&say!("verdict-take-lumen"), &|asked| asked.lumen = true)));
+    }
+    let of = |kind| places.iter().find(move |place| place.kind == kind);
+    let largest = counts.largest_hole_mm.filter(|&mm| asked.fill_mm.is_none_or(|limit| limit < mm));
+    if let Some((mm, place)) = largest.zip(of(FaultKind::Hole)) {
+        let text = say!("verdict-holes", count = counts.holes, diameter = decimal(mm, 1));
+        let fill = helped(&say!("verdict-fill"), &|asked| asked.fill_mm = Some(Mending::filling(mm)));
+        findings.push(Finding::note(text).at(place.at_mm, mm, say!("verdict-place-hole")).helped_by(fill));
+    }
+    let crowded = counts.non_manifold_edges + counts.non_manifold_vertices;
+    if crowded > 0 && !asked.split {
+        let text = say!("verdict-crowded", count = crowded);
+        let finding = Finding::note(text).helped_by(helped(&say!("verdict-split"), &|asked| asked.split = true));
+        findings.push(match of(FaultKind::Edge).or_else(|| of(FaultKind::Vertex)) {
+            Some(place) => finding.at(place.at_mm, f64::from(place.size_mm), say!("verdict-place-here")),
+            None => finding,
+        });
+    }
+    findings
+}
+
+fn pinch(known: &Known<'_>) -> Option<Finding> {
+    let Some(pinch) = known.pinch else {
+        let text = known.report.and_then(Report::pinch_warning)?;
+        let found = known.report?.narrowing?;
+        let finding = Finding::grave(text).at(found.at_mm, found.diameter_before_mm, say!("verdict-place-narrowed"));
+        return Some(finding.helped_by(less(known)));
+    };
+    let (before, percent) = (decimal(pinch.diameter_before_mm, 1), decimal(pinch.from_percent, 1));
+    let (text, label) = if pinch.diameter_after_mm > 0.0 {
+        (say!("verdict-pinched-first", before = before, percent = percent), say!("verdict-place-pinched"))
+    } else {
+        (say!("verdict-lost-first", before = before, percent = percent), say!("verdict-place-lost"))
+    };
+    let finding = Finding::grave(text).at(pinch.at_mm, pinch.diameter_before_mm, label);
+    Some(finding.helped_by(less(known)))
+}
+
+fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    if let Some(text) = report.smoothing_warning() {
+        let lumen = report.smoothed_shape.as_ref().and_then(|shape| shape.smallest_lumen);
+        let finding = Finding::grave(text).helped_by(suit(known));
+        findings.push(match lumen {
+            Some(lumen) => finding.at(lumen.at_mm, lumen.diameter_mm, say!("verdict-place-shut")),
+            None => finding,
+        });
+    }
+    let crossing = |shape: &Option<Shape>| shape.as_ref().map_or(0, |shape| shape.self_intersecting_faces);
+    let (now, before) = (crossing(&report.output_shape), crossing(&report.smoothed_shape));
+    if now > 0 {
+        let text = match before {
+            0 => say!("verdict-crossing", count = now),
+            _ => say!("verdict-crossing-before", count = now, before = before),
+        };
+        let guard = remedy(known, &say!("verdict-no-crossings"), |settings| settings.smoothing.guard = true);
+        findings.push(Finding::grave(text).helped_by(guard));
+    }
+    findings.extend(report.volume_warning().map(|text| Finding::grave(text).helped_by(suit(known))));
+    findings.extend(report.mending_warnings().into_iter().map(Finding::note));
+    findings.extend(report.shortfall.clone().map(Finding::note));
+    if report.pass_band_missed {
+        findings.push(Finding::note(say!("verdict-few-iterations")));
+    }
+    findings.extend(report.volume_held_warning().map(Finding::note));
+    findings
+}
+
+fn calibre(known: &Known<'_>) -> Option<Finding> {
+    let found = known.calibre?;
+    let certificate = found.as_ref().ok().filter(|found| found.verdict == Calibre::Changed)?;
+    let worst = in_order(certificate).into_iter().next()?;
+    let by_smoothing = certificate.branches.iter().any(|branch| branch.verdict_smoothed == Calibre::Changed);
+    let help = if by_smoothing { suit(known) } else { None };
+    let finding = Finding::grave(sentence(found));
+    let finding = match worst.reduced.largest_change {
+        Some(change) => finding.at(change.at_mm, width(worst, change.abscissa_mm), place(worst, &change)),
+        None => finding,
+    };
+    Some(finding.helped_by(help.or_else(|| less(known))))
+}
+
+/// How wide a branch is at a place, in mm.
+fn width(branch: &BranchCalibre, abscissa_mm: f64) -> f64 {
+    let i = branch.abscissas_mm.partition_point(|&at| f64::from(at) < abscissa_mm);
+    let radius = branch.opened.inscribed_radii_mm.get(i).copied().flatten();
+    2.0 * f64::from(radius.unwrap_or(1.0).max(0.1))
+}

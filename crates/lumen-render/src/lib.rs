@@ -1,0 +1,80 @@
+//! What wgpu draws: one camera, one light, a vessel shaded or as a wireframe. It knows [`mesh`](lumen_mesh) alone.
+//!
+//! - A [`Target`] is what one view renders to: a picture for the window to show, or to read back as a [`Picture`], and
+//!   what it is drawn by. That of a 3-D view ([`ViewTarget`]) has 4x multisampled colour and depth.
+//! - A [`GpuSurface`] holds the positions of all nodes of a progressive mesh, uploaded once; a level brings triangles,
+//!   edges and normals. A [`GpuWire`] is written anew every frame (`tube`).
+//! - A kind of drawing is one file with one shader: `backdrop`, `shaded`, `wireframe`, `slice`, `glass`, `wire`, `thickness`,
+//!   `fluoroscopy`. Over the camera and the theme (`scene`) and a paint for each thing drawn (`paint`) it makes its
+//!   pipelines (`pipeline`), binds what its shader reads (`binding`) and draws from buffers (`buffer`).
+//! - A [`Renderer`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`], by all kinds for surfaces (`kind`), with
+//!   ambient occlusion where that is asked for (`occlusion`).
+//! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel, from its tip, and as a fluoroscope sees it.
+//! - [`DeviceHealth`] hears what goes wrong with a device, [`SurfaceError`] is what does not come to it;
+//!   [`device_descriptor`] says what is asked of one.
+//! - [`pick`] finds the triangle under a [`Ray`] of the camera, on the CPU.
+//!
+//! It runs on WebGPU, on WebGL2 (no storage buffers, no compute, no wide lines, no polygon mode) and on Vulkan, Metal
+//! and OpenGL, with the same shaders.
+//!
+//! Colours. The window library samples a texture as `Rgba8Unorm` and takes what it reads as gamma-encoded sRGB (the
+//! comment in its shader: "We expect 'normal' textures that are NOT sRGB-aware"), whatever the format of its own
+//! target. An sRGB texture would be decoded once too often, and a second view of it in another format does not exist
+//! on WebGL2. So the target is `Rgba8Unorm`, shaders light in linear light and encode to sRGB themselves, and a
+//! [`Colour`] appears on screen as it is written. Multisamples are therefore averaged as encoded values: edges and
+//! lines have the same visual weight dark on light as light on dark.
+
+mod backdrop;
+mod binding;
+mod buffer;
+mod camera;
+mod colour;
+mod colour_map;
+mod edges;
+mod error;
+mod fault;
+mod fluoroscopy;
+mod glass;
+mod kind;
+mod limits;
+mod occlusion;
+mod paint;
+mod pick;
+mod picture;
+mod pipeline;
+mod renderer;
+mod scene;
+mod shaded;
+mod slice;
+mod standard_view;
+mod style;
+mod surface;
+mod target;
+mod texture;
+mod thickness;
+mod trial;
+mod tube;
+mod wire;
+mod wireframe;
+
+pub use camera::Camera;
+pub use colour::{Colour, contrast};
+pub use colour_map::{ColourMap, LABELS, VIRIDIS, diverging, label_colour, viridis};
+pub use edges::unique_edges;
+pub use error::SurfaceError;
+pub use fault::{DeviceHealth, Fault};
+pub use fluoroscopy::{Exposure, FluoroscopyTarget, Sums};
+pub use kind::{Drawable, Look};
+pub use limits::device_descriptor;
+pub use pick::{Hit, Ray, pick};
+pub use picture::{Picture, PictureError};
+pub use renderer::Renderer;
+pub use slice::GpuSlice;
+
+pub use standard_view::StandardView;
+pub use style::{ClipPlane, Style};
+pub use surface::GpuSurface;
+pub use target::{Attachments, Multisampled, Target, ViewTarget};
+pub use thickness::ThicknessFormat;
+pub use trial::TrialRenderer;
+pub use tube::GpuWire;

@@ -1,0 +1,175 @@
+//! What a trial takes place in: the wall, the vessel tree, the way through it, and where the wire stands.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use thiserror::Error;
+use web_time::Instant;
+
+use super::placement::PlacementError;
+use super::proposal::{proposed, reached};
+use super::route::{PlaceName, Proposals as _, Route, RouteError, Routes as _, phantom_task};
+use super::setup::{Entry, Setup};
+use super::simulation::Simulation;
+use super::wall::Wall;
+use super::wire::Wire;
+use lumen_language::say;
+use lumen_mesh::chance::Chance;
+use lumen_mesh::{TriMesh, Vec3};
+use lumen_pipeline::results::fingerprint;
+use lumen_pipeline::task::milliseconds;
+use lumen_vessel::phantom::Sample;
+use lumen_vessel::{Tree, TreeError};
+
+/// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
+const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
+
+/// Why a trial cannot begin.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum TrialError {
+    /// There is no tree.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+    /// There is no way.
+    #[error(transparent)]
+    Route(#[from] RouteError),
+    /// The wire cannot be put there.
+    #[error(transparent)]
+    Placement(#[from] PlacementError),
+    /// No place is known where a wire could enter.
+    #[error("{}", say!("trial-no-entry"))]
+    NoEntry,
+    /// No place is known where it could go.
+    #[error("{}", say!("trial-no-target"))]
+    NoTarget,
+}
+
+impl TrialError {
+    /// The place that is the reason, in mm, where there is one.
+    pub fn place(&self) -> Option<[f32; 3]> {
+        if let Self::Route(error) = self { error.place() } else { None }
+    }
+}
+
+/// A vessel that is ready for trials, and the way through it.
+#[derive(Debug)]
+pub struct Course {
+    /// The wall.
+    pub wall: Arc<Wall>,
+    /// The vessel tree.
+    pub tree: Tree,
+    /// The way.
+    pub route: Route,
+    /// Places where a wire could enter, with their names.
+    pub entries: Vec<(PlaceName, Entry)>,
+    /// Places where it could go, with their names.
+    pub targets: Vec<(PlaceName, [f32; 3])>,
+    /// Milliseconds to build the hierarchy of boxes.
+    pub wall_ms: f64,
+    /// Milliseconds to find tree and route.
+    pub route_ms: f64,
+    /// A number that differs where surfaces do.
+    pub fingerprint: u64,
+}
+
+impl Course {
+    /// Finds the way, and fills in what `setup` leaves open: samples bring their own entry, target and wire, and an entry
+    /// without a direction points along the way.
+    ///
+    /// # Errors
+    /// When there is no way for this wire.
+    pub fn new(mesh: &Arc<TriMesh>, sample: Option<Sample>, setup: &mut Setup) -> Result<Self, TrialError> {
+        setup.wire.check().map_err(PlacementError::from)?;
+        let start = Instant::now();
+        let wall = Arc::new(Wall::new(mesh.clone()));
+        let wall_ms = milliseconds(start);
+        let start = Instant::now();
+        let tree = if wall.is_closed() { Tree::with_index(mesh, wall.index().clone())? } else { Tree::new(mesh)? };
+        let task = sample.map(phantom_task);
+        // Where walls cross each other, the end of one vessel may be outside of another.
+        let is_inside = |entry: &Entry| tree.is_inside(Vec3::from(entry.at));
+        let found = tree.entries().into_iter().filter(|(_, entry)| is_inside(entry));
+        let own = task.iter().map(|(entry, _)| (PlaceName::Own, *entry));
+        let entries: Vec<_> = own.chain(found).collect();
+        let entry = match setup.entry {
+            Some(entry) => entry,
+            None => entries.first().ok_or(TrialError::NoEntry)?.1,
+        };
+        setup.entry = Some(entry);
+        let from = Vec3::from(entry.at);
+        let mut best = None;
+        if std::mem::take(&mut setup.proposes_wire) {
+            (setup.wire, best) = match sample {
+                Some(sample) => (Wire::for_sample(sample), None),
+                None => proposed(&tree, from, setup.target.map(Vec3::from)),
+            };
+        }
+        let found = tree.targets(from, 0.0).into_iter().map(|target| (target.name(), target.at.to_array()));
+        let own = task.iter().map(|(_, target)| (PlaceName::Own, target.to_array()));
+        let targets: Vec<_> = own.chain(found).collect();
+        let target = match (setup.target, &task) {
+            (Some(target), _) => target,
+            (None, Some((_, target))) => target.to_array(),
+            (None, None) => {
+                let best = best.or_else(|| reached(&tree, from, &setup.wire)).map(|target| target.at.to_array());
+                best.or_else(|| Some(targets.first()?.1)).ok_or(TrialError::NoTarget)?
+            }
+        };
+        setup.target = Some(target);
+        let route = tree.route(Vec3::from(entry.at), Vec3::from(target))?;
+        route.clearance(setup.wire.diameter_mm)?;
+        if entry.direction == [0.0; 3] {
+            let direction = route.at(0.0).direction.as_vec3().to_array();
+            setup.entry = Some(Entry { direction, ..entry });
+        }
+        let route_ms = milliseconds(start);
+        let fingerprint = fingerprint(mesh);
+        Ok(Self { wall, tree, route, entries, targets, wall_ms, route_ms, fingerprint })
+    }
+
+    /// The wire at its entry, varied by the seed; also the coefficients of friction.
+    ///
+    /// # Errors
+    /// When it does not fit there.
+    pub fn place(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
+        setup.check_loads()?;
+        let (mut simulation, friction) = self.enter(setup)?;
+        simulation.set_load(DVec3::from(setup.load.map(f64::from)))?;
+        Ok((simulation, friction))
+    }
+
+    /// The same without its load.
+    fn enter(&self, setup: &Setup) -> Result<(Simulation, [f64; 2]), TrialError> {
+        let entry = setup.entry.ok_or(TrialError::NoEntry)?;
+        let is_inside = |entry: &Entry| self.tree.is_inside(Vec3::from(entry.at));
+        if !is_inside(&entry) {
+            return Err(PlacementError::Outside.into());
+        }
+        let mut chance = Chance::new(setup.seed);
+        let is_varied = setup.seed != 0;
+        let part = |x: f64| if is_varied { x } else { 0.0 };
+        let (angle, out, tilt, tilted) = (chance.unit(), chance.unit(), chance.unit(), chance.unit());
+        let roll = part(std::f64::consts::TAU * chance.unit());
+        let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * chance.unit() - 1.0))));
+        let way = DVec3::from(entry.direction.map(f64::from)).try_normalize().ok_or(PlacementError::Direction)?;
+        let across = way.any_orthonormal_vector();
+        let turned = |angle: f64| DQuat::from_axis_angle(way, std::f64::consts::TAU * angle) * across;
+        let mut shift = turned(angle) * part(VARIED.0 * out.sqrt());
+        let mut lean = part(VARIED.1 * tilted.sqrt());
+        // In a narrow vessel there is less room than the seed asks for.
+        for _ in 0..4 {
+            let direction = DQuat::from_axis_angle(turned(tilt), lean) * way;
+            let at = DVec3::from(entry.at.map(f64::from)) + shift;
+            let varied = Entry { at: at.as_vec3().to_array(), direction: direction.as_vec3().to_array() };
+            match Simulation::new(&setup.wire, friction, &varied, roll, Some(self.wall.clone())) {
+                Ok(simulation) if is_inside(&varied) => return Ok((simulation, friction)),
+                Ok(_) | Err(PlacementError::Tight { .. } | PlacementError::Outside) => {
+                    shift /= 2.0;
+                    lean /= 2.0;
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+        Ok((Simulation::new(&setup.wire, friction, &entry, roll, Some(self.wall.clone()))?, friction))
+    }
+}

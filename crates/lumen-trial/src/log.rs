@@ -1,0 +1,246 @@
+//! The log of a trial: a row every ten steps, as CSV. The input of a row is in force from its step on, so that the log
+//! replays to the same end.
+//!
+//! Every field is a number, so a line is split at its commas; the setup stands in a comment line as JSON.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::STEP;
+use super::meter::SinceRow;
+use super::setup::{Input, Setup};
+use lumen_language::Key;
+use lumen_language::say;
+
+/// Version of the columns of the log and of the fields of the summary.
+pub const SCHEMA: u32 = 2;
+/// The columns.
+const COLUMNS: &str = "step,time_s,feed_mm_s,roll_rad_s,inserted_mm,roll_rad,tip_x,tip_y,tip_z,tip_dx,tip_dy,tip_dz,\
+arc_mm,branch,off_route,target_mm,path_ratio,contacts,wall_force_n,max_wall_force_n,max_x,max_y,max_z,tip_force_n,\
+push_n,torque_n_mm,retractions,wrong_branches,step_ms,balanced,unsettled,braked,waited,held,wanted_mm,fed_mm,residual_n";
+
+/// The oldest schema whose input can be read.
+const OLDEST: u32 = 1;
+
+/// A moment. Forces are those of the last balanced step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Steps since the start.
+    pub step: u64,
+    /// From this step on.
+    pub input: Input,
+    /// Length outside the guide in mm.
+    pub inserted_mm: f64,
+    /// Roll at the guide in radians.
+    pub roll: f64,
+    /// The tip in mm, and its direction.
+    pub tip: DVec3,
+    /// Of length 1.
+    pub tip_direction: DVec3,
+    /// Arc length along the route in mm.
+    pub arc_mm: f64,
+    /// The branch that the tip is in.
+    pub branch: u32,
+    /// Whether that is off the route.
+    pub is_off: bool,
+    /// Distance from the target in mm.
+    pub target_mm: f64,
+    /// Length of the tip's way so far over the route's length.
+    pub path_ratio: f64,
+    /// Places that press against the wall.
+    pub contacts: usize,
+    /// Sum of normal forces in N.
+    pub wall_force_n: f64,
+    /// The largest at one place since the last row, in N, and where.
+    pub max_wall_force_n: f64,
+    /// In mm.
+    pub max_at: DVec3,
+    /// Within 5 mm of the tip, in N.
+    pub tip_force_n: f64,
+    /// As in [`StepReport::push_n`](super::report::StepReport::push_n).
+    pub push_n: f64,
+    /// As in [`StepReport::torque_n_mm`](super::report::StepReport::torque_n_mm).
+    pub torque_n_mm: f64,
+    /// Times withdrawn.
+    pub retractions: u32,
+    /// Times in a wrong branch.
+    pub wrong_branches: u32,
+    /// Mean milliseconds of the steps since the last row.
+    pub step_ms: f64,
+    /// What the steps since the last row came to.
+    pub since: SinceRow,
+}
+
+/// All rows of a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    setup: Setup,
+    surface: u64,
+    /// The rows.
+    pub rows: Vec<Row>,
+}
+
+/// Why a log cannot be replayed.
+#[derive(Debug, Error)]
+pub enum LogError {
+    /// Not one of ours.
+    #[error("{}", say!("trial-log-none"))]
+    NoLog,
+    /// From another version.
+    #[error("{}", say!("trial-log-schema", found = found, oldest = OLDEST, newest = SCHEMA))]
+    Schema {
+        /// The number that stands there.
+        found: String,
+    },
+    /// The setup cannot be read.
+    #[error("{}", say!("trial-log-setup", why = .0.to_string()))]
+    Setup(#[from] serde_json::Error),
+    /// The setup is not there.
+    #[error("{}", say!("trial-log-no-setup"))]
+    NoSetup,
+    /// A line cannot be read.
+    #[error("{}", say!("trial-log-line", line = line.to_string(), what = what.say()))]
+    Line {
+        /// Counted from 1.
+        line: usize,
+        /// What is wrong.
+        what: Key,
+    },
+}
+
+/// What a log says that is needed to replay it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    /// The setup.
+    pub setup: Setup,
+    /// The surface's fingerprint in hexadecimal, as the summary has it.
+    pub surface: String,
+    /// Input, and the step from which it is in force.
+    pub inputs: Vec<(u64, Input)>,
+    /// Steps of it all.
+    pub steps: u64,
+}
+
+impl Log {
+    pub(super) fn new(setup: Setup, surface: u64) -> Self {
+        Self { setup, surface, rows: Vec::new() }
+    }
+
+    /// The inputs, each with its step.
+    pub fn inputs(&self) -> Vec<(u64, Input)> {
+        self.rows.iter().map(|row| (row.step, row.input)).collect()
+    }
+
+    /// The log as CSV, of a trial with so many steps.
+    ///
+    /// # Errors
+    /// When the setup is not to be had as JSON.
+    pub fn csv(&self, steps: u64) -> Result<String, serde_json::Error> {
+        let setup = serde_json::to_string(&self.setup)?;
+        let mut text = format!(
+            "# lumen trial log, schema {SCHEMA}\n# not for clinical decisions\n# surface {:016x}\n# steps {steps}\n# setup {setup}\n{COLUMNS}\n",
+            self.surface
+        );
+        for row in &self.rows {
+            row.write(&mut text);
+        }
+        Ok(text)
+    }
+
+    /// Reads a log for its replay.
+    ///
+    /// # Errors
+    /// Says which line is wrong.
+    pub fn read(bytes: &[u8]) -> Result<Recorded, LogError> {
+        let text = std::str::from_utf8(bytes).map_err(|_| LogError::NoLog)?;
+        let mut lines = text.lines().enumerate();
+        let head = lines.next().and_then(|(_, line)| line.strip_prefix("# lumen trial log, schema "));
+        let schema = head.ok_or(LogError::NoLog)?.trim();
+        if !schema.parse().is_ok_and(|schema: u32| (OLDEST..=SCHEMA).contains(&schema)) {
+            return Err(LogError::Schema { found: schema.to_owned() });
+        }
+        let (mut setup, mut surface, mut inputs) = (None, String::new(), Vec::<(u64, Input)>::new());
+        let mut steps = 0;
+        let mut has_columns = false;
+        for (number, line) in lines {
+            let wrong = |what| LogError::Line { line: number + 1, what };
+            if let Some(json) = line.strip_prefix("# setup ") {
+                setup = Some(serde_json::from_str(json)?);
+            } else if let Some(count) = line.strip_prefix("# steps ") {
+                steps = count.trim().parse().map_err(|_| wrong(Key("trial-log-steps")))?;
+            } else if let Some(hash) = line.strip_prefix("# surface ") {
+                surface = hash.trim().to_owned();
+            } else if line.starts_with('#') || line.trim().is_empty() {
+            } else if has_columns {
+                let fields: Vec<&str> = line.split(',').collect();
+                let speed = |column: usize| {
+                    fields.get(column).and_then(|field| field.parse::<f32>().ok()).filter(|x| x.is_finite())
+                };
+                let step = fields[0].parse().map_err(|_| wrong(Key("trial-log-step")))?;
+                let feed = speed(2).ok_or(wrong(Key("trial-log-feed")))?;
+                let roll = speed(3).ok_or(wrong(Key("trial-log-roll")))?;
+                let input = Input { feed, roll };
+                if inputs.last().is_some_and(|&(last, _)| last >= step) {
+                    return Err(wrong(Key("trial-log-order")));
+                }
+                inputs.push((step, input.limited()));
+            } else if line.starts_with("step,time_s,feed_mm_s,roll_rad_s,") {
+                has_columns = true;
+            } else {
+                return Err(wrong(Key("trial-log-columns")));
+            }
+        }
+        Ok(Recorded { setup: setup.ok_or(LogError::NoSetup)?, surface, inputs, steps })
+    }
+}
+
+impl Row {
+    fn write(&self, text: &mut String) {
+        let Self { step, input, inserted_mm, roll, tip, tip_direction, .. } = *self;
+        let point = |p: DVec3| p.to_array().map(|x| fixed(x, 4)).join(",");
+        // Speeds stand in full, so that a replay has the same bits.
+        let fields = [
+            step.to_string(),
+            fixed(step as f64 * STEP, 3),
+            input.feed.to_string(),
+            input.roll.to_string(),
+            fixed(inserted_mm, 4),
+            fixed(roll, 5),
+            point(tip),
+            point(tip_direction),
+            fixed(self.arc_mm, 3),
+            self.branch.to_string(),
+            u8::from(self.is_off).to_string(),
+            fixed(self.target_mm, 3),
+            fixed(self.path_ratio, 4),
+            self.contacts.to_string(),
+            fixed(self.wall_force_n, 6),
+            fixed(self.max_wall_force_n, 6),
+            point(self.max_at),
+            fixed(self.tip_force_n, 6),
+            fixed(self.push_n, 6),
+            fixed(self.torque_n_mm, 6),
+            self.retractions.to_string(),
+            self.wrong_branches.to_string(),
+            fixed(self.step_ms, 4),
+            self.since.counts.balanced.to_string(),
+            self.since.counts.unsettled.to_string(),
+            self.since.counts.braked.to_string(),
+            self.since.counts.waited.to_string(),
+            self.since.counts.held.to_string(),
+            fixed(self.since.wanted_mm, 4),
+            fixed(self.since.fed_mm, 4),
+            fixed(self.since.residual_n, 6),
+        ];
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", fields.join(","));
+    }
+}
+
+/// With this many digits behind the point; nought has no sign.
+fn fixed(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    if text.bytes().all(|byte| b"-0.".contains(&byte)) { text.replace('-', "") } else { text }
+}

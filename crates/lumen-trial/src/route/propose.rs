@@ -1,0 +1,214 @@
+//! Where a wire could enter and where it could go.
+
+use glam::{DVec3, Vec3};
+
+use super::{PlaceName, WayEnd, usual_radius};
+use crate::setup::Entry;
+use lumen_vessel::phantom::{Sample, Vessel, vessels};
+use lumen_vessel::{Branch, End, NONE, Tree, direction};
+
+/// A guide's mouth lies this many radii inside of the vessel's end, at least.
+const INSIDE: f64 = 1.0;
+/// And this far, in mm, unless the branch is too short.
+const INSIDE_MM: f64 = 3.0;
+
+/// An end with less than this part of the widest end's radius is proposed last: in a noisy scan it is no vessel.
+const THREAD: f64 = 0.03;
+
+/// A place where a wire could go.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// The branch that it lies in, as its place in [`Tree::branches`].
+    pub branch: u32,
+    /// What is there.
+    pub end: WayEnd,
+    /// In the middle of the lumen, in mm.
+    pub at: Vec3,
+    /// Radius of the lumen there, in mm.
+    pub radius_mm: f64,
+    /// Length of the way there, in mm.
+    pub length_mm: f64,
+    /// The radius that half of the way is narrower than, in mm.
+    pub usual_radius_mm: f64,
+}
+
+impl Target {
+    /// What it is called.
+    pub fn name(&self) -> PlaceName {
+        PlaceName::Target {
+            branch: self.branch,
+            end: self.end,
+            diameter_mm: 2.0 * self.radius_mm,
+            away_mm: self.length_mm,
+        }
+    }
+}
+
+/// An end of a vessel.
+struct Tip<'a> {
+    branch: &'a Branch,
+    is_first: bool,
+    end: End,
+    /// The place a little inside.
+    at: usize,
+    /// Radius there, in mm.
+    radius: f64,
+}
+
+/// Where a wire could enter a vessel tree, and where it could go.
+pub trait Proposals {
+    /// Places where a wire could enter, a little inside of the vessels' ends and pointing inwards, best first: those of
+    /// the largest tree, the widest first, as an artery is entered where it is wide. Each with its name.
+    fn entries(&self) -> Vec<(PlaceName, Entry)>;
+
+    /// Places where a wire from `from` could go, best first: far, and thin. Where the lumen on the way becomes thinner
+    /// than `room_mm` across, the last place before that.
+    fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target>;
+}
+
+impl Proposals for Tree {
+    fn entries(&self) -> Vec<(PlaceName, Entry)> {
+        let mut tips = tips(self);
+        tips.sort_by(|a, b| {
+            let key = |tip: &Tip<'_>| (tip.branch.tree, tip.end != End::Open);
+            key(a).cmp(&key(b)).then(b.radius.total_cmp(&a.radius)).then(a.branch.id.cmp(&b.branch.id))
+        });
+        let name = |tip: &Tip<'_>| PlaceName::Entry { branch: tip.branch.id, diameter_mm: 2.0 * tip.radius };
+        tips.iter().map(|tip| (name(tip), tip.entry())).collect()
+    }
+
+    fn targets(&self, from: Vec3, room_mm: f64) -> Vec<Target> {
+        let Some(ways) = nearest_ball(self, from).map(|ball| self.graph.ways(ball)) else { return Vec::new() };
+        let tips = tips(self);
+        let widest = tips.iter().map(|tip| tip.radius).fold(0.0, f64::max);
+        let mut found: Vec<(bool, f64, Target)> = Vec::new();
+        for tip in &tips {
+            let end = tip.branch.points[tip.at].at.as_vec3();
+            let Some(last) = nearest_ball(self, end).filter(|&ball| ways.length[ball as usize].is_finite()) else {
+                continue;
+            };
+            let mut way: Vec<u32> = std::iter::successors(Some(last), |&ball| {
+                Some(ways.before[ball as usize]).filter(|&before| before != NONE)
+            })
+            .collect();
+            way.reverse();
+            let ball = |i: usize| &self.graph.balls[way[i] as usize];
+            // What fits through between balls is less than what fits through the lumen: an end is rather left out.
+            let is_roomy = |i: &usize| {
+                let passage = ball(*i).passage(ball(i.saturating_sub(1)));
+                2.0 * f64::from(passage.min(ball(*i).radius)) >= room_mm
+            };
+            let room = (0..way.len()).take_while(is_roomy).count();
+            let Some(there) = room.checked_sub(1) else { continue };
+            let is_whole = room == way.len();
+            let (at, radius) =
+                if is_whole { (end, tip.radius) } else { (ball(there).centre, ball(there).radius.into()) };
+            if from.distance(at) <= 2.0 * radius as f32 {
+                continue;
+            }
+            let end = match tip.end {
+                _ if !is_whole => WayEnd::Narrow,
+                End::Open => WayEnd::Open,
+                _ => WayEnd::Closed,
+            };
+            let length = |i: usize| f64::from(ways.length[way[i] as usize]);
+            let pieces = (1..room).map(|i| (f64::from(ball(i).radius), length(i) - length(i - 1))).collect();
+            let target = Target {
+                branch: tip.branch.id,
+                end,
+                at,
+                radius_mm: radius,
+                length_mm: length(there),
+                usual_radius_mm: usual_radius(pieces),
+            };
+            found.push((tip.radius < THREAD * widest, target.length_mm / radius.sqrt(), target));
+        }
+        found.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        found.into_iter().map(|(.., target)| target).collect()
+    }
+}
+
+fn tips(tree: &Tree) -> Vec<Tip<'_>> {
+    let mut tips = Vec::new();
+    for branch in tree.branches().iter().filter(|branch| branch.points.len() > 1) {
+        for (is_first, end) in [(true, branch.ends[0]), (false, branch.ends[1])] {
+            if end == End::Joint {
+                continue;
+            }
+            let last = branch.points.len() - 1;
+            let radius = branch.points[if is_first { 0 } else { last }].radius;
+            let inside = (INSIDE * radius).max(INSIDE_MM).min(branch.length_mm() / 2.0);
+            let at = if is_first {
+                branch.arcs.partition_point(|&arc| arc < inside).min(last)
+            } else {
+                branch.arcs.partition_point(|&arc| arc < branch.length_mm() - inside)
+            };
+            tips.push(Tip { branch, is_first, end, at, radius: branch.points[at].radius });
+        }
+    }
+    tips
+}
+
+fn nearest_ball(tree: &Tree, p: Vec3) -> Option<u32> {
+    let power = |i: usize| {
+        let ball = tree.graph.balls[i];
+        ball.centre.distance_squared(p) - ball.radius * ball.radius
+    };
+    let powers = (0..tree.graph.balls.len()).map(|i| (power(i), i as u32));
+    powers.reduce(|least, next| if next.0 < least.0 { next } else { least }).map(|(_, ball)| ball)
+}
+
+impl Tip<'_> {
+    fn entry(&self) -> Entry {
+        let along = direction(&self.branch.points, self.at);
+        let inward = if self.is_first { along } else { -along };
+        Entry { at: self.branch.points[self.at].at.as_vec3().to_array(), direction: inward.as_vec3().to_array() }
+    }
+}
+
+/// Entry and target of a sample.
+///
+/// The aorta is entered by a sheath in the right common iliac artery, from the groin; a wire alone goes up past the
+/// bifurcation and both renal arteries to the upper end. (Into a renal artery, square to a vessel three times as wide,
+/// it is led by a shaped catheter.) The coronary arteries are entered by a guide catheter in the left main artery, 3 mm
+/// behind its ostium and in line with it; the target is the distal left anterior descending artery, where it is still
+/// 1.8 mm wide.
+pub fn phantom_task(sample: Sample) -> (Entry, Vec3) {
+    let vessels = vessels(sample);
+    let vessel = |name: &str| {
+        vessels.iter().find(|vessel| vessel.name == name).unwrap_or_else(|| unreachable!("{sample} has a {name}"))
+    };
+    match sample {
+        Sample::Aorta => {
+            let iliac = vessel("right common iliac artery");
+            let last = iliac.stations.len() - 1;
+            let at = back(iliac, last, 8.0);
+            let aorta = vessel("abdominal aorta");
+            (entry(iliac, at, -1.0), aorta.stations[onward(aorta, 0, 6.0)].position.as_vec3())
+        }
+        Sample::Coronary => {
+            let main = vessel("left main coronary artery");
+            let lad = vessel("left anterior descending artery");
+            let target = lad.stations.iter().rposition(|station| station.diameter >= 1.8).unwrap_or(0);
+            (entry(main, onward(main, main.ostium, 3.0), 1.0), lad.stations[target].position.as_vec3())
+        }
+    }
+}
+
+/// The first station at least `mm` behind another, along the vessel.
+fn onward(vessel: &Vessel, from: usize, mm: f64) -> usize {
+    let start = vessel.stations[from].position;
+    (from..vessel.stations.len()).find(|&i| vessel.stations[i].position.distance(start) >= mm).unwrap_or(from)
+}
+
+/// The last station at least `mm` before another.
+fn back(vessel: &Vessel, from: usize, mm: f64) -> usize {
+    let start = vessel.stations[from].position;
+    (0..from).rev().find(|&i| vessel.stations[i].position.distance(start) >= mm).unwrap_or(from)
+}
+
+fn entry(vessel: &Vessel, station: usize, sense: f64) -> Entry {
+    let direction: DVec3 = vessel.direction(station) * sense;
+    let at = vessel.stations[station].position.as_vec3();
+    Entry { at: at.to_array(), direction: direction.as_vec3().to_array() }
+}

@@ -1,0 +1,143 @@
+//! Trees and routes of surfaces whose centrelines are known.
+
+use glam::{DVec3, Vec3};
+
+use super::*;
+use lumen_mesh::shapes::{fork, joined, tube};
+use lumen_vessel::{Branch, End, Tree};
+
+fn near(found: f64, expected: f64, part: f64) {
+    assert!((found - expected).abs() <= part * expected.abs(), "{found}, not {expected} to {part}");
+}
+
+#[test]
+fn a_straight_tube_is_one_branch_as_long_and_wide_as_it_is() {
+    let tree = Tree::new(&tube(48, 80, 40.0, |_| 1.5)).unwrap();
+    let [branch] = tree.branches() else { panic!("{:?}", tree.branches().len()) };
+    assert_eq!((branch.name.as_str(), branch.parent, branch.ends), ("branch 1", None, [End::Open; 2]));
+    near(branch.length_mm(), 40.0, 0.01);
+    for place in &branch.points {
+        near(place.radius, 1.5, 0.01);
+        assert!(place.at.truncate().length() < 0.02, "{place:?}");
+    }
+    let route = tree.route(Vec3::new(0.4, 0.3, 3.0), Vec3::new(-0.5, 0.1, 37.0)).unwrap();
+    near(route.length_mm, 34.0, 0.002);
+    near(route.tortuosity, 1.0, 1e-3);
+    near(route.smallest_radius_mm, 1.5, 0.01);
+    assert_eq!((route.branches.clone(), route.branches_passed), (vec![0], 0));
+    for (i, station) in route.stations.into_iter().enumerate() {
+        near(station, 34.0 * (i as f64 + 0.5) / 5.0, 0.003);
+        let place = route.at(station);
+        assert!((place.at.z - 3.0 - station).abs() < 0.05 && place.direction.z > 0.999, "{place:?}");
+    }
+    let on = route.locate(DVec3::new(0.0, 0.9, 20.0));
+    assert!((on.arc_mm - 17.0).abs() < 0.05 && (on.distance_mm - 0.9).abs() < 0.03, "{on:?}");
+    // Before the cross-section, beside it, in it, past it, and far off.
+    for (p, expected) in
+        [([0.0, 0.0, 30.0], 7.0), ([1.0, 0.0, 35.0], 2.0), ([0.0, 1.0, 37.02], 0.0), ([0.0, 0.0, 39.0], 0.0)]
+    {
+        let found = route.distance_to_target(DVec3::from(p));
+        assert!((found - expected).abs() < 0.05, "{p:?}: {found}");
+    }
+    assert!(route.distance_to_target(DVec3::new(9.0, 0.0, 38.0)) > 7.0);
+    assert_eq!(route.clearance(2.9), Ok(()));
+    let thin = route.clearance(3.1).unwrap_err();
+    assert!(thin.to_string().starts_with("the lumen is too thin for a wire of 3.10 mm: it is "), "{thin}");
+}
+
+#[test]
+fn a_fork_has_three_branches_and_each_route_is_as_long_as_its_axes() {
+    let (mesh, [bottom, joint, left, right]) = fork();
+    let tree = Tree::new(&mesh).unwrap();
+    assert_eq!(tree.branches().len(), 3, "{:?}", tree.branches().iter().map(Branch::length_mm).collect::<Vec<_>>());
+    for branch in tree.branches() {
+        assert_eq!(branch.ends.iter().filter(|&&end| end == End::Closed).count(), 1);
+        assert_eq!(branch.ends.iter().filter(|&&end| end == End::Joint).count(), 1);
+    }
+    // Far enough from the fork, each place has the branch and the radius of its axis.
+    let branch = |from: DVec3, to: DVec3, radius: f64| {
+        let mut found = Vec::new();
+        for part in [0.45, 0.6, 0.8, 0.95] {
+            let p = from.lerp(to, part);
+            let located = tree.locate(p, None).unwrap();
+            near(located.radius_mm, radius, 0.03);
+            assert!(located.distance_mm < 0.05 * radius, "{p} {located:?}");
+            assert_eq!(tree.locate(p, Some(&located)), Some(located), "a hint changes nothing");
+            found.push(located.branch);
+        }
+        found.dedup();
+        assert_eq!(found.len(), 1, "{found:?}");
+        found[0]
+    };
+    let [trunk, wide, thin] = [branch(joint, bottom, 4.0), branch(joint, left, 3.0), branch(joint, right, 2.0)];
+    for (from, to, expected, through) in
+        [(bottom, left, 80.0, [trunk, wide]), (bottom, right, 80.0, [trunk, thin]), (right, left, 80.0, [thin, wide])]
+    {
+        let route = tree.route(from.as_vec3(), to.as_vec3()).unwrap();
+        // Where they meet, the middle of the lumen is not where the axes are: it cuts the corner, a sharp one more.
+        let slack = if from == right { 0.07 } else { 0.02 };
+        near(route.length_mm, expected, slack);
+        assert_eq!((route.branches.clone(), route.branches_passed), (through.to_vec(), 1));
+        let aside = [trunk, wide, thin].into_iter().find(|branch| !through.contains(branch)).unwrap();
+        let off = [bottom, left, right].into_iter().find(|end| *end != from && *end != to).unwrap();
+        let located = tree.locate(off, None).unwrap();
+        assert_eq!(located.branch, aside);
+        assert!(route.is_off(off, &located) && !route.is_off(joint, &tree.locate(joint, None).unwrap()));
+    }
+    let widths = tree.entries().into_iter().map(|(name, _)| {
+        let PlaceName::Entry { diameter_mm, .. } = name else { panic!("{name:?}") };
+        diameter_mm
+    });
+    widths.zip([8.0, 6.0, 4.0]).for_each(|(found, expected)| near(found, expected, 0.05));
+    let (_, entry) = tree.entries().swap_remove(0);
+    let targets = tree.targets(entry.at.into(), 0.0);
+    assert_eq!((tree.entries().len(), targets.len()), (3, 2));
+    assert!(Vec3::from(entry.at).distance(bottom.as_vec3()) < 6.0 && entry.direction[2] > 0.99, "{entry:?}");
+    assert!(targets[0].at.distance(right.as_vec3()) < 6.0, "the thin branch is the best target");
+    let route = tree.route(entry.at.into(), targets[0].at).unwrap();
+    near(targets[0].length_mm, route.length_mm, 0.05);
+    // Where there is no room in the thin branch, it goes as far as its mouth, and the wide one is the best target.
+    let roomy = tree.targets(entry.at.into(), 2.5 * targets[0].radius_mm);
+    assert!(roomy[0].at.distance(left.as_vec3()) < 6.0, "{roomy:?}");
+    assert!(roomy.len() == 2 && roomy[1].radius_mm > 1.25 * targets[0].radius_mm, "{roomy:?}");
+}
+
+#[test]
+fn the_usual_radius_goes_by_length_and_not_by_how_finely_a_way_is_cut() {
+    let thin = std::iter::repeat_n((1.0, 0.5), 80);
+    let pieces: Vec<(f64, f64)> = [(4.0, 60.0), (5.0, 40.0)].into_iter().chain(thin).collect();
+    // 40 mm of 1 mm, 60 of 4 and 40 of 5: half of 140 lies in the second.
+    assert_eq!(usual_radius(pieces), 4.0);
+    assert_eq!(usual_radius(Vec::new()), 0.0);
+}
+
+#[test]
+fn where_there_is_no_way_the_sentence_says_why() {
+    let mut other = tube(32, 40, 20.0, |_| 1.5);
+    other.positions.iter_mut().for_each(|p| *p += Vec3::new(8.0, 0.0, 0.0));
+    let tree = Tree::new(&joined(&[tube(32, 60, 30.0, |_| 2.0), other])).unwrap();
+    let (inside, elsewhere, outside) = (Vec3::Z * 4.0, Vec3::new(8.0, 0.0, 10.0), Vec3::new(5.0, 0.0, 10.0));
+    assert_eq!(tree.branches().iter().map(|branch| branch.tree).collect::<Vec<_>>(), [0, 1]);
+    let says = |from, to| tree.route(from, to).unwrap_err();
+    let entry = says(outside, inside);
+    assert!(
+        matches!(entry, RouteError::EntryOutside { distance_mm, .. } if (distance_mm - 1.5).abs() < 0.05),
+        "{entry}"
+    );
+    assert!(matches!(says(inside, outside), RouteError::TargetOutside { .. }));
+    assert!(matches!(says(Vec3::Z * -3.0, inside), RouteError::EntryOutside { .. }), "beyond the open end");
+    let gap = says(inside, elsewhere);
+    assert!(matches!(gap, RouteError::NoWay { gap_mm, .. } if (gap_mm - 4.5).abs() < 0.1), "{gap}");
+    assert!(matches!(says(inside, inside), RouteError::TooShort { .. }));
+}
+
+#[test]
+fn a_pinched_vessel_ends_where_it_is_pinched_and_a_narrow_one_goes_on() {
+    let waisted = |waist: f32| tube(48, 320, 40.0, move |z| 1.5 - (1.5 - waist) * (-(z - 20.0) * (z - 20.0)).exp());
+    let [from, to] = [Vec3::Z * 3.0, Vec3::Z * 37.0];
+    let route = Tree::new(&waisted(0.3)).unwrap().route(from, to).unwrap();
+    near(route.smallest_radius_mm, 0.3, 0.06);
+    assert!((route.points[route.smallest_at].at.z - 20.0).abs() < 0.3);
+    let shut = Tree::new(&waisted(1e-4)).unwrap().route(from, to).unwrap_err();
+    assert!(matches!(shut, RouteError::NoWay { at, .. } if (at[2] - 20.0).abs() < 1.5), "{shut}");
+}

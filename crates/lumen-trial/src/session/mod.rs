@@ -1,0 +1,373 @@
+//! A trial: a wire on its way through a vessel, what it is told, and what is measured of it.
+
+mod shown;
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use web_time::Instant;
+
+use super::STEP;
+use super::autopilot::{Autopilot, DECISION, FEED, Seen};
+use super::course::{Course, TrialError};
+use super::felt::Felt;
+use super::frame::{Progress, Touch};
+use super::log::Log;
+use super::meter::{Meter, SinceRow};
+use super::missed::MissedFork;
+use super::press::outward;
+use super::report::StepKind;
+use super::setup::{Input, Setup};
+use super::simulation::Simulation;
+use super::stopwatch::Stopwatch;
+use lumen_pipeline::task::milliseconds;
+use lumen_vessel::Located;
+
+/// Steps between two rows of the log, and between two decisions.
+pub const ROW_STEPS: u64 = (DECISION / STEP + 0.5) as u64;
+/// Steps between two places that can be gone back to: a second.
+const MARK_STEPS: u64 = (1.0 / STEP + 0.5) as u64;
+/// Places that can be gone back to.
+const MARKS: usize = 60;
+/// The tip has arrived within this of the target's cross-section, in mm.
+const ARRIVED: f64 = 2.0;
+/// Cosine between the shaft's way and the route's below which the wire has turned back.
+const BACK: f64 = -0.3;
+
+/// What changes from step to step.
+#[derive(Clone, Debug)]
+struct State {
+    simulation: Simulation,
+    autopilot: Autopilot,
+    input: Input,
+    located: Option<Located>,
+    arc: f64,
+    is_off: bool,
+    /// The fork that has yet to be taken rightly.
+    missed: Option<MissedFork>,
+    is_looped: bool,
+    progress: Progress,
+    meter: Meter,
+    /// Steps that the autopilot has steered.
+    steered: u64,
+    /// What the wall has felt, by every balanced step up to here.
+    felt: Felt,
+    rows: usize,
+}
+
+/// A trial.
+#[derive(Debug)]
+pub struct Trial {
+    course: Arc<Course>,
+    setup: Setup,
+    friction: [f64; 2],
+    state: State,
+    marks: Vec<State>,
+    /// How long steps took: kept once, and not with each mark, as it grows with every step.
+    stopwatch: Stopwatch,
+    log: Log,
+    is_steered: bool,
+    /// What the operator does from the next row of the log on.
+    wanted: Input,
+    /// Input to be replayed: from which step on, and what; and the steps of it all.
+    replay: Option<(Vec<(u64, Input)>, u64)>,
+    limit_s: f64,
+}
+
+impl Trial {
+    /// The wire at the entry of a course.
+    ///
+    /// # Errors
+    /// When it does not fit there.
+    pub fn new(course: Arc<Course>, setup: Setup) -> Result<Self, TrialError> {
+        let (simulation, friction) = course.place(&setup)?;
+        let limit_s = 3.0 * course.route.length_mm / FEED + 30.0;
+        let state = State {
+            simulation,
+            autopilot: Autopilot::default(),
+            input: Input::default(),
+            located: None,
+            arc: 0.0,
+            is_off: false,
+            missed: None,
+            is_looped: false,
+            progress: Progress::Running,
+            meter: Meter::new(&course.route),
+            steered: 0,
+            felt: Felt::default(),
+            rows: 0,
+        };
+        let log = Log::new(setup.clone(), course.fingerprint);
+        let mut trial = Self {
+            course,
+            setup,
+            friction,
+            state,
+            marks: Vec::new(),
+            stopwatch: Stopwatch::default(),
+            log,
+            is_steered: false,
+            wanted: Input::default(),
+            replay: None,
+            limit_s,
+        };
+        trial.look();
+        trial.mark();
+        Ok(trial)
+    }
+
+    /// Plays this input, from the start, in place of any other, for so many steps.
+    pub fn replay(&mut self, inputs: Vec<(u64, Input)>, steps: u64) {
+        self.replay = Some((inputs, steps));
+    }
+
+    /// Steps that the replay has in all, if it is one.
+    pub fn replayed_steps(&self) -> Option<u64> {
+        self.replay.as_ref().map(|replay| replay.1)
+    }
+
+    /// What it takes place in.
+    pub fn course(&self) -> &Arc<Course> {
+        &self.course
+    }
+
+    /// Its setup, with entry and target.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Static and kinetic friction, varied by the seed.
+    pub fn friction(&self) -> [f64; 2] {
+        self.friction
+    }
+
+    /// The wire.
+    pub fn simulation(&self) -> &Simulation {
+        &self.state.simulation
+    }
+
+    /// What was measured so far.
+    pub fn meter(&self) -> &Meter {
+        &self.state.meter
+    }
+
+    /// How long its steps took so far.
+    pub(super) fn stopwatch(&self) -> &Stopwatch {
+        &self.stopwatch
+    }
+
+    /// What was logged so far.
+    pub fn log(&self) -> &Log {
+        &self.log
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        self.state.progress
+    }
+
+    /// Simulated seconds after which the autopilot has lost; a hand, or a log, takes the time that it takes.
+    pub fn limit_s(&self) -> f64 {
+        self.limit_s
+    }
+
+    /// Steers by itself from the next row of the log on, or no longer.
+    pub fn set_autopilot(&mut self, on: bool) {
+        self.is_steered = on;
+        self.wanted = Input::default();
+    }
+
+    /// What is done from the next row of the log on, by hand.
+    pub fn drive(&mut self, input: Input) {
+        self.wanted = input.limited();
+    }
+
+    /// One step of [`STEP`] seconds; nothing once it is over.
+    pub fn step(&mut self) {
+        let steps = self.state.simulation.steps();
+        if self.replay.as_ref().is_some_and(|&(_, all)| steps >= all) && self.state.progress == Progress::Running {
+            self.state.progress = Progress::Over;
+        }
+        if steps.is_multiple_of(ROW_STEPS) && self.state.progress == Progress::Running {
+            self.decide(steps);
+        }
+        if self.state.progress != Progress::Running {
+            return;
+        }
+        let start = Instant::now();
+        self.press();
+        let state = &mut self.state;
+        let report = state.simulation.step(state.input);
+        self.stopwatch.stepped(milliseconds(start));
+        state.meter.stepped(&report, &state.simulation);
+        if report.kind == StepKind::Balanced {
+            state.felt.take(touches(&state.simulation));
+        }
+        state.steered += u64::from(self.is_steered);
+        let steps = self.state.simulation.steps();
+        if steps.is_multiple_of(ROW_STEPS) {
+            self.look();
+            if steps.is_multiple_of(MARK_STEPS) {
+                self.mark();
+            }
+        }
+    }
+
+    /// Presses the wire to the wall, if that is to be.
+    fn press(&mut self) {
+        let (press, simulation) = (self.setup.press, &mut self.state.simulation);
+        if press.n_per_mm <= 0.0 {
+            return;
+        }
+        let mut loads = Vec::new();
+        if simulation.inserted() >= f64::from(press.from_mm) {
+            loads = outward(&self.course.route, simulation.nodes());
+            loads.iter_mut().for_each(|load| *load *= f64::from(press.n_per_mm));
+        }
+        simulation.set_loads(loads);
+    }
+
+    /// Runs to the end.
+    pub fn finish(&mut self) {
+        while self.state.progress == Progress::Running {
+            self.step();
+        }
+    }
+
+    /// Goes back by a second of simulated time, if there is so much.
+    pub fn step_back(&mut self) {
+        let steps = self.state.simulation.steps();
+        while let Some(mark) = self.marks.last()
+            && mark.simulation.steps() + MARK_STEPS / 2 > steps
+            && self.marks.len() > 1
+        {
+            self.marks.pop();
+        }
+        if let Some(mark) = self.marks.last() {
+            self.state = mark.clone();
+            self.stopwatch.keep(self.state.simulation.steps() as usize);
+            self.wanted = Input::default();
+            self.log.rows.truncate(self.state.rows);
+        }
+    }
+
+    fn mark(&mut self) {
+        if self.marks.len() == MARKS {
+            self.marks.remove(1);
+        }
+        self.state.rows = self.log.rows.len();
+        self.marks.push(self.state.clone());
+    }
+
+    /// The input of the next row.
+    fn decide(&mut self, steps: u64) {
+        if let Some((inputs, _)) = &self.replay {
+            let known = inputs.partition_point(|&(from, _)| from <= steps);
+            self.state.input = known.checked_sub(1).map_or(Input::default(), |i| inputs[i].1);
+        } else if self.is_steered {
+            let seen = self.seen();
+            match self.state.autopilot.decide(&self.course.route, &seen) {
+                Some(input) => self.state.input = input.limited(),
+                None => self.state.progress = Progress::GaveUp,
+            }
+            self.state.meter.retractions = self.state.autopilot.retractions;
+        } else {
+            self.state.input = self.wanted;
+        }
+        let row = self.row();
+        self.log.rows.push(row);
+        self.state.meter.since_row = SinceRow::default();
+    }
+
+    fn seen(&self) -> Seen {
+        let State { simulation, arc, is_off, is_looped, .. } = &self.state;
+        let [_, side] = self.tip_side();
+        Seen {
+            tip: simulation.tip(),
+            shaft: self.shaft(),
+            side,
+            arc: *arc,
+            inserted: simulation.inserted(),
+            is_off: *is_off,
+            is_looped: *is_looped,
+            is_hard: simulation.is_at_limit(),
+        }
+    }
+
+    /// The direction of the shaft behind the bend of the tip.
+    fn shaft(&self) -> DVec3 {
+        let (rod, wire) = (&self.state.simulation.body().rod, &self.setup.wire);
+        let behind = wire.bend_mm + 2.0 * wire.elements_mm[0];
+        let grid = self.state.simulation.grid();
+        let edge = grid.partition_point(|&at| at < behind).min(self.state.simulation.count());
+        -rod.tangent(edge)
+    }
+
+    /// Direction of the tip, and the side to which it is bent, as the frame behind the bend has it.
+    fn tip_side(&self) -> [DVec3; 2] {
+        let simulation = &self.state.simulation;
+        let wire = &self.setup.wire;
+        let grid = simulation.grid();
+        let edge = grid.partition_point(|&at| at < wire.bend_mm).min(simulation.count());
+        [simulation.tip_direction(), simulation.body().rod.director(edge)]
+    }
+
+    /// Finds out where the tip is, and whether that is the end.
+    fn look(&mut self) {
+        let tip = self.state.simulation.tip();
+        let route = &self.course.route;
+        let state = &mut self.state;
+        state.located = self.course.tree.locate(tip, state.located.as_ref());
+        let was_off = state.is_off;
+        state.is_off = state.located.as_ref().is_some_and(|located| route.is_off(tip, located));
+        let on = route.locate(tip);
+        if !state.is_off {
+            state.arc = on.arc_mm;
+            state.missed = state.missed.filter(|missed| !missed.is_passed(route, on.arc_mm));
+        } else if let Some(located) = state.located.as_ref().filter(|_| !was_off) {
+            state.missed = Some(MissedFork { arc_mm: state.arc, into: located.branch });
+        }
+        let shaft = self.shaft();
+        let state = &mut self.state;
+        let was_looped = state.is_looped;
+        state.is_looped = shaft.dot(route.at(on.arc_mm).direction) < BACK && state.simulation.inserted() > 15.0;
+        state.meter.wrong_branches += u32::from(state.is_off && !was_off);
+        state.meter.loops += u32::from(state.is_looped && !was_looped);
+        state.meter.looked(&state.simulation, state.arc);
+        if state.progress == Progress::Running {
+            if !state.is_off && route.distance_to_target(tip) <= ARRIVED {
+                state.progress = Progress::Arrived;
+            } else if state.steered as f64 * STEP > self.limit_s {
+                state.progress = Progress::TimedOut;
+            }
+        }
+    }
+
+    /// The fork that it missed and has not taken rightly since, as a clause; `None` where it missed none.
+    pub(super) fn missed_fork(&self) -> Option<String> {
+        self.state.missed.map(|missed| missed.words(&self.course.tree, &self.course.route))
+    }
+
+    /// Where that fork is: where the tip left the route, in mm.
+    pub(super) fn missed_fork_at(&self) -> Option<DVec3> {
+        self.state.missed.map(|missed| self.course.route.at(missed.arc_mm).at)
+    }
+
+    /// What the wall has felt so far.
+    pub fn felt(&self) -> &Felt {
+        &self.state.felt
+    }
+
+    /// The same, to be told.
+    pub fn felt_mut(&mut self) -> &mut Felt {
+        &mut self.state.felt
+    }
+}
+
+/// Where the wire presses against the vessel now.
+fn touches(simulation: &Simulation) -> impl Iterator<Item = Touch> {
+    simulation.body().touches().map(|(_, at, triangle, force)| {
+        let at = at.as_vec3().to_array();
+        Touch { at, triangle, force: force as f32 }
+    })
+}

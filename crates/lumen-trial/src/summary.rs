@@ -1,0 +1,187 @@
+//! What came of a trial.
+
+use serde::{Deserialize, Serialize};
+
+use super::STEP;
+use super::frame::Progress;
+use super::log::SCHEMA;
+use super::report::StepCounts;
+use super::session::Trial;
+use super::setup::{Entry, Press};
+use super::stopwatch::{StationResult, StepTimes};
+use lumen_language::decimal;
+use lumen_language::say;
+
+/// What came of a trial.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of this list of fields.
+    pub schema: u32,
+    /// Whether the tip arrived.
+    pub success: bool,
+    /// Why it ended, as a sentence in the language that is spoken; with the fork that was missed, where one was.
+    pub reason: String,
+    /// The fork that was missed, where it did not arrive for that: where the tip left the route, in mm.
+    pub missed_fork_at: Option<[f32; 3]>,
+    /// Simulated seconds.
+    pub time_s: f64,
+    /// Steps.
+    pub steps: u64,
+    /// Steps a second of the clock, over all of it.
+    pub steps_per_second: f64,
+    /// Times of single steps.
+    pub step_ms: StepTimes,
+    /// Five places at equal arc length.
+    pub stations: Vec<StationResult>,
+    /// Milliseconds of 1/60 s of simulated time, over the first simulated second.
+    pub initial_simulation_ms: f64,
+    /// Milliseconds to build the hierarchy of boxes over the wall.
+    pub wall_build_ms: f64,
+    /// Milliseconds to find the vessel tree and the route.
+    pub route_build_ms: f64,
+    /// Triangles of the wall.
+    pub triangles: usize,
+    /// A number that differs where surfaces do, in hexadecimal.
+    pub surface: String,
+    /// The wire's name.
+    pub wire: String,
+    /// Where it entered, before the seed varies that.
+    pub entry: Option<Entry>,
+    /// Where it should go, in mm.
+    pub target: Option<[f32; 3]>,
+    /// Load on each mm of the wire, in N.
+    pub load_n_per_mm: [f32; 3],
+    /// What pressed it to the wall.
+    pub press: Press,
+    /// The seed.
+    pub seed: u64,
+    /// Static and kinetic coefficient of friction, after the seed's variation.
+    pub friction: [f64; 2],
+    /// Length of the route in mm.
+    pub route_length_mm: f64,
+    /// The smallest radius of the lumen along the route, in mm.
+    pub route_smallest_radius_mm: f64,
+    /// Length over the straight distance between its ends.
+    pub route_tortuosity: f64,
+    /// Branches that the route passes.
+    pub branches_passed: usize,
+    /// Distance of the tip from the target at the end, in mm.
+    pub tip_distance_mm: f64,
+    /// Length of the tip's way over the route's length.
+    pub path_ratio: f64,
+    /// Times the wire was withdrawn.
+    pub retractions: u32,
+    /// Times the tip entered a branch off the route.
+    pub wrong_branches: u32,
+    /// Times the wire turned back on itself.
+    pub loops: u32,
+    /// Steps by kind. The forces below are of those that were balanced.
+    pub step_kinds: StepCounts,
+    /// The part of the steps that was not balanced.
+    pub unbalanced_share: f64,
+    /// The way that the input asked the feed to go, there and back, in mm.
+    pub wanted_feed_mm: f64,
+    /// What of it was fed: the rest was asked for while the guide waited, was at the limit of its push or at an end of the wire.
+    pub fed_mm: f64,
+    /// By how much Newton's second law was missed at most in a balanced step, in N.
+    pub max_residual_n: f64,
+    /// Largest normal force at one place of the wall, in N.
+    pub max_wall_force_n: f64,
+    /// Mean over the balanced steps of the sum of normal forces, in N.
+    pub mean_wall_force_n: f64,
+    /// Integral over time of that sum, in N s; while a step is not balanced, that of the last one which was counts.
+    pub wall_impulse_n_s: f64,
+    /// Largest and mean force within 5 mm of the tip, in N.
+    pub max_tip_force_n: f64,
+    /// Mean of it.
+    pub mean_tip_force_n: f64,
+    /// Largest push at the guide, in N.
+    pub max_push_n: f64,
+    /// Largest moment at the guide, in N mm.
+    pub max_torque_n_mm: f64,
+    /// How far the wire ever reached into the wall, in mm.
+    pub max_penetration_mm: f64,
+    /// Largest length outside the guide, in mm.
+    pub max_inserted_mm: f64,
+    /// Largest number of nodes outside the guide.
+    pub max_nodes: usize,
+    /// Largest part of them against the wall.
+    pub max_contact_share: f64,
+    /// The sentence that stands in every report.
+    pub notice: String,
+}
+
+impl Trial {
+    /// What came of it, up to now.
+    pub fn summary(&self) -> Summary {
+        let (meter, clock, course) = (self.meter(), self.stopwatch(), self.course());
+        let simulation = self.simulation();
+        let steps = simulation.steps();
+        let route = &course.route;
+        let tip_distance_mm = route.distance_to_target(simulation.tip());
+        let time_s = steps as f64 * STEP;
+        let per = |sum: f64, count: u64| sum / count.max(1) as f64;
+        let is_failure = !matches!(self.progress(), Progress::Running | Progress::Arrived);
+        let away = decimal(tip_distance_mm, 1);
+        let why = match self.progress() {
+            Progress::Running => say!("trial-end-running", away = away),
+            Progress::Arrived => say!("trial-end-arrived", time = decimal(time_s, 1)),
+            Progress::TimedOut => say!("trial-end-timed-out", limit = decimal(self.limit_s(), 0), away = away),
+            Progress::Over => say!("trial-end-over", away = away),
+            Progress::GaveUp => say!("trial-end-gave-up", count = meter.retractions, away = away),
+        };
+        let missed = self.missed_fork().filter(|_| is_failure);
+        Summary {
+            schema: SCHEMA,
+            success: self.progress() == Progress::Arrived,
+            reason: match missed {
+                Some(missed) => say!("trial-end-missed", why = why, missed = missed),
+                None => why,
+            },
+            missed_fork_at: self.missed_fork_at().filter(|_| is_failure).map(|at| at.as_vec3().to_array()),
+            time_s,
+            steps,
+            steps_per_second: 1e3 * steps as f64 / clock.total_ms().max(1e-6),
+            step_ms: clock.times(),
+            stations: meter.stations.iter().map(|&(arc, passed)| clock.station(arc, passed)).collect(),
+            initial_simulation_ms: clock.first_frame_ms(),
+            wall_build_ms: course.wall_ms,
+            route_build_ms: course.route_ms,
+            triangles: course.wall.mesh().triangles.len(),
+            surface: format!("{:016x}", course.fingerprint),
+            wire: self.setup().wire.name.clone(),
+            entry: self.setup().entry,
+            target: self.setup().target,
+            load_n_per_mm: self.setup().load,
+            press: self.setup().press,
+            seed: self.setup().seed,
+            friction: self.friction(),
+            route_length_mm: route.length_mm,
+            route_smallest_radius_mm: route.smallest_radius_mm,
+            route_tortuosity: route.tortuosity,
+            branches_passed: route.branches_passed,
+            tip_distance_mm,
+            path_ratio: meter.path_mm / route.length_mm,
+            retractions: meter.retractions,
+            wrong_branches: meter.wrong_branches,
+            loops: meter.loops,
+            max_wall_force_n: meter.max_wall_force_n,
+            mean_wall_force_n: per(meter.wall_force_sum, meter.counts.balanced),
+            wall_impulse_n_s: meter.wall_force_kept_sum * STEP,
+            max_tip_force_n: meter.max_tip_force_n,
+            mean_tip_force_n: per(meter.tip_force_sum, meter.counts.balanced),
+            max_push_n: meter.max_push_n,
+            max_torque_n_mm: meter.max_torque_n_mm,
+            step_kinds: meter.counts,
+            unbalanced_share: meter.counts.unbalanced_share(),
+            wanted_feed_mm: meter.wanted_mm,
+            fed_mm: meter.fed_mm,
+            max_residual_n: meter.max_residual_n,
+            max_penetration_mm: meter.max_depth.max(0.0),
+            max_inserted_mm: meter.max_inserted,
+            max_nodes: meter.max_nodes,
+            max_contact_share: meter.max_contact_share,
+            notice: "Not for clinical decisions.".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! The calibre of a surface along given centrelines: the area of its cross-section and its inscribed radius at each
+//! station, in slices.
+
+use std::sync::Arc;
+use std::task::Poll;
+
+use glam::DVec3;
+
+use super::section::{Found, Shell, Wall};
+use super::space::Space;
+use super::stations::Station;
+use lumen_mesh::parallel;
+use lumen_mesh::task::Budget;
+use lumen_mesh::{IndexBuild, SurfaceIndex, Topology, TriMesh};
+
+/// Stations that are measured between two looks at the clock, and in one piece.
+const BATCH: usize = 64;
+const PIECE: usize = 8;
+/// Units of work of the index between two looks at the clock: some 0.2 ms.
+const WORK: usize = 20_000;
+
+/// A surface that is measured.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The surface.
+    pub mesh: Arc<TriMesh>,
+    /// Adjacency of its triangles.
+    pub topology: Arc<Topology>,
+    /// An index of it; built where there is none.
+    pub index: Option<Arc<SurfaceIndex>>,
+}
+
+impl Subject {
+    /// Of a surface by itself. Triangles that repeat a vertex are left out.
+    pub fn new(mesh: &Arc<TriMesh>) -> Self {
+        let is_whole = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+        let mesh = if mesh.triangles.iter().all(is_whole) {
+            mesh.clone()
+        } else {
+            Arc::new(mesh.filtered(|t| is_whole(&mesh.triangles[t])))
+        };
+        let topology = Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
+        Self { mesh, topology, index: None }
+    }
+}
+
+/// An index that is there, or is being built.
+#[derive(Debug)]
+pub(super) enum Indexing {
+    /// There.
+    Done(Arc<SurfaceIndex>),
+    /// Not yet.
+    Working(Box<IndexBuild>),
+}
+
+impl Indexing {
+    pub(super) fn new(subject: &Subject) -> Self {
+        match &subject.index {
+            Some(index) => Self::Done(index.clone()),
+            None => Self::Working(Box::default()),
+        }
+    }
+
+    /// The index, once it is there.
+    pub(super) fn advance(&mut self, mesh: &TriMesh, budget: Budget) -> Option<Arc<SurfaceIndex>> {
+        if let Self::Working(build) = self {
+            loop {
+                if let Poll::Ready(index) = build.advance(&mesh.positions, &mesh.triangles, WORK) {
+                    *self = Self::Done(Arc::new(index));
+                    break;
+                }
+                if budget.is_spent() {
+                    return None;
+                }
+            }
+        }
+        match self {
+            Self::Done(index) => Some(index.clone()),
+            Self::Working(_) => None,
+        }
+    }
+}
+
+/// What a surface has at a station.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Calibre {
+    /// Area of the cross-section in mm2: 0 where the vessel is gone, `None` where the cut does not close.
+    pub area_mm2: Option<f64>,
+    /// Radius of the largest ball inside there, in mm: 0 where the vessel is gone.
+    pub inscribed_mm: Option<f64>,
+    /// Centroid of the cross-section in mm.
+    pub middle_mm: Option<DVec3>,
+    /// A triangle that the cross-section goes through.
+    pub(super) triangle: Option<u32>,
+    /// Whether the cross-section is another loop than on the surface that this one was made from.
+    pub(super) is_another_loop: bool,
+}
+
+/// What is known of the vessels when a surface is measured that was made from one that is measured already.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    /// What the vessel has at each station of the opened surface, in mm.
+    pub(super) radii: &'a [f64],
+    /// The surface that it was made from, and what that has there.
+    pub(super) before: &'a Subject,
+    pub(super) calibres: &'a [Calibre],
+}
+
+/// The radius of the circle of an area.
+pub(super) fn circle(area: f64) -> f64 {
+    (area / std::f64::consts::PI).sqrt()
+}
+
+/// The measuring of one surface.
+#[derive(Debug)]
+pub(super) struct Measuring {
+    subject: Subject,
+    space: Space,
+    pub(super) found: Vec<Calibre>,
+}
+
+impl Measuring {
+    pub(super) fn new(subject: &Subject, space: Space) -> Self {
+        Self { subject: subject.clone(), space, found: Vec::new() }
+    }
+
+    /// Measures some more stations; whether these were the last. Nothing is known if the stations are of this surface.
+    pub(super) fn advance(&mut self, stations: &[Station], known: Option<Known<'_>>, budget: Budget) -> bool {
+        let Subject { mesh, topology, .. } = &self.subject;
+        let wall = Wall { shell: Shell { mesh, topology }, index: &self.space.index };
+        let space = &self.space;
+        while self.found.len() < stations.len() {
+            let first = self.found.len();
+            let batch = &stations[first..stations.len().min(first + BATCH)];
+            let one = |i: usize| {
+                let Station { at, direction, .. } = batch[i];
+                let found = match known {
+                    None => wall.section(at, direction).map_or(Found::Open, Found::Closed),
+                    Some(known) => wall.follow(space, at, direction, known.radii[first + i]),
+                };
+                // The ball in the middle of the vessel, wherever that has moved to.
+                let middle = match found {
+                    Found::Closed(section) if known.is_some() && !space.is_inside(at.as_vec3()) => Some(section.middle),
+                    Found::Gone => None,
+                    _ => Some(at),
+                };
+                let inscribed = match middle {
+                    Some(middle) if space.is_inside(middle.as_vec3()) => {
+                        space.largest(middle).map(|ball| f64::from(ball.radius))
+                    }
+                    Some(_) => None,
+                    None => Some(0.0),
+                };
+                let section = match found {
+                    Found::Closed(section) => Some(section),
+                    Found::Open | Found::Gone => None,
+                };
+                let is_another_loop = known.zip(section).is_some_and(|(known, section)| {
+                    let Subject { mesh, topology, .. } = known.before;
+                    let before = known.calibres[first + i].triangle;
+                    let has_another = |triangle| {
+                        Shell { mesh, topology }.has_another_loop(triangle, at, direction, &space.index, section.area)
+                    };
+                    before.is_some_and(has_another)
+                });
+                Calibre {
+                    area_mm2: found.area(),
+                    inscribed_mm: inscribed,
+                    middle_mm: section.map(|section| section.middle),
+                    triangle: section.map(|section| section.triangle),
+                    is_another_loop,
+                }
+            };
+            let measured = parallel::map_ranges(batch.len(), PIECE, |piece| piece.map(one).collect::<Vec<_>>());
+            self.found.extend(measured.into_iter().flatten());
+            if budget.is_spent() {
+                break;
+            }
+        }
+        self.found.len() == stations.len()
+    }
+
+    /// The part that is done, 0 to 1.
+    pub(super) fn fraction(&self, stations: &[Station]) -> f32 {
+        self.found.len() as f32 / stations.len().max(1) as f32
+    }
+}

@@ -1,0 +1,184 @@
+//! The certificate of calibre: what smoothing and reduction made of each branch of a vessel tree.
+//!
+//! Stations are taken along the centrelines of the surface as it was opened, and all three surfaces are cut there by
+//! the same planes. What is compared is the radius of the circle of the same area,
+//!
+//! ```text
+//! r(s) = sqrt( mean of A over s - r .. s + r / pi )
+//! ```
+//!
+//! with the mean weighted by `1 - |s - t| / r`. The mean is over the same stretch on all surfaces, so that a taper does not
+//! tell in the change from one to another; in the radius that is shown, where there is more of the vessel on one side than
+//! on the other, the line of least squares stands in its place. The area of one cross-section of a
+//! stair-stepped surface jumps by whole rows of voxels as the plane goes on, that of a stretch as long as the vessel is
+//! wide does not, and to the first order steps in and out of the wall leave it as it is. The inscribed radius, which
+//! stands beside it, does not have that property: steps that stand in make the ball smaller by a part of a voxel, and
+//! smoothing gives that back, though the calibre is the same.
+//!
+//! A change counts where the vessel can be measured: see [`zones`](super::zones) for ends and forks; where the cut
+//! closes on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or
+//! folded in the plane, there is no saying, nor where the plane has another loop on them though the wall has not moved
+//! (see [`section`](super::section)). Where they have no vessel any more, the change is -100 %.
+
+mod basis;
+mod branch;
+mod on_surface;
+mod stretch;
+mod task;
+mod unit;
+
+use std::fmt::Write as _;
+
+use serde::{Deserialize, Serialize};
+
+pub use basis::Basis;
+pub use basis::Candidate;
+pub use on_surface::{Change, OnSurface, Spread, Standing};
+pub use task::CertificateTask;
+pub use unit::CalibreError;
+pub(super) use unit::checked;
+
+use super::variation::{Kind, Variation};
+use lumen_language::Key;
+use lumen_language::say;
+
+/// The change in percent that a vessel is allowed, unless it is said otherwise.
+pub const TOLERANCE_PERCENT: f64 = 2.0;
+
+/// What is found of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Nowhere more change than the tolerance.
+    Kept,
+    /// More change than the tolerance.
+    Changed,
+    /// The vessel can nowhere be measured.
+    NotMeasured,
+}
+
+impl Verdict {
+    /// As tables show it.
+    pub fn label(self) -> Key {
+        match self {
+            Self::Kept => Key("vessels-verdict-kept"),
+            Self::Changed => Key("vessels-verdict-changed"),
+            Self::NotMeasured => Key("vessels-verdict-not-measured"),
+        }
+    }
+}
+
+/// A branch of the vessel tree, on all three surfaces.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BranchCalibre {
+    /// 1 for the first.
+    pub number: u32,
+    /// "branch 1" for the first.
+    pub name: String,
+    /// Number of the branch that it comes out of; null for the first of a tree.
+    pub parent: Option<u32>,
+    /// Length of the centreline in mm.
+    pub length_mm: f64,
+    /// Length over the distance of the ends; null where they are at one place.
+    pub tortuosity: Option<f64>,
+    /// Whether the reduced surface keeps it within the tolerance.
+    pub verdict: Verdict,
+    /// Whether the smoothed surface does.
+    pub verdict_smoothed: Verdict,
+    /// Stations that count.
+    pub stations_counted: usize,
+    /// Arc length at each station, from the first station of the branch, in mm.
+    pub abscissas_mm: Vec<f32>,
+    /// Each station, in mm.
+    pub at_mm: Vec<[f32; 3]>,
+    /// Whether each counts, and why not.
+    pub standings: Vec<Standing>,
+    /// As opened.
+    pub opened: OnSurface,
+    /// Smoothed.
+    pub smoothed: OnSurface,
+    /// Reduced.
+    pub reduced: OnSurface,
+    /// Where it is narrower or wider, as opened, than on either side.
+    #[serde(default)]
+    pub variations: Vec<Variation>,
+}
+
+/// What became of all branches.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// The change in percent that is allowed.
+    pub tolerance_percent: f64,
+    /// Changed where one branch is; kept where the others are.
+    pub verdict: Verdict,
+    /// The branches, a parent before its branches.
+    pub branches: Vec<BranchCalibre>,
+}
+
+impl Certificate {
+    /// Of these branches, which were judged by this tolerance.
+    pub fn new(branches: Vec<BranchCalibre>, tolerance_percent: f64) -> Self {
+        let has = |verdict: Verdict| branches.iter().any(|branch| branch.verdict == verdict);
+        let verdict = if has(Verdict::Changed) {
+            Verdict::Changed
+        } else if has(Verdict::Kept) {
+            Verdict::Kept
+        } else {
+            Verdict::NotMeasured
+        };
+        Self { tolerance_percent, verdict, branches }
+    }
+
+    /// A row a station, in the order of the branches. A field is empty where a cross-section does not close.
+    pub fn csv(&self) -> String {
+        let mut text = "branch,abscissa_mm,x_mm,y_mm,z_mm,standing,area_opened_mm2,area_smoothed_mm2,area_reduced_mm2,\
+                        radius_opened_mm,radius_smoothed_mm,radius_reduced_mm,change_smoothed_percent,\
+                        change_reduced_percent,variation_percent\n"
+            .to_owned();
+        for branch in &self.branches {
+            for i in 0..branch.abscissas_mm.len() {
+                let [x, y, z] = branch.at_mm[i];
+                let (number, at, standing) = (branch.number, branch.abscissas_mm[i], branch.standings[i].label());
+                let _ = write!(text, "{number},{at:.4},{x:.4},{y:.4},{z:.4},{standing}");
+                let surfaces = [&branch.opened, &branch.smoothed, &branch.reduced];
+                let areas = surfaces.map(|of| of.areas_mm2[i]);
+                let radii = surfaces.map(|of| of.radii_mm[i]);
+                let changes = [&branch.smoothed, &branch.reduced].map(|of| of.changes_percent[i]);
+                let variation = branch.variation_at(f64::from(at)).map(|percent| percent as f32);
+                for value in areas.into_iter().chain(radii).chain(changes).chain([variation]) {
+                    let _ = match value {
+                        Some(value) => write!(text, ",{value:.5}"),
+                        None => write!(text, ","),
+                    };
+                }
+                text.push('\n');
+            }
+        }
+        text
+    }
+}
+
+impl BranchCalibre {
+    /// What it is called in the language that is spoken; `name` is English.
+    pub fn label(&self) -> String {
+        say!("vessels-branch", number = self.number.to_string())
+    }
+
+    /// The stretch that is most narrower or wider than on either side.
+    pub fn most_uneven(&self) -> Option<&Variation> {
+        self.variations.iter().max_by(|a, b| a.degree_percent.total_cmp(&b.degree_percent))
+    }
+
+    /// The degree in percent, below 0 where it is narrower, of the stretch at this arc length; `None` outside of any.
+    fn variation_at(&self, abscissa_mm: f64) -> Option<f64> {
+        let found = self.variations.iter().find(|found| (found.from_mm..=found.to_mm).contains(&abscissa_mm))?;
+        Some(if found.kind == Kind::Narrower { -found.degree_percent } else { found.degree_percent })
+    }
+}
+
+/// The part of these vessels that is measured, by stations, in percent; `None` without a station.
+pub fn measured_percent(branches: &[BranchCalibre]) -> Option<f64> {
+    let counted: usize = branches.iter().map(|branch| branch.stations_counted).sum();
+    let all: usize = branches.iter().map(|branch| branch.standings.len()).sum();
+    (all > 0).then(|| 100.0 * counted as f64 / all as f64)
+}

@@ -1,0 +1,244 @@
+//! Ways through linked balls, and the tree that they make.
+//!
+//! A link costs its length over the square of what fits through it, so that the cheapest way keeps to the middle of the
+//! lumen and to wide vessels. The tree is found as by Sato et al., "TEASAR: tree-structure extraction algorithm for
+//! accurate and robust skeletons" (2000): from a root, the way to the farthest ball that no way explains yet is added
+//! until none is left that is far enough from the rest to be a vessel.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::Vec3;
+
+use super::balls::Balls;
+use super::space::Ball;
+
+/// No ball.
+pub const NONE: u32 = u32::MAX;
+/// A branch sticks out of the rest by this many of its end's radii, or it is a bump.
+const STICKS_OUT: f32 = 1.0;
+/// One with an open end, by these.
+const STICKS_OUT_OPEN: f32 = 0.3;
+/// And by this part of the radius that it comes out of.
+const STICKS_OUT_OF: f32 = 0.35;
+
+/// Linked balls as compressed rows.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    pub balls: Vec<Ball>,
+    pub is_passing: Vec<bool>,
+    pub group: Vec<u32>,
+    offsets: Vec<u32>,
+    /// The other ball, the length and the cost of each link.
+    links: Vec<(u32, f32, f64)>,
+}
+
+/// The cheapest ways from one ball to all that can be reached.
+#[derive(Clone, Debug)]
+pub struct Ways {
+    /// The ball before, on the way.
+    pub before: Vec<u32>,
+    /// Length of the way in mm; infinite where there is none.
+    pub length: Vec<f32>,
+}
+
+/// A way that is part of the tree, from where it leaves the rest to its end.
+#[derive(Clone, Debug)]
+pub struct Path {
+    /// The path that it leaves; itself for the first.
+    pub parent: usize,
+    /// Where it leaves that one: the number of a ball of its list.
+    pub joint: usize,
+    /// Its balls; those of a branch begin outside of its parent.
+    pub balls: Vec<u32>,
+}
+
+impl Graph {
+    pub fn new(found: Balls) -> Self {
+        let Balls { balls, is_passing, links: pairs, group, .. } = found;
+        let mut offsets = vec![0u32; balls.len() + 1];
+        for pair in &pairs {
+            pair.iter().for_each(|&end| offsets[end as usize + 1] += 1);
+        }
+        for ball in 0..balls.len() {
+            offsets[ball + 1] += offsets[ball];
+        }
+        let mut cursor = offsets.clone();
+        let mut links = vec![(0, 0.0, 0.0); 2 * pairs.len()];
+        for &[a, b] in &pairs {
+            let [one, other] = [a, b].map(|ball| &balls[ball as usize]);
+            let length = one.centre.distance(other.centre);
+            let clear = f64::from(one.passage(other)).max(1e-12);
+            for (from, to) in [(a, b), (b, a)] {
+                links[cursor[from as usize] as usize] = (to, length, f64::from(length) / (clear * clear));
+                cursor[from as usize] += 1;
+            }
+        }
+        Self { balls, is_passing, group, offsets, links }
+    }
+
+    fn links(&self, ball: u32) -> &[(u32, f32, f64)] {
+        &self.links[self.offsets[ball as usize] as usize..self.offsets[ball as usize + 1] as usize]
+    }
+
+    /// The cheapest ways from `root` (Dijkstra 1959); of ways of the same cost, that by the balls of lower number.
+    pub fn ways(&self, root: u32) -> Ways {
+        let count = self.balls.len();
+        let mut ways = Ways { before: vec![NONE; count], length: vec![f32::INFINITY; count] };
+        let mut cost = vec![f64::INFINITY; count];
+        let mut queue = BinaryHeap::new();
+        cost[root as usize] = 0.0;
+        ways.length[root as usize] = 0.0;
+        queue.push(Reverse((0u64, root)));
+        while let Some(Reverse((bits, ball))) = queue.pop() {
+            // Numbers that are not negative are ordered as their bits are.
+            if f64::from_bits(bits) > cost[ball as usize] {
+                continue;
+            }
+            for &(next, length, price) in self.links(ball) {
+                let sum = cost[ball as usize] + price;
+                if sum < cost[next as usize] {
+                    cost[next as usize] = sum;
+                    ways.before[next as usize] = ball;
+                    ways.length[next as usize] = ways.length[ball as usize] + length;
+                    queue.push(Reverse((sum.to_bits(), next)));
+                }
+            }
+        }
+        ways
+    }
+
+    /// The linked ball that goes on from `ball` most nearly straight `away`, or the farthest if there is no saying.
+    pub fn onward(&self, ball: u32, away: Option<Vec3>) -> Option<u32> {
+        let from = self.balls[ball as usize].centre;
+        let mut best = (0.6, None);
+        for &(next, length, _) in self.links(ball) {
+            let way = (self.balls[next as usize].centre - from) / length.max(f32::MIN_POSITIVE);
+            let straight = away.map_or(length, |away| way.dot(away));
+            if straight > best.0 && !self.is_passing[next as usize] {
+                best = (straight, Some(next));
+            }
+        }
+        best.1
+    }
+
+    /// The tree of ways from `root`, the first path through to the far end.
+    pub fn tree(&self, root: u32, is_open: impl Fn(&Ball) -> bool) -> Vec<Path> {
+        let ways = self.ways(root);
+        let mut order: Vec<u32> = (0..self.balls.len() as u32)
+            .filter(|&ball| ways.length[ball as usize].is_finite() && !self.is_passing[ball as usize])
+            .collect();
+        order.sort_unstable_by(|&a, &b| ways.length[b as usize].total_cmp(&ways.length[a as usize]).then(a.cmp(&b)));
+        let count = self.balls.len();
+        let along_x = AlongX::new(&self.balls);
+        let mut covering = Covering { owner: vec![None; count], seen: vec![NONE; count], along_x };
+        let mut paths: Vec<Path> = Vec::new();
+        for &end in &order {
+            if covering.owner[end as usize].is_some() {
+                continue;
+            }
+            let mut free = vec![end];
+            let mut met = None;
+            let mut at = end;
+            while ways.before[at as usize] != NONE {
+                at = ways.before[at as usize];
+                met = covering.owner[at as usize];
+                if met.is_some() {
+                    break;
+                }
+                free.push(at);
+            }
+            free.reverse();
+            match met {
+                None if paths.is_empty() => {
+                    covering.add(self, 0, &free);
+                    paths.push(Path { parent: 0, joint: 0, balls: free });
+                }
+                None => {}
+                Some((parent, _)) => {
+                    let first = self.balls[free[0] as usize];
+                    let joint = self.nearest_of(&paths[parent].balls, &first);
+                    let trunk = self.balls[paths[parent].balls[joint] as usize];
+                    let out = ways.length[end as usize] - ways.length[free[0] as usize]
+                        + (first.centre.distance(trunk.centre) - trunk.radius).max(0.0);
+                    let tip = self.balls[end as usize];
+                    let least = if is_open(&tip) {
+                        STICKS_OUT_OPEN * tip.radius
+                    } else {
+                        (STICKS_OUT * tip.radius).max(STICKS_OUT_OF * trunk.radius)
+                    };
+                    if out >= least {
+                        covering.add(self, paths.len(), &free);
+                        paths.push(Path { parent, joint, balls: free });
+                    }
+                }
+            }
+        }
+        paths
+    }
+}
+
+impl Graph {
+    /// The place in a path whose middle is nearest to a ball.
+    fn nearest_of(&self, path: &[u32], ball: &Ball) -> usize {
+        let distance = |&other: &u32| self.balls[other as usize].centre.distance(ball.centre);
+        let places = path.iter().map(distance).enumerate();
+        places.reduce(|least, next| if next.1 < least.1 { next } else { least }).map_or(0, |(place, _)| place)
+    }
+}
+
+/// Which ball is explained by which path.
+struct Covering {
+    /// The path and the number in its list.
+    owner: Vec<Option<(usize, usize)>>,
+    /// By which ball each was looked at last.
+    seen: Vec<u32>,
+    along_x: AlongX,
+}
+
+impl Covering {
+    /// All balls of their group whose middle lies in one of the path's balls, or a little out of it, by links.
+    fn add(&mut self, graph: &Graph, path: usize, balls: &[u32]) {
+        let mut pending = Vec::new();
+        for (place, &middle) in balls.iter().enumerate() {
+            let by = graph.balls[middle as usize];
+            self.owner[middle as usize] = Some((path, place));
+            self.seen[middle as usize] = middle;
+            pending.push(middle);
+            while let Some(at) = pending.pop() {
+                for &(next, ..) in graph.links(at) {
+                    let other = graph.balls[next as usize];
+                    if self.seen[next as usize] != middle && other.centre.distance(by.centre) <= by.radius * 1.05 {
+                        self.seen[next as usize] = middle;
+                        self.owner[next as usize].get_or_insert((path, place));
+                        pending.push(next);
+                    }
+                }
+            }
+            // Two chains of balls may stand side by side in a vessel, and not be linked here.
+            for other in self.along_x.within(by.centre.x - by.radius, by.centre.x + by.radius) {
+                let is_inside = graph.balls[other as usize].centre.distance(by.centre) <= by.radius;
+                if is_inside && graph.group[other as usize] == graph.group[middle as usize] {
+                    self.owner[other as usize].get_or_insert((path, place));
+                }
+            }
+        }
+    }
+}
+
+/// The balls in the order of their x.
+struct AlongX(Vec<(f32, u32)>);
+
+impl AlongX {
+    fn new(balls: &[Ball]) -> Self {
+        let mut order: Vec<(f32, u32)> = (0..).zip(balls).map(|(number, ball)| (ball.centre.x, number)).collect();
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Self(order)
+    }
+
+    /// The balls with their middle from `low` to `high`.
+    fn within(&self, low: f32, high: f32) -> impl Iterator<Item = u32> {
+        let [first, end] = [self.0.partition_point(|at| at.0 < low), self.0.partition_point(|at| at.0 <= high)];
+        self.0[first..end].iter().map(|at| at.1)
+    }
+}

@@ -1,0 +1,34 @@
+//! Scans and masks: a grid of numbers in the patient, and the surface of what lies inside on it.
+//!
+//! - `geometry`: where the points lie, in millimetres, with spacing, origin and directions; `samples`: their numbers in
+//!   the type that they are stored in; `grid`: both.
+//! - `survey`: range, histogram and labels; `selection`: what of it is the vessel, and presets for CT.
+//! - `marching_cubes` with `cube_cases` cut anything that can say what lies inside, the phantoms' vessels too; `surface`
+//!   cuts a selection; `reduced` makes the smaller volume that a preview is cut from; `slice` is a picture, in a `window` of values.
+//!
+//! What takes long is a [`Task`](lumen_mesh::task::Task), done in slices. Files are read by `io`.
+
+mod cube_cases;
+mod error;
+mod geometry;
+mod grid;
+mod marching_cubes;
+mod reduced;
+mod samples;
+mod selection;
+mod slice;
+mod surface;
+mod survey;
+mod window;
+
+pub use error::VolumeError;
+pub use geometry::{Geometry, GeometryError, Region};
+pub use grid::Grid;
+pub use marching_cubes::{MarchingCubes, Mask};
+pub use reduced::{PREVIEW_POINTS, Reducing, preview_step};
+pub use samples::{SampleType, Samples};
+pub use selection::{PRESETS, Preset, Selection};
+pub use slice::{Axis, Slice, slice};
+pub use surface::{MOST_TRIANGLES, Surfacing};
+pub use survey::{BINS, Label, Survey, Surveying};
+pub use window::{WINDOWS, Window};

@@ -1,0 +1,180 @@
+//! What of a volume is the vessel: all that reaches a threshold, one label of a mask, or all of a mask.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::error::VolumeError;
+use super::geometry::Region;
+use super::grid::Grid;
+use super::marching_cubes::Mask;
+use super::samples::{Sample, with_samples};
+use super::survey::Survey;
+use lumen_language::say;
+use lumen_language::{Key, exact};
+
+/// What lies inside.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Selection {
+    /// Values from this one on, in the volume's own unit (Hounsfield units for CT).
+    Threshold(f64),
+    /// This label of a mask.
+    Label(i64),
+    /// Every label of a mask but 0.
+    AnyLabel,
+}
+
+/// A threshold with a name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset {
+    /// What it shows.
+    pub name: Key,
+    /// Hounsfield units.
+    pub value: f64,
+}
+
+/// Thresholds for contrast-filled vessels in CT. Blood with contrast has 200 to 500 HU in the arterial phase, muscle 50,
+/// and half way between is where the wall is; spongy bone has 200 HU and more and comes along.
+pub const PRESETS: [Preset; 3] = [
+    Preset { name: Key("scan-preset-little"), value: 130.0 },
+    Preset { name: Key("scan-preset-arteries"), value: 180.0 },
+    Preset { name: Key("scan-preset-aorta"), value: 250.0 },
+];
+
+/// That a threshold is wanted of a scan with values from `low` to `high`.
+fn nothing_chosen([low, high]: [f64; 2]) -> VolumeError {
+    let named = PRESETS.map(|preset| format!("{} {}", preset.value, preset.name.say()));
+    VolumeError::NothingChosen { low, high, presets: named.join(", ") }
+}
+
+impl Selection {
+    /// What is meant by a threshold or a label, if either is given; with neither a mask is all that is not 0.
+    ///
+    /// # Errors
+    /// [`VolumeError`]: neither is given for a scan, no value reaches the threshold or every one does, there is no such
+    /// label.
+    pub fn choose(survey: &Survey, threshold: Option<f64>, label: Option<i64>) -> Result<Self, VolumeError> {
+        let selection = match (threshold, label) {
+            (Some(threshold), _) => Self::Threshold(threshold),
+            (None, Some(label)) => Self::Label(label),
+            (None, None) if survey.is_mask() => Self::AnyLabel,
+            (None, None) => return Err(nothing_chosen(survey.range)),
+        };
+        selection.check(survey)?;
+        Ok(selection)
+    }
+
+    /// Whether there can be a surface of it.
+    ///
+    /// # Errors
+    /// [`VolumeError::OutsideRange`] and [`VolumeError::NoSuchLabel`].
+    pub fn check(self, survey: &Survey) -> Result<(), VolumeError> {
+        let [low, high] = survey.range;
+        match self {
+            // What is no number is in no range.
+            Self::Threshold(threshold) if !(low < threshold && threshold <= high) => {
+                Err(VolumeError::OutsideRange { threshold, low, high })
+            }
+            // What has too many values to be told as a mask may be one of a whole body.
+            Self::Label(label) if !survey.is_mask() && (low..=high).contains(&(label as f64)) => Ok(()),
+            Self::Label(label) if !survey.labels.iter().any(|known| known.value == label) => {
+                let known: Vec<String> = survey.labels.iter().map(|label| label.value.to_string()).collect();
+                let known = match known.len() {
+                    0 => say!("scan-known-range", low = exact(low), high = exact(high)),
+                    _ => say!("scan-known-labels", labels = known.join(", ")),
+                };
+                Err(VolumeError::NoSuchLabel { label, known })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A selection of a part of a volume, as marching cubes ask for it.
+pub(super) struct Selected {
+    grid: Arc<Grid>,
+    region: Region,
+    test: Test,
+    k: usize,
+}
+
+/// A selection in terms of the stored numbers.
+#[derive(Clone, Copy, Debug)]
+enum Test {
+    AtLeast(f64),
+    AtMost(f64),
+    Is(f64),
+    IsNot(f64),
+}
+
+impl Selected {
+    /// The part within `region`, which must be within the grid.
+    pub(super) fn new(grid: Arc<Grid>, selection: Selection, region: Region) -> Self {
+        let test = match selection {
+            Selection::Threshold(value) if grid.is_inverted() => Test::AtMost(grid.stored_for(value)),
+            Selection::Threshold(value) => Test::AtLeast(grid.stored_for(value)),
+            Selection::Label(label) => Test::Is(grid.stored_for(label as f64)),
+            Selection::AnyLabel => Test::IsNot(grid.stored_for(0.0)),
+        };
+        Self { grid, region, test, k: 0 }
+    }
+
+    fn index(&self, [i, j, k]: [usize; 3]) -> usize {
+        let [first_i, first_j, first_k] = self.region.first;
+        self.grid.index([first_i + i, first_j + j, first_k + k])
+    }
+}
+
+/// How near to a voxel the surface comes, as a part of the way to the next: where a value is the threshold itself, as whole
+/// numbers often are, all vertices around that voxel would be one, and thin vessels fall together.
+const LEAST: f64 = 2e-4;
+
+impl Mask for Selected {
+    const CLOSED: bool = false;
+
+    fn begin_slice(&mut self, k: usize) {
+        self.k = k;
+    }
+
+    fn row(&mut self, j: usize, runs: &mut Vec<Range<usize>>) {
+        let first = self.index([0, j, self.k]);
+        let row = first..first + self.region.size()[0];
+        with_samples!(self.grid.samples(), values => {
+            let values = &values[row];
+            match self.test {
+                Test::AtLeast(bound) => runs_where(values, runs, |value| value >= bound),
+                Test::AtMost(bound) => runs_where(values, runs, |value| value <= bound),
+                Test::Is(label) => runs_where(values, runs, |value| value == label),
+                Test::IsNot(label) => runs_where(values, runs, |value| value != label && !value.is_nan()),
+            }
+        });
+    }
+
+    fn crossing(&self, point: [usize; 3], axis: usize) -> f64 {
+        let (Test::AtLeast(bound) | Test::AtMost(bound)) = self.test else { return 0.5 };
+        let mut next = point;
+        next[axis] += 1;
+        let samples = self.grid.samples();
+        let (here, there) = (samples.stored(self.index(point)), samples.stored(self.index(next)));
+        let along = (bound - here) / (there - here);
+        // Beside a number that is none there is nothing to interpolate.
+        if (0.0..=1.0).contains(&along) { along.clamp(LEAST, 1.0 - LEAST) } else { 0.5 }
+    }
+}
+
+/// Appends the runs of values that are inside.
+fn runs_where<S: Sample>(values: &[S], runs: &mut Vec<Range<usize>>, is_inside: impl Fn(f64) -> bool) {
+    let mut start = None;
+    for (i, value) in values.iter().enumerate() {
+        match (is_inside(value.to_f64()), start) {
+            (true, None) => start = Some(i),
+            (false, Some(from)) => {
+                runs.push(from..i);
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    runs.extend(start.map(|from| from..values.len()));
+}

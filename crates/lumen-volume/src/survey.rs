@@ -1,0 +1,155 @@
+//! What is in a volume: its range, its labels where it is a mask, and how often which value occurs.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::grid::Grid;
+use super::samples::{Sample, with_samples};
+use lumen_mesh::task::{Budget, Progress, Task};
+
+/// Bars of a histogram.
+pub const BINS: usize = 256;
+/// The most labels that a mask has beside 0; what has more values is a scan, as one of 8 bits is.
+const MOST_LABELS: usize = 64;
+/// Numbers that are looked at between two looks at the clock.
+const STRETCH: usize = 1 << 18;
+
+/// What is in a volume.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Survey {
+    /// The smallest and the largest value that are numbers; both 0 where there is none.
+    pub range: [f64; 2],
+    /// How many values lie in each of [`BINS`] equal parts of the range.
+    pub histogram: Vec<u64>,
+    /// The whole numbers from 0 to 65,535 that a mask is made of, ascending, 0 left out; none where it is a scan.
+    pub labels: Vec<Label>,
+}
+
+/// A label of a mask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Label {
+    /// Its number.
+    pub value: i64,
+    /// How many points have it.
+    pub points: u64,
+}
+
+impl Survey {
+    /// Whether it is a mask: few whole numbers.
+    pub fn is_mask(&self) -> bool {
+        !self.labels.is_empty()
+    }
+
+    /// Whether values reach down to where only the air of a CT is, which has -1000 HU: most files do not say that they are
+    /// of CT.
+    pub fn has_air(&self) -> bool {
+        const AIR_HU: f64 = -500.0;
+        self.range[0] <= AIR_HU
+    }
+}
+
+/// Makes a [`Survey`] in two passes: range and labels, then the histogram.
+pub struct Surveying {
+    grid: Arc<Grid>,
+    /// Numbers of the pass that are done with.
+    done: usize,
+    is_counting: bool,
+    range: [f64; 2],
+    /// Every stored number so far and how often; `None` once there are too many.
+    values: Option<Vec<(f64, u64)>>,
+    bins: Vec<u64>,
+}
+
+impl Surveying {
+    /// Before the first number.
+    pub fn new(grid: Arc<Grid>) -> Self {
+        let range = [f64::INFINITY, f64::NEG_INFINITY];
+        Self { grid, done: 0, is_counting: false, range, values: Some(Vec::new()), bins: vec![0; BINS] }
+    }
+
+    fn finish_range(&mut self) {
+        let ends = self.range.map(|stored| self.grid.value_of(stored));
+        let is_empty = self.range[0] > self.range[1];
+        self.range = if is_empty { [0.0; 2] } else { [ends[0].min(ends[1]), ends[0].max(ends[1])] };
+        (self.done, self.is_counting) = (0, true);
+    }
+
+    fn survey(&mut self) -> Survey {
+        let values = self.values.take().unwrap_or_default();
+        let labels = values.iter().map(|&(stored, points)| (self.grid.value_of(stored), points));
+        let mut labels: Vec<(f64, u64)> = labels.collect();
+        labels.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let is_label = |value: f64| (0.0..=65_535.0).contains(&value) && libm::trunc(value) == value;
+        // Without anything around it there is no mask.
+        let is_mask = labels.len() > 1 && labels[0].0 == 0.0 && labels.iter().all(|&(value, _)| is_label(value));
+        let labels = labels.into_iter().filter(|&(value, _)| is_mask && value != 0.0);
+        Survey {
+            range: self.range,
+            histogram: std::mem::take(&mut self.bins),
+            labels: labels.map(|(value, points)| Label { value: value as i64, points }).collect(),
+        }
+    }
+}
+
+impl Task for Surveying {
+    type Output = Survey;
+
+    fn advance(&mut self, budget: Budget) -> Progress<Survey> {
+        let grid = Arc::clone(&self.grid);
+        let all = grid.samples().len();
+        loop {
+            let part = self.done..all.min(self.done + STRETCH);
+            self.done = part.end;
+            with_samples!(grid.samples(), values => {
+                if self.is_counting {
+                    count(&values[part], &grid, self.range, &mut self.bins);
+                } else {
+                    collect(&values[part], &mut self.range, &mut self.values);
+                }
+            });
+            if self.done == all {
+                if self.is_counting {
+                    return Progress::Done(self.survey());
+                }
+                self.finish_range();
+            }
+            if budget.is_spent() {
+                let passes = self.done as f32 / all.max(1) as f32 + f32::from(u8::from(self.is_counting));
+                return Progress::Working(passes / 2.0);
+            }
+        }
+    }
+}
+
+/// Widens the range by some stored numbers, and counts them while they are few.
+fn collect<S: Sample>(stored: &[S], [low, high]: &mut [f64; 2], values: &mut Option<Vec<(f64, u64)>>) {
+    let mut last = usize::MAX;
+    for value in stored.iter().map(|value| value.to_f64()).filter(|value| value.is_finite()) {
+        *low = low.min(value);
+        *high = high.max(value);
+        if let Some(known) = values {
+            // Neighbours are mostly alike.
+            if known.get(last).is_none_or(|&(known, _)| known != value) {
+                last = known.iter().position(|&(known, _)| known == value).unwrap_or_else(|| {
+                    known.push((value, 0));
+                    known.len() - 1
+                });
+            }
+            known[last].1 += 1;
+            if known.len() > MOST_LABELS + 1 {
+                *values = None;
+            }
+        }
+    }
+}
+
+/// Counts some stored numbers in equal parts of the range.
+fn count<S: Sample>(stored: &[S], grid: &Grid, [low, high]: [f64; 2], bins: &mut [u64]) {
+    let width = (high - low).max(f64::MIN_POSITIVE);
+    let scale = bins.len() as f64 / width;
+    let last = bins.len() - 1;
+    for value in stored.iter().map(|value| value.to_f64()).filter(|value| value.is_finite()) {
+        bins[(((grid.value_of(value) - low) * scale) as usize).min(last)] += 1;
+    }
+}
