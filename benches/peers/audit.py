@@ -1,4 +1,4 @@
-"""An audit of the reduction rate that Lumen marks as safe, and of the next one above, into docs/benchmarks.md.
+"""An audit of the reduction rate that Lumen marks as safe, and of the next one above, into docs/benchmarks/calibre.md.
 
     python audit.py [NAME...]
 
@@ -228,7 +228,7 @@ HEAD = """| surface | marked, % | stations audited | largest change there: Lumen
 def main(names):
     chosen = [(name, make) for name, make in surfaces() if not names or any(part in name for part in names)]
     text = "\n".join([HEAD, *(row(f"`{name}`" if "voxels" not in name else name, make) for name, make in chosen)])
-    print(text) if names else document("benchmarks.md", "audit", text)
+    print(text) if names else document("benchmarks/calibre.md", "audit", text)
 
 
 if __name__ == "__main__":

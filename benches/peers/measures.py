@@ -1,12 +1,12 @@
-"""Lumen's measures beside those of Open3D, MeshLab, trimesh and VTK, on the same surfaces, as a Markdown page.
+"""Lumen's measures beside those of Open3D, MeshLab, trimesh and VTK, on the same surfaces, as CSV (docs/measures.md).
 
-    judge python benches/peers/measures.py PROGRAM OUT.md FILE...
+    judge python benches/peers/measures.py PROGRAM FOLDER FILE...
 
 `judge` is `../shared/judge/judge`; PROGRAM is a build of `lumen`. Each file is measured as it is (`lumen inspect`), smoothed
 (pass band 0.1, 60 iterations) and reduced by 90 % (`lumen optimise`); what Lumen says of each is compared with what the
 others say of the same file.
 """
-import json, subprocess, sys, tempfile
+import csv, json, subprocess, sys, tempfile
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,15 @@ import open3d as o3d
 import trimesh
 from surfaces import area, distance, facts, read, self_intersections, shape, volume
 
+SHAPE = ("| surface | triangles | area mm2 | volume mm3 | roughness RMS | p95 | smallest angle | < 10 degrees, % | "
+         "self-intersecting | smallest lumen mm |")
+DEVIATION = "| surface | mean | RMS | p95 | max | Open3D there |"
 SETTINGS = ["--smoothing", "paper", "--pass-band", "0.1", "--iterations", "60"]
+
+
+def write_rows(path, lines):
+    with open(path, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([c.strip() for c in line[1:-1].split("|")] for line in lines)
 
 
 def lumen(*arguments):
@@ -86,39 +94,8 @@ def main(program, out, files):
             deviations.append(row)
             shapes.append(shape_row(program, smoothed, f"{path.name}, smoothed"))
             shapes.append(shape_row(program, reduced, f"{path.name}, 90 %"))
-    text = f"""# Measures beside other tools
-
-```sh
-../shared/judge/judge python benches/peers/measures.py target/release/lumen docs/measures.md \\
-    ../shared/data/bench/aorta74k.ply ../shared/data/real/*.{{stl,ply,obj}}
-```
-
-Each cell is Lumen's number / that of the other tool for the same file. Each file was measured as it is, smoothed (pass
-band 0.1, 60 iterations) and reduced by 90 %. Lengths are in the file's unit, taken as mm.
-
-## Shape
-
-Triangles, area and volume (open ends capped to the middle of each): VTK and NumPy. Dihedral deviation, RMS and 95th
-percentile in degrees: trimesh. Smallest angle in degrees and share of triangles with an angle below 10: NumPy.
-Self-intersecting triangles: MeshLab, of the numbers times 100,000 (its epsilon is 1e-6 in the square of the file's
-unit, by which in metres too few cross). Smallest lumen: twice Open3D's distance from the place that Lumen names to the
-nearest wall. Where the windings of a file face inwards, the other tools' volume is negative; Lumen turns them.
-
-| surface | triangles | area mm2 | volume mm3 | roughness RMS | p95 | smallest angle | < 10 degrees, % | self-intersecting | smallest lumen mm |
-|---|---|---|---|---|---|---|---|---|---|
-{chr(10).join(shapes)}
-
-## Deviation
-
-Of the level at 90 % from the smoothed surface, in mm, 200,000 samples each way, Lumen / Open3D. Lumen's largest is over
-all vertices too, so it may exceed Open3D's, which is over samples. The last column is Open3D's distance from the other
-surface at the place that Lumen names for the largest.
-
-| surface | mean | RMS | p95 | max | Open3D there |
-|---|---|---|---|---|---|
-{chr(10).join(deviations)}
-"""
-    Path(out).write_text(text)
+    write_rows(Path(out) / "measures-shape.csv", [SHAPE, *shapes])
+    write_rows(Path(out) / "measures-deviation.csv", [DEVIATION, *deviations])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Calibre of phantoms of known radius after Lumen's smoothing and after VTK's, into docs/benchmarks.md.
+"""Calibre of phantoms of known radius after Lumen's smoothing and after VTK's, into docs/benchmarks/phantoms.csv
+and docs/benchmarks/calibre.md.
 
     python phantoms.py [NAME...]
 
@@ -14,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from sections import PAPER, ROOT, TWO_VESSELS, Cuts, document, largest_piece, optimise, stretch_radii, windowed_sinc, write_ply
+from sections import PAPER, ROOT, TWO_VESSELS, Cuts, document, largest_piece, optimise, stretch_radii, windowed_sinc, write_ply, write_rows
 from trees import NARROW, cone, sample, stenosis, stepped, tube
 
 VOXELS = [0.3, 0.5, 0.7]
@@ -200,14 +201,15 @@ def main(names):
                 results.append(measured(phantom, voxel, folder))
             print(*rows_of(results[-1]), *results[-1]["warnings"], sep="\n", file=sys.stderr, flush=True)
     rows = [row for found in results for row in rows_of(found)]
-    text = "\n".join([HEAD, *rows, "", summary(results, rows), "", stenoses(results)])
+    table, text = [*HEAD.splitlines(), *rows], "\n".join([summary(results, rows), "", stenoses(results)])
     if names:
-        print(text)
+        print(*table, "", text, sep="\n")
         return
     folder = ROOT / "target/peers"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "phantoms.json").write_text(json.dumps(results))
-    document("benchmarks.md", "phantoms", text)
+    write_rows("benchmarks/phantoms.csv", table)
+    document("benchmarks/calibre.md", "phantoms", text)
 
 
 if __name__ == "__main__":

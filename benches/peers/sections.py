@@ -3,6 +3,7 @@
 A section is the closed loop around a point in the plane across a direction; its radius is that of the circle of its
 area. None of it is Lumen's: planes through triangles, with NumPy and SciPy.
 """
+import csv
 import json
 import os
 import subprocess
@@ -144,3 +145,11 @@ def document(page, name, text):
     file, mark, end = ROOT / "docs" / page, f"<!-- generated: {name} -->\n", "<!-- end -->"
     before, rest = file.read_text().split(mark, 1)
     file.write_text(f"{before}{mark}\n{text.strip()}\n\n{end}{rest.split(end, 1)[1]}")
+
+
+def write_rows(page, lines):
+    """Writes the rows of a Markdown table as a CSV file under docs/."""
+    with open(ROOT / "docs" / page, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        for line in (line for line in lines if set(line) - set("|-: ")):
+            writer.writerow(cell.strip().replace("**", "").replace("`", "") for cell in line.strip()[1:-1].split("|"))

@@ -1,4 +1,4 @@
-"""Roughness, volume and self-intersections after Lumen's smoothing and after vmtk's, into docs/benchmarks.md.
+"""Roughness, volume and self-intersections after Lumen's smoothing and after vmtk's, into docs/benchmarks/calibre.md.
 
     python taubin.py [NAME...]
 
@@ -41,7 +41,7 @@ def row(file):
 def main(names):
     chosen = [file for file in files() if not names or any(name in file.name for name in names)]
     text = "\n".join([HEAD, *map(row, chosen)])
-    print(text) if names else document("benchmarks.md", "taubin", text)
+    print(text) if names else document("benchmarks/calibre.md", "taubin", text)
 
 
 if __name__ == "__main__":

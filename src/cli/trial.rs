@@ -76,7 +76,7 @@ pub struct Trial {
     unit: Option<Unit>,
 }
 
-/// Pass band and iterations. The paper's 0.01 and 100 draw coronary arteries shut (docs/benchmarks.md); these take the
+/// Pass band and iterations. The paper's 0.01 and 100 draw coronary arteries shut (docs/benchmarks/calibre.md); these take the
 /// stairs of a segmentation out and leave vessels of 1.5 mm open.
 pub(super) const SMOOTHING: (f64, u32) = (0.1, 30);
 

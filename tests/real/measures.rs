@@ -3,7 +3,7 @@
 //! The facts: triangles that run into others as MeshLab counts them (pymeshlab 2025.7, "select self intersecting
 //! faces"; of the files' numbers times 100,000, because MeshLab takes 1e-6 in the square of the file's unit for nothing: of
 //! the two files in metres it counts 663 and 14 as they are, 697 and 25 in mm), smallest angle and share of slivers by NumPy from VTK's reading, roughness by trimesh's
-//! `face_adjacency_angles`. `benches/peers/measures.py` compares more, and writes `docs/measures.md`.
+//! `face_adjacency_angles`. `benches/peers/measures.py` compares more, and writes `docs/benchmarks/measures-*.csv`.
 
 use std::path::Path;
 

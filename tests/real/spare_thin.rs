@@ -1,6 +1,6 @@
 //! Reduction that spares thin vessels beside the plain one, at equal counts: what becomes of each branch.
 //!
-//! `LUMEN_LONG=1 cargo test --test real -- "spare thin" --nocapture` prints the tables of `docs/benchmarks.md`; else one
+//! `LUMEN_LONG=1 cargo test --test real -- "spare thin" --nocapture` prints the tables of `docs/benchmarks/calibre.md`; else one
 //! surface is tried.
 
 use std::path::{Path, PathBuf};

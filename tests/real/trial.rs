@@ -42,7 +42,7 @@ const AT_ONCE: [&str; 5] = [
     "beamadapter_phantom.obj",
     "steve_mechanical_thrombectomy.obj",
 ];
-/// Trials of each: as many as docs/guide.md tells of, or a sample.
+/// Trials of each: as many as docs/benchmarks/trial.md tells of, or a sample.
 fn seeds() -> u64 {
     if is_long() { 10 } else { 2 }
 }

@@ -52,7 +52,7 @@ pub(crate) fn curve() -> Result<()> {
     );
     let picture = root().join("docs/images/cost-curve.svg");
     std::fs::write(&picture, drawn(&curves)).with_context(|| format!("{} cannot be written", picture.display()))?;
-    document::replace("curve", &table(&curves))
+    document::replace("docs/benchmarks/stages.md", "curve", &table(&curves))
 }
 
 /// The medians of one stage; empty where it was not measured.

@@ -59,7 +59,7 @@ enum Command {
         #[arg(long)]
         long: bool,
     },
-    /// Run Lumen beside VTK, meshoptimizer and fast-simplification and write docs/benchmarks.md.
+    /// Run Lumen beside VTK, meshoptimizer and fast-simplification and write docs/benchmarks/peers.md.
     Peers(peers::Options),
     /// Measure a step of the trial natively and in the browser's Worker, by the same input.
     BenchTrial,
@@ -95,7 +95,7 @@ enum Command {
     Package(package::Options),
     /// Draw what `cargo bench` measured, cost against size, into docs/.
     Curve,
-    /// Run the wire's analytic benchmarks, draw them and write docs/validation.md.
+    /// Run the wire's analytic benchmarks, draw them and write docs/validation.md and validation.csv.
     Validation,
 }
 

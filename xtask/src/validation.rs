@@ -1,4 +1,5 @@
-//! `cargo xtask validation`: runs the wire's benchmarks, draws each and writes their answers into `docs/validation.md`.
+//! `cargo xtask validation`: runs the wire's benchmarks, draws each, writes every answer into `docs/validation.csv` and a
+//! line for each benchmark and tolerance into `docs/validation.md`.
 
 mod plot;
 
@@ -81,17 +82,20 @@ pub(crate) fn validation() -> Result<()> {
     step("Run the wire's benchmarks", || run(&mut tests))?;
     let pictures = root().join("docs/images/validation");
     std::fs::create_dir_all(&pictures).with_context(|| format!("{} cannot be made", pictures.display()))?;
+    let mut all = "benchmark,what,analytic,ours,difference,tolerance,elements\n".to_owned();
+    let mut summary = "| benchmark | values | difference | tolerance |\n|---|---:|---|---|\n".to_owned();
     for (name, title, axes, is_logarithmic) in BENCHMARKS {
         let plot = Plot { title, axes, is_logarithmic, series: series(&read(&folder, name, "points")?)? };
-        let mut text = table(&read(&folder, name, "rows")?)?;
+        let answers = answers(&read(&folder, name, "rows")?)?;
+        answers.iter().for_each(|answer| all += &answer.row(name));
+        summary += &summarised(title, &answers);
         if !plot.series.is_empty() {
             let file = pictures.join(format!("{name}.svg"));
             std::fs::write(&file, plot.drawn()).with_context(|| format!("{} cannot be written", file.display()))?;
-            let _ = write!(text, "\n![{title}](images/validation/{name}.svg)\n");
         }
-        document::replace_in("docs/validation.md", name, &text)?;
     }
-    Ok(())
+    std::fs::write(root().join("docs/validation.csv"), all).context("docs/validation.csv cannot be written")?;
+    document::replace("docs/validation.md", "results", &summary)
 }
 
 /// What a benchmark wrote.
@@ -109,24 +113,65 @@ fn cells<const N: usize>(csv: &str) -> Result<Vec<[&str; N]>> {
     csv.lines().skip(1).map(columns).collect()
 }
 
-fn table(csv: &str) -> Result<String> {
-    let mut text =
-        "| what | analytic | ours | difference | tolerance | elements |\n|---|---|---|---|---|---|\n".to_owned();
-    for [what, analytic, ours, tolerance, elements] in cells(csv)? {
-        let [expected, found]: [f64; 2] = [analytic.parse()?, ours.parse()?];
-        let difference = if expected == 0.0 {
-            format!("{found:.1e}")
-        } else {
-            format!("{:+.3} %", 100.0 * (found / expected - 1.0))
-        };
-        let _ = writeln!(
-            text,
-            "| {what} | {} | {} | {difference} | {tolerance} | {elements} |",
-            plot::rounded(expected),
-            plot::rounded(found)
-        );
+/// A value that a benchmark compares.
+struct Answer {
+    what: String,
+    expected: f64,
+    found: f64,
+    tolerance: String,
+    elements: String,
+}
+
+impl Answer {
+    /// In percent of the analytic value, or absolute where that is 0.
+    fn difference(&self) -> f64 {
+        if self.expected == 0.0 { self.found.abs() } else { 100.0 * (self.found / self.expected - 1.0) }
     }
-    Ok(text)
+
+    /// A row of `docs/validation.csv`.
+    fn row(&self, benchmark: &str) -> String {
+        let [expected, found] = [self.expected, self.found].map(plot::rounded);
+        let cells = [benchmark, &self.what, &expected, &found, &self.told(), &self.tolerance, &self.elements];
+        cells.map(|cell| document::field(&cell.replace("**", ""))).join(",") + "\n"
+    }
+
+    fn told(&self) -> String {
+        if self.expected == 0.0 { format!("{:.1e}", self.found) } else { format!("{:+.3} %", self.difference()) }
+    }
+}
+
+fn answers(csv: &str) -> Result<Vec<Answer>> {
+    let answer = |[what, expected, found, tolerance, elements]: [&str; 5]| {
+        let [what, tolerance, elements] = [what, tolerance, elements].map(str::to_owned);
+        Ok(Answer { what, expected: expected.parse()?, found: found.parse()?, tolerance, elements })
+    };
+    cells(csv)?.into_iter().map(answer).collect()
+}
+
+/// A line for each tolerance: how many values it holds for, and the least and largest difference.
+fn summarised(title: &str, answers: &[Answer]) -> String {
+    let mut groups: Vec<Vec<&Answer>> = Vec::new();
+    for answer in answers {
+        let is_alike = |group: &Vec<&Answer>| {
+            group[0].tolerance == answer.tolerance && (group[0].expected == 0.0) == (answer.expected == 0.0)
+        };
+        match groups.iter_mut().find(|group| is_alike(group)) {
+            Some(group) => group.push(answer),
+            None => groups.push(vec![answer]),
+        }
+    }
+    let mut text = String::new();
+    for mut group in groups {
+        group.sort_by(|a, b| a.difference().total_cmp(&b.difference()));
+        let [least, most] = [group[0], group[group.len() - 1]].map(Answer::told);
+        let told = match group.len() {
+            1 => most,
+            _ if group[0].expected == 0.0 => format!("at most {most}"),
+            _ => format!("{} to {most}", least.trim_end_matches(" %")),
+        };
+        let _ = writeln!(text, "| {title} | {} | {told} | {} |", group.len(), group[0].tolerance);
+    }
+    text
 }
 
 fn series(csv: &str) -> Result<Vec<Series>> {
@@ -153,10 +198,13 @@ mod tests {
 
     #[test]
     fn a_row_says_how_far_off_it_is() {
-        let text = table("what,analytic,ours,tolerance,elements\nload,2,2.01,1 %,80\ngap,0,0.001,1e-2,80\n").unwrap();
-        assert!(text.contains("| load | 2.0000 | 2.0100 | +0.500 % | 1 % | 80 |"), "{text}");
-        assert!(text.contains("| gap | 0 | 0.0010000 | 1.0e-3 | 1e-2 | 80 |"), "{text}");
-        assert!(table("head\nload,2\n").is_err());
+        let text = "what,analytic,ours,tolerance,elements\nload,2,2.01,1 %,80\nlower load,2,1.99,1 %,80\ngap,0,0.001,1e-2,80\n";
+        let found = answers(text).unwrap();
+        assert_eq!(found[0].row("beam"), "beam,load,2.0000,2.0100,+0.500 %,1 %,80\n");
+        assert_eq!(found[2].row("beam"), "beam,gap,0,0.0010000,1.0e-3,1e-2,80\n");
+        let summary = "| Beam | 2 | -0.500 to +0.500 % | 1 % |\n| Beam | 1 | 1.0e-3 | 1e-2 |\n";
+        assert_eq!(summarised("Beam", &found), summary);
+        assert!(answers("head\nload,2\n").is_err());
     }
 
     #[test]

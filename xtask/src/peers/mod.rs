@@ -1,7 +1,7 @@
 //! `cargo xtask peers`: Lumen natively and in the browser beside VTK, meshoptimizer and fast-simplification.
 //!
 //! What runs is in `benches/peers` (`run.py` puts the contenders in turn); here it is installed, started, and its report
-//! made into the tables of `docs/benchmarks.md` (`report` reads it, `tables` writes them).
+//! made into the tables of `docs/benchmarks/peers.md` and `quality.csv` (`report` reads it, `tables` writes them).
 
 mod report;
 mod tables;
@@ -179,8 +179,10 @@ fn publish(file: &Path, whole: bool) -> Result<()> {
     let blocks = tables::blocks(&report);
     for (name, block) in &blocks {
         println!("{block}\n");
-        if whole {
-            document::replace(name, block)?;
+        match *name {
+            _ if !whole => {}
+            "quality" => document::write_csv("docs/benchmarks/quality.csv", block)?,
+            _ => document::replace("docs/benchmarks/peers.md", name, block)?,
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! The tables of `docs/benchmarks.md`, with what each number is meant to reach beside it.
+//! The tables of `docs/benchmarks/peers.md` and `quality.csv`, with what each number is meant to reach beside it.
 
 use std::fmt::Write as _;
 
