@@ -141,6 +141,27 @@ fn words(name: &str, given: Option<&FluentArgs<'_>>) -> String {
     })
 }
 
+/// The sentence of a message of the libraries, in the language that is spoken; in English where that has none.
+pub fn tell(message: &dyn lumen_message::Message) -> String {
+    let told = SPOKEN.with_borrow(|spoken| {
+        let own = spoken.own.as_ref()?;
+        let mut given = FluentArgs::new();
+        for (name, value) in message.values() {
+            match value {
+                lumen_message::Value::Text(text) => given.set(name.to_owned(), text),
+                lumen_message::Value::Count(count) => given.set(name.to_owned(), count),
+                lumen_message::Value::Number { value, places: None } => given.set(name.to_owned(), exact(value)),
+                lumen_message::Value::Number { value, places: Some(places) } => {
+                    given.set(name.to_owned(), decimal(value, places.into()));
+                }
+                lumen_message::Value::Message(inner) => given.set(name.to_owned(), tell(&*inner)),
+            }
+        }
+        own.text(message.id(), Some(&given))
+    });
+    told.unwrap_or_else(|| message.to_string())
+}
+
 /// A message that something is put into, one value after another: what [`say!`] writes. Its functions are no part of those
 /// that say something, of which there are a thousand: that was a hundredth of the browser's program.
 pub struct Message {

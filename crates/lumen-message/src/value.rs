@@ -1,0 +1,83 @@
+//! What a message carries.
+
+use serde::{Deserialize, Serialize};
+
+use super::Told;
+
+/// A value in a message.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Value {
+    /// Words that are not translated: a name, a word of a file.
+    Text(String),
+    /// A whole number; plurals follow it.
+    Count(i64),
+    /// A number.
+    Number {
+        /// The number.
+        value: f64,
+        /// Decimals that are written; `None` writes as few as give the same number.
+        places: Option<u8>,
+    },
+    /// A message in a message.
+    Message(Box<Told>),
+}
+
+impl Value {
+    /// A number that is written with so many decimals.
+    pub fn decimal(value: f64, places: u8) -> Self {
+        Self::Number { value, places: Some(places) }
+    }
+}
+
+/// What can be a field of a message.
+pub trait ToValue {
+    /// The field as a value.
+    fn to_value(&self) -> Value;
+}
+
+macro_rules! to_value {
+    ($($type:ty => |$value:ident| $made:expr;)*) => { $(
+        impl ToValue for $type {
+            fn to_value(&self) -> Value {
+                let $value = self;
+                $made
+            }
+        }
+    )* };
+}
+
+to_value! {
+    u8 => |n| Value::Count((*n).into());
+    u16 => |n| Value::Count((*n).into());
+    u32 => |n| Value::Count((*n).into());
+    u64 => |n| Value::Count(i64::try_from(*n).unwrap_or(i64::MAX));
+    usize => |n| Value::Count(i64::try_from(*n).unwrap_or(i64::MAX));
+    i32 => |n| Value::Count((*n).into());
+    i64 => |n| Value::Count(*n);
+    f32 => |x| Value::Number { value: (*x).into(), places: None };
+    f64 => |x| Value::Number { value: *x, places: None };
+    &'static str => |text| Value::Text((*text).to_owned());
+    String => |text| Value::Text(text.clone());
+    Told => |told| Value::Message(Box::new(told.clone()));
+}
+
+/// Coordinates: `x, y, z` with one decimal.
+impl ToValue for [f32; 3] {
+    fn to_value(&self) -> Value {
+        Value::Text(self.map(|x| format!("{x:.1}")).join(", "))
+    }
+}
+
+/// A whole number in groups of three, as English writes it: `74,307`.
+pub fn grouped(number: impl std::fmt::Display) -> String {
+    let digits = number.to_string();
+    let (sign, digits) = digits.strip_prefix('-').map_or(("", &*digits), |digits| ("-", digits));
+    let mut text = sign.to_owned();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
