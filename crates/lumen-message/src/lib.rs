@@ -60,7 +60,7 @@ macro_rules! messages {
 
         impl $enum {
             /// Identifier and placeables of each message.
-            #[allow(dead_code, reason = "a private enum may have no translations")]
+            #[allow(dead_code, unreachable_pub, reason = "an enum may be private")]
             pub const MESSAGES: &'static [$crate::Signature] =
                 &[$( ($id, &[$($( stringify!($field) ),*)?]) ),*];
         }
