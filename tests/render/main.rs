@@ -333,7 +333,7 @@ fn two_views_in_one_submission_keep_their_cameras() {
     let mut encoder = stage().device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     for (camera, target) in cameras.iter().zip(&targets) {
         let drawables = [shown(&surface, Look::Shaded)];
-        stage().renderer.draw(&stage().device, &mut encoder, target, camera, &drawables, &plain(WHITE));
+        stage().renderer.draw(&mut encoder, target, camera, &before_backdrop(&drawables), &plain(WHITE));
     }
     stage().queue.submit([encoder.finish()]);
     for (camera, target) in cameras.iter().zip(&targets) {

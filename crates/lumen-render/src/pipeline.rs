@@ -11,6 +11,7 @@ pub(super) const ADD: wgpu::BlendComponent = wgpu::BlendComponent {
 };
 
 /// What differs between pipelines.
+#[derive(Clone, Copy)]
 pub(super) struct PipelineParts<'a> {
     pub(super) label: &'static str,
     pub(super) module: &'a wgpu::ShaderModule,
@@ -59,7 +60,7 @@ impl<'a> PipelineParts<'a> {
 
 impl SceneLayout {
     /// A pipeline over these layouts, into a [`ViewTarget`]; its module is made by `scene_shader!`.
-    pub(super) fn pipeline(&self, device: &wgpu::Device, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
+    pub(super) fn pipeline(&self, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
         let attributes: Vec<[wgpu::VertexAttribute; 1]> = (0..)
             .zip(parts.attributes)
             .map(|(shader_location, &format)| [wgpu::VertexAttribute { format, offset: 0, shader_location }])
@@ -79,8 +80,8 @@ impl SceneLayout {
             blend: parts.blend,
             write_mask: parts.write_mask,
         })];
-        let with_group = parts.group.map(|group| self.with_group(device, group));
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        let with_group = parts.group.map(|group| self.with_group(group));
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(parts.label),
             layout: Some(with_group.as_ref().unwrap_or(&self.pipeline)),
             vertex: wgpu::VertexState {

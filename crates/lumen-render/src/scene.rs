@@ -6,7 +6,9 @@ use glam::Mat4;
 use wgpu::util::DeviceExt;
 
 use super::buffer::uniforms;
-use super::paint::{Paint, PaintUniforms, encoded};
+use super::draw::Draw;
+use super::paint::{PaintUniforms, encoded};
+use super::thickness::ThicknessFormat;
 use super::{Camera, Colour, Style, VIRIDIS, binding, diverging, label_colour};
 
 /// Distance of two sets of uniforms in a buffer: the largest alignment that any device asks for.
@@ -42,14 +44,17 @@ struct SceneUniforms {
     row: [f32; 4],
 }
 
-/// Layouts that all pipelines share, and the colour map.
+/// The device, layouts that all pipelines share, and the colour map.
 #[derive(Debug)]
 pub(super) struct SceneLayout {
+    pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     scene: wgpu::BindGroupLayout,
     paint: wgpu::BindGroupLayout,
     pub(super) pipeline: wgpu::PipelineLayout,
     map: wgpu::TextureView,
+    /// What fluoroscopies add up thickness in.
+    pub(super) thickness: ThicknessFormat,
 }
 
 /// The uniforms of one call to draw.
@@ -74,36 +79,43 @@ impl SceneLayout {
             bind_group_layouts: &[Some(&scene), Some(&paint)],
             immediate_size: 0,
         });
-        Self { queue: queue.clone(), scene, paint, pipeline, map: map_texture(device, queue) }
+        Self {
+            map: map_texture(device, queue),
+            device: device.clone(),
+            queue: queue.clone(),
+            scene,
+            paint,
+            pipeline,
+            thickness: ThicknessFormat::Bytes,
+        }
     }
 
     /// The layout of pipelines that bind something beside the scene and the paint.
-    pub(super) fn with_group(&self, device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
-        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+    pub(super) fn with_group(&self, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("scene and more"),
             bind_group_layouts: &[Some(&self.scene), Some(&self.paint), Some(group)],
             immediate_size: 0,
         })
     }
 
-    /// Uniforms of one view of `size` pixels, in which these paints are used.
+    /// Uniforms of one view of `size` pixels, with a paint for each of `things`.
     pub(super) fn bind(
         &self,
-        device: &wgpu::Device,
         size: [u32; 2],
         camera: &Camera,
         style: &Style,
-        paints: &[Paint],
+        things: &[&dyn Draw],
     ) -> SceneBindings {
         let scene = scene_uniforms(size, camera, style);
         let paints_at = (size_of::<SceneUniforms>() as u64).next_multiple_of(STRIDE);
-        let size = paints_at + STRIDE * paints.len().max(1) as u64;
+        let size = paints_at + STRIDE * things.len().max(1) as u64;
         let mut bytes = vec![0_u8; size as usize];
         bytes[..size_of::<SceneUniforms>()].copy_from_slice(bytemuck::bytes_of(&scene));
-        for (slot, paint) in bytes[paints_at as usize..].chunks_exact_mut(STRIDE as usize).zip(paints) {
-            slot[..size_of::<PaintUniforms>()].copy_from_slice(bytemuck::bytes_of(&paint.uniforms()));
+        for (slot, thing) in bytes[paints_at as usize..].chunks_exact_mut(STRIDE as usize).zip(things) {
+            slot[..size_of::<PaintUniforms>()].copy_from_slice(bytemuck::bytes_of(&thing.paint(style).uniforms()));
         }
-        let buffer = uniforms(device, &self.queue, "scene", &bytes);
+        let buffer = uniforms(&self.device, &self.queue, "scene", &bytes);
         let part = |offset, size: usize| {
             wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &buffer,
@@ -113,8 +125,8 @@ impl SceneLayout {
         };
         let map = wgpu::BindingResource::TextureView(&self.map);
         SceneBindings {
-            scene: binding::group(device, "scene", &self.scene, [part(0, size_of::<SceneUniforms>()), map]),
-            paint: binding::group(device, "paint", &self.paint, [part(paints_at, size_of::<PaintUniforms>())]),
+            scene: binding::group(&self.device, "scene", &self.scene, [part(0, size_of::<SceneUniforms>()), map]),
+            paint: binding::group(&self.device, "paint", &self.paint, [part(paints_at, size_of::<PaintUniforms>())]),
         }
     }
 }

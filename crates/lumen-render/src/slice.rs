@@ -3,13 +3,12 @@
 //! The middles of its outer pixels lie in the corners, so that each value is shown where the voxel lies. A picture with more
 //! pixels than a texture of the device may have is thinned.
 
-use std::sync::OnceLock;
-
 use bytemuck::cast_slice;
 use glam::{Vec2, Vec3};
 
 use super::binding;
 use super::buffer::{GrowingBuffer, draw};
+use super::draw::{Draw, DrawContext, Phase, Pipelines};
 use super::error::SurfaceError;
 use super::pipeline::{PipelineParts, scene_shader};
 use super::scene::SceneLayout;
@@ -80,48 +79,39 @@ impl GpuSlice {
     }
 }
 
-/// Draws slices. Its pipeline is made when there is one.
-#[derive(Debug, Default)]
-pub(super) struct Slices(OnceLock<Parts>);
+impl Draw for GpuSlice {
+    fn phases(&self) -> &'static [Phase] {
+        &[Phase::Behind]
+    }
+
+    fn draw(&self, context: &mut DrawContext<'_, '_>) {
+        let SlicePipelines { pipeline, group, bilinear } = context.pipelines();
+        let greys = wgpu::BindingResource::TextureView(&self.greys);
+        let bilinear = wgpu::BindingResource::Sampler(bilinear);
+        let group = binding::group(&context.layout.device, "slice", group, [greys, bilinear]);
+        context.pass.set_bind_group(2, &group, &[]);
+        draw(context.pass, pipeline, &[&self.positions, &self.at], &self.triangles);
+    }
+}
 
 #[derive(Debug)]
-struct Parts {
+struct SlicePipelines {
     pipeline: wgpu::RenderPipeline,
     group: wgpu::BindGroupLayout,
     bilinear: wgpu::Sampler,
 }
 
-impl Slices {
-    /// Draws them; the scene must be bound.
-    pub(super) fn draw(
-        &self,
-        device: &wgpu::Device,
-        layout: &SceneLayout,
-        pass: &mut wgpu::RenderPass<'_>,
-        slices: &[&GpuSlice],
-    ) {
-        for slice in slices {
-            let parts = self.0.get_or_init(|| Parts::new(device, layout));
-            let greys = wgpu::BindingResource::TextureView(&slice.greys);
-            let bilinear = wgpu::BindingResource::Sampler(&parts.bilinear);
-            let group = binding::group(device, "slice", &parts.group, [greys, bilinear]);
-            pass.set_bind_group(2, &group, &[]);
-            draw(pass, &parts.pipeline, &[&slice.positions, &slice.at], &slice.triangles);
-        }
-    }
-}
-
-impl Parts {
-    fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
+impl Pipelines for SlicePipelines {
+    fn new(layout: &SceneLayout) -> Self {
+        let device = &layout.device;
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
         let group = binding::layout(device, "slice", wgpu::ShaderStages::FRAGMENT, &[binding::texture(true), sampler]);
         let module = scene_shader!(device, "slice.wgsl");
-        let parts = PipelineParts {
+        let pipeline = layout.pipeline(&PipelineParts {
             attributes: &[wgpu::VertexFormat::Float32x3, wgpu::VertexFormat::Float32x2],
             group: Some(&group),
             ..PipelineParts::new("slice", &module)
-        };
-        let pipeline = layout.pipeline(device, &parts);
+        });
         let bilinear = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("slice"),
             mag_filter: wgpu::FilterMode::Linear,

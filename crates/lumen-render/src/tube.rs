@@ -78,7 +78,7 @@ impl GpuWire {
     }
 
     /// Draws the wire by a pipeline over centres, normals and measures.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
+    pub(super) fn draw_by(&self, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
         draw_first(pass, pipeline, &[&self.centres, &self.normals, &self.measures], &self.triangles, self.drawn);
     }
 }

@@ -4,6 +4,7 @@ use egui::{Align2, Color32, EventFilter, Pos2, Rect, Response, Role, Sense, Stro
 use glam::Vec3;
 
 use super::{Clicked, Colours, Subject, Views, in_view, pixels};
+use crate::app::graphics_error::surface_error;
 use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::measure::{Measuring, Seen};
@@ -145,7 +146,7 @@ impl Views {
                         outlines.draw(ui, [rect, shown], &self.camera, &self.slices, of);
                     }
                 }
-                Some(Err(error)) => self.failure = Some(say!("views-surface-failed", error = error.to_string())),
+                Some(Err(error)) => self.failure = Some(say!("views-surface-failed", error = surface_error(&error))),
                 None => {}
             }
         }
