@@ -15,7 +15,8 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
 use crate::pipeline::settings::Keep;
 use crate::render::{
-    Backdrop, Camera, Colour, ColourMap, Draw, Drawable, GpuSlice, GpuSurface, Look, Renderer, Style, SurfaceError, unique_edges,
+    Backdrop, Camera, Colour, ColourMap, Draw, Drawable, GpuSlice, GpuSurface, Look, Renderer, Style, SurfaceError,
+    unique_edges,
 };
 
 /// The two views, side by side, and what is revealed behind each.

@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use glam::Vec3;
 use lumen::mesh::{Bounds, TriMesh};
 use lumen::render::{
-    Backdrop, Camera, Colour, Draw, Drawable, GpuSurface, Look, Picture, Renderer, StandardView, Style, ViewTarget, unique_edges,
+    Backdrop, Camera, Colour, Draw, Drawable, GpuSurface, Look, Picture, Renderer, StandardView, Style, ViewTarget,
+    unique_edges,
 };
 
 /// A device with nothing but what WebGL2 has, and the renderer on it.

@@ -1,7 +1,7 @@
 //! The background: the theme's two colours from the top of the view to its bottom, behind everything.
 
 use super::draw::{Draw, DrawContext, Phase, Pipelines};
-use super::pipeline::{PipelineParts, scene_shader};
+use super::pipeline::{PipelineParts, cover, scene_shader};
 use super::scene::SceneLayout;
 
 /// The background of the style.
@@ -15,8 +15,7 @@ impl Draw for Backdrop {
 
     fn draw(&self, context: &mut DrawContext<'_, '_>) {
         let BackdropPipelines(pipeline) = context.pipelines();
-        context.pass.set_pipeline(pipeline);
-        context.pass.draw(0..3, 0..1);
+        cover(context.pass, pipeline);
     }
 }
 

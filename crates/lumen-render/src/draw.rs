@@ -95,9 +95,8 @@ impl PipelineList {
     pub(super) fn get<P: Pipelines>(&self, layout: &SceneLayout) -> &P {
         let mut list = self;
         loop {
-            let entry = list.0.get_or_init(|| {
-                Box::new(Entry { pipelines: Box::new(P::new(layout)), rest: Self::default() })
-            });
+            let entry =
+                list.0.get_or_init(|| Box::new(Entry { pipelines: Box::new(P::new(layout)), rest: Self::default() }));
             let pipelines: &dyn Any = &*entry.pipelines;
             if let Some(found) = pipelines.downcast_ref() {
                 return found;

@@ -8,7 +8,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::buffer::uniforms;
 use super::draw::{Draw, Phase, Pipelines};
-use super::pipeline::{PipelineParts, scene_shader};
+use super::pipeline::{Destination, PipelineParts, cover, scene_shader};
 use super::scene::SceneLayout;
 use super::target::{Attachments, Target};
 use super::texture::{attachment, begin, whole};
@@ -101,8 +101,7 @@ impl Renderer {
         let mut pass = begin(encoder, Sums::LABEL, target.view(), wgpu::Color::BLACK);
         frame.bindings.set(&mut pass, 0);
         pass.set_bind_group(2, &group, &[]);
-        pass.set_pipeline(&fluoroscopy.pipeline);
-        pass.draw(0..3, 0..1);
+        cover(&mut pass, &fluoroscopy.pipeline);
     }
 }
 
@@ -121,7 +120,7 @@ impl Pipelines for Fluoroscopy {
         let module = scene_shader!(layout.device, "fluoroscopy.wgsl");
         let pipeline = layout.pipeline(&PipelineParts {
             vertex: "vertex_everywhere",
-            plain: Some(ViewTarget::FORMAT),
+            into: Destination::Texture(ViewTarget::FORMAT),
             group: Some(&exposure),
             ..PipelineParts::new("exposure", &module)
         });

@@ -8,7 +8,7 @@
 
 use super::buffer::draw;
 use super::draw::{DrawContext, Frame, Phase, Pipelines};
-use super::pipeline::{PipelineParts, scene_shader};
+use super::pipeline::{Destination, PipelineParts, cover, scene_shader};
 use super::scene::SceneLayout;
 use super::target::{Gathered, OPENNESS, ViewTarget};
 use super::texture::begin;
@@ -70,8 +70,7 @@ impl Occlusion {
         frame.bindings.set(&mut pass, 0);
         // What is drawn into cannot be read: depth stands in its place.
         pass.set_bind_group(2, &self.bind(device, &gathered.depth, &gathered.depth), &[]);
-        pass.set_pipeline(&self.gather);
-        pass.draw(0..3, 0..1);
+        cover(&mut pass, &self.gather);
         drop(pass);
         self.bind(device, &gathered.depth, &gathered.openness)
     }
@@ -79,8 +78,7 @@ impl Occlusion {
     /// Darkens the surfaces that are drawn so far; the scene must be bound.
     pub(super) fn shade(&self, pass: &mut wgpu::RenderPass<'_>, gathered: &wgpu::BindGroup) {
         pass.set_bind_group(2, gathered, &[]);
-        pass.set_pipeline(&self.shade);
-        pass.draw(0..3, 0..1);
+        cover(pass, &self.shade);
     }
 
     fn bind(&self, device: &wgpu::Device, depth: &wgpu::TextureView, openness: &wgpu::TextureView) -> wgpu::BindGroup {
@@ -101,13 +99,13 @@ impl Pipelines for Occlusion {
             vertex: "vertex_depth",
             fragment: "fragment_depth",
             attributes: &[wgpu::VertexFormat::Float32x3],
-            depth_alone: true,
+            into: Destination::Depth,
             ..PipelineParts::new("occlusion, depth", &module)
         });
         let gather = layout.pipeline(&PipelineParts {
             vertex: "vertex_everywhere",
             fragment: "fragment_gather",
-            plain: Some(OPENNESS),
+            into: Destination::Texture(OPENNESS),
             group: Some(&group),
             ..PipelineParts::new("occlusion, gather", &module)
         });

@@ -3,11 +3,11 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Mat4;
-use wgpu::util::DeviceExt;
 
 use super::buffer::uniforms;
 use super::draw::Draw;
 use super::paint::{PaintUniforms, encoded};
+use super::texture::filled;
 use super::thickness::ThicknessFormat;
 use super::{Camera, Colour, Style, VIRIDIS, binding, diverging, label_colour};
 
@@ -51,7 +51,6 @@ pub(super) struct SceneLayout {
     pub(super) queue: wgpu::Queue,
     scene: wgpu::BindGroupLayout,
     paint: wgpu::BindGroupLayout,
-    pub(super) pipeline: wgpu::PipelineLayout,
     map: wgpu::TextureView,
     /// What fluoroscopies add up thickness in.
     pub(super) thickness: ThicknessFormat,
@@ -74,39 +73,28 @@ impl SceneLayout {
         let scene = binding::layout(device, "scene", stages, &of_scene);
         let of_paint = [binding::uniform(size_of::<PaintUniforms>(), true)];
         let paint = binding::layout(device, "paint", stages, &of_paint);
-        let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("scene"),
-            bind_group_layouts: &[Some(&scene), Some(&paint)],
-            immediate_size: 0,
-        });
         Self {
             map: map_texture(device, queue),
             device: device.clone(),
             queue: queue.clone(),
             scene,
             paint,
-            pipeline,
             thickness: ThicknessFormat::Bytes,
         }
     }
 
-    /// The layout of pipelines that bind something beside the scene and the paint.
-    pub(super) fn with_group(&self, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+    /// The layout of pipelines that read the scene, the paint, and perhaps another group.
+    pub(super) fn pipeline_layout(&self, group: Option<&wgpu::BindGroupLayout>) -> wgpu::PipelineLayout {
+        let groups = [Some(&self.scene), Some(&self.paint), group];
         self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("scene and more"),
-            bind_group_layouts: &[Some(&self.scene), Some(&self.paint), Some(group)],
+            label: Some("scene"),
+            bind_group_layouts: &groups[..if group.is_some() { 3 } else { 2 }],
             immediate_size: 0,
         })
     }
 
     /// Uniforms of one view of `size` pixels, with a paint for each of `things`.
-    pub(super) fn bind(
-        &self,
-        size: [u32; 2],
-        camera: &Camera,
-        style: &Style,
-        things: &[&dyn Draw],
-    ) -> SceneBindings {
+    pub(super) fn bind(&self, size: [u32; 2], camera: &Camera, style: &Style, things: &[&dyn Draw]) -> SceneBindings {
         let scene = scene_uniforms(size, camera, style);
         let paints_at = (size_of::<SceneUniforms>() as u64).next_multiple_of(STRIDE);
         let size = paints_at + STRIDE * things.len().max(1) as u64;
@@ -175,20 +163,6 @@ fn map_texture(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView 
     let both_ways = (0..=last).map(|i| diverging(i as f32 / last as f32));
     let rows = VIRIDIS.into_iter().chain((0..=last).map(label_colour)).chain(both_ways);
     let texels: Vec<u8> = rows.flat_map(|Colour([r, g, b])| [r, g, b, 255]).collect();
-    let texture = device.create_texture_with_data(
-        queue,
-        &wgpu::TextureDescriptor {
-            label: Some("viridis"),
-            size: wgpu::Extent3d { width: VIRIDIS.len() as u32, height: 3, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8Unorm,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
-        wgpu::util::TextureDataOrder::LayerMajor,
-        &texels,
-    );
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    let size = [VIRIDIS.len() as u32, 3];
+    filled(device, queue, "viridis", size, wgpu::TextureFormat::Rgba8Unorm, &texels)
 }

@@ -12,7 +12,7 @@ use super::draw::{Draw, DrawContext, Phase, Pipelines};
 use super::error::SurfaceError;
 use super::pipeline::{PipelineParts, scene_shader};
 use super::scene::SceneLayout;
-use super::texture::whole;
+use super::texture::filled;
 
 /// A slice in GPU memory.
 #[derive(Debug)]
@@ -46,31 +46,18 @@ impl GpuSlice {
         let rows = pixels.chunks_exact(size[0]).step_by(step);
         let texels: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step).copied()).collect();
         let [width, height] = thinned.map(|side| side as u32);
-        let extent = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("slice"),
-            size: extent,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R8Unorm,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width), rows_per_image: None };
-        queue.write_texture(texture.as_image_copy(), &texels, layout, extent);
+        let greys = filled(device, queue, "slice", [width, height], wgpu::TextureFormat::R8Unorm, &texels);
 
         // From middle to middle.
         let first = Vec2::new(0.5 / width as f32, 0.5 / height as f32);
         let last = |axis: usize| ((size[axis] - 1) as f32 / step as f32 + 0.5) / thinned[axis] as f32;
         let (right, bottom) = (last(0), last(1));
         let at = [first, Vec2::new(right, first.y), Vec2::new(right, bottom), Vec2::new(first.x, bottom)];
-        let buffer = |label, usage| GrowingBuffer::new(label, usage);
         let mut slice = Self {
-            greys: whole(&texture),
-            positions: buffer("slice, positions", wgpu::BufferUsages::VERTEX),
-            at: buffer("slice, places", wgpu::BufferUsages::VERTEX),
-            triangles: buffer("slice, triangles", wgpu::BufferUsages::INDEX),
+            greys,
+            positions: GrowingBuffer::vertices("slice, positions"),
+            at: GrowingBuffer::vertices("slice, places"),
+            triangles: GrowingBuffer::indices("slice, triangles"),
         };
         slice.positions.write(device, queue, cast_slice(&corners))?;
         slice.at.write(device, queue, cast_slice(&at))?;

@@ -7,7 +7,7 @@
 use super::GpuSurface;
 use super::buffer::draw;
 use super::draw::{Draw, DrawContext, Phase, Pipelines};
-use super::pipeline::{ADD, PipelineParts, scene_shader};
+use super::pipeline::{ADD, Destination, PipelineParts, scene_shader};
 use super::scene::SceneLayout;
 
 /// What a machine can add up thickness in.
@@ -83,7 +83,7 @@ impl Pipelines for BodyPipelines {
                 attributes: &[wgpu::VertexFormat::Float32x3, wgpu::VertexFormat::Float32],
                 blend: Some(wgpu::BlendState { color: wgpu::BlendComponent { operation, ..ADD }, alpha: ADD }),
                 cull: Some(cull),
-                plain: Some(layout.thickness.texture()),
+                into: Destination::Texture(layout.thickness.texture()),
                 ..PipelineParts::new(label, &module)
             })
         };

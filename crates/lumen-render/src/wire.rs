@@ -3,7 +3,7 @@
 
 use super::GpuWire;
 use super::draw::{Draw, DrawContext, Phase, Pipelines};
-use super::pipeline::{ADD, PipelineParts, scene_shader};
+use super::pipeline::{ADD, Destination, PipelineParts, scene_shader};
 use super::scene::SceneLayout;
 
 /// The format of what the wire takes away: its optical depth over the largest, `MOST_DEPTH` in the shaders.
@@ -30,17 +30,15 @@ impl Pipelines for WirePipelines {
     fn new(layout: &SceneLayout) -> Self {
         use wgpu::VertexFormat::{Float32x2, Float32x3};
         let module = scene_shader!(layout.device, "wire.wgsl");
-        let lit = PipelineParts {
-            attributes: &[Float32x3, Float32x3, Float32x2],
-            ..PipelineParts::new("wire", &module)
-        };
+        let lit =
+            PipelineParts { attributes: &[Float32x3, Float32x3, Float32x2], ..PipelineParts::new("wire", &module) };
         let shadow = PipelineParts {
             label: "wire, shadow",
             fragment: "fragment_shadow",
             blend: Some(wgpu::BlendState { color: ADD, alpha: ADD }),
             // A ray enters the tube once: what it takes away is counted where it does.
             cull: Some(wgpu::Face::Back),
-            plain: Some(SHADOW),
+            into: Destination::Texture(SHADOW),
             ..lit
         };
         Self { lit: layout.pipeline(&lit), shadow: layout.pipeline(&shadow) }
