@@ -2,8 +2,8 @@
 
 use crate::mesh::{Bounds, TriMesh};
 use crate::render::{
-    Backdrop, Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, PictureError, Renderer, Style, SurfaceError,
-    ViewTarget,
+    Backdrop, Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, PictureError, Renderer, Style,
+    SurfaceError, ViewTarget,
 };
 
 use super::lettering::Lettering;

@@ -10,10 +10,10 @@ use glam::Quat;
 use thiserror::Error;
 
 use super::action::Chosen;
-use crate::app::graphics_error::{picture_error, surface_error};
 use crate::app::arrays;
 use crate::app::deviating::Deviating;
 use crate::app::document::Document;
+use crate::app::graphics_error::{picture_error, surface_error};
 use crate::app::portrait::{
     Alone, Behind, Marks, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, without_ground,
 };

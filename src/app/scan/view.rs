@@ -3,9 +3,9 @@
 use egui::{Align2, Color32, ColorImage, Rect, Role, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
 
 use super::state::{OpenScan, Picture};
-use crate::app::graphics_error::surface_error;
 use crate::app::assist::name;
 use crate::app::compare::{CompareScene, Shot};
+use crate::app::graphics_error::surface_error;
 use crate::app::views::{NO_MEMORY, Views, first_view, pixels};
 use crate::app::{halo, overlay, theme};
 use crate::io::Axes;

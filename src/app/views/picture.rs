@@ -4,9 +4,9 @@ use egui::{Align2, Color32, EventFilter, Pos2, Rect, Response, Role, Sense, Stro
 use glam::Vec3;
 
 use super::{Clicked, Colours, Subject, Views, in_view, pixels};
-use crate::app::graphics_error::surface_error;
 use crate::app::assist::name;
 use crate::app::document::Document;
+use crate::app::graphics_error::surface_error;
 use crate::app::measure::{Measuring, Seen};
 use crate::app::scene::{Picture, Scene, coloured};
 use crate::app::{arrays, classes, deviation, halo, mending, overlay, spoken, theme};

@@ -5,8 +5,8 @@ use std::time::Duration;
 use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureId, Ui, pos2, vec2};
 
 use super::painting::{empty, image, radius};
-use crate::app::graphics_error::surface_error;
 use crate::app::assist::name;
+use crate::app::graphics_error::surface_error;
 use crate::app::halo;
 use crate::app::overlay::{self, NOT_CLINICAL};
 use crate::app::trial::carm;
