@@ -12,7 +12,7 @@ use super::control::progress;
 use super::icon::{self, Icon};
 use super::menus::{long_menu, menu};
 use super::state::State;
-use super::views::{Colours, ViewOptions, Views};
+use super::views::{Colours, ViewOptions, Views, side_label};
 use super::{collapses, deviation, lesson, measure, record, recovery, sharing, spoken, theme, verdict, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::{self, Key, Language};
@@ -243,7 +243,7 @@ fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, shown: Shown, ask
     // Where the patient's sides are not known they are sides of the surface alone.
     let is_known = state.document.as_ref().is_some_and(|document| document.import.axes != Axes::Unknown);
     for view in StandardView::ALL {
-        ask(ui.button(view.label(is_known)).clicked(), Action::View(view));
+        ask(ui.button(side_label(view, is_known)).clicked(), Action::View(view));
     }
     ui.separator();
     let mut chosen = options;

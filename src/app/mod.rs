@@ -39,6 +39,7 @@ pub mod document;
 mod drawer;
 mod error_plot;
 mod flight;
+mod graphics_error;
 mod halo;
 pub mod history;
 mod icon;

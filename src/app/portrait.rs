@@ -2,8 +2,8 @@
 
 use crate::mesh::{Bounds, TriMesh};
 use crate::render::{
-    Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, PictureError, Renderer, Style, SurfaceError,
-    ViewTarget,
+    Backdrop, Camera, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, PictureError, Renderer, Style,
+    SurfaceError, ViewTarget,
 };
 
 use super::lettering::Lettering;
@@ -119,11 +119,11 @@ impl Portrait {
     /// Draws the surface, and writes over it.
     pub(super) fn draw(&mut self, pose: &Pose) -> ViewTarget {
         let target = ViewTarget::new(&self.device, pose.size[0], pose.size[1]);
-        let drawables = [Drawable { surface: &self.surface, look: pose.look, tint: None }];
+        let subject = Drawable { surface: &self.surface, look: pose.look, tint: None };
         let style = pose.behind.of(pose.style);
         let mut encoder =
             self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("portrait") });
-        self.renderer.draw(&self.device, &mut encoder, &target, &pose.camera, &drawables, &style);
+        self.renderer.draw(&mut encoder, &target, &pose.camera, &[&Backdrop, &subject], &style);
         self.queue.submit([encoder.finish()]);
         let Marks { scale, theme, .. } = pose.marks;
         let write = |ui: &egui::Ui, rect| pose.marks.write(ui, rect, &pose.camera);

@@ -15,7 +15,8 @@ use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals, vertex_normals_into};
 use crate::pipeline::settings::Keep;
 use crate::render::{
-    Camera, Colour, ColourMap, Drawable, GpuSlice, GpuSurface, Look, Renderer, Style, SurfaceError, unique_edges,
+    Backdrop, Camera, Colour, ColourMap, Draw, Drawable, GpuSlice, GpuSurface, Look, Renderer, Style, SurfaceError,
+    unique_edges,
 };
 
 /// The two views, side by side, and what is revealed behind each.
@@ -192,15 +193,17 @@ impl Scene {
             return Ok(view.id());
         };
         let main = if picture.before { &self.before } else { &self.level };
-        let mut drawables = vec![Drawable { surface: main, look: picture.look, tint: None }];
+        let look = picture.look;
+        let main = Drawable { surface: main, look, tint: None };
+        let left_out = Drawable { surface: &self.left_out, look, tint: Some(faint(&picture.style)) };
+        let mut things: Vec<&dyn Draw> = vec![&Backdrop, &main];
         if picture.left_out {
-            drawables.push(Drawable { surface: &self.left_out, look: picture.look, tint: Some(faint(&picture.style)) });
+            things.push(&left_out);
         }
+        things.extend(self.slices.iter().map(|(_, slice)| slice as &dyn Draw));
         let style = Style { map: picture.style.map.filter(|_| self.has_scalars && !picture.before), ..picture.style };
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("view") });
-        let slices: Vec<&GpuSlice> = self.slices.iter().map(|(_, slice)| slice).collect();
-        let what = (&drawables[..], &slices[..]);
-        self.renderer.draw_among(&self.device, &mut encoder, target, &picture.camera, what, &style);
+        self.renderer.draw(&mut encoder, target, &picture.camera, &things, &style);
         self.queue.submit([encoder.finish()]);
         Ok(view.id())
     }

@@ -3,8 +3,10 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use lumen::render::{Camera, DeviceHealth, Drawable, Fault, GpuSurface, Look, Renderer, SurfaceError, ViewTarget};
-use lumen::render::{Style, device_descriptor};
+use lumen::render::{
+    Backdrop, Camera, DeviceHealth, Drawable, Fault, GpuSurface, Look, Renderer, Style, SurfaceError, ViewTarget,
+    device_descriptor,
+};
 
 use crate::shapes::sphere;
 use crate::stage::{adapter, in_front_of};
@@ -60,8 +62,8 @@ fn drawing_on_a_device_that_is_gone_does_no_harm() {
     target.resize(&device, 128, 128);
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let camera: Camera = in_front_of(&mesh, 1.0);
-    let drawables = [Drawable { surface: &surface, look: Look::Shaded, tint: None }];
-    renderer.draw(&device, &mut encoder, &target, &camera, &drawables, &Style::LIGHT);
+    let shown = Drawable { surface: &surface, look: Look::Shaded, tint: None };
+    renderer.draw(&mut encoder, &target, &camera, &[&Backdrop, &shown], &Style::LIGHT);
     queue.submit([encoder.finish()]);
     assert!(matches!(health.end(), Some(Fault::Lost(_))), "what follows is no cause: {:?}", health.end());
 }

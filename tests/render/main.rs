@@ -16,11 +16,11 @@ use std::f32::consts::PI;
 use glam::{Quat, Vec2, Vec3};
 use lumen::mesh::{Bounds, TriMesh};
 use lumen::render::{
-    Camera, ClipPlane, Colour, ColourMap, Drawable, GpuSurface, Look, Picture, Style, SurfaceError, ViewTarget,
-    diverging, viridis,
+    Backdrop, Camera, ClipPlane, Colour, ColourMap, Draw, Drawable, GpuSurface, Look, Picture, Style, SurfaceError,
+    ViewTarget, diverging, viridis,
 };
 use shapes::{arch, sphere, square, together};
-use stage::{in_front_of, plain, shown, stage};
+use stage::{before_backdrop, in_front_of, plain, shown, stage};
 
 const WHITE: Colour = Colour::hex(0xFF_FF_FF);
 const BLACK: Colour = Colour::hex(0);
@@ -322,6 +322,25 @@ fn a_tint_replaces_the_styles_colour() {
     assert!(b > 150 && r < 40, "{r} {b}");
 }
 
+/// What lies before what is a matter of phases and depth, not of the order in which things are given.
+#[test]
+fn phases_decide_what_is_drawn_first() {
+    let mesh = sphere(20.0, 24);
+    let surface = stage().surface(&mesh);
+    let camera = in_front_of(&mesh, 1.0);
+    let shaded = shown(&surface, Look::Shaded);
+    let lines = shown(&surface, Look::Wireframe);
+    let orders: [[&dyn Draw; 3]; 2] = [[&Backdrop, &shaded, &lines], [&lines, &shaded, &Backdrop]];
+    let [forth, back] = orders.map(|things| {
+        let target = ViewTarget::new(&stage().device, 128, 128);
+        let mut encoder = stage().device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        stage().renderer.draw(&mut encoder, &target, &camera, &things, &Style::LIGHT);
+        stage().queue.submit([encoder.finish()]);
+        Picture::read_now(&target, &stage().device, &stage().queue).unwrap()
+    });
+    assert_eq!(differing_pixels(&forth, &back), 0);
+}
+
 #[test]
 fn two_views_in_one_submission_keep_their_cameras() {
     let mesh = sphere(20.0, 24);
@@ -333,7 +352,7 @@ fn two_views_in_one_submission_keep_their_cameras() {
     let mut encoder = stage().device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     for (camera, target) in cameras.iter().zip(&targets) {
         let drawables = [shown(&surface, Look::Shaded)];
-        stage().renderer.draw(&stage().device, &mut encoder, target, camera, &drawables, &plain(WHITE));
+        stage().renderer.draw(&mut encoder, target, camera, &before_backdrop(&drawables), &plain(WHITE));
     }
     stage().queue.submit([encoder.finish()]);
     for (camera, target) in cameras.iter().zip(&targets) {

@@ -6,7 +6,7 @@ use lumen::render::{Camera, Drawable, GpuSlice, Look, Picture, StandardView, Sty
 
 use crate::pixel_of;
 use crate::shapes::sphere;
-use crate::stage::{shown, stage};
+use crate::stage::{before_backdrop, shown, stage};
 
 const SIZE: [u32; 2] = [240, 200];
 /// Greys of 4 x 3 pixels.
@@ -37,8 +37,9 @@ fn picture(drawables: &[Drawable<'_>]) -> Picture {
     let slice = GpuSlice::new(&stage.device, &stage.queue, [4, 3], &GREYS, CORNERS).unwrap();
     let target = ViewTarget::new(&stage.device, SIZE[0], SIZE[1]);
     let mut encoder = stage.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    let what = (drawables, &[&slice][..]);
-    stage.renderer.draw_among(&stage.device, &mut encoder, &target, &camera(), what, &Style::LIGHT);
+    let mut things = before_backdrop(drawables);
+    things.push(&slice);
+    stage.renderer.draw(&mut encoder, &target, &camera(), &things, &Style::LIGHT);
     stage.queue.submit([encoder.finish()]);
     Picture::read_now(&target, &stage.device, &stage.queue).unwrap()
 }

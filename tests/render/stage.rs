@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use glam::Vec3;
 use lumen::mesh::{Bounds, TriMesh};
 use lumen::render::{
-    Camera, Colour, Drawable, GpuSurface, Look, Picture, Renderer, StandardView, Style, ViewTarget, unique_edges,
+    Backdrop, Camera, Colour, Draw, Drawable, GpuSurface, Look, Picture, Renderer, StandardView, Style, ViewTarget,
+    unique_edges,
 };
 
 /// A device with nothing but what WebGL2 has, and the renderer on it.
@@ -63,7 +64,7 @@ impl Stage {
     ) -> Picture {
         let target = ViewTarget::new(&self.device, size[0], size[1]);
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(&self.device, &mut encoder, &target, camera, drawables, style);
+        self.renderer.draw(&mut encoder, &target, camera, &before_backdrop(drawables), style);
         self.queue.submit([encoder.finish()]);
         Picture::read_now(&target, &self.device, &self.queue).unwrap()
     }
@@ -72,6 +73,13 @@ impl Stage {
 /// `surface` in one look, untinted.
 pub(crate) fn shown(surface: &GpuSurface, look: Look) -> Drawable<'_> {
     Drawable { surface, look, tint: None }
+}
+
+/// The background, and what stands before it.
+pub(crate) fn before_backdrop<'a>(drawables: &'a [Drawable<'a>]) -> Vec<&'a dyn Draw> {
+    let mut things: Vec<&dyn Draw> = vec![&Backdrop];
+    things.extend(drawables.iter().map(|drawable| drawable as &dyn Draw));
+    things
 }
 
 /// A camera in front of `mesh`, which fills the view.

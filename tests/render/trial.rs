@@ -3,8 +3,8 @@
 use glam::{Quat, Vec3};
 use lumen::mesh::{Bounds, TriMesh};
 use lumen::render::{
-    Camera, Colour, ColourMap, Exposure, GpuSurface, GpuWire, Picture, Style, ThicknessFormat, TrialRenderer,
-    ViewTarget,
+    Backdrop, Body, Camera, Colour, ColourMap, Exposure, Glass, GpuSurface, GpuWire, Picture, Renderer, Style,
+    ThicknessFormat, ViewTarget,
 };
 
 use crate::shapes::{sphere, together};
@@ -44,11 +44,11 @@ fn camera(mesh: &TriMesh) -> Camera {
 
 fn fluoroscopy(format: ThicknessFormat, mesh: &TriMesh, wire: &GpuWire, exposure: &Exposure) -> Picture {
     let (device, queue) = (&stage().device, &stage().queue);
-    let renderer = TrialRenderer::new(device, queue, format);
-    let target = renderer.fluoroscopy_target(device, SIZE);
+    let renderer = Renderer::new(device, queue).with_thickness(format);
+    let target = renderer.fluoroscopy_target(SIZE);
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let body = body(mesh);
-    renderer.expose(device, &mut encoder, &target, &camera(mesh), (&body, wire), exposure, true);
+    renderer.expose(&mut encoder, &target, &camera(mesh), &[&Body(&body), wire], exposure, true);
     queue.submit([encoder.finish()]);
     Picture::read_texture_now(target.picture(), device, queue).unwrap()
 }
@@ -121,10 +121,9 @@ fn the_wire_is_dark_and_its_tip_darker_and_the_same_pulse_gives_the_same_picture
 
 fn view(vessel: &GpuSurface, wire: &GpuWire, camera: &Camera, style: &Style) -> Picture {
     let (device, queue) = (&stage().device, &stage().queue);
-    let renderer = TrialRenderer::new(device, queue, ThicknessFormat::Floats);
     let target = ViewTarget::new(device, SIZE[0], SIZE[1]);
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    renderer.draw(device, &mut encoder, &target, camera, (vessel, wire), style);
+    stage().renderer.draw(&mut encoder, &target, camera, &[&Backdrop, wire, &Glass(vessel)], style);
     queue.submit([encoder.finish()]);
     Picture::read_now(&target, device, queue).unwrap()
 }

@@ -1,29 +1,35 @@
 //! The background: the theme's two colours from the top of the view to its bottom, behind everything.
 
-use super::pipeline::{PipelineParts, scene_shader};
+use super::draw::{Draw, DrawContext, Phase, Pipelines};
+use super::pipeline::{PipelineParts, cover, scene_shader};
 use super::scene::SceneLayout;
 
-/// Draws the background.
-#[derive(Debug)]
-pub(super) struct Backdrop {
-    pipeline: wgpu::RenderPipeline,
+/// The background of the style.
+#[derive(Clone, Copy, Debug)]
+pub struct Backdrop;
+
+impl Draw for Backdrop {
+    fn phases(&self) -> &'static [Phase] {
+        &[Phase::Background]
+    }
+
+    fn draw(&self, context: &mut DrawContext<'_, '_>) {
+        let BackdropPipelines(pipeline) = context.pipelines();
+        cover(context.pass, pipeline);
+    }
 }
 
-impl Backdrop {
-    pub(super) fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
-        let module = scene_shader!(device, "backdrop.wgsl");
-        let parts = PipelineParts {
+#[derive(Debug)]
+struct BackdropPipelines(wgpu::RenderPipeline);
+
+impl Pipelines for BackdropPipelines {
+    fn new(layout: &SceneLayout) -> Self {
+        let module = scene_shader!(layout.device, "backdrop.wgsl");
+        Self(layout.pipeline(&PipelineParts {
             vertex: "vertex_everywhere",
             depth_compare: wgpu::CompareFunction::Always,
             depth_write: false,
             ..PipelineParts::new("backdrop", &module)
-        };
-        Self { pipeline: layout.pipeline(device, &parts) }
-    }
-
-    /// Fills the view; any scene must be bound.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
-        pass.draw(0..3, 0..1);
+        }))
     }
 }

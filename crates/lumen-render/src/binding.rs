@@ -37,7 +37,10 @@ pub(super) fn group<const N: usize>(
     layout: &wgpu::BindGroupLayout,
     resources: [wgpu::BindingResource<'_>; N],
 ) -> wgpu::BindGroup {
-    let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
-    let entries: Vec<_> = (0..).zip(resources).map(entry).collect();
+    let mut next = 0;
+    let entries = resources.map(|resource| {
+        next += 1;
+        wgpu::BindGroupEntry { binding: next - 1, resource }
+    });
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }

@@ -16,9 +16,14 @@ pub(super) struct GrowingBuffer {
 }
 
 impl GrowingBuffer {
-    /// An empty buffer for `usage`; nothing is allocated before the first write.
-    pub(super) fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
-        Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None, used: 0 }
+    /// An empty buffer of an attribute of vertices; nothing is allocated before the first write.
+    pub(super) fn vertices(label: &'static str) -> Self {
+        Self { label, usage: wgpu::BufferUsages::VERTEX, buffer: None, used: 0 }
+    }
+
+    /// The same of indices of vertices.
+    pub(super) fn indices(label: &'static str) -> Self {
+        Self { label, usage: wgpu::BufferUsages::INDEX, buffer: None, used: 0 }
     }
 
     /// Replaces the contents by `bytes`, whose number must be a multiple of four.
@@ -39,7 +44,7 @@ impl GrowingBuffer {
             self.buffer = Some(device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(self.label),
                 size,
-                usage: self.usage,
+                usage: self.usage | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }));
         }

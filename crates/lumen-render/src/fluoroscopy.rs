@@ -7,11 +7,14 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::buffer::uniforms;
+use super::draw::{Draw, Phase, Pipelines};
+use super::pipeline::{Destination, PipelineParts, cover, scene_shader};
+use super::scene::SceneLayout;
 use super::target::{Attachments, Target};
 use super::texture::{attachment, begin, whole};
 use super::thickness::ThicknessFormat;
 use super::wire::SHADOW;
-use super::{ViewTarget, binding};
+use super::{Camera, Renderer, Style, ViewTarget, binding};
 
 /// Attenuation of the contrast in 1/mm.
 const CONTRAST: f32 = 0.06;
@@ -67,36 +70,66 @@ impl Attachments for Sums {
 /// The target of a fluoroscopy.
 pub type FluoroscopyTarget = Target<Sums>;
 
-/// Takes fluoroscopies.
+impl Renderer {
+    /// A target for fluoroscopies of `size` pixels, brought within 1 and what the device allows.
+    pub fn fluoroscopy_target(&self, size: [u32; 2]) -> FluoroscopyTarget {
+        FluoroscopyTarget::of(&self.layout.device, size, self.layout.thickness)
+    }
+
+    /// Records a fluoroscopy of `things` into `target`; `camera` looks from the tube. The thickness stays in the target
+    /// until it is `measured` anew, which it must be where the camera, a thing that has thickness or the target changed.
+    pub fn expose(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &FluoroscopyTarget,
+        camera: &Camera,
+        things: &[&dyn Draw],
+        exposure: &Exposure,
+        measured: bool,
+    ) {
+        let frame = self.frame(target.size(), camera, things, &Style::LIGHT);
+        let sums = &target.attachments;
+        if measured {
+            let mut pass = begin(encoder, "thickness", &sums.thickness, sums.format.none());
+            frame.draw(&mut pass, Phase::Thickness);
+        }
+        let mut pass = begin(encoder, "shadow", &sums.shadow, wgpu::Color::TRANSPARENT);
+        frame.draw(&mut pass, Phase::Shadow);
+        drop(pass);
+        let fluoroscopy: &Fluoroscopy = frame.pipelines.get(&self.layout);
+        let group = fluoroscopy.bind(&self.layout, target, exposure);
+        let mut pass = begin(encoder, Sums::LABEL, target.view(), wgpu::Color::BLACK);
+        frame.bindings.set(&mut pass, 0);
+        pass.set_bind_group(2, &group, &[]);
+        cover(&mut pass, &fluoroscopy.pipeline);
+    }
+}
+
+/// Turns thickness and shadow into grey.
 #[derive(Debug)]
-pub(super) struct Fluoroscopy {
-    queue: wgpu::Queue,
+struct Fluoroscopy {
     pipeline: wgpu::RenderPipeline,
     exposure: wgpu::BindGroupLayout,
 }
 
+impl Pipelines for Fluoroscopy {
+    fn new(layout: &SceneLayout) -> Self {
+        let uniform = binding::uniform(size_of::<ExposureUniforms>(), false);
+        let types = [uniform, binding::texture(false), binding::texture(false)];
+        let exposure = binding::layout(&layout.device, "exposure", wgpu::ShaderStages::FRAGMENT, &types);
+        let module = scene_shader!(layout.device, "fluoroscopy.wgsl");
+        let pipeline = layout.pipeline(&PipelineParts {
+            vertex: "vertex_everywhere",
+            into: Destination::Texture(ViewTarget::FORMAT),
+            group: Some(&exposure),
+            ..PipelineParts::new("exposure", &module)
+        });
+        Self { pipeline, exposure }
+    }
+}
+
 impl Fluoroscopy {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let exposure = exposure_layout(device);
-        Self { queue: queue.clone(), pipeline: expose_pipeline(device, &exposure), exposure }
-    }
-
-    /// Turns thickness and shadow into grey.
-    pub(super) fn expose(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &FluoroscopyTarget,
-        exposure: &Exposure,
-    ) {
-        let group = self.bind(device, target, exposure);
-        let mut pass = begin(encoder, Sums::LABEL, target.view(), wgpu::Color::BLACK);
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.draw(0..3, 0..1);
-    }
-
-    fn bind(&self, device: &wgpu::Device, target: &FluoroscopyTarget, exposure: &Exposure) -> wgpu::BindGroup {
+    fn bind(&self, layout: &SceneLayout, target: &FluoroscopyTarget, exposure: &Exposure) -> wgpu::BindGroup {
         let [width, height] = target.size().map(|side| side as f32);
         let sums = &target.attachments;
         let roadmap = f32::from(u8::from(exposure.roadmap));
@@ -105,44 +138,9 @@ impl Fluoroscopy {
             contrast: [exposure.contrast_s.unwrap_or(-1.0), exposure.flow.max(1e-3), CONTRAST, roadmap],
             picture: [exposure.pulse as f32, NOISE, width, height],
         };
-        let buffer = uniforms(device, &self.queue, "exposure", bytemuck::bytes_of(&values));
+        let buffer = uniforms(&layout.device, &layout.queue, "exposure", bytemuck::bytes_of(&values));
         let [thickness, shadow] = [&sums.thickness, &sums.shadow].map(wgpu::BindingResource::TextureView);
-        binding::group(device, "exposure", &self.exposure, [buffer.as_entire_binding(), thickness, shadow])
+        let resources = [buffer.as_entire_binding(), thickness, shadow];
+        binding::group(&layout.device, "exposure", &self.exposure, resources)
     }
-}
-
-fn exposure_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let uniform = binding::uniform(size_of::<ExposureUniforms>(), false);
-    let types = [uniform, binding::texture(false), binding::texture(false)];
-    binding::layout(device, "exposure", wgpu::ShaderStages::FRAGMENT, &types)
-}
-
-fn expose_pipeline(device: &wgpu::Device, exposure: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::include_wgsl!("fluoroscopy.wgsl"));
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("exposure"),
-        bind_group_layouts: &[Some(exposure)],
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("exposure"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(ViewTarget::FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

@@ -10,9 +10,9 @@ struct Exposure {
     picture: vec4<f32>,
 }
 
-@group(0) @binding(0) var<uniform> exposure: Exposure;
-@group(0) @binding(1) var thickness: texture_2d<f32>;
-@group(0) @binding(2) var shadow: texture_2d<f32>;
+@group(2) @binding(0) var<uniform> exposure: Exposure;
+@group(2) @binding(1) var thickness: texture_2d<f32>;
+@group(2) @binding(2) var shadow: texture_2d<f32>;
 
 // As in `thickness.wgsl` and `wire.wgsl`.
 const STEP: f32 = 8.0;
@@ -24,12 +24,6 @@ const WASHOUT: f32 = 1.3;
 const BRIGHTEST: f32 = 0.80;
 // The window: how much steeper grey is than intensity.
 const WINDOW: f32 = 2.0;
-
-@vertex
-fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
-    let corner = vec2(f32(index & 1u), f32(index >> 1u));
-    return vec4(4.0 * corner - 1.0, 0.0, 1.0);
-}
 
 // PCG of three dimensions (Jarzynski and Olano, "Hash functions for GPU rendering", 2020).
 fn hash(seed: vec3<u32>) -> vec3<f32> {

@@ -7,54 +7,75 @@
 
 use super::GpuSurface;
 use super::buffer::draw;
+use super::draw::{Draw, DrawContext, Phase, Pipelines};
 use super::pipeline::{PipelineParts, scene_shader};
 use super::scene::SceneLayout;
 
-/// Draws vessels that can be seen through, and from inside.
+/// A translucent vessel. Its scalars are forces in N.
+#[derive(Clone, Copy, Debug)]
+pub struct Glass<'a>(pub &'a GpuSurface);
+
+/// A vessel seen from inside, lit by a light beside the eye. Its scalars are forces in N.
+#[derive(Clone, Copy, Debug)]
+pub struct Inside<'a>(pub &'a GpuSurface);
+
+impl Draw for Glass<'_> {
+    fn phases(&self) -> &'static [Phase] {
+        &[Phase::Transparent]
+    }
+
+    fn draw(&self, context: &mut DrawContext<'_, '_>) {
+        let GlassPipelines { far, near, .. } = context.pipelines();
+        wall(context, far, self.0);
+        wall(context, near, self.0);
+    }
+}
+
+impl Draw for Inside<'_> {
+    fn phases(&self) -> &'static [Phase] {
+        &[Phase::Opaque]
+    }
+
+    fn draw(&self, context: &mut DrawContext<'_, '_>) {
+        let GlassPipelines { inside, .. } = context.pipelines();
+        wall(context, inside, self.0);
+    }
+}
+
+fn wall(context: &mut DrawContext<'_, '_>, pipeline: &wgpu::RenderPipeline, vessel: &GpuSurface) {
+    draw(context.pass, pipeline, &[&vessel.positions, &vessel.normals, &vessel.scalars], &vessel.triangles);
+}
+
 #[derive(Debug)]
-pub(super) struct Glass {
+struct GlassPipelines {
     far: wgpu::RenderPipeline,
     near: wgpu::RenderPipeline,
     inside: wgpu::RenderPipeline,
 }
 
-impl Glass {
-    pub(super) fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
+impl Pipelines for GlassPipelines {
+    fn new(layout: &SceneLayout) -> Self {
         use wgpu::VertexFormat::{Float32, Float32x3};
-        let module = scene_shader!(device, "glass.wgsl");
-        let wall = |label, fragment, cull| PipelineParts {
-            fragment,
-            attributes: &[Float32x3, Float32x3, Float32],
-            depth_write: false,
-            blend: Some(wgpu::BlendState::ALPHA_BLENDING),
-            cull: Some(cull),
-            ..PipelineParts::new(label, &module)
-        };
-        let far = wall("vessel, far wall", "fragment_far", wgpu::Face::Front);
-        let near = wall("vessel, near wall", "fragment_near", wgpu::Face::Back);
+        let module = scene_shader!(layout.device, "glass.wgsl");
         let inside = PipelineParts {
-            depth_write: true,
-            blend: None,
-            cull: None,
-            ..wall("vessel, inside", "fragment_inside", wgpu::Face::Front)
+            fragment: "fragment_inside",
+            attributes: &[Float32x3, Float32x3, Float32],
+            ..PipelineParts::new("vessel, inside", &module)
+        };
+        let wall = |label, fragment, cull| {
+            layout.pipeline(&PipelineParts {
+                label,
+                fragment,
+                depth_write: false,
+                blend: Some(wgpu::BlendState::ALPHA_BLENDING),
+                cull: Some(cull),
+                ..inside
+            })
         };
         Self {
-            far: layout.pipeline(device, &far),
-            near: layout.pipeline(device, &near),
-            inside: layout.pipeline(device, &inside),
+            far: wall("vessel, far wall", "fragment_far", wgpu::Face::Front),
+            near: wall("vessel, near wall", "fragment_near", wgpu::Face::Back),
+            inside: layout.pipeline(&inside),
         }
-    }
-
-    /// Draws the walls of `vessel`, the far one first. Its scene must be bound, here and below, and it must have
-    /// scalars: forces.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, vessel: &GpuSurface) {
-        for pipeline in [&self.far, &self.near] {
-            draw(pass, pipeline, &[&vessel.positions, &vessel.normals, &vessel.scalars], &vessel.triangles);
-        }
-    }
-
-    /// Draws `vessel` as it is seen from inside, by a light beside the eye.
-    pub(super) fn draw_inside(&self, pass: &mut wgpu::RenderPass<'_>, vessel: &GpuSurface) {
-        draw(pass, &self.inside, &[&vessel.positions, &vessel.normals, &vessel.scalars], &vessel.triangles);
     }
 }

@@ -4,12 +4,14 @@
 //!   what it is drawn by. That of a 3-D view ([`ViewTarget`]) has 4x multisampled colour and depth.
 //! - A [`GpuSurface`] holds the positions of all nodes of a progressive mesh, uploaded once; a level brings triangles,
 //!   edges and normals. A [`GpuWire`] is written anew every frame (`tube`).
-//! - A kind of drawing is one file with one shader: `backdrop`, `shaded`, `wireframe`, `slice`, `glass`, `wire`, `thickness`,
-//!   `fluoroscopy`. Over the camera and the theme (`scene`) and a paint for each thing drawn (`paint`) it makes its
-//!   pipelines (`pipeline`), binds what its shader reads (`binding`) and draws from buffers (`buffer`).
-//! - A [`Renderer`] draws [`Drawable`]s seen by a [`Camera`] in a [`Style`], by all kinds for surfaces (`kind`), with
-//!   ambient occlusion where that is asked for (`occlusion`).
-//! - A [`TrialRenderer`] draws the guidewire: in the translucent vessel, from its tip, and as a fluoroscope sees it.
+//! - A [`Renderer`] records pictures of things that implement [`Draw`], seen by a [`Camera`] in a [`Style`]. Each thing
+//!   draws in one or more [`Phase`]s. [`Backdrop`], [`Drawable`], [`GpuSlice`], [`GpuWire`], [`Glass`], [`Inside`] and
+//!   [`Body`] are such things.
+//! - A kind of drawing is one file with one shader (`draw`): over the camera and the theme (`scene`) and a paint for each
+//!   thing (`paint`) it makes its pipelines (`pipeline`), binds what its shader reads (`binding`) and draws from buffers
+//!   (`buffer`). A new kind takes its file, its shader, and a line for each in this one.
+//! - Ambient occlusion (`occlusion`) and fluoroscopy (`fluoroscopy`) draw some phases into textures of their own and
+//!   compute pictures from them.
 //! - [`DeviceHealth`] hears what goes wrong with a device, [`SurfaceError`] is what does not come to it;
 //!   [`device_descriptor`] says what is asked of one.
 //! - [`pick`] finds the triangle under a [`Ray`] of the camera, on the CPU.
@@ -30,12 +32,13 @@ mod buffer;
 mod camera;
 mod colour;
 mod colour_map;
+mod draw;
+mod drawable;
 mod edges;
 mod error;
 mod fault;
 mod fluoroscopy;
 mod glass;
-mod kind;
 mod limits;
 mod occlusion;
 mod paint;
@@ -52,29 +55,30 @@ mod surface;
 mod target;
 mod texture;
 mod thickness;
-mod trial;
 mod tube;
 mod wire;
 mod wireframe;
 
+pub use backdrop::Backdrop;
 pub use camera::Camera;
 pub use colour::{Colour, contrast};
 pub use colour_map::{ColourMap, LABELS, VIRIDIS, diverging, label_colour, viridis};
+pub use draw::{Draw, DrawContext, Phase};
+pub use drawable::{Drawable, Look};
 pub use edges::unique_edges;
 pub use error::SurfaceError;
 pub use fault::{DeviceHealth, Fault};
 pub use fluoroscopy::{Exposure, FluoroscopyTarget, Sums};
-pub use kind::{Drawable, Look};
+pub use glass::{Glass, Inside};
 pub use limits::device_descriptor;
+pub use paint::Paint;
 pub use pick::{Hit, Ray, pick};
 pub use picture::{Picture, PictureError};
 pub use renderer::Renderer;
 pub use slice::GpuSlice;
-
 pub use standard_view::StandardView;
 pub use style::{ClipPlane, Style};
 pub use surface::GpuSurface;
 pub use target::{Attachments, Multisampled, Target, ViewTarget};
-pub use thickness::ThicknessFormat;
-pub use trial::TrialRenderer;
+pub use thickness::{Body, ThicknessFormat};
 pub use tube::GpuWire;

@@ -6,16 +6,13 @@
 //! depth; it is bound as plain floats, with a sampler that filters nothing. The pattern of the samples is the same
 //! in every picture. Surfaces alone are darkened, never what is behind them.
 
-use std::sync::OnceLock;
-
-use super::Style;
-use super::binding;
 use super::buffer::draw;
-use super::kind::{Drawable, Look};
-use super::pipeline::{PipelineParts, scene_shader};
-use super::scene::{SceneBindings, SceneLayout};
+use super::draw::{DrawContext, Frame, Phase, Pipelines};
+use super::pipeline::{Destination, PipelineParts, cover, scene_shader};
+use super::scene::SceneLayout;
 use super::target::{Gathered, OPENNESS, ViewTarget};
 use super::texture::begin;
+use super::{GpuSurface, binding};
 
 /// Multiplies what is there with what is drawn.
 const MULTIPLY: wgpu::BlendComponent = wgpu::BlendComponent {
@@ -24,12 +21,9 @@ const MULTIPLY: wgpu::BlendComponent = wgpu::BlendComponent {
     operation: wgpu::BlendOperation::Add,
 };
 
-/// Darkens what is closed in. Its pipelines are made when they are first wanted.
-#[derive(Debug, Default)]
-pub(super) struct Occlusion(OnceLock<Parts>);
-
+/// Darkens what is closed in.
 #[derive(Debug)]
-struct Parts {
+pub(super) struct Occlusion {
     depth: wgpu::RenderPipeline,
     gather: wgpu::RenderPipeline,
     shade: wgpu::RenderPipeline,
@@ -37,23 +31,28 @@ struct Parts {
     nearest: wgpu::Sampler,
 }
 
+/// Whether things of a picture are darkened: never under a colour map, whose colours are read as values, nor with
+/// something behind the surfaces, since what stands before or behind a slice is no neighbour of it.
+pub(super) fn is_wanted(frame: &Frame<'_>) -> bool {
+    let style = frame.style;
+    style.occlusion && style.map.is_none() && frame.has(Phase::Depth) && !frame.has(Phase::Behind)
+}
+
 impl Occlusion {
-    /// Whether these are darkened: never under a colour map, whose colours are read as values.
-    pub(super) fn is_wanted(style: &Style, drawables: &[Drawable<'_>]) -> bool {
-        style.occlusion && style.map.is_none() && drawables.iter().any(is_shaded)
+    /// Draws the depth of a surface: the phase [`Phase::Depth`] of things that are darkened.
+    pub(super) fn draw_depth(context: &mut DrawContext<'_, '_>, surface: &GpuSurface) {
+        let Self { depth, .. } = context.pipelines();
+        draw(context.pass, depth, &[&surface.positions], &surface.triangles);
     }
 
     /// Finds out how open each pixel of a view is, before the view is drawn; gives what [`Self::shade`] takes.
     pub(super) fn gather(
         &self,
-        device: &wgpu::Device,
-        layout: &SceneLayout,
         encoder: &mut wgpu::CommandEncoder,
         target: &ViewTarget,
-        bindings: &SceneBindings,
-        drawables: &[Drawable<'_>],
+        frame: &Frame<'_>,
     ) -> wgpu::BindGroup {
-        let parts = self.0.get_or_init(|| Parts::new(device, layout));
+        let device = &frame.layout.device;
         let gathered = target.attachments.gathered.get_or_init(|| Gathered::new(device, target.size()));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("occlusion, depth"),
@@ -65,57 +64,52 @@ impl Occlusion {
             }),
             ..Default::default()
         });
-        bindings.set(&mut pass, 0);
-        for drawable in drawables {
-            if is_shaded(drawable) {
-                draw(&mut pass, &parts.depth, &[&drawable.surface.positions], &drawable.surface.triangles);
-            }
-        }
+        frame.draw(&mut pass, Phase::Depth);
         drop(pass);
         let mut pass = begin(encoder, "occlusion", &gathered.openness, wgpu::Color::WHITE);
-        bindings.set(&mut pass, 0);
+        frame.bindings.set(&mut pass, 0);
         // What is drawn into cannot be read: depth stands in its place.
-        pass.set_bind_group(2, &parts.bind(device, &gathered.depth, &gathered.depth), &[]);
-        pass.set_pipeline(&parts.gather);
-        pass.draw(0..3, 0..1);
+        pass.set_bind_group(2, &self.bind(device, &gathered.depth, &gathered.depth), &[]);
+        cover(&mut pass, &self.gather);
         drop(pass);
-        parts.bind(device, &gathered.depth, &gathered.openness)
+        self.bind(device, &gathered.depth, &gathered.openness)
     }
 
     /// Darkens the surfaces that are drawn so far; the scene must be bound.
     pub(super) fn shade(&self, pass: &mut wgpu::RenderPass<'_>, gathered: &wgpu::BindGroup) {
-        let Some(parts) = self.0.get() else { return };
         pass.set_bind_group(2, gathered, &[]);
-        pass.set_pipeline(&parts.shade);
-        pass.draw(0..3, 0..1);
+        cover(pass, &self.shade);
+    }
+
+    fn bind(&self, device: &wgpu::Device, depth: &wgpu::TextureView, openness: &wgpu::TextureView) -> wgpu::BindGroup {
+        let [depth, openness] = [depth, openness].map(wgpu::BindingResource::TextureView);
+        let nearest = wgpu::BindingResource::Sampler(&self.nearest);
+        binding::group(device, "occlusion", &self.group, [depth, openness, nearest])
     }
 }
 
-fn is_shaded(drawable: &Drawable<'_>) -> bool {
-    matches!(drawable.look, Look::Shaded | Look::Flat)
-}
-
-impl Parts {
-    fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
+impl Pipelines for Occlusion {
+    fn new(layout: &SceneLayout) -> Self {
+        let device = &layout.device;
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
         let types = [binding::texture(false), binding::texture(false), sampler];
         let group = binding::layout(device, "occlusion", wgpu::ShaderStages::FRAGMENT, &types);
         let module = scene_shader!(device, "occlusion.wgsl");
-        let depth = PipelineParts {
+        let depth = layout.pipeline(&PipelineParts {
             vertex: "vertex_depth",
             fragment: "fragment_depth",
             attributes: &[wgpu::VertexFormat::Float32x3],
-            depth_alone: true,
+            into: Destination::Depth,
             ..PipelineParts::new("occlusion, depth", &module)
-        };
-        let gather = PipelineParts {
+        });
+        let gather = layout.pipeline(&PipelineParts {
             vertex: "vertex_everywhere",
             fragment: "fragment_gather",
-            plain: Some(OPENNESS),
+            into: Destination::Texture(OPENNESS),
             group: Some(&group),
             ..PipelineParts::new("occlusion, gather", &module)
-        };
-        let shade = PipelineParts {
+        });
+        let shade = layout.pipeline(&PipelineParts {
             vertex: "vertex_everywhere",
             fragment: "fragment_shade",
             // It lies in the far plane: before it is what was drawn, and the background is not.
@@ -124,19 +118,8 @@ impl Parts {
             blend: Some(wgpu::BlendState { color: MULTIPLY, alpha: MULTIPLY }),
             group: Some(&group),
             ..PipelineParts::new("occlusion, shade", &module)
-        };
-        Self {
-            depth: layout.pipeline(device, &depth),
-            gather: layout.pipeline(device, &gather),
-            shade: layout.pipeline(device, &shade),
-            group,
-            nearest: device.create_sampler(&wgpu::SamplerDescriptor::default()),
-        }
-    }
-
-    fn bind(&self, device: &wgpu::Device, depth: &wgpu::TextureView, openness: &wgpu::TextureView) -> wgpu::BindGroup {
-        let [depth, openness] = [depth, openness].map(wgpu::BindingResource::TextureView);
-        let nearest = wgpu::BindingResource::Sampler(&self.nearest);
-        binding::group(device, "occlusion", &self.group, [depth, openness, nearest])
+        });
+        let nearest = device.create_sampler(&wgpu::SamplerDescriptor::default());
+        Self { depth, gather, shade, group, nearest }
     }
 }

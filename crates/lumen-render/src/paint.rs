@@ -6,7 +6,7 @@ use super::{Colour, Style};
 
 /// What something is drawn in. A shader takes of it what it needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Paint {
+pub struct Paint {
     surface: Colour,
     inside: Colour,
     rim: Colour,

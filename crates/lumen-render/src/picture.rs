@@ -1,9 +1,6 @@
 //! Reading a finished view back from the GPU: for files, figures and tests.
 
-use std::fmt;
-
 use super::target::{Attachments, Target};
-use lumen_language::say;
 
 /// Pixels of a view: gamma-encoded sRGB and alpha (opaque), row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,24 +14,15 @@ pub struct Picture {
 }
 
 /// Why a view could not be read back.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum PictureError {
     /// The GPU did not hand over the memory.
+    #[error("the GPU did not hand over the picture: {0}")]
     Map(String),
     /// The device went away first.
+    #[error("the GPU went away before the picture was read")]
     Lost,
 }
-
-impl fmt::Display for PictureError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&match self {
-            Self::Map(error) => say!("views-picture-kept", error = error),
-            Self::Lost => say!("views-picture-lost"),
-        })
-    }
-}
-
-impl std::error::Error for PictureError {}
 
 impl Picture {
     /// The pixel at column `x` and row `y` as red, green, blue; `None` outside.

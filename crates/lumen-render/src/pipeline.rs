@@ -10,7 +10,19 @@ pub(super) const ADD: wgpu::BlendComponent = wgpu::BlendComponent {
     operation: wgpu::BlendOperation::Add,
 };
 
+/// What a pipeline draws into.
+#[derive(Clone, Copy)]
+pub(super) enum Destination {
+    /// A [`ViewTarget`].
+    View,
+    /// One texture of this format, a sample a pixel, without depth.
+    Texture(wgpu::TextureFormat),
+    /// Depth alone, a sample a pixel.
+    Depth,
+}
+
 /// What differs between pipelines.
+#[derive(Clone, Copy)]
 pub(super) struct PipelineParts<'a> {
     pub(super) label: &'static str,
     pub(super) module: &'a wgpu::ShaderModule,
@@ -26,10 +38,8 @@ pub(super) struct PipelineParts<'a> {
     pub(super) write_mask: wgpu::ColorWrites,
     /// The side that is left out.
     pub(super) cull: Option<wgpu::Face>,
-    /// In place of a [`ViewTarget`]: one texture of this format, a sample a pixel, without depth.
-    pub(super) plain: Option<wgpu::TextureFormat>,
-    /// In place of a [`ViewTarget`]: depth alone, a sample a pixel.
-    pub(super) depth_alone: bool,
+    /// What is drawn into.
+    pub(super) into: Destination,
     /// What is bound beside the scene and the paint, as group 2.
     pub(super) group: Option<&'a wgpu::BindGroupLayout>,
 }
@@ -50,8 +60,7 @@ impl<'a> PipelineParts<'a> {
             blend: None,
             write_mask: wgpu::ColorWrites::ALL,
             cull: None,
-            plain: None,
-            depth_alone: false,
+            into: Destination::View,
             group: None,
         }
     }
@@ -59,7 +68,7 @@ impl<'a> PipelineParts<'a> {
 
 impl SceneLayout {
     /// A pipeline over these layouts, into a [`ViewTarget`]; its module is made by `scene_shader!`.
-    pub(super) fn pipeline(&self, device: &wgpu::Device, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
+    pub(super) fn pipeline(&self, parts: &PipelineParts<'_>) -> wgpu::RenderPipeline {
         let attributes: Vec<[wgpu::VertexAttribute; 1]> = (0..)
             .zip(parts.attributes)
             .map(|(shader_location, &format)| [wgpu::VertexAttribute { format, offset: 0, shader_location }])
@@ -74,15 +83,16 @@ impl SceneLayout {
                 })
             })
             .collect();
-        let colours = [Some(wgpu::ColorTargetState {
-            format: parts.plain.unwrap_or(ViewTarget::FORMAT),
-            blend: parts.blend,
-            write_mask: parts.write_mask,
-        })];
-        let with_group = parts.group.map(|group| self.with_group(device, group));
-        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        let (colour, has_depth, count) = match parts.into {
+            Destination::View => (Some(ViewTarget::FORMAT), true, ViewTarget::SAMPLES),
+            Destination::Texture(format) => (Some(format), false, 1),
+            Destination::Depth => (None, true, 1),
+        };
+        let colour = colour
+            .map(|format| Some(wgpu::ColorTargetState { format, blend: parts.blend, write_mask: parts.write_mask }));
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(parts.label),
-            layout: Some(with_group.as_ref().unwrap_or(&self.pipeline)),
+            layout: Some(&self.pipeline_layout(parts.group)),
             vertex: wgpu::VertexState {
                 module: parts.module,
                 entry_point: Some(parts.vertex),
@@ -90,27 +100,30 @@ impl SceneLayout {
                 buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState { topology: parts.topology, cull_mode: parts.cull, ..Default::default() },
-            depth_stencil: parts.plain.is_none().then(|| wgpu::DepthStencilState {
+            depth_stencil: has_depth.then(|| wgpu::DepthStencilState {
                 format: ViewTarget::DEPTH_FORMAT,
                 depth_write_enabled: Some(parts.depth_write),
                 depth_compare: Some(parts.depth_compare),
                 stencil: wgpu::StencilState::default(),
                 bias: parts.depth_bias,
             }),
-            multisample: wgpu::MultisampleState {
-                count: if parts.plain.is_none() && !parts.depth_alone { ViewTarget::SAMPLES } else { 1 },
-                ..Default::default()
-            },
+            multisample: wgpu::MultisampleState { count, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module: parts.module,
                 entry_point: Some(parts.fragment),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &colours[usize::from(parts.depth_alone)..],
+                targets: colour.as_slice(),
             }),
             multiview_mask: None,
             cache: None,
         })
     }
+}
+
+/// Draws `pipeline`, whose vertices are those of `vertex_everywhere`, over the whole target.
+pub(super) fn cover(pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
+    pass.set_pipeline(pipeline);
+    pass.draw(0..3, 0..1);
 }
 
 /// The source of a shader of this folder with `scene.wgsl` in front.

@@ -3,10 +3,12 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Mat4;
-use wgpu::util::DeviceExt;
 
 use super::buffer::uniforms;
-use super::paint::{Paint, PaintUniforms, encoded};
+use super::draw::Draw;
+use super::paint::{PaintUniforms, encoded};
+use super::texture::filled;
+use super::thickness::ThicknessFormat;
 use super::{Camera, Colour, Style, VIRIDIS, binding, diverging, label_colour};
 
 /// Distance of two sets of uniforms in a buffer: the largest alignment that any device asks for.
@@ -42,14 +44,16 @@ struct SceneUniforms {
     row: [f32; 4],
 }
 
-/// Layouts that all pipelines share, and the colour map.
+/// The device, layouts that all pipelines share, and the colour map.
 #[derive(Debug)]
 pub(super) struct SceneLayout {
+    pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     scene: wgpu::BindGroupLayout,
     paint: wgpu::BindGroupLayout,
-    pub(super) pipeline: wgpu::PipelineLayout,
     map: wgpu::TextureView,
+    /// What fluoroscopies add up thickness in.
+    pub(super) thickness: ThicknessFormat,
 }
 
 /// The uniforms of one call to draw.
@@ -69,41 +73,37 @@ impl SceneLayout {
         let scene = binding::layout(device, "scene", stages, &of_scene);
         let of_paint = [binding::uniform(size_of::<PaintUniforms>(), true)];
         let paint = binding::layout(device, "paint", stages, &of_paint);
-        let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("scene"),
-            bind_group_layouts: &[Some(&scene), Some(&paint)],
-            immediate_size: 0,
-        });
-        Self { queue: queue.clone(), scene, paint, pipeline, map: map_texture(device, queue) }
+        Self {
+            map: map_texture(device, queue),
+            device: device.clone(),
+            queue: queue.clone(),
+            scene,
+            paint,
+            thickness: ThicknessFormat::Bytes,
+        }
     }
 
-    /// The layout of pipelines that bind something beside the scene and the paint.
-    pub(super) fn with_group(&self, device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
-        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("scene and more"),
-            bind_group_layouts: &[Some(&self.scene), Some(&self.paint), Some(group)],
+    /// The layout of pipelines that read the scene, the paint, and perhaps another group.
+    pub(super) fn pipeline_layout(&self, group: Option<&wgpu::BindGroupLayout>) -> wgpu::PipelineLayout {
+        let groups = [Some(&self.scene), Some(&self.paint), group];
+        self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("scene"),
+            bind_group_layouts: &groups[..if group.is_some() { 3 } else { 2 }],
             immediate_size: 0,
         })
     }
 
-    /// Uniforms of one view of `size` pixels, in which these paints are used.
-    pub(super) fn bind(
-        &self,
-        device: &wgpu::Device,
-        size: [u32; 2],
-        camera: &Camera,
-        style: &Style,
-        paints: &[Paint],
-    ) -> SceneBindings {
+    /// Uniforms of one view of `size` pixels, with a paint for each of `things`.
+    pub(super) fn bind(&self, size: [u32; 2], camera: &Camera, style: &Style, things: &[&dyn Draw]) -> SceneBindings {
         let scene = scene_uniforms(size, camera, style);
         let paints_at = (size_of::<SceneUniforms>() as u64).next_multiple_of(STRIDE);
-        let size = paints_at + STRIDE * paints.len().max(1) as u64;
+        let size = paints_at + STRIDE * things.len().max(1) as u64;
         let mut bytes = vec![0_u8; size as usize];
         bytes[..size_of::<SceneUniforms>()].copy_from_slice(bytemuck::bytes_of(&scene));
-        for (slot, paint) in bytes[paints_at as usize..].chunks_exact_mut(STRIDE as usize).zip(paints) {
-            slot[..size_of::<PaintUniforms>()].copy_from_slice(bytemuck::bytes_of(&paint.uniforms()));
+        for (slot, thing) in bytes[paints_at as usize..].chunks_exact_mut(STRIDE as usize).zip(things) {
+            slot[..size_of::<PaintUniforms>()].copy_from_slice(bytemuck::bytes_of(&thing.paint(style).uniforms()));
         }
-        let buffer = uniforms(device, &self.queue, "scene", &bytes);
+        let buffer = uniforms(&self.device, &self.queue, "scene", &bytes);
         let part = |offset, size: usize| {
             wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &buffer,
@@ -113,8 +113,8 @@ impl SceneLayout {
         };
         let map = wgpu::BindingResource::TextureView(&self.map);
         SceneBindings {
-            scene: binding::group(device, "scene", &self.scene, [part(0, size_of::<SceneUniforms>()), map]),
-            paint: binding::group(device, "paint", &self.paint, [part(paints_at, size_of::<PaintUniforms>())]),
+            scene: binding::group(&self.device, "scene", &self.scene, [part(0, size_of::<SceneUniforms>()), map]),
+            paint: binding::group(&self.device, "paint", &self.paint, [part(paints_at, size_of::<PaintUniforms>())]),
         }
     }
 }
@@ -163,20 +163,6 @@ fn map_texture(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView 
     let both_ways = (0..=last).map(|i| diverging(i as f32 / last as f32));
     let rows = VIRIDIS.into_iter().chain((0..=last).map(label_colour)).chain(both_ways);
     let texels: Vec<u8> = rows.flat_map(|Colour([r, g, b])| [r, g, b, 255]).collect();
-    let texture = device.create_texture_with_data(
-        queue,
-        &wgpu::TextureDescriptor {
-            label: Some("viridis"),
-            size: wgpu::Extent3d { width: VIRIDIS.len() as u32, height: 3, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8Unorm,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        },
-        wgpu::util::TextureDataOrder::LayerMajor,
-        &texels,
-    );
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    let size = [VIRIDIS.len() as u32, 3];
+    filled(device, queue, "viridis", size, wgpu::TextureFormat::Rgba8Unorm, &texels)
 }

@@ -5,13 +5,14 @@
 //! Book", Rost 2006, section 12.1) plus a Lambertian key light, and a rim after Schlick's form of Fresnel's equations
 //! (1994). No highlight: a wall has none, and highlights move where a coarse level's normals do.
 
-use super::Style;
+use super::GpuSurface;
 use super::buffer::draw;
-use super::kind::{DrawKind, Drawable, Look, Turn};
+use super::draw::{DrawContext, Phase, Pipelines};
+use super::occlusion::Occlusion;
 use super::pipeline::{PipelineParts, scene_shader};
 use super::scene::SceneLayout;
 
-/// Draws shaded surfaces.
+/// The pipelines of shaded surfaces.
 #[derive(Debug)]
 pub(super) struct Shaded {
     plain: wgpu::RenderPipeline,
@@ -19,31 +20,38 @@ pub(super) struct Shaded {
 }
 
 impl Shaded {
-    pub(super) fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
-        use wgpu::VertexFormat::{Float32, Float32x3};
-        let module = scene_shader!(device, "shaded.wgsl");
-        let plain = PipelineParts { attributes: &[Float32x3, Float32x3], ..PipelineParts::new("shaded", &module) };
-        let mapped = PipelineParts {
-            vertex: "vertex_mapped",
-            fragment: "fragment_mapped",
-            attributes: &[Float32x3, Float32x3, Float32],
-            ..PipelineParts::new("shaded, colour map", &module)
-        };
-        Self { plain: layout.pipeline(device, &plain), mapped: layout.pipeline(device, &mapped) }
+    pub(super) const PHASES: &[Phase] = &[Phase::Depth, Phase::Opaque];
+
+    /// Draws `surface`, with its scalars as colours where it has any and the style has a map.
+    pub(super) fn draw(context: &mut DrawContext<'_, '_>, surface: &GpuSurface) {
+        if context.phase == Phase::Depth {
+            return Occlusion::draw_depth(context, surface);
+        }
+        let Self { plain, mapped } = context.pipelines();
+        if context.style.map.is_some() && !surface.scalars.is_empty() {
+            let vertices = [&surface.positions, &surface.normals, &surface.scalars];
+            draw(context.pass, mapped, &vertices, &surface.triangles);
+        } else {
+            draw(context.pass, plain, &[&surface.positions, &surface.normals], &surface.triangles);
+        }
     }
 }
 
-impl DrawKind for Shaded {
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, drawable: &Drawable<'_>, turn: Turn, style: &Style) {
-        let surface = drawable.surface;
-        if turn != Turn::Solid || !matches!(drawable.look, Look::Shaded | Look::Flat) {
-            return;
-        }
-        if style.map.is_some() && !surface.scalars.is_empty() {
-            let vertices = [&surface.positions, &surface.normals, &surface.scalars];
-            draw(pass, &self.mapped, &vertices, &surface.triangles);
-        } else {
-            draw(pass, &self.plain, &[&surface.positions, &surface.normals], &surface.triangles);
+impl Pipelines for Shaded {
+    fn new(layout: &SceneLayout) -> Self {
+        use wgpu::VertexFormat::{Float32, Float32x3};
+        let module = scene_shader!(layout.device, "shaded.wgsl");
+        Self {
+            plain: layout.pipeline(&PipelineParts {
+                attributes: &[Float32x3, Float32x3],
+                ..PipelineParts::new("shaded", &module)
+            }),
+            mapped: layout.pipeline(&PipelineParts {
+                vertex: "vertex_mapped",
+                fragment: "fragment_mapped",
+                attributes: &[Float32x3, Float32x3, Float32],
+                ..PipelineParts::new("shaded, colour map", &module)
+            }),
         }
     }
 }

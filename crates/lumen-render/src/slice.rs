@@ -3,17 +3,16 @@
 //! The middles of its outer pixels lie in the corners, so that each value is shown where the voxel lies. A picture with more
 //! pixels than a texture of the device may have is thinned.
 
-use std::sync::OnceLock;
-
 use bytemuck::cast_slice;
 use glam::{Vec2, Vec3};
 
 use super::binding;
 use super::buffer::{GrowingBuffer, draw};
+use super::draw::{Draw, DrawContext, Phase, Pipelines};
 use super::error::SurfaceError;
 use super::pipeline::{PipelineParts, scene_shader};
 use super::scene::SceneLayout;
-use super::texture::whole;
+use super::texture::filled;
 
 /// A slice in GPU memory.
 #[derive(Debug)]
@@ -47,31 +46,18 @@ impl GpuSlice {
         let rows = pixels.chunks_exact(size[0]).step_by(step);
         let texels: Vec<u8> = rows.flat_map(|row| row.iter().step_by(step).copied()).collect();
         let [width, height] = thinned.map(|side| side as u32);
-        let extent = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("slice"),
-            size: extent,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R8Unorm,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width), rows_per_image: None };
-        queue.write_texture(texture.as_image_copy(), &texels, layout, extent);
+        let greys = filled(device, queue, "slice", [width, height], wgpu::TextureFormat::R8Unorm, &texels);
 
         // From middle to middle.
         let first = Vec2::new(0.5 / width as f32, 0.5 / height as f32);
         let last = |axis: usize| ((size[axis] - 1) as f32 / step as f32 + 0.5) / thinned[axis] as f32;
         let (right, bottom) = (last(0), last(1));
         let at = [first, Vec2::new(right, first.y), Vec2::new(right, bottom), Vec2::new(first.x, bottom)];
-        let buffer = |label, usage| GrowingBuffer::new(label, usage);
         let mut slice = Self {
-            greys: whole(&texture),
-            positions: buffer("slice, positions", wgpu::BufferUsages::VERTEX),
-            at: buffer("slice, places", wgpu::BufferUsages::VERTEX),
-            triangles: buffer("slice, triangles", wgpu::BufferUsages::INDEX),
+            greys,
+            positions: GrowingBuffer::vertices("slice, positions"),
+            at: GrowingBuffer::vertices("slice, places"),
+            triangles: GrowingBuffer::indices("slice, triangles"),
         };
         slice.positions.write(device, queue, cast_slice(&corners))?;
         slice.at.write(device, queue, cast_slice(&at))?;
@@ -80,48 +66,39 @@ impl GpuSlice {
     }
 }
 
-/// Draws slices. Its pipeline is made when there is one.
-#[derive(Debug, Default)]
-pub(super) struct Slices(OnceLock<Parts>);
+impl Draw for GpuSlice {
+    fn phases(&self) -> &'static [Phase] {
+        &[Phase::Behind]
+    }
+
+    fn draw(&self, context: &mut DrawContext<'_, '_>) {
+        let SlicePipelines { pipeline, group, bilinear } = context.pipelines();
+        let greys = wgpu::BindingResource::TextureView(&self.greys);
+        let bilinear = wgpu::BindingResource::Sampler(bilinear);
+        let group = binding::group(&context.layout.device, "slice", group, [greys, bilinear]);
+        context.pass.set_bind_group(2, &group, &[]);
+        draw(context.pass, pipeline, &[&self.positions, &self.at], &self.triangles);
+    }
+}
 
 #[derive(Debug)]
-struct Parts {
+struct SlicePipelines {
     pipeline: wgpu::RenderPipeline,
     group: wgpu::BindGroupLayout,
     bilinear: wgpu::Sampler,
 }
 
-impl Slices {
-    /// Draws them; the scene must be bound.
-    pub(super) fn draw(
-        &self,
-        device: &wgpu::Device,
-        layout: &SceneLayout,
-        pass: &mut wgpu::RenderPass<'_>,
-        slices: &[&GpuSlice],
-    ) {
-        for slice in slices {
-            let parts = self.0.get_or_init(|| Parts::new(device, layout));
-            let greys = wgpu::BindingResource::TextureView(&slice.greys);
-            let bilinear = wgpu::BindingResource::Sampler(&parts.bilinear);
-            let group = binding::group(device, "slice", &parts.group, [greys, bilinear]);
-            pass.set_bind_group(2, &group, &[]);
-            draw(pass, &parts.pipeline, &[&slice.positions, &slice.at], &slice.triangles);
-        }
-    }
-}
-
-impl Parts {
-    fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
+impl Pipelines for SlicePipelines {
+    fn new(layout: &SceneLayout) -> Self {
+        let device = &layout.device;
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
         let group = binding::layout(device, "slice", wgpu::ShaderStages::FRAGMENT, &[binding::texture(true), sampler]);
         let module = scene_shader!(device, "slice.wgsl");
-        let parts = PipelineParts {
+        let pipeline = layout.pipeline(&PipelineParts {
             attributes: &[wgpu::VertexFormat::Float32x3, wgpu::VertexFormat::Float32x2],
             group: Some(&group),
             ..PipelineParts::new("slice", &module)
-        };
-        let pipeline = layout.pipeline(device, &parts);
+        });
         let bilinear = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("slice"),
             mag_filter: wgpu::FilterMode::Linear,

@@ -2,8 +2,6 @@
 
 use glam::{Mat3, Quat, Vec3};
 
-use lumen_language::Key;
-
 /// The six views along the patient's axes, named for the side the eye is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StandardView {
@@ -25,19 +23,6 @@ impl StandardView {
     /// All six, in the order of a menu.
     pub const ALL: [Self; 6] =
         [Self::Anterior, Self::Posterior, Self::Left, Self::Right, Self::Superior, Self::Inferior];
-
-    /// What it is called: for the patient's side, or where that is not known for the side of the surface as it stands.
-    pub fn label(self, is_patient_known: bool) -> String {
-        let [of_patient, of_surface] = match self {
-            Self::Anterior => [Key("views-anterior"), Key("views-front")],
-            Self::Posterior => [Key("views-posterior"), Key("views-rear")],
-            Self::Left => [Key("views-left"), Key("views-right-side")],
-            Self::Right => [Key("views-right"), Key("views-left-side")],
-            Self::Superior => [Key("views-superior"), Key("views-top")],
-            Self::Inferior => [Key("views-inferior"), Key("views-bottom")],
-        };
-        if is_patient_known { of_patient.say() } else { of_surface.say() }
-    }
 
     /// Camera-to-world rotation: its columns are the view's right and up, and the way from the target to the eye.
     pub(super) fn rotation(self) -> Quat {

@@ -27,14 +27,13 @@ impl GpuSurface {
     /// # Errors
     /// When the device does not allow a buffer of that size.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, positions: &[Vec3]) -> Result<Self, SurfaceError> {
-        use wgpu::BufferUsages as Usage;
         let mut surface = Self {
             nodes: 0,
-            positions: GrowingBuffer::new("positions", Usage::VERTEX),
-            normals: GrowingBuffer::new("normals", Usage::VERTEX),
-            scalars: GrowingBuffer::new("scalars", Usage::VERTEX),
-            triangles: GrowingBuffer::new("triangles", Usage::INDEX),
-            edges: GrowingBuffer::new("edges", Usage::INDEX),
+            positions: GrowingBuffer::vertices("positions"),
+            normals: GrowingBuffer::vertices("normals"),
+            scalars: GrowingBuffer::vertices("scalars"),
+            triangles: GrowingBuffer::indices("triangles"),
+            edges: GrowingBuffer::indices("edges"),
         };
         surface.set_positions(device, queue, positions)?;
         Ok(surface)

@@ -1,4 +1,6 @@
-//! Textures that are drawn into, and passes over one of them.
+//! Textures that are drawn into or read, and passes over one of them.
+
+use wgpu::util::DeviceExt;
 
 /// A size in pixels, brought within 1 and what the device allows.
 pub(super) fn allowed(device: &wgpu::Device, size: [u32; 2]) -> [u32; 2] {
@@ -15,16 +17,41 @@ pub(super) fn attachment(
     format: wgpu::TextureFormat,
     usage: wgpu::TextureUsages,
 ) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
+    let usage = usage | wgpu::TextureUsages::RENDER_ATTACHMENT;
+    device.create_texture(&wgpu::TextureDescriptor { sample_count: samples, ..flat(label, size, format, usage) })
+}
+
+/// All of a texture with these texels, row by row, to be read by shaders.
+pub(super) fn filled(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    label: &'static str,
+    size: [u32; 2],
+    format: wgpu::TextureFormat,
+    texels: &[u8],
+) -> wgpu::TextureView {
+    let descriptor = flat(label, size, format, wgpu::TextureUsages::TEXTURE_BINDING);
+    let order = wgpu::util::TextureDataOrder::LayerMajor;
+    whole(&device.create_texture_with_data(queue, &descriptor, order, texels))
+}
+
+/// A texture of two dimensions, with one level and a sample a pixel.
+fn flat(
+    label: &'static str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::TextureDescriptor<'static> {
+    wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
-        sample_count: samples,
+        sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: usage | wgpu::TextureUsages::RENDER_ATTACHMENT,
+        usage,
         view_formats: &[],
-    })
+    }
 }
 
 /// All of a texture.

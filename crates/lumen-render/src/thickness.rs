@@ -6,9 +6,9 @@
 
 use super::GpuSurface;
 use super::buffer::draw;
-use super::pipeline::{ADD, PipelineParts, scene_shader};
-use super::scene::{SceneBindings, SceneLayout};
-use super::texture::begin;
+use super::draw::{Draw, DrawContext, Phase, Pipelines};
+use super::pipeline::{ADD, Destination, PipelineParts, scene_shader};
+use super::scene::SceneLayout;
 
 /// What a machine can add up thickness in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +35,12 @@ impl ThicknessFormat {
         }
     }
 
+    /// An empty sum: steps in red, the rest in green.
+    pub(super) fn none(self) -> wgpu::Color {
+        let [_, _, steps, rest] = self.unit().map(f64::from);
+        wgpu::Color { r: steps, g: rest, b: 0.0, a: 0.0 }
+    }
+
     /// Value of a step of 8 mm and of a mm, and what both are at first; `unit` in `fluoroscopy.wgsl`.
     pub(super) fn unit(self) -> [f32; 4] {
         match self {
@@ -44,58 +50,50 @@ impl ThicknessFormat {
     }
 }
 
-/// Adds up thickness.
+/// A closed surface whose thickness is added up. Its scalars say where along the vessel each node is, 0 to 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Body<'a>(pub &'a GpuSurface);
+
+impl Draw for Body<'_> {
+    fn phases(&self) -> &'static [Phase] {
+        &[Phase::Thickness]
+    }
+
+    fn draw(&self, context: &mut DrawContext<'_, '_>) {
+        let BodyPipelines { far, near } = context.pipelines();
+        // All that adds before all that takes away: bytes cannot go below nothing.
+        for pipeline in [far, near] {
+            draw(context.pass, pipeline, &[&self.0.positions, &self.0.scalars], &self.0.triangles);
+        }
+    }
+}
+
 #[derive(Debug)]
-pub(super) struct Thickness {
-    format: ThicknessFormat,
+struct BodyPipelines {
     far: wgpu::RenderPipeline,
     near: wgpu::RenderPipeline,
 }
 
-impl Thickness {
-    pub(super) fn new(device: &wgpu::Device, layout: &SceneLayout, format: ThicknessFormat) -> Self {
-        let module = scene_shader!(device, "thickness.wgsl");
+impl Pipelines for BodyPipelines {
+    fn new(layout: &SceneLayout) -> Self {
+        let module = scene_shader!(layout.device, "thickness.wgsl");
         let wall = |label, fragment, cull, operation| {
-            let parts = PipelineParts {
+            layout.pipeline(&PipelineParts {
                 fragment,
                 attributes: &[wgpu::VertexFormat::Float32x3, wgpu::VertexFormat::Float32],
                 blend: Some(wgpu::BlendState { color: wgpu::BlendComponent { operation, ..ADD }, alpha: ADD }),
                 cull: Some(cull),
-                plain: Some(format.texture()),
+                into: Destination::Texture(layout.thickness.texture()),
                 ..PipelineParts::new(label, &module)
-            };
-            layout.pipeline(device, &parts)
+            })
         };
-        let [far, near] = match format {
+        let [far, near] = match layout.thickness {
             ThicknessFormat::Floats => ["fragment_far", "fragment_near"],
             ThicknessFormat::Bytes => ["fragment_far_bytes", "fragment_near_bytes"],
         };
         Self {
-            format,
             far: wall("thickness, far walls", far, wgpu::Face::Front, wgpu::BlendOperation::Add),
             near: wall("thickness, near walls", near, wgpu::Face::Back, wgpu::BlendOperation::ReverseSubtract),
-        }
-    }
-
-    /// What it adds up in.
-    pub(super) fn format(&self) -> ThicknessFormat {
-        self.format
-    }
-
-    /// Adds up the thickness of `body`, a closed surface whose scalars say where along the vessel each node is.
-    pub(super) fn measure(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
-        bindings: &SceneBindings,
-        body: &GpuSurface,
-    ) {
-        let [_, _, steps, rest] = self.format.unit().map(f64::from);
-        let mut pass = begin(encoder, "thickness", target, wgpu::Color { r: steps, g: rest, b: 0.0, a: 0.0 });
-        bindings.set(&mut pass, 0);
-        // All that adds before all that takes away: bytes cannot go below nothing.
-        for pipeline in [&self.far, &self.near] {
-            draw(&mut pass, pipeline, &[&body.positions, &body.scalars], &body.triangles);
         }
     }
 }

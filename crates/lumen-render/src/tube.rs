@@ -34,12 +34,11 @@ struct Scratch {
 
 impl Default for GpuWire {
     fn default() -> Self {
-        use wgpu::BufferUsages as Usage;
         Self {
-            centres: GrowingBuffer::new("wire, centres", Usage::VERTEX),
-            normals: GrowingBuffer::new("wire, normals", Usage::VERTEX),
-            measures: GrowingBuffer::new("wire, measures", Usage::VERTEX),
-            triangles: GrowingBuffer::new("wire, triangles", Usage::INDEX),
+            centres: GrowingBuffer::vertices("wire, centres"),
+            normals: GrowingBuffer::vertices("wire, normals"),
+            measures: GrowingBuffer::vertices("wire, measures"),
+            triangles: GrowingBuffer::indices("wire, triangles"),
             rings: 0,
             drawn: 0,
             scratch: Scratch::default(),
@@ -78,7 +77,7 @@ impl GpuWire {
     }
 
     /// Draws the wire by a pipeline over centres, normals and measures.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
+    pub(super) fn draw_by(&self, pass: &mut wgpu::RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
         draw_first(pass, pipeline, &[&self.centres, &self.normals, &self.measures], &self.triangles, self.drawn);
     }
 }

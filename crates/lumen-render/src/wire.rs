@@ -2,53 +2,45 @@
 //! for the fluoroscopy.
 
 use super::GpuWire;
-use super::pipeline::{ADD, PipelineParts, scene_shader};
-use super::scene::{SceneBindings, SceneLayout};
-use super::texture::begin;
+use super::draw::{Draw, DrawContext, Phase, Pipelines};
+use super::pipeline::{ADD, Destination, PipelineParts, scene_shader};
+use super::scene::SceneLayout;
 
 /// The format of what the wire takes away: its optical depth over the largest, `MOST_DEPTH` in the shaders.
 pub(super) const SHADOW: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
-/// Draws wires.
+impl Draw for GpuWire {
+    fn phases(&self) -> &'static [Phase] {
+        &[Phase::Opaque, Phase::Shadow]
+    }
+
+    fn draw(&self, context: &mut DrawContext<'_, '_>) {
+        let WirePipelines { lit, shadow } = context.pipelines();
+        self.draw_by(context.pass, if context.phase == Phase::Shadow { shadow } else { lit });
+    }
+}
+
 #[derive(Debug)]
-pub(super) struct Wire {
+struct WirePipelines {
     lit: wgpu::RenderPipeline,
     shadow: wgpu::RenderPipeline,
 }
 
-impl Wire {
-    pub(super) fn new(device: &wgpu::Device, layout: &SceneLayout) -> Self {
+impl Pipelines for WirePipelines {
+    fn new(layout: &SceneLayout) -> Self {
         use wgpu::VertexFormat::{Float32x2, Float32x3};
-        let module = scene_shader!(device, "wire.wgsl");
-        let attributes = &[Float32x3, Float32x3, Float32x2];
-        let lit = PipelineParts { attributes, ..PipelineParts::new("wire", &module) };
+        let module = scene_shader!(layout.device, "wire.wgsl");
+        let lit =
+            PipelineParts { attributes: &[Float32x3, Float32x3, Float32x2], ..PipelineParts::new("wire", &module) };
         let shadow = PipelineParts {
+            label: "wire, shadow",
             fragment: "fragment_shadow",
-            attributes,
             blend: Some(wgpu::BlendState { color: ADD, alpha: ADD }),
             // A ray enters the tube once: what it takes away is counted where it does.
             cull: Some(wgpu::Face::Back),
-            plain: Some(SHADOW),
-            ..PipelineParts::new("wire, shadow", &module)
+            into: Destination::Texture(SHADOW),
+            ..lit
         };
-        Self { lit: layout.pipeline(device, &lit), shadow: layout.pipeline(device, &shadow) }
-    }
-
-    /// Draws the wire, lit. Its scene must be bound.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, wire: &GpuWire) {
-        wire.draw(pass, &self.lit);
-    }
-
-    /// Draws what the wire takes away from X-rays, and nothing else, into a target of [`SHADOW`].
-    pub(super) fn draw_shadow(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
-        bindings: &SceneBindings,
-        wire: &GpuWire,
-    ) {
-        let mut pass = begin(encoder, "shadow", target, wgpu::Color::TRANSPARENT);
-        bindings.set(&mut pass, 0);
-        wire.draw(&mut pass, &self.shadow);
+        Self { lit: layout.pipeline(&lit), shadow: layout.pipeline(&shadow) }
     }
 }

@@ -7,6 +7,7 @@ use super::cell::{self, Manner};
 use super::comparison::{Made, Outcome};
 use super::scene::CompareScene;
 use super::words;
+use crate::app::graphics_error::{picture_error, surface_error};
 use crate::app::theme;
 use crate::io::Axes;
 use crate::pipeline::deviation::REPORT_SAMPLES;
@@ -53,10 +54,10 @@ pub enum FigureError {
         limit: u32,
     },
     /// A surface does not fit into GPU memory.
-    #[error(transparent)]
+    #[error("{}", surface_error(.0))]
     Surface(#[from] SurfaceError),
     /// The picture does not come back.
-    #[error(transparent)]
+    #[error("{}", picture_error(.0))]
     Picture(#[from] PictureError),
 }
 

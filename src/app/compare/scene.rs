@@ -7,7 +7,7 @@ use egui::TextureId;
 use crate::app::scene::upload;
 use crate::app::window_texture::{WindowRenderer, WindowTarget};
 use crate::mesh::TriMesh;
-use crate::render::{Camera, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError};
+use crate::render::{Backdrop, Camera, Draw, Drawable, GpuSurface, Look, Renderer, Style, SurfaceError};
 
 /// How a picture is taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,8 +94,10 @@ impl CompareScene {
         let Some(target) = picture.stale(&self.device, shot.size, drawn) else { return Ok(picture.id()) };
         let surface = &self.surfaces[surface].on_gpu;
         let drawables: Vec<_> = shot.looks.iter().map(|&look| Drawable { surface, look, tint: None }).collect();
+        let mut things: Vec<&dyn Draw> = vec![&Backdrop];
+        things.extend(drawables.iter().map(|drawable| drawable as &dyn Draw));
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("cell") });
-        self.renderer.draw(&self.device, &mut encoder, target, &shot.camera, &drawables, &shot.style);
+        self.renderer.draw(&mut encoder, target, &shot.camera, &things, &shot.style);
         self.queue.submit([encoder.finish()]);
         Ok(picture.id())
     }

@@ -13,6 +13,7 @@ use super::words;
 use crate::app::action::Action;
 use crate::app::assist::heading;
 use crate::app::document::Document;
+use crate::app::graphics_error::surface_error;
 use crate::app::halo;
 use crate::app::icon::{self, Icon};
 use crate::app::theme;
@@ -251,7 +252,7 @@ impl CompareView {
             (Outcome::Done(made), Some(scene)) => {
                 let made = first.unwrap_or(made);
                 if let Err(error) = cell::pictures(ui, scene, index, above, made, manner) {
-                    failure = Some(say!("compare-not-drawn", why = error.to_string()));
+                    failure = Some(say!("compare-not-drawn", why = surface_error(&error)));
                 }
             }
             (Outcome::Done(_), None) if self.is_refused => failure = Some(NO_MEMORY.say()),

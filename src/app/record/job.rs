@@ -13,6 +13,7 @@ use super::action::Chosen;
 use crate::app::arrays;
 use crate::app::deviating::Deviating;
 use crate::app::document::Document;
+use crate::app::graphics_error::{picture_error, surface_error};
 use crate::app::portrait::{
     Alone, Behind, Marks, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, without_ground,
 };
@@ -37,7 +38,7 @@ const TURNTABLE: u32 = 480;
 #[derive(Debug, Error)]
 pub(super) enum JobError {
     /// A surface does not fit.
-    #[error(transparent)]
+    #[error("{}", surface_error(.0))]
     Surface(#[from] SurfaceError),
     /// The device draws no picture as large.
     #[error("{}", say!("record-error-too-large", limit = .0.to_string()))]
@@ -200,7 +201,7 @@ impl Job {
         if let Some((caption, receiver)) = &self.reading {
             match receiver.try_recv() {
                 Ok(picture) => {
-                    let picture = picture.map_err(|error| say!("record-not-drawn", why = error.to_string()))?;
+                    let picture = picture.map_err(|error| say!("record-not-drawn", why = picture_error(&error)))?;
                     let caption = caption.clone();
                     self.reading = None;
                     self.take(caption, picture, state, link);
@@ -212,7 +213,7 @@ impl Job {
         let Some(Shot { seat, pose, caption }) = self.shots.pop_front() else { return Ok(true) };
         if let Some((mesh, scalars)) = seat {
             let seated = self.portrait.seat(&mesh, scalars.as_deref());
-            seated.map_err(|error| say!("record-cannot-draw", why = error.to_string()))?;
+            seated.map_err(|error| say!("record-cannot-draw", why = surface_error(&error)))?;
         }
         let (sender, receiver) = channel();
         // Whoever has cancelled meanwhile takes nothing.

@@ -5,6 +5,7 @@ use egui::{Align2, Color32, ColorImage, Rect, Role, Sense, TextureHandle, Textur
 use super::state::{OpenScan, Picture};
 use crate::app::assist::name;
 use crate::app::compare::{CompareScene, Shot};
+use crate::app::graphics_error::surface_error;
 use crate::app::views::{NO_MEMORY, Views, first_view, pixels};
 use crate::app::{halo, overlay, theme};
 use crate::io::Axes;
@@ -82,7 +83,7 @@ impl ScanView {
                     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                     ui.painter_at(rect).image(texture, rect, whole, Color32::WHITE);
                 }
-                Some(Err(error)) => sentence = Some(say!("scan-preview-not-drawn", why = error.to_string())),
+                Some(Err(error)) => sentence = Some(say!("scan-preview-not-drawn", why = surface_error(&error))),
                 None if self.is_refused => sentence = Some(NO_MEMORY.say()),
                 None => sentence = Some(say!("scan-no-device")),
             }

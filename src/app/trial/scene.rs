@@ -13,7 +13,8 @@ use crate::engine::trial::RouteShown;
 use crate::mesh::{Topology, TriMesh, Vec3, boundary_loops};
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::render::{
-    Camera, Exposure, GpuSurface, GpuWire, Style, Sums, SurfaceError, ThicknessFormat, TrialRenderer, ViewTarget,
+    Backdrop, Body, Camera, Draw, Exposure, Glass, GpuSurface, GpuWire, Inside, Renderer, Style, Sums, SurfaceError,
+    ThicknessFormat, ViewTarget,
 };
 
 /// Frames that are drawn to time one.
@@ -25,7 +26,7 @@ const TIMED_SIZE: [u32; 2] = [1280, 800];
 pub(super) struct TrialScene {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    renderer: TrialRenderer,
+    renderer: Renderer,
     vessel: GpuSurface,
     body: GpuSurface,
     wire: GpuWire,
@@ -60,10 +61,10 @@ impl TrialScene {
     /// When the device does not allow a buffer.
     pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, SurfaceError> {
         let (device, queue) = (state.device.clone(), state.queue.clone());
-        let renderer = TrialRenderer::new(&device, &queue, ThicknessFormat::of(&state.adapter));
+        let renderer = Renderer::new(&device, &queue).with_thickness(ThicknessFormat::of(&state.adapter));
         let view = || WindowTarget::new(&device, &state.renderer);
         let views = [view(), view()];
-        let picture = renderer.fluoroscopy_target(&device, [1, 1]);
+        let picture = renderer.fluoroscopy_target([1, 1]);
         Ok(Self {
             vessel: GpuSurface::new(&device, &queue, &[])?,
             body: GpuSurface::new(&device, &queue, &[])?,
@@ -144,7 +145,7 @@ impl TrialScene {
         let Some(target) = self.views[0].stale(&self.device, size, of) else { return self.views[0].id() };
         self.draws += 1;
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("trial") });
-        self.renderer.draw(&self.device, &mut encoder, target, camera, (&self.vessel, &self.wire), style);
+        self.renderer.draw(&mut encoder, target, camera, &[&Backdrop, &self.wire, &Glass(&self.vessel)], style);
         self.queue.submit([encoder.finish()]);
         self.views[0].id()
     }
@@ -155,7 +156,7 @@ impl TrialScene {
         let Some(target) = self.views[1].stale(&self.device, size, of) else { return self.views[1].id() };
         self.draws += 1;
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("tip") });
-        self.renderer.draw_inside(&self.device, &mut encoder, target, camera, &self.vessel, style);
+        self.renderer.draw(&mut encoder, target, camera, &[&Inside(&self.vessel)], style);
         self.queue.submit([encoder.finish()]);
         self.views[1].id()
     }
@@ -186,8 +187,8 @@ impl TrialScene {
         let is_other = self.measured.replace(*camera) != Some(*camera);
         let mut encoder =
             self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fluoroscopy") });
-        let shown = (&self.body, &self.seen);
-        self.renderer.expose(&self.device, &mut encoder, self.picture.target(), camera, shown, exposure, is_other);
+        let things: &[&dyn Draw] = &[&Body(&self.body), &self.seen];
+        self.renderer.expose(&mut encoder, self.picture.target(), camera, things, exposure, is_other);
         self.queue.submit([encoder.finish()]);
         Ok(())
     }
@@ -202,14 +203,16 @@ impl TrialScene {
         let target = ViewTarget::new(&self.device, TIMED_SIZE[0], TIMED_SIZE[1]);
         let mut camera = Camera::default();
         camera.fit(&mesh.bounds(), target.aspect());
-        let frames = (0..TIMED).map(|_| {
+        let frame = || {
             let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.renderer.draw(&self.device, &mut encoder, &target, &camera, (&vessel, &self.wire), style);
+            self.renderer.draw(&mut encoder, &target, &camera, &[&Backdrop, &self.wire, &Glass(&vessel)], style);
             encoder.finish()
-        });
+        };
+        // The first one compiles the pipelines, which is not timed.
+        drop(frame());
         let (sender, receiver) = channel();
         let since = Instant::now();
-        self.queue.submit(frames);
+        self.queue.submit((0..TIMED).map(|_| frame()));
         self.queue.on_submitted_work_done(move || {
             // Whoever asked may have left meanwhile.
             let _ = sender.send(since.elapsed().as_secs_f64() * 1000.0 / f64::from(TIMED));

@@ -16,7 +16,7 @@ use glam::Vec3;
 pub use self::options::{Colours, FaultShown, ViewOptions};
 pub(super) use self::picture::legend;
 pub(super) use self::places::{in_view, pixels, seen};
-pub(super) use self::sides::{first_view, stand};
+pub(super) use self::sides::{first_view, side_label, stand};
 use super::action::Action;
 use super::collapses::Collapses;
 use super::document::{Document, Revision};
@@ -27,6 +27,7 @@ use super::scan::{KeptScan, Outlines, SlicePicture};
 use super::scene::Scene;
 use super::tabs;
 use super::theme;
+use crate::app::graphics_error::surface_error;
 use crate::language::{Key, decimal};
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, Look, StandardView};
@@ -148,7 +149,7 @@ impl Views {
         if let (None, None, Some(device)) = (&self.scene, self.refused, &self.device) {
             match Scene::new(device) {
                 Ok(scene) => self.scene = Some(scene),
-                Err(error) => self.failure = Some(say!("views-failed", error = error.to_string())),
+                Err(error) => self.failure = Some(say!("views-failed", error = surface_error(&error))),
             }
         }
     }
@@ -317,12 +318,12 @@ impl Views {
         if let (Some(scene), Some(document)) = (&mut self.scene, document)
             && let Err(error) = scene.follow(document, self.options.colours)
         {
-            self.failure = Some(say!("views-surface-failed", error = error.to_string()));
+            self.failure = Some(say!("views-surface-failed", error = surface_error(&error)));
         }
         if let Some(scene) = &mut self.scene
             && let Err(error) = scene.follow_slices(&self.slices)
         {
-            self.failure = Some(say!("views-slices-failed", error = error.to_string()));
+            self.failure = Some(say!("views-slices-failed", error = surface_error(&error)));
         }
         if let (Some(outlines), Some(document)) = (&mut self.outlines, document) {
             outlines.keep_only(&self.slices, document.revision);

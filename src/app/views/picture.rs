@@ -6,6 +6,7 @@ use glam::Vec3;
 use super::{Clicked, Colours, Subject, Views, in_view, pixels};
 use crate::app::assist::name;
 use crate::app::document::Document;
+use crate::app::graphics_error::surface_error;
 use crate::app::measure::{Measuring, Seen};
 use crate::app::scene::{Picture, Scene, coloured};
 use crate::app::{arrays, classes, deviation, halo, mending, overlay, spoken, theme};
@@ -145,7 +146,7 @@ impl Views {
                         outlines.draw(ui, [rect, shown], &self.camera, &self.slices, of);
                     }
                 }
-                Some(Err(error)) => self.failure = Some(say!("views-surface-failed", error = error.to_string())),
+                Some(Err(error)) => self.failure = Some(say!("views-surface-failed", error = surface_error(&error))),
                 None => {}
             }
         }

@@ -5,6 +5,7 @@ use std::f32::consts::PI;
 use glam::{Quat, Vec3};
 
 use crate::io::Axes;
+use crate::language::Key;
 use crate::render::{Camera, StandardView};
 
 /// From where a surface of this size is first seen: from the front, unless it lies on its back, as some scans are stored.
@@ -18,4 +19,17 @@ pub(in crate::app) fn stand(camera: &mut Camera, view: StandardView, axes: Axes)
     if axes == Axes::Ras {
         camera.rotation = (Quat::from_rotation_z(PI) * camera.rotation).normalize();
     }
+}
+
+/// What a side is called: for the patient's side, or where that is not known for the side of the surface as it stands.
+pub(in crate::app) fn side_label(view: StandardView, is_patient_known: bool) -> String {
+    let [of_patient, of_surface] = match view {
+        StandardView::Anterior => [Key("views-anterior"), Key("views-front")],
+        StandardView::Posterior => [Key("views-posterior"), Key("views-rear")],
+        StandardView::Left => [Key("views-left"), Key("views-right-side")],
+        StandardView::Right => [Key("views-right"), Key("views-left-side")],
+        StandardView::Superior => [Key("views-superior"), Key("views-top")],
+        StandardView::Inferior => [Key("views-inferior"), Key("views-bottom")],
+    };
+    if is_patient_known { of_patient.say() } else { of_surface.say() }
 }

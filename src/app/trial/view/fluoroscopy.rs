@@ -6,6 +6,7 @@ use egui::{Align2, Color32, PointerButton, Rect, Response, Role, Sense, TextureI
 
 use super::painting::{empty, image, radius};
 use crate::app::assist::name;
+use crate::app::graphics_error::surface_error;
 use crate::app::halo;
 use crate::app::overlay::{self, NOT_CLINICAL};
 use crate::app::trial::carm;
@@ -123,7 +124,7 @@ impl Fluoroscopy {
             }
         };
         if let Err(error) = exposed {
-            *failure = Some(say!("trial-fluoroscopy-not-drawn", why = error.to_string()));
+            *failure = Some(say!("trial-fluoroscopy-not-drawn", why = surface_error(&error)));
         }
         if carm.is_on && (exposure.contrast_s.is_some() || is_news && !is_due) {
             ui.ctx().request_repaint_after(Duration::from_secs_f64(carm.until_pulse(now)));

@@ -21,6 +21,7 @@ use super::state::{AWAITS, Stage, Trial};
 use super::tables::Tables;
 use crate::app::assist::name;
 use crate::app::document::Document;
+use crate::app::graphics_error::surface_error;
 use crate::app::overlay::{self, Legend};
 use crate::app::theme;
 use crate::app::views::{NO_MEMORY, Views, in_view, pixels};
@@ -108,7 +109,7 @@ impl TrialView {
         if let (None, None, Some(device)) = (&self.scene, &self.failure, &self.device) {
             match TrialScene::new(device) {
                 Ok(scene) => self.scene = Some(scene),
-                Err(error) => self.failure = Some(say!("trial-not-drawn", why = error.to_string())),
+                Err(error) => self.failure = Some(say!("trial-not-drawn", why = surface_error(&error))),
             }
         }
     }
@@ -178,7 +179,7 @@ impl TrialView {
             let taken = trial.mesh().map_or(Ok(false), |mesh| scene.take(mesh, &RouteShown::default()));
             // No wire is in it.
             if let Err(error) = taken.and_then(|is_other| if is_other { scene.set_wire(&[], 1.0) } else { Ok(()) }) {
-                self.failure = Some(say!("trial-surface-not-drawn", why = error.to_string()));
+                self.failure = Some(say!("trial-surface-not-drawn", why = surface_error(&error)));
             }
             return;
         };
@@ -187,7 +188,7 @@ impl TrialView {
             Ok(true) => (self.felt, self.picture) = (0, None),
             Ok(false) => {}
             Err(error) => {
-                self.failure = Some(say!("trial-not-drawn", why = error.to_string()));
+                self.failure = Some(say!("trial-not-drawn", why = surface_error(&error)));
                 return;
             }
         }
@@ -205,7 +206,7 @@ impl TrialView {
             let nodes = run.frame.as_ref().map_or(&[][..], |frame| &frame.nodes);
             match scene.set_wire(nodes, radius(session)) {
                 Ok(()) => self.picture = Some(run.picture()),
-                Err(error) => self.failure = Some(say!("trial-wire-not-drawn", why = error.to_string())),
+                Err(error) => self.failure = Some(say!("trial-wire-not-drawn", why = surface_error(&error))),
             }
         }
     }
