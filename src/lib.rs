@@ -56,3 +56,29 @@ pub use lumen_trial as trial;
 pub use lumen_vessel as vessel;
 pub use lumen_vessel::phantom;
 pub use lumen_volume as volume;
+
+/// What most programs need: `use lumen::prelude::*;`.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use lumen::prelude::*;
+///
+/// let aorta = lumen::phantom::generate(Sample::Aorta, 5_000)?;
+/// let mut pipeline = Pipeline::new(Arc::new(aorta), Settings::default()).without_measures();
+/// pipeline.finish()?;
+/// let entering = pipeline.smoothed().unwrap().mesh.triangles.len();
+/// let reduced = pipeline.reduced().unwrap().mesh.triangles.len();
+/// assert!(reduced.abs_diff(Target::Reduction(900).triangles(entering)) <= 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub mod prelude {
+    pub use lumen_io::{Format, ImportOptions, Imported, Unit};
+    pub use lumen_mesh::{Topology, TriMesh, Vec3};
+    pub use lumen_pipeline::run::Pipeline;
+    pub use lumen_pipeline::settings::{Keep, Settings, Smoothing, Target};
+    pub use lumen_trial::course::Course;
+    pub use lumen_trial::session::Trial;
+    pub use lumen_trial::setup::Setup;
+    pub use lumen_vessel::phantom::Sample;
+}
