@@ -2,6 +2,8 @@
 //!
 //! Memory is counted by the allocator of this program: what measures it, or takes much of it, runs [`alone`].
 
+#![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
+
 mod arrays;
 mod memory;
 mod robustness;

@@ -12,13 +12,12 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Keep, Method, Settings, Smoothing, Target};
+use lumen_test_support::crossings::crossing_faces;
+use lumen_test_support::data::VESSELS;
+use lumen_test_support::is_long;
+use lumen_test_support::promises::{RATES, check, settings};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-
-use crate::crossings::crossing_faces;
-use crate::long::is_long;
-use crate::promises::{RATES, check, settings};
-use crate::vessels::VESSELS;
 
 /// Random settings tried on each surface.
 fn cases() -> u32 {

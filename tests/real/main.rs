@@ -3,18 +3,7 @@
 //! The test meshes are no part of the repository: they are looked for where `LUMEN_DATA` says, else in `../shared/data`
 //! beside the checkout. Where there are none, one trial is reported as ignored, not as passed.
 
-#[path = "../common/crossings.rs"]
-mod crossings;
-#[path = "../common/data.rs"]
-mod data;
-#[path = "../common/long.rs"]
-mod long;
-#[path = "../common/promises.rs"]
-mod promises;
-#[path = "../common/shape.rs"]
-mod shape;
-#[path = "../common/vessels.rs"]
-mod vessels;
+#![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
 
 mod arrays;
 mod guarantees;
@@ -31,10 +20,11 @@ mod spare_thin;
 mod trial;
 
 use libtest_mimic::{Arguments, Trial};
+use lumen_test_support::data::data;
 
 fn main() {
     let mut trials = guarantees::made();
-    match data::data() {
+    match data() {
         Some(folder) => {
             let parts = [
                 arrays::trials,

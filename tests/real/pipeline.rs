@@ -10,10 +10,9 @@ use lumen::io::{ImportOptions, read};
 use lumen::mesh::self_intersections;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
-
-use crate::long::is_long;
-use crate::shape::Shape;
-use crate::vessels::VESSELS;
+use lumen_test_support::data::VESSELS;
+use lumen_test_support::is_long;
+use lumen_test_support::shape::Shape;
 
 /// Figure 6 of the paper: pass bands and iterations.
 const SMOOTHING: [(f64, u32); 6] = [(0.1, 30), (0.1, 60), (0.1, 100), (0.01, 30), (0.01, 60), (0.01, 100)];

@@ -16,8 +16,7 @@ use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Boundary, Settings, Smoothing, Window};
 use lumen::pipeline::smoothing::{SmoothingTask, smooth};
 use lumen::pipeline::task::{Budget, Progress, Task};
-
-use crate::vessels::VESSELS;
+use lumen_test_support::data::VESSELS;
 
 /// Surfaces with open ends cut by a plane, and their voxels in mm.
 const OPEN_ENDS: [(&str, usize, f64); 2] =

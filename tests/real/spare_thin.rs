@@ -13,8 +13,7 @@ use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Decimation, Method, Settings, Target};
 use lumen::vessel::certificate::Verdict;
-
-use crate::long::is_long;
+use lumen_test_support::is_long;
 
 /// In tenths of a percent.
 const RATES: [u32; 3] = [900, 950, 990];

@@ -14,8 +14,7 @@ use lumen::trial::course::Course;
 use lumen::trial::session::Trial;
 use lumen::trial::setup::Setup;
 use lumen::trial::wire::Wire;
-
-use crate::long::is_long;
+use lumen_test_support::is_long;
 
 /// Segmented, scanned or printed surfaces with open lumens, and the wire for each.
 const FILES: [(&str, &str); 5] = [

@@ -1,6 +1,7 @@
 //! What is drawn, measured in pixels against geometry: silhouettes, lines, colours. Needs a GPU or a software one and
 //! fails without. Pictures to look at are left in the target folder's `tmp`.
 
+#![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
 #![cfg(feature = "gui")]
 
 mod device;

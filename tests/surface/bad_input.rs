@@ -8,8 +8,7 @@ use lumen::mesh::{TriMesh, Vec3};
 use lumen::pipeline::report::Report;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Boundary, Keep, Method, Settings, SettingsError, Smoothing, Target, Window};
-
-use crate::long::is_long;
+use lumen_test_support::is_long;
 
 /// What one surface may take through all stages under all settings tried; most take milliseconds.
 const LIMIT: Duration = Duration::from_secs(120);

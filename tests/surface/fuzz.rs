@@ -9,12 +9,11 @@ use lumen::mesh::{TriMesh, self_intersections};
 use lumen::pipeline::deviation::deviation;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Keep, Settings, Smoothing, Target, Window};
+use lumen_test_support::crossings::crossing_faces;
+use lumen_test_support::promises::{check, settings};
+use lumen_test_support::tangles::{Fault, Tangle, tangles};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-
-use crate::crossings::crossing_faces;
-use crate::promises::{check, settings};
-use crate::tangles::{Fault, Tangle, tangles};
 
 /// Most faults of a surface.
 const FAULTS: usize = 12;

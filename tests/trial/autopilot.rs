@@ -20,8 +20,7 @@ use lumen::trial::session::Trial;
 use lumen::trial::setup::{Entry, Input, Press, Setup};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wire::Wire;
-
-use crate::long::is_long;
+use lumen_test_support::is_long;
 
 /// Levels of a sample at rates in tenths of a percent, smoothed so that thin vessels stay open.
 fn levels(sample: Sample, triangles: usize, rates: &[u32]) -> Vec<Arc<TriMesh>> {

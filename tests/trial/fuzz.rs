@@ -17,8 +17,7 @@ use lumen::trial::course::Course;
 use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Input, Setup};
 use lumen::trial::wire::Wire;
-
-use crate::long::is_long;
+use lumen_test_support::is_long;
 
 /// Steps between two audits: nothing moves farther than 3.2 mm meanwhile.
 const AUDITED: u64 = 20;

@@ -1,9 +1,6 @@
 //! The guidewire trial on the samples and in tubes.
 
-#[path = "../common/long.rs"]
-mod long;
-#[path = "../common/tubes.rs"]
-mod tubes;
+#![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
 
 mod autopilot;
 mod fuzz;

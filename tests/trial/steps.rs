@@ -3,7 +3,6 @@
 
 use std::sync::Arc;
 
-use crate::tubes::{curve, tube};
 use lumen::io::import_mesh;
 use lumen::phantom::{Sample, generate};
 use lumen::trial::compare::{Noise, SHUFFLES, TrialComparison};
@@ -16,6 +15,7 @@ use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
 use lumen::trial::wire::Wire;
+use lumen_test_support::tubes::{curve, tube};
 
 const AT: Entry = Entry { at: [4.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
 

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::tubes::{curve, tube};
 use lumen::trial::audit::Audit;
 use lumen::trial::report::StepKind;
 use lumen::trial::setup::{Entry, Input};
 use lumen::trial::simulation::Simulation;
 use lumen::trial::wall::Wall;
 use lumen::trial::wire::Wire;
+use lumen_test_support::tubes::{curve, tube};
 
 /// Through an S of two bends, coarse and fine, rolling all the way at half a turn a second: the tip arrives where the tube
 /// leads, and no capsule reaches farther into the wall than 5 % of the radius, by a measure of its own (`audit`).

@@ -14,7 +14,7 @@ use lumen::trial::wire::Wire;
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Within;
-use crate::tubes::{curve, tube};
+use lumen_test_support::tubes::{curve, tube};
 
 /// The part of the wall's forces that is left over in each step in which the wall presses, in order; and how many of
 /// these steps are not balanced, as a part.

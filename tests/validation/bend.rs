@@ -17,7 +17,7 @@ use lumen::trial::rod::{Hessian, Section};
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Part;
 use crate::friction::{RADIUS, STEP, TUBE, threaded};
-use crate::tubes::{Place, curve, tube};
+use lumen_test_support::tubes::{Place, curve, tube};
 
 /// Radius of the bend in mm.
 const BEND: f64 = 20.0;

@@ -14,7 +14,7 @@ use lumen::trial::wire::Wire;
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::{Part, Within};
-use crate::tubes::{curve, tube};
+use lumen_test_support::tubes::{curve, tube};
 
 const NODES: usize = 41;
 /// mm, N mm2, t/mm: about steel of 0.36 mm.

@@ -12,7 +12,7 @@ use lumen::trial::wall::Wall;
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::{Part, Within};
-use crate::tubes::{Place, curve, tube};
+use lumen_test_support::tubes::{Place, curve, tube};
 
 /// Radius of the wire in mm.
 pub(crate) const RADIUS: f64 = 0.178;

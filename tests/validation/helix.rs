@@ -19,7 +19,7 @@ use lumen::trial::rod::Section;
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Part;
 use crate::friction::{RADIUS, STEP, TUBE, threaded};
-use crate::tubes::{Place, curve, tube};
+use lumen_test_support::tubes::{Place, curve, tube};
 
 /// Radial clearance in mm.
 const CLEARANCE: f64 = TUBE - RADIUS;

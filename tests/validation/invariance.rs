@@ -14,7 +14,7 @@ use lumen::trial::wire::Wire;
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::Within;
 use crate::rods::{CLAMPED, EI, LENGTH, cantilever, settle};
-use crate::tubes::{curve, tube};
+use lumen_test_support::tubes::{curve, tube};
 
 /// A bent vessel.
 fn vessel() -> TriMesh {

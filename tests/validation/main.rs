@@ -1,6 +1,8 @@
 //! The wire against what is known of rods and of wires in tubes: each benchmark beside its analytic answer, with its
 //! tolerance. `cargo xtask validation` draws them into `docs/validation.md`.
 
+#![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
+
 mod balance;
 mod benchmark;
 mod bend;
@@ -16,6 +18,3 @@ mod rods;
 mod spectrum;
 mod torsion;
 mod tube_buckling;
-#[path = "../common/tubes.rs"]
-#[allow(unreachable_pub)] // Shared with tests that see it from elsewhere.
-mod tubes;

@@ -16,7 +16,7 @@ use crate::benchmark::Tolerance::{Part, Within};
 use crate::friction::{RADIUS, TUBE};
 use crate::torsion::base_angle;
 use crate::tube_buckling::{GROWTH, uneven};
-use crate::tubes::{Place, curve, tube};
+use lumen_test_support::tubes::{Place, curve, tube};
 
 /// Radius of the bends in mm.
 const BEND: f64 = 20.0;

@@ -10,7 +10,7 @@ use lumen::trial::wire::Wire;
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::{Part, Within};
-use crate::tubes::{curve, tube};
+use lumen_test_support::tubes::{curve, tube};
 
 /// Lengths in mm between which a way is looked at, and from which on it is rolled.
 const FROM: usize = 10;

@@ -24,7 +24,7 @@ use lumen::trial::wire::Wire;
 
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::{Part, Within};
-use crate::tubes::{curve, tube};
+use lumen_test_support::tubes::{curve, tube};
 
 /// Above what the share is told, in Hz: the pace of the rows.
 const ABOVE_HZ: f64 = 50.0;

@@ -11,7 +11,7 @@ use lumen::trial::rod::Section;
 use crate::benchmark::Benchmark;
 use crate::benchmark::Tolerance::{Missed, Part};
 use crate::friction::{RADIUS, STEP, TUBE, threaded};
-use crate::tubes::{curve, tube};
+use lumen_test_support::tubes::{curve, tube};
 
 /// Radial clearance in mm.
 const CLEARANCE: f64 = TUBE - RADIUS;

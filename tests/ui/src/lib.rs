@@ -1,6 +1,8 @@
 //! The app in windows that are not there, on a platform of plain memory ([`Memory`]), and what a hand does in them. [`told`]
 //! is what a trial is told to say, [`hide`] the window that is hidden.
 
+#![allow(clippy::disallowed_methods, reason = "it makes surfaces to look at")]
+
 mod memory;
 pub mod told;
 

@@ -1,5 +1,7 @@
 //! The app without a window: its controls, keys, views and trial, driven as assistive tools drive them.
 
+#![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
+
 mod compare;
 mod controls;
 mod deviation;

@@ -2,21 +2,26 @@
 
 use std::collections::BTreeSet;
 
-use lumen::mesh::{Topology, TriMesh, boundary_loops, components};
+use lumen_mesh::{Topology, TriMesh, boundary_loops, components};
 
 /// What decimation must not change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Shape {
-    pub(crate) components: usize,
+pub struct Shape {
+    /// Connected pieces.
+    pub components: usize,
     /// Connected pieces of the boundary: its loops, where none of them touch.
-    pub(crate) boundaries: usize,
-    pub(crate) euler: i64,
-    pub(crate) non_manifold: usize,
-    pub(crate) flipped: usize,
+    pub boundaries: usize,
+    /// Vertices less edges plus triangles.
+    pub euler: i64,
+    /// Edges of more than two triangles.
+    pub non_manifold: usize,
+    /// Edges whose two triangles are wound against each other.
+    pub flipped: usize,
 }
 
 impl Shape {
-    pub(crate) fn of(mesh: &TriMesh) -> Self {
+    /// Counts those of `mesh`.
+    pub fn of(mesh: &TriMesh) -> Self {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let counts = topology.edge_counts();
         Self {

@@ -1,17 +1,15 @@
 //! Tubes along curves, to steer wires through.
 
-#![allow(dead_code)] // Not every test uses all of it.
-
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use lumen::mesh::{TriMesh, Vec3};
+use lumen_mesh::{TriMesh, Vec3};
 
 /// A place on a curve: where, and its direction.
-pub(crate) type Place = (DVec3, DVec3);
+pub type Place = (DVec3, DVec3);
 
 /// An open tube of `radius` mm around `curve`, its triangles looking out.
-pub(crate) fn tube(curve: &[Place], radius: impl Fn(usize) -> f64, sides: usize) -> TriMesh {
+pub fn tube(curve: &[Place], radius: impl Fn(usize) -> f64, sides: usize) -> TriMesh {
     let mut across = curve[0].1.any_orthonormal_vector();
     let mut positions: Vec<Vec3> = Vec::new();
     for (i, &(centre, direction)) in curve.iter().enumerate() {
@@ -40,7 +38,7 @@ pub(crate) fn tube(curve: &[Place], radius: impl Fn(usize) -> f64, sides: usize)
 
 /// A curve of straight parts and arcs in the xy plane, from the origin along x: each part is a length in mm and the
 /// radius of the bend to the left, infinite for none. Places are `step` mm apart.
-pub(crate) fn curve(parts: &[(f64, f64)], step: f64) -> Vec<Place> {
+pub fn curve(parts: &[(f64, f64)], step: f64) -> Vec<Place> {
     let (mut at, mut heading) = (DVec3::ZERO, 0.0f64);
     let mut places = vec![(at, DVec3::X)];
     for &(length, bend) in parts {

@@ -2,15 +2,15 @@
 
 use std::collections::HashSet;
 
-use lumen::mesh::{Topology, TriMesh, volume};
-use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Boundary, Method, Settings, Smoothing, Target, Window};
+use lumen_mesh::{Topology, TriMesh, volume};
+use lumen_pipeline::run::Pipeline;
+use lumen_pipeline::settings::{Boundary, Method, Settings, Smoothing, Target, Window};
 use proptest::prelude::*;
 
 use crate::shape::Shape;
 
 /// Table II of the paper, in tenths of a percent.
-pub(crate) const RATES: [u32; 5] = [100, 500, 750, 900, 990];
+pub const RATES: [u32; 5] = [100, 500, 750, 900, 990];
 
 /// Triangles below which a target may be out of reach: a torus cannot do with fewer than 14, and each further handle
 /// and open end needs some of its own.
@@ -19,25 +19,28 @@ fn fewest(shape: &Shape) -> usize {
     64 + 24 * handles + 12 * shape.boundaries
 }
 
-/// Any settings.
-pub(crate) fn settings() -> impl Strategy<Value = Settings> {
+/// Any settings: every switch of the smoothing and of the decimation, on and off.
+pub fn settings() -> impl Strategy<Value = Settings> {
     let window = prop::sample::select(Window::ALL.to_vec());
     let method = prop::sample::select(Method::ALL.to_vec());
     let boundary = prop::sample::select(vec![Boundary::Loop, Boundary::Vtk15]);
     let pass_band = (-3.0f64..0.3).prop_map(|power| libm::pow(10.0, power).clamp(0.001, 2.0));
     let rate = prop_oneof![prop::sample::select(RATES.to_vec()), 0u32..=999];
-    (window, pass_band, 0u32..=120, boundary, method, 0.0f64..=180.0, rate, any::<bool>()).prop_map(
-        |(window, pass_band, iterations, boundary, method, feature_angle, rate, spare_thin)| {
-            let mut settings = Settings { target: Target::Reduction(rate), ..Settings::default() };
-            settings.smoothing = Smoothing {
-                window,
-                pass_band,
-                iterations,
-                boundary,
-                preserve_volume: false,
-                adapt: false,
-                guard: false,
-            };
+    let switches = (any::<bool>(), any::<bool>(), any::<bool>());
+    let smoothing = (window, pass_band, 0u32..=120, boundary, switches).prop_map(
+        |(window, pass_band, iterations, boundary, (preserve_volume, adapt, guard))| Smoothing {
+            window,
+            pass_band,
+            iterations,
+            boundary,
+            preserve_volume,
+            adapt,
+            guard,
+        },
+    );
+    (smoothing, method, 0.0f64..=180.0, rate, any::<bool>()).prop_map(
+        |(smoothing, method, feature_angle, rate, spare_thin)| {
+            let mut settings = Settings { smoothing, target: Target::Reduction(rate), ..Settings::default() };
             settings.decimation.method = method;
             settings.decimation.feature_angle = feature_angle;
             settings.decimation.spare_thin = spare_thin;
@@ -47,7 +50,7 @@ pub(crate) fn settings() -> impl Strategy<Value = Settings> {
 }
 
 /// All that holds of any level under any settings.
-pub(crate) fn check(pipeline: &mut Pipeline) -> Result<(), String> {
+pub fn check(pipeline: &mut Pipeline) -> Result<(), String> {
     let first = pipeline.settings().clone();
     let mut finer: Option<HashSet<[u32; 3]>> = None;
     for rate in [first.target, Target::Reduction(950), Target::Reduction(990), Target::Triangles(1)] {

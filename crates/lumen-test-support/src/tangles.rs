@@ -1,26 +1,30 @@
 //! Surfaces that are no manifolds: a noisy tube, and faults on it as segmentation, modelling and conversion leave them.
 //! Proptest makes them, so one that fails is cut down to the few faults that it fails by.
 
-use lumen::mesh::{TriMesh, Vec3};
+use lumen_mesh::{TriMesh, Vec3};
 use proptest::prelude::*;
 
 /// A tube and what is wrong with it. The numbers of a fault name vertices, triangles and corners, each taken modulo how
 /// many there are.
 #[derive(Clone, Debug)]
-pub(crate) struct Tangle {
-    pub(crate) rings: u32,
-    pub(crate) sides: u32,
+pub struct Tangle {
+    /// Rings of vertices along the tube.
+    pub rings: u32,
+    /// Vertices around each ring.
+    pub sides: u32,
     /// Whether both ends are capped.
-    pub(crate) is_closed: bool,
+    pub is_closed: bool,
     /// What each coordinate is off by, in mm.
-    pub(crate) noise: f32,
-    pub(crate) seed: u32,
-    pub(crate) faults: Vec<Fault>,
+    pub noise: f32,
+    /// Other seeds have other offsets.
+    pub seed: u32,
+    /// Added one after another.
+    pub faults: Vec<Fault>,
 }
 
 /// Something that makes a surface no manifold, or more than one, or wound both ways.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Fault {
+pub enum Fault {
     /// Two vertices become one.
     WeldVertices([u32; 2]),
     /// Two edges become one: four triangles.
@@ -48,7 +52,7 @@ pub(crate) enum Fault {
 }
 
 /// Tubes with up to `most` faults.
-pub(crate) fn tangles(most: usize) -> impl Strategy<Value = Tangle> {
+pub fn tangles(most: usize) -> impl Strategy<Value = Tangle> {
     let number = any::<u32>;
     let fault = prop_oneof![
         prop::array::uniform2(number()).prop_map(Fault::WeldVertices),
@@ -82,7 +86,7 @@ fn scattered(n: u32) -> f32 {
 
 impl Tangle {
     /// The surface, not yet imported.
-    pub(crate) fn mesh(&self) -> TriMesh {
+    pub fn mesh(&self) -> TriMesh {
         let mut mesh = self.tube();
         for (i, &fault) in self.faults.iter().enumerate() {
             self.add(fault, i as u32, &mut mesh);

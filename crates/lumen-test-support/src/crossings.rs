@@ -7,13 +7,13 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use lumen::mesh::{TriMesh, Vec3};
+use lumen_mesh::{TriMesh, Vec3};
 
 /// A determinant below this part of the cube of the lengths in it has no sign.
 const FLAT: f64 = 1e-11;
 
 /// How many faces of `mesh` cross another.
-pub(crate) fn crossing_faces(mesh: &TriMesh) -> usize {
+pub fn crossing_faces(mesh: &TriMesh) -> usize {
     let corners: Vec<[DVec3; 3]> = (0..mesh.triangles.len()).map(|t| mesh.corners(t).map(Vec3::as_dvec3)).collect();
     let cell = cell(&corners);
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
