@@ -32,11 +32,15 @@
 //! - `chance`: numbers that a seed decides.
 //! - `cli`: the subcommands; the figures among them and the pictures of a report are `app`'s, drawn off screen.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
+
 #[cfg(feature = "gui")]
+#[allow(clippy::disallowed_methods, reason = "what it computes ends on the screen")]
 pub mod app;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;
 #[cfg(all(feature = "gui", not(target_arch = "wasm32")))]
+#[allow(clippy::disallowed_methods, reason = "what it computes ends on the screen")]
 pub mod desktop;
 pub mod engine;
 pub mod report;

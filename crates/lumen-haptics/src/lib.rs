@@ -24,6 +24,8 @@
 //! Times are in ms by any clock that does not go back. A report's bytes are without its id everywhere but in a transport
 //! that wants it.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
+
 pub mod controls;
 pub mod descriptor;
 pub mod device;

@@ -76,7 +76,11 @@ impl Array {
         if self.components == 1 {
             return self.values.get(first);
         }
-        (first..first + self.components).map(|at| self.values.get(at).powi(2)).sum::<f64>().sqrt()
+        let square = |at| {
+            let value = self.values.get(at);
+            value * value
+        };
+        (first..first + self.components).map(square).sum::<f64>().sqrt()
     }
 
     /// The least and the largest of [`Self::magnitude`]; `None` where none is a finite number.

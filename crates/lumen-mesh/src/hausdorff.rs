@@ -145,7 +145,8 @@ impl Reach {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         // Where halves will soon be settled by their middles alone, the sides of small triangles cost more.
         let size = (b - a).length_squared().max((c - a).length_squared());
-        let is_near = (self.within - distance).powi(2) > size;
+        let slack = self.within - distance;
+        let is_near = slack * slack > size;
         if !nearest.is_sliver && !is_near {
             // The triangle reaches beyond its sides: so far, or half as far at its corners.
             let height = piece.corners().iter().map(|&p| normal.dot(p - a).abs()).fold(0.0, f64::max);

@@ -26,6 +26,8 @@
 //! [`Colour`] appears on screen as it is written. Multisamples are therefore averaged as encoded values: edges and
 //! lines have the same visual weight dark on light as light on dark.
 
+#![allow(clippy::disallowed_methods, reason = "what it computes ends on the screen")]
+
 mod backdrop;
 mod binding;
 mod buffer;

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use thiserror::Error;
 use web_time::Instant;
 
-use super::placement::PlacementError;
+use super::placement::{PlacementError, rotation};
 use super::proposal::{proposed, reached};
 use super::route::{PlaceName, Proposals as _, Route, RouteError, Routes as _, phantom_task};
 use super::setup::{Entry, Setup};
@@ -153,12 +153,12 @@ impl Course {
         let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * chance.unit() - 1.0))));
         let way = DVec3::from(entry.direction.map(f64::from)).try_normalize().ok_or(PlacementError::Direction)?;
         let across = way.any_orthonormal_vector();
-        let turned = |angle: f64| DQuat::from_axis_angle(way, std::f64::consts::TAU * angle) * across;
+        let turned = |angle: f64| rotation(way, std::f64::consts::TAU * angle) * across;
         let mut shift = turned(angle) * part(VARIED.0 * out.sqrt());
         let mut lean = part(VARIED.1 * tilted.sqrt());
         // In a narrow vessel there is less room than the seed asks for.
         for _ in 0..4 {
-            let direction = DQuat::from_axis_angle(turned(tilt), lean) * way;
+            let direction = rotation(turned(tilt), lean) * way;
             let at = DVec3::from(entry.at.map(f64::from)) + shift;
             let varied = Entry { at: at.as_vec3().to_array(), direction: direction.as_vec3().to_array() };
             match Simulation::new(&setup.wire, friction, &varied, roll, Some(self.wall.clone())) {

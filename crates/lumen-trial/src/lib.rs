@@ -52,6 +52,8 @@
 //! - *Held*: a step that found no way on and left the rod where it was, [`StepKind::Held`](report::StepKind::Held); nothing
 //!   else is.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
+
 pub mod audit;
 pub mod autopilot;
 pub mod body;

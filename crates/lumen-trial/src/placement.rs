@@ -1,5 +1,6 @@
-//! What keeps a wire from being put where it should be.
+//! How a wire is turned where it is put, and what keeps it from being put there.
 
+use glam::{DQuat, DVec3};
 use thiserror::Error;
 
 use super::wire::WireError;
@@ -38,4 +39,10 @@ pub enum PlacementError {
 pub(super) fn check_load(n_per_mm: f64) -> Result<(), PlacementError> {
     let is_possible = (0.0..=f64::from(MOST_LOAD)).contains(&n_per_mm);
     if is_possible { Ok(()) } else { Err(PlacementError::Load(n_per_mm as f32)) }
+}
+
+/// The rotation by `angle` radians about `axis`, of length 1. glam's own goes through the platform's sine.
+pub(super) fn rotation(axis: DVec3, angle: f64) -> DQuat {
+    let (sine, cosine) = libm::sincos(0.5 * angle);
+    DQuat::from_vec4((axis * sine).extend(cosine))
 }

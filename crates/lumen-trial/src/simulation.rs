@@ -6,11 +6,11 @@
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::STEP;
 use super::body::Body;
-use super::placement::{PlacementError, check_load};
+use super::placement::{PlacementError, check_load, rotation};
 use super::report::{StepKind, StepReport};
 use super::rod::{Fixed, Rod, Section};
 use super::setup::{Entry, Input};
@@ -85,11 +85,7 @@ impl Simulation {
         let inserted = grid[FIRST] + 0.5 * (grid[FIRST + 1] - grid[FIRST]);
         let count = FIRST + 3;
         let positions = grid[..count].iter().map(|s| mouth + way * (inserted - s)).collect();
-        let rod = Rod::new(
-            positions,
-            sections[..count].to_vec(),
-            DQuat::from_axis_angle(way, roll) * way.any_orthonormal_vector(),
-        );
+        let rod = Rod::new(positions, sections[..count].to_vec(), rotation(way, roll) * way.any_orthonormal_vector());
         let mut simulation = Self {
             body: Body::new(rod, wire.radius(), friction, wall),
             grid,

@@ -13,6 +13,8 @@
 //! What is found rests on the balls: two places are connected when overlapping balls lead from one to the other.
 //! A lumen that is pinched shut is not passed, however thin the wall between.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
+
 mod balls;
 pub mod beside;
 mod calibre;
