@@ -86,7 +86,10 @@ impl Times {
 
     /// Tells what was done since `start`, in the slice under way, apart from its stage.
     pub(super) fn tell_apart(&mut self, part: Part, start: Instant) {
-        let ms = milliseconds(start);
+        self.set_apart(part, milliseconds(start));
+    }
+
+    fn set_apart(&mut self, part: Part, ms: f64) {
         self.parts[part as usize] = ms;
         self.aside += ms;
     }
@@ -113,5 +116,26 @@ impl Times {
             safe: self.stages[Stage::Safe],
             write: 0.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_of_a_stage_is_the_sum_of_its_slices_less_what_is_told_apart() {
+        let mut times = Times::default();
+        times.begin(Stage::Smoothing);
+        times.add(Stage::Smoothing, 4.0);
+        times.set_apart(Part::Adjacency, 2.0);
+        times.add(Stage::Smoothing, 8.0);
+        times.add(Stage::Smoothing, 16.0);
+        times.add(Stage::Level, 32.0);
+        let told = times.told();
+        assert_eq!((told.smoothing, told.adjacency, told.level), (26.0, 2.0, 32.0));
+        times.begin(Stage::Smoothing);
+        times.add(Stage::Smoothing, 1.0);
+        assert_eq!((times.told().smoothing, times.told().level), (1.0, 32.0));
     }
 }
