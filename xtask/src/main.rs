@@ -1,8 +1,10 @@
-//! Developer commands: `cargo xtask serve | build | test | peers | curve | bench-trial | fuzz-trial |
+//! Developer commands: `cargo xtask serve | build | test | lint | peers | curve | bench-trial | fuzz-trial |
 //! fuzz-surfaces | fuzz-files | read-back | validation | firmware | package`.
 //!
 //! Each installs what it needs and is not there yet (`tools`), says what it does and how long that takes (`step`), and
 //! does nothing twice.
+
+#![allow(clippy::disallowed_methods, reason = "it draws plots")]
 
 mod bench_trial;
 mod build;
@@ -14,6 +16,7 @@ mod fuzz;
 mod glue;
 #[cfg(test)]
 mod house;
+mod lint;
 mod package;
 mod page;
 mod peers;
@@ -54,11 +57,16 @@ enum Command {
         /// Run these alone; may be given more than once.
         #[arg(long, value_enum, value_delimiter = ',')]
         only: Vec<test::Suite>,
+        /// Run the unit tests of every crate, one window and one page: four minutes once all is compiled.
+        #[arg(long, conflicts_with = "long")]
+        quick: bool,
         /// Try everything where the ordinary run tries a sample: all seeds, settings and rates. Takes about three times as
         /// long.
         #[arg(long)]
         long: bool,
     },
+    /// Look for misspelt words, and for dependencies of a licence or source that is not allowed.
+    Lint,
     /// Run Lumen beside VTK, meshoptimizer and fast-simplification and write docs/benchmarks/peers.md.
     Peers(peers::Options),
     /// Measure a step of the trial natively and in the browser's Worker, by the same input.
@@ -103,7 +111,15 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Serve { port, open } => build::build().and_then(|dist| serve::serve(&dist, port, open)),
         Command::Build => build::build().map(|_| ()),
-        Command::Test { only, long } => test::test(&only, long),
+        Command::Test { only, quick, long } => {
+            let extent = match (quick, long) {
+                (true, _) => test::Extent::Quick,
+                (_, true) => test::Extent::Long,
+                _ => test::Extent::Ordinary,
+            };
+            test::test(&only, extent)
+        }
+        Command::Lint => lint::lint(),
         Command::Peers(options) => peers::peers(&options),
         Command::BenchTrial => bench_trial::bench_trial(),
         Command::FuzzTrial { steps } => fuzz::trial(steps),

@@ -1,4 +1,4 @@
-//! `cargo xtask test`: every test, and at the end how many passed.
+//! `cargo xtask test`: every test, or with `--quick` those that answer within minutes, and at the end how many passed.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
@@ -10,6 +10,40 @@ use clap::ValueEnum;
 use crate::estimate::Estimate;
 use crate::step::{cargo, name, root, step, target};
 use crate::{build, firmware, tools};
+
+/// What `--quick` runs: the arguments of `cargo test` in turn, and files of tests/browser.
+const QUICK: ([&[&str]; 2], [&str; 2]) = (
+    [
+        // The unit tests of every crate.
+        &["--lib", "--bins"],
+        // A real window, and the app without one: it opens, is moved by its controls, says what it is.
+        &["--test=window", "--test=app", "--", "the window starts", "controls::", "labels::"],
+    ],
+    // From the file dialog to the saved file; files that are refused.
+    ["open-reduce-save.test.mjs", "bad-file.test.mjs"],
+);
+
+/// How much of the tests is run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// [`QUICK`].
+    Quick,
+    /// All tests, each on a sample of what it could try.
+    Ordinary,
+    /// All tests on everything.
+    Long,
+}
+
+impl Extent {
+    /// Which times of earlier runs are its own; the ordinary run's have no name.
+    fn name(self) -> Option<&'static str> {
+        match self {
+            Self::Quick => Some("quick"),
+            Self::Ordinary => None,
+            Self::Long => Some("long"),
+        }
+    }
+}
 
 /// A part of the tests.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -28,34 +62,42 @@ struct Counts {
     ignored: u64,
 }
 
-/// Runs the suites named in `only`, or all of them, and fails if a test fails. With `long` everything is tried where else a
-/// sample is.
-pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
+impl Counts {
+    fn add(&mut self, other: Self) {
+        self.passed += other.passed;
+        self.failed += other.failed;
+        self.ignored += other.ignored;
+    }
+}
+
+/// Runs the suites named in `only`, or all of them, and fails if a test fails.
+pub(crate) fn test(only: &[Suite], extent: Extent) -> Result<()> {
     let wanted = |suite| only.is_empty() || only.contains(&suite);
     let suites =
         [(Suite::Native, "native"), (Suite::Browser, "browser")].into_iter().filter(|(suite, _)| wanted(*suite));
-    let names: Vec<&str> = long.then_some("long").into_iter().chain(suites.map(|(_, name)| name)).collect();
+    let names: Vec<&str> = extent.name().into_iter().chain(suites.map(|(_, name)| name)).collect();
     let mut estimate = Estimate::new(&names.join("-"));
     let mut total = Counts::default();
     let mut sound = true;
     let mut add = |(counts, ended_well): (Counts, bool)| {
-        total.passed += counts.passed;
-        total.failed += counts.failed;
-        total.ignored += counts.ignored;
+        total.add(counts);
         sound &= ended_well;
     };
     let done = std::thread::scope(|scope| {
         // Linking and wasm-opt are one thread for minutes: they go on beside the native tests.
         let dist = wanted(Suite::Browser).then(|| scope.spawn(build::build));
         let native = if wanted(Suite::Native) {
-            native(long, &mut estimate).map(&mut add).and_then(|()| firmware::firmware())
+            native(extent, &mut estimate).map(&mut add).and_then(|()| match extent {
+                Extent::Quick => Ok(()),
+                _ => firmware::firmware(),
+            })
         } else {
             Ok(())
         };
         estimate.end();
         let browser = match dist.map(std::thread::ScopedJoinHandle::join) {
             None => Ok(()),
-            Some(Ok(Ok(dist))) => browser(&dist, long, &mut estimate).map(&mut add),
+            Some(Ok(Ok(dist))) => browser(&dist, extent, &mut estimate).map(&mut add),
             Some(Ok(Err(error))) => Err(error),
             Some(Err(_)) => Err(anyhow!("the build of the browser app panicked")),
         };
@@ -70,11 +112,30 @@ pub(crate) fn test(only: &[Suite], long: bool) -> Result<()> {
     Ok(())
 }
 
-fn native(long: bool, estimate: &mut Estimate) -> Result<(Counts, bool)> {
+fn native(extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     tools::vulkan()?;
     let display = tools::display()?;
+    let runs: &[&[&str]] = if extent == Extent::Quick { &QUICK.0 } else { &[&[]] };
+    estimate.begin("compile the native tests");
+    let (mut counts, mut ended_well) = (Counts::default(), true);
+    step("Run the native tests", || {
+        for arguments in runs {
+            let mut command = cargo_test(display.as_deref(), arguments)?;
+            if extent == Extent::Long {
+                command.env("LUMEN_LONG", "1");
+            }
+            let (found, well) = count(&mut command, cargo_counts, cargo_part, estimate)?;
+            counts.add(found);
+            ended_well &= well;
+        }
+        Ok((counts, ended_well))
+    })
+}
+
+/// `cargo test` on a display.
+fn cargo_test(display: Option<&Path>, arguments: &[&str]) -> Result<Command> {
     let cargo = cargo();
-    let mut command = match &display {
+    let mut command = match display {
         Some(xvfb_run) => {
             let mut command = Command::new(xvfb_run);
             command.args(["--auto-servernum", "--server-args=-screen 0 1280x800x24"]).arg(cargo.get_program());
@@ -82,18 +143,14 @@ fn native(long: bool, estimate: &mut Estimate) -> Result<(Counts, bool)> {
         }
         None => cargo,
     };
-    command.args(["test", "--workspace", "--no-fail-fast"]);
-    if long {
-        command.env("LUMEN_LONG", "1");
-    }
+    command.args(["test", "--workspace", "--no-fail-fast"]).args(arguments);
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         // Where there is no desktop session, what looks for a display complains in every test that opens a window.
         let folder = target().join("run");
         std::fs::create_dir_all(&folder)?;
         command.env("XDG_RUNTIME_DIR", folder);
     }
-    estimate.begin("compile the native tests");
-    step("Run the native tests", || count(&mut command, cargo_counts, cargo_part, estimate))
+    Ok(command)
 }
 
 /// "     Running tests/real/main.rs (target/debug/deps/real-14627fb9)", on the error output: the binary that is run,
@@ -118,12 +175,13 @@ fn cargo_counts(line: &str, counts: &mut Counts) {
     }
 }
 
-fn browser(dist: &Path, long: bool, estimate: &mut Estimate) -> Result<(Counts, bool)> {
+fn browser(dist: &Path, extent: Extent, estimate: &mut Estimate) -> Result<(Counts, bool)> {
     let npm = tools::npm()?;
     let chromium = tools::chromium()?;
     let mut files: Vec<_> = std::fs::read_dir(root().join("tests/browser"))?
         .filter_map(|entry| Some(entry.ok()?.path()))
         .filter(|path| path.to_string_lossy().ends_with(".test.mjs"))
+        .filter(|path| extent != Extent::Quick || QUICK.1.iter().any(|name| path.ends_with(name)))
         .collect();
     files.sort();
     // As a test's, so that it has the features of the native tests and is there once they have run.
@@ -143,7 +201,7 @@ fn browser(dist: &Path, long: bool, estimate: &mut Estimate) -> Result<(Counts, 
             "LUMEN_PROGRAM",
             crate::step::target().join("debug").join(format!("lumen{}", std::env::consts::EXE_SUFFIX)),
         );
-    if long {
+    if extent == Extent::Long {
         command.env("LUMEN_LONG", "1");
     }
     estimate.begin("browser tests");

@@ -109,7 +109,7 @@ fn python(folder: &Path, asked: &str, what: &str) -> Result<PathBuf> {
     Ok(bin)
 }
 
-/// cargo-fuzz, in the target directory, and a nightly toolchain for it.
+/// cargo-fuzz, and a nightly toolchain for it.
 pub(crate) fn cargo_fuzz() -> Result<PathBuf> {
     if output(Command::new("rustup").args(["run", "nightly", "cargo", "--version"])).is_none() {
         step("Install a nightly toolchain", || {
@@ -117,14 +117,32 @@ pub(crate) fn cargo_fuzz() -> Result<PathBuf> {
         })?;
     }
     cpp_compiler()?;
+    cargo_tool("cargo-fuzz", "0.13.2")
+}
+
+/// cargo-deny.
+pub(crate) fn cargo_deny() -> Result<PathBuf> {
+    cargo_tool("cargo-deny", "0.20.2")
+}
+
+/// A program of this version, compiled into the target directory without optimisation: none of them works for long.
+fn cargo_tool(program: &str, version: &str) -> Result<PathBuf> {
     let folder = target().join("tools");
-    let program = folder.join(format!("bin/cargo-fuzz{}", std::env::consts::EXE_SUFFIX));
-    if !program.is_file() {
-        step("Install cargo-fuzz (a minute or two, once)", || {
-            run(cargo().args(["install", "cargo-fuzz", "--version", "0.13.2", "--locked", "--root"]).arg(&folder))
+    let path = folder.join(format!("bin/{program}{}", std::env::consts::EXE_SUFFIX));
+    let entry = format!("\"{program} {version} (");
+    let has_version = std::fs::read_to_string(folder.join(".crates.toml")).is_ok_and(|list| list.contains(&entry));
+    if !(path.is_file() && has_version) {
+        step(&format!("Install {program} (some minutes, once)"), || {
+            run(cargo().args(["install", program, "--version", version, "--locked", "--debug", "--root"]).arg(&folder))
         })?;
     }
-    Ok(program)
+    Ok(path)
+}
+
+/// typos, which reads the checkout for spelling mistakes.
+pub(crate) fn typos() -> Result<PathBuf> {
+    let bin = python(&target().join("typos"), "xtask/typos.txt", "Install typos with pip (seconds, once)")?;
+    Ok(bin.with_file_name(format!("typos{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// Sees to it that C++ can be compiled.
