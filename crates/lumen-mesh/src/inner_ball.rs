@@ -289,8 +289,11 @@ impl Extent {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
     use crate::shapes::{icosphere, sagitta, square, tube};
+    use crate::task::{Budget, Progress, Running};
 
     fn balls(mesh: &TriMesh, limit: f32) -> Vec<Option<InnerBall>> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
@@ -385,11 +388,18 @@ mod tests {
         distinct.sort_by(f32::total_cmp);
         distinct.dedup();
         assert!(distinct.len() * 2 < whole.len(), "{} of {}", distinct.len(), whole.len());
-        for count in [1, 37] {
-            let mut sliced = InnerRadii::default();
-            while !sliced.advance(&mesh, &topology, &index, count) {}
-            assert_eq!(sliced.radii, whole);
-        }
+        let (mesh, topology, index) = (&mesh, &topology, &index);
+        let mut running =
+            Running::new(|yielder| async move { inner_radii_in_slices(mesh, topology, index, &yielder).await });
+        let mut slices = 1;
+        let sliced = loop {
+            match running.advance(Budget::new(Duration::ZERO)) {
+                Progress::Working(_) => slices += 1,
+                Progress::Done(sliced) => break sliced,
+            }
+        };
+        assert!(slices > 1);
+        assert_eq!(sliced.radii, whole);
     }
 
     #[test]

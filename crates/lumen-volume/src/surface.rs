@@ -210,7 +210,7 @@ mod tests {
         let geometry = oblique(false);
         let grid = Arc::new(Grid::new(geometry, ball(geometry, |value| value as i16), 1.0, 0.0).unwrap());
         let region = region_of(&grid, None).unwrap();
-        let work = limited(&grid, Selection::Threshold(300.0), region, 1000, &Yielder::never());
-        assert_eq!(at_once(work), Err(VolumeError::TooManyTriangles { limit: 1000 }));
+        let found = at_once(limited(&grid, Selection::Threshold(300.0), region, 1000, &Yielder::never()));
+        assert_eq!(found, Err(VolumeError::TooManyTriangles { limit: 1000 }));
     }
 }

@@ -33,7 +33,7 @@ const PIECE: usize = 256;
 
 /// What the guard left.
 #[derive(Debug)]
-pub struct Guarded {
+pub(crate) struct Guarded {
     /// The surface.
     pub mesh: Arc<TriMesh>,
     /// Where the filter was weakened; `None` where it was nowhere.
@@ -44,7 +44,7 @@ pub struct Guarded {
 
 impl Guarded {
     /// What the filter made, not looked at.
-    pub fn without(mesh: TriMesh) -> Self {
+    pub(crate) fn without(mesh: TriMesh) -> Self {
         Self { mesh: Arc::new(mesh), weakened: None, crosses_nothing: false }
     }
 }

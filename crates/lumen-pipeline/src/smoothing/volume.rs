@@ -27,7 +27,7 @@ use crate::task::Yielder;
 use lumen_mesh::{Topology, TriMesh, measures_within, volume_of};
 
 /// How near to the volume asked for counts as held, as a part of it.
-pub const TOLERANCE: f64 = 1e-4;
+pub(crate) const TOLERANCE: f64 = 1e-4;
 
 /// The largest `|m|`.
 const MOST: f64 = 1.0;
@@ -37,7 +37,7 @@ const MOST: f64 = 1.0;
 const TORN: f64 = 0.01;
 
 /// The surface before smoothing.
-pub struct Before<'a> {
+pub(crate) struct Before<'a> {
     /// The surface.
     pub mesh: &'a TriMesh,
     pub topology: &'a Topology,

@@ -78,12 +78,7 @@ impl Basis {
     }
 
     /// The calibre of each branch on a surface that was made from the smoothed one.
-    pub async fn measured(
-        &self,
-        subject: &Subject,
-        tolerance_percent: f64,
-        yielder: &Yielder,
-    ) -> Vec<BranchCalibre> {
+    pub async fn measured(&self, subject: &Subject, tolerance_percent: f64, yielder: &Yielder) -> Vec<BranchCalibre> {
         let space = subject.space(&yielder.part(0.0..0.3)).await;
         let known = Known { radii: &self.radii, before: &self.smoothed, calibres: &self.calibres[1] };
         let part = yielder.part(0.3..1.0);
