@@ -3,7 +3,7 @@
 //! ```
 //! use std::time::Duration;
 //!
-//! use lumen::task::{Budget, Progress, Running, Yielder, at_once};
+//! use lumen_mesh::task::{Budget, Progress, Running, Yielder, at_once};
 //!
 //! /// The sum of the squares below `n`.
 //! async fn sum(n: u64, yielder: &Yielder) -> u64 {
