@@ -17,9 +17,9 @@ use lumen::pipeline::normals::{Weighting, vertex_normals};
 use lumen::pipeline::results::StageTimes;
 use lumen::pipeline::run::{Advance, Pipeline};
 use lumen::pipeline::settings::{Boundary, Settings, Smoothing, Target};
-use lumen::pipeline::smoothing::{SmoothingTask, smooth};
+use lumen::pipeline::smoothing::{smooth, smooth_varying};
 use lumen::pipeline::stage::Stage;
-use lumen::pipeline::task::{Budget, Task as _};
+use lumen::pipeline::task::{Budget, Yielder, at_once};
 
 const SIZES: [usize; 6] = [10_000, 30_000, 100_000, 300_000, 1_000_000, 4_000_000];
 
@@ -106,7 +106,7 @@ impl Bench {
         let bands: Vec<f32> = positions.iter().map(band).collect();
         let begun = Instant::now();
         std::hint::black_box(
-            SmoothingTask::varying(positions, &*kept.topology, &Smoothing::default(), &bands).finish(),
+            at_once(smooth_varying(positions, &kept.topology, &Smoothing::default(), &bands, 0, &Yielder::never())).0,
         );
         begun.elapsed().as_secs_f64() * 1e3
     }

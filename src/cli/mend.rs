@@ -13,9 +13,9 @@ use super::settings::MendingOptions;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
 use crate::io::{self, Imported, Output};
-use crate::mesh::mending::{FaultCounts, Faults, MendReport, MendTask, Mended};
+use crate::mesh::mending::{FaultCounts, Faults, MendReport, Mended, mend};
 use crate::pipeline::settings::{Mending, Settings};
-use crate::pipeline::task::{Budget, Progress, Task as _};
+use crate::pipeline::task::{Budget, Progress, Running};
 
 /// Mends what is wrong with a surface, and writes it: neither smoothed nor reduced.
 #[derive(Debug, Args)]
@@ -58,10 +58,10 @@ impl Mend {
         interrupt::listen()?;
         let Imported { mesh, arrays, report } = source::read_with(&self.file, self.unit, &Default::default())?;
         let faults_before = Faults::all(&mesh).counts();
-        let mut task = MendTask::new(mesh, arrays, asked);
+        let mut mending = Running::new(|yielder| async move { mend(mesh, arrays, asked, &yielder).await });
         let Mended { mesh, arrays, report: mending } = loop {
             interrupt::check()?;
-            if let Progress::Done(mended) = task.advance(Budget::new(std::time::Duration::from_millis(50))) {
+            if let Progress::Done(mended) = mending.advance(Budget::new(std::time::Duration::from_millis(50))) {
                 break mended;
             }
         };

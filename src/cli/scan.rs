@@ -11,8 +11,7 @@ use super::misuse::misuse;
 use super::rows::row;
 use crate::io::volume::{self, Part};
 use crate::io::{Axes, Imported, import_mesh};
-use crate::task::Task;
-use crate::volume::{Grid, Label, PRESETS, Region, Selection, Surfacing, Survey, Surveying};
+use crate::volume::{Grid, Label, PRESETS, Region, Selection, Survey, surface, survey};
 
 /// What is said of a folder without surfaces: it may be a scan.
 pub(super) const FOLDER_HINT: &str = "; for a folder of DICOM say --threshold or --label, and a file for the surface";
@@ -104,7 +103,7 @@ pub(super) fn open(names: &[String]) -> Result<Option<Opened>> {
     drop(files);
     let volume::Scan { grid, format, axes, is_ct, warnings } = scan;
     let grid = Arc::new(grid);
-    let survey = Surveying::new(Arc::clone(&grid)).finish();
+    let survey = survey(&grid);
     Ok(Some(Opened { grid, survey, format, axes, is_ct, warnings }))
 }
 
@@ -112,7 +111,7 @@ impl Opened {
     /// The surface that the options ask for, in the axes of the scan.
     pub(super) fn surface(self, options: &ScanOptions) -> Result<Imported> {
         let selection = Selection::choose(&self.survey, options.threshold, options.label)?;
-        let mesh = Surfacing::new(&self.grid, selection, options.region)?.finish()?;
+        let mesh = surface(&self.grid, selection, options.region)?;
         let mut imported = import_mesh(mesh, self.format);
         imported.report.axes = self.axes;
         imported.report.warnings.splice(..0, self.warnings);

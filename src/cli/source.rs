@@ -8,10 +8,10 @@ use anyhow::{Context, Result, bail};
 
 use super::interrupt;
 use super::scan::{self, ScanOptions};
-use crate::io::{self, ImportOptions, Imported, Reading, Unit, UnknownUnit};
+use crate::io::{self, ImportOptions, Imported, Unit, UnknownUnit, read_in_slices};
 use crate::phantom::{self, Sample};
 use crate::sharing::Digest;
-use crate::task::{Budget, Progress, Task as _};
+use crate::task::{Budget, Progress, Running};
 
 /// The unit of a file's numbers, as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,7 +102,7 @@ fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(
 
 /// The surface in the bytes of a file; fails between two slices once an end was asked for.
 fn surface(bytes: Arc<Vec<u8>>, name: &str, options: ImportOptions) -> Result<Imported> {
-    let mut reading = Reading::new(bytes, name.to_owned(), options);
+    let mut reading = Running::new(|yielder| async move { read_in_slices(bytes, name, &options, &yielder).await });
     loop {
         interrupt::check()?;
         if let Progress::Done(read) = reading.advance(Budget::new(Duration::from_millis(50))) {

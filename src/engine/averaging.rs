@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::found::Averaged;
 use super::message::Event;
-use crate::mesh::{Topology, TriMesh};
+use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Keep;
-use crate::pipeline::smoothing::SmoothingTask;
-use crate::task::{Budget, Progress, Task as _};
+use crate::pipeline::smoothing::smooth_in_slices;
+use crate::task::{self, Budget, Progress};
 
 /// The passes that are asked for, and the work on them once the surface is there.
 pub(super) struct Averaging {
@@ -24,7 +24,7 @@ struct Running {
     whole: Arc<TriMesh>,
     /// The vertices of `whole` that are smoothed, in their order.
     kept: Vec<u32>,
-    task: SmoothingTask<Arc<Topology>>,
+    smoothing: task::Running<'static, Vec<Vec3>>,
 }
 
 impl Averaging {
@@ -39,7 +39,7 @@ impl Averaging {
             self.running = Running::begin(pipeline, self.passes);
         }
         let Some(running) = &mut self.running else { return false };
-        let Progress::Done(smoothed) = running.task.advance(budget) else { return true };
+        let Progress::Done(smoothed) = running.smoothing.advance(budget) else { return true };
         let mut positions = running.whole.positions.clone();
         for (&v, p) in running.kept.iter().zip(smoothed) {
             positions[v as usize] = p;
@@ -59,9 +59,11 @@ impl Running {
             Some(rows) => rows.vertices,
         };
         let boundary = pipeline.settings().smoothing.boundary;
-        let task =
-            SmoothingTask::new(&kept.mesh.positions, kept.topology.clone(), boundary, &Filter::laplacian(passes));
-        Some(Self { keep, whole, kept: vertices, task })
+        let (filter, kept) = (Filter::laplacian(passes), kept.clone());
+        let smoothing = task::Running::new(|yielder| async move {
+            smooth_in_slices(&kept.mesh.positions, &kept.topology, boundary, &filter, &yielder).await
+        });
+        Some(Self { keep, whole, kept: vertices, smoothing })
     }
 }
 
@@ -72,7 +74,6 @@ mod tests {
     use super::*;
     use crate::engine::{Command, Engine, Source};
     use crate::io::Axes;
-    use crate::mesh::Vec3;
     use crate::mesh::shapes::{icosphere, joined, tube};
     use crate::pipeline::settings::Settings;
 

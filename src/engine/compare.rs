@@ -82,7 +82,9 @@ impl Comparing {
             self.running = Some(pipeline);
         }
         // Shape and lumen are not shown.
-        let running = self.running.as_mut().filter(|pipeline| pipeline.next_stage() < Some(Stage::SmoothedMeasures));
+        let is_shown =
+            |stage: Stage| !stage.is_background() && !matches!(stage, Stage::SmoothedMeasures | Stage::Measures);
+        let running = self.running.as_mut().filter(|pipeline| pipeline.next_stage().is_none_or(is_shown));
         running.map_or(Ok(Advance::Idle), |pipeline| pipeline.advance(budget))
     }
 

@@ -74,7 +74,7 @@ impl Current {
 
     /// Whether nothing is left but what nobody waits for: the faults of the file, the vessels' calibre, and how far is safe.
     pub(super) fn is_in_background(&self) -> bool {
-        self.waiting.is_none() && self.pipeline.next_stage() >= Some(Stage::Faults)
+        self.waiting.is_none() && self.pipeline.next_stage().is_some_and(Stage::is_background)
     }
 
     /// One step; whether there is more to do.
@@ -87,7 +87,7 @@ impl Current {
         match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
             Advance::Idle => return Ok(self.pipeline.prepare(budget)),
             // Nobody waits for these: they go on in the background, and leave the bar to what is told there.
-            Advance::Working(Stage::Faults | Stage::Vessels | Stage::Certificate | Stage::Safe, _) => {}
+            Advance::Working(stage, _) if stage.is_background() => {}
             Advance::Working(stage, fraction) => {
                 tell_progress(Work::Stage(stage), fraction, events);
             }
@@ -123,7 +123,7 @@ impl Current {
     fn take_waiting(&mut self, events: &mut VecDeque<Event>) -> Result<(), SettingsError> {
         let result_is_near = !self.is_stopped
             && self.pipeline.reduced().is_none()
-            && self.pipeline.next_stage() > Some(Stage::Connectivity)
+            && self.pipeline.kept().is_some()
             && self.since.elapsed() < PATIENCE;
         if result_is_near {
             return Ok(());

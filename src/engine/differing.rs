@@ -6,41 +6,43 @@ use std::sync::Arc;
 use super::found::Differed;
 use super::message::{Event, Work};
 use super::progress::tell_progress;
-use crate::mesh::TriMesh;
-use crate::pipeline::deviation::{Comparison, DeviationTask, INTERACTIVE_SAMPLES};
-use crate::task::{Budget, Progress, Task as _};
+use crate::mesh::{SurfaceIndex, TriMesh};
+use crate::pipeline::deviation::{Compared, Comparing, Comparison, INTERACTIVE_SAMPLES, compare};
+use crate::task::{Budget, Progress, Running};
 
 /// Two surfaces that are measured against each other.
 pub(super) struct Differing {
     pub(super) id: u64,
     first: Arc<TriMesh>,
-    task: DeviationTask<Arc<TriMesh>>,
+    comparing: Running<'static, Compared>,
 }
 
 impl Differing {
     /// Nothing measured yet; `id` is that of the command.
     pub(super) fn new(id: u64, first: Arc<TriMesh>, other: Arc<TriMesh>) -> Self {
-        Self { id, task: DeviationTask::new(first.clone(), other, INTERACTIVE_SAMPLES).with_map(), first }
+        let how = Comparing { samples: INTERACTIVE_SAMPLES, with_map: true, index_of_a: None };
+        let a = first.clone();
+        Self { id, first, comparing: Running::new(|yielder| async move { compare(&a, &other, how, &yielder).await }) }
     }
 
     /// Works for about `budget`; whether there is more to do.
     pub(super) fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> bool {
-        let found = match self.task.advance(budget) {
+        let Compared { comparison: found, indices: [index, _] } = match self.comparing.advance(budget) {
             Progress::Working(fraction) => {
                 tell_progress(Work::Comparing, fraction, events);
                 return true;
             }
             Progress::Done(found) => found,
         };
-        let width_mm = found.as_ref().and_then(|found| self.width_mm(found));
+        let width_mm = found.as_ref().zip(index).and_then(|(found, index)| self.width_mm(found, &index));
         let (by_vertex, deviation) = found.map_or((Vec::new(), None), |found| (found.map, Some(found.deviation)));
         events.push_back(Event::Differed(Box::new(Differed { id: self.id, by_vertex, deviation, width_mm })));
         false
     }
 
     /// The diameter of the first surface's lumen where the other is farthest from it.
-    fn width_mm(&self, found: &Comparison) -> Option<f32> {
-        let (index, at) = (self.task.index_of_a()?, found.deviation.max_at_mm[0].into());
+    fn width_mm(&self, found: &Comparison, index: &SurfaceIndex) -> Option<f32> {
+        let at = found.deviation.max_at_mm[0].into();
         let TriMesh { positions, triangles } = &*self.first;
         let (_, ball) = index.inner_ball_beside(positions, triangles, at, self.first.bounds().diagonal())?;
         Some(2.0 * ball.radius)

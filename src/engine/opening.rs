@@ -5,11 +5,11 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::source::Source;
-use crate::io::{Axes, ImportOptions, Imported, Reading};
+use crate::io::{Axes, Imported, import_made, read_in_slices};
 use crate::phantom;
 use crate::pipeline::settings::Settings;
 use crate::sharing::{Digest, Digesting};
-use crate::task::{Budget, Progress, Task};
+use crate::task::{Budget, Progress, Running, Yielder, blocks};
 
 /// Bytes that are digested between two looks at the clock.
 const BLOCK: usize = 1 << 20;
@@ -24,72 +24,55 @@ pub(super) struct Opening {
     pub(super) settings: Settings,
     /// When it began.
     pub(super) since: Instant,
-    /// The digest of a file, once it is known.
-    pub(super) digest: Option<Digest>,
     /// Whether its numbers can be in one unit or another: those of a file.
     pub(super) has_units: bool,
-    step: Step,
+    reading: Running<'static, Result<Read, String>>,
 }
 
-enum Step {
-    Digest {
-        bytes: Arc<Vec<u8>>,
-        options: ImportOptions,
-        digesting: Box<Digesting>,
-        done: usize,
-    },
-    Read(Reading),
-    /// Why there is nothing to read.
-    Failed(String),
+/// What was read.
+pub(super) struct Read {
+    pub(super) imported: Imported,
+    /// The digest of a file.
+    pub(super) digest: Option<Digest>,
 }
 
 impl Opening {
     pub(super) fn new(id: u64, source: Source, settings: Settings) -> Self {
         let has_units = matches!(source, Source::File { .. });
         let (since, name) = (Instant::now(), source.name().to_owned());
-        let step = match source {
-            Source::File { bytes, options, .. } => Step::Digest { bytes, options, digesting: Box::default(), done: 0 },
-            Source::Made { format, mesh, axes, warnings, .. } => {
-                Step::Read(Reading::made(Arc::unwrap_or_clone(mesh), format, axes, warnings))
-            }
-            Source::Sample { sample, triangles } => match phantom::generate(sample, triangles as usize) {
-                Ok(mesh) => Step::Read(Reading::made(mesh, "sample".to_owned(), Axes::Lps, Vec::new())),
-                Err(error) => Step::Failed(error.to_string()),
-            },
-        };
-        Self { id, name, settings, since, digest: None, has_units, step }
+        let of_file = name.clone();
+        let reading = Running::new(|yielder| async move { read(source, &of_file, &yielder).await });
+        Self { id, name, settings, since, has_units, reading }
+    }
+
+    /// Reads on until `budget` is spent or the source is read.
+    pub(super) fn advance(&mut self, budget: Budget) -> Progress<Result<Read, String>> {
+        self.reading.advance(budget)
     }
 }
 
-impl Task for Opening {
-    type Output = Result<Imported, String>;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
-        match &mut self.step {
-            Step::Digest { bytes, options, digesting, done } => {
-                while *done < bytes.len() {
-                    let end = bytes.len().min(*done + BLOCK);
-                    digesting.add(&bytes[*done..end]);
-                    *done = end;
-                    if budget.is_spent() {
-                        return Progress::Working(DIGESTED * *done as f32 / bytes.len() as f32);
-                    }
-                }
-                self.digest = Some(std::mem::take(&mut **digesting).digest());
-                // Of two owners of the bytes only one is left, which lets them go once they are parsed.
-                self.step = Step::Read(Reading::new(std::mem::take(bytes), self.name.clone(), *options));
-                Progress::Working(DIGESTED)
+async fn read(source: Source, name: &str, yielder: &Yielder) -> Result<Read, String> {
+    let (mesh, format, axes, warnings) = match source {
+        Source::File { bytes, options, .. } => {
+            let mut digesting = Digesting::default();
+            for block in blocks(bytes.len(), BLOCK) {
+                let end = block.end;
+                digesting.add(&bytes[block]);
+                yielder.rest(DIGESTED * end as f32 / bytes.len() as f32).await;
             }
-            Step::Read(reading) => match reading.advance(budget) {
-                Progress::Working(fraction) if self.digest.is_some() => {
-                    Progress::Working(DIGESTED + (1.0 - DIGESTED) * fraction)
-                }
-                Progress::Working(fraction) => Progress::Working(fraction),
-                Progress::Done(read) => Progress::Done(read.map_err(|error| error.to_string())),
-            },
-            Step::Failed(message) => Progress::Done(Err(std::mem::take(message))),
+            let digest = Some(digesting.digest());
+            yielder.rest(DIGESTED).await;
+            // Of two owners of the bytes only one is left, which lets them go once they are parsed.
+            let read = read_in_slices(bytes, name, &options, &yielder.part(DIGESTED..1.0)).await;
+            return read.map(|imported| Read { imported, digest }).map_err(|error| error.to_string());
         }
-    }
+        Source::Made { format, mesh, axes, warnings, .. } => (Arc::unwrap_or_clone(mesh), format, axes, warnings),
+        Source::Sample { sample, triangles } => {
+            let mesh = phantom::generate(sample, triangles as usize).map_err(|error| error.to_string())?;
+            (mesh, "sample".to_owned(), Axes::Lps, Vec::new())
+        }
+    };
+    Ok(Read { imported: import_made(mesh, format, axes, warnings, yielder).await, digest: None })
 }
 
 #[cfg(test)]
@@ -99,7 +82,7 @@ mod tests {
     use super::super::message::{Command, Event, Work};
     use super::super::pipeline_engine::Engine;
     use super::*;
-    use crate::io::{Format, write};
+    use crate::io::{Format, ImportOptions, write};
     use crate::mesh::Vec3;
     use crate::mesh::shapes::icosphere;
 

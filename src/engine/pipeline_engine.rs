@@ -12,7 +12,7 @@ use super::differing::Differing;
 use super::found::Opened;
 use super::machine::{Machine, SLICE};
 use super::message::{Command, Event, Work};
-use super::opening::Opening;
+use super::opening::{Opening, Read};
 use super::progress::tell_progress;
 use super::record::{self, Animation, Asked, Origin};
 use super::source::Source;
@@ -23,7 +23,7 @@ use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::run::Pipeline;
 use crate::pipeline::settings::Settings;
 use crate::say;
-use crate::task::{Budget, Progress, Task as _, milliseconds};
+use crate::task::{Budget, Progress, milliseconds};
 use crate::vessel::CentrelineFormat;
 
 /// What is said of a file whose surface was another by the time that it was written.
@@ -248,7 +248,7 @@ impl Engine {
                 tell_progress(Work::Reading, fraction, &mut self.events);
                 self.reading = Some(opening);
             }
-            Progress::Done(Ok(imported)) => self.opened(*opening, imported),
+            Progress::Done(Ok(read)) => self.opened(*opening, read),
             Progress::Done(Err(message)) => {
                 self.events.push_back(Event::OpenFailed { id: opening.id, name: opening.name, message });
             }
@@ -256,8 +256,9 @@ impl Engine {
     }
 
     /// What was read takes the place of what is open.
-    fn opened(&mut self, opening: Opening, Imported { mesh, arrays, report }: Imported) {
-        let Opening { id, name, settings, since, digest, has_units, .. } = opening;
+    fn opened(&mut self, opening: Opening, read: Read) {
+        let Opening { id, name, settings, since, has_units, .. } = opening;
+        let Read { imported: Imported { mesh, arrays, report }, digest } = read;
         let mesh = Arc::new(mesh);
         let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_arrays(arrays).with_safe();
         if let Err(error) = pipeline.set(settings) {

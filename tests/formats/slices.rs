@@ -6,9 +6,9 @@ use std::time::Duration;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use lumen::io::{Format, ImportOptions, Imported, ReadError, Reading, import_mesh, read, write};
+use lumen::io::{Format, ImportOptions, Imported, ReadError, import_mesh, read, read_in_slices, write};
 use lumen::mesh::{TriMesh, Vec3};
-use lumen::task::{Budget, Progress, Task as _};
+use lumen::task::{Budget, Progress, Running};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
 use crate::samples::valid;
@@ -16,6 +16,10 @@ use crate::{MEMORY, alone};
 
 /// What is told once the bytes are parsed.
 const PARSED: f32 = 0.2;
+
+fn reading(bytes: Arc<Vec<u8>>, name: &str) -> Running<'_, Result<Imported, ReadError>> {
+    Running::new(move |yielder| async move { read_in_slices(bytes, name, &ImportOptions::default(), &yielder).await })
+}
 
 /// A torus of 200,320 triangles.
 fn torus() -> TriMesh {
@@ -132,7 +136,7 @@ fn with_data_inside(glb: &[u8]) -> Vec<u8> {
 
 /// What is read a block at a time, and the fractions that were told.
 fn in_slices(bytes: Vec<u8>, name: &str) -> (Result<Imported, ReadError>, Vec<f32>) {
-    let mut reading = Reading::new(Arc::new(bytes), name.to_owned(), ImportOptions::default());
+    let mut reading = reading(Arc::new(bytes), name);
     let mut told = Vec::new();
     loop {
         match reading.advance(Budget::new(Duration::ZERO)) {
@@ -177,7 +181,7 @@ fn what_is_dropped_half_way_leaves_nothing() {
     for (name, bytes) in files(&torus()) {
         let bytes = Arc::new(bytes);
         let before = MEMORY.current_usage();
-        let mut reading = Reading::new(Arc::clone(&bytes), name.to_owned(), ImportOptions::default());
+        let mut reading = reading(Arc::clone(&bytes), name);
         let mut told = 0.0;
         while told < 0.75 * PARSED {
             let Progress::Working(fraction) = reading.advance(Budget::new(Duration::ZERO)) else { panic!("{name}") };

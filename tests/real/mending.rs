@@ -4,9 +4,9 @@ use std::path::Path;
 
 use libtest_mimic::{Failed, Trial};
 use lumen::io::{ImportOptions, read};
-use lumen::mesh::mending::{Faults, MendTask, Mended, Mending, Opening};
+use lumen::mesh::mending::{Faults, Mended, Mending, Opening, mend};
 use lumen::mesh::{Topology, TriMesh};
-use lumen::pipeline::task::Task as _;
+use lumen::task::{Yielder, at_once};
 
 /// Openings as MeshLab counts them.
 const OPENINGS: [(&str, usize); 5] = [
@@ -52,7 +52,7 @@ pub(crate) fn trials(data: &Path) -> Vec<Trial> {
     let path = data.join(WALLS[0].0);
     trials.push(Trial::test("mending: the lumen of an arch", move || {
         let asked = Mending { lumen: true, ..Mending::default() };
-        let Mended { mesh, report, .. } = MendTask::new(open(&path)?, Vec::new(), asked).finish();
+        let Mended { mesh, report, .. } = at_once(mend(open(&path)?, Vec::new(), asked, &Yielder::never()));
         assert!(!report.wall_not_parted && report.wall_triangles_left_out > 0, "{report:?}");
         // What is left is a sheet without a wall, and faces outwards.
         assert_eq!(Faults::all(&mesh).wall, None);
@@ -94,7 +94,7 @@ fn check(path: &Path, [non_manifold, duplicates, open_edges]: [usize; 3]) -> Res
     }
     assert_eq!(Faults::all(&mesh).wall.is_some(), WALLS.iter().any(|(wall, _)| path.ends_with(wall)));
     let asked = Mending { split: true, fill_mm: Some(1000.0), ..Mending::default() };
-    let Mended { mesh: mended, report, .. } = MendTask::new(mesh.clone(), Vec::new(), asked).finish();
+    let Mended { mesh: mended, report, .. } = at_once(mend(mesh.clone(), Vec::new(), asked, &Yielder::never()));
     let left = faults(&mended);
     assert_eq!((left.non_manifold_edges.len(), left.non_manifold_vertices.len(), left.doubles.len()), (0, 0, 0));
     let holes = left.holes.iter().filter(|hole| hole.opening == Opening::Hole).count();

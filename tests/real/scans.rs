@@ -11,8 +11,7 @@ use libtest_mimic::{Failed, Trial};
 use lumen::io::volume::{self, Part};
 use lumen::io::{ImportOptions, Imported, import_mesh, read};
 use lumen::mesh::Vec3;
-use lumen::task::Task;
-use lumen::volume::{Grid, Label, Selection, Surfacing, Surveying};
+use lumen::volume::{Grid, Label, Selection, surface, survey};
 
 const AORTA: &str = "volumes/vmtk_aorta_mra.mha";
 const LUNGS: &str = "volumes/seqseg_PA000016_mask.nii.gz";
@@ -52,12 +51,12 @@ fn facts_of(data: &Path) -> Result<(), Failed> {
     assert_eq!((geometry.size, geometry.spacing.to_array()), ([157, 393, 34], [0.878906, 0.878906, 1.50009]));
     assert_eq!(geometry.origin.to_array(), [-156.445, -24.6094, 0.0]);
     assert_eq!(geometry.direction.to_cols_array(), [-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0]);
-    let survey = Surveying::new(Arc::clone(&aorta)).finish();
+    let survey = survey(&aorta);
     assert_eq!((survey.range, survey.is_mask()), ([0.0, 2570.204833984375], false));
     let lungs = open(&data.join(LUNGS))?;
     let geometry = lungs.geometry();
     assert_eq!((geometry.size, geometry.spacing.to_array()), ([512, 512, 295], [0.64453125, 0.64453125, 1.0]));
-    let survey = Surveying::new(lungs).finish();
+    let survey = survey(&lungs);
     assert_eq!((survey.range, &survey.labels[..]), ([0.0, 1.0], &[Label { value: 1, points: 264_804 }][..]));
     Ok(())
 }
@@ -81,7 +80,7 @@ fn same_surface(
     origin: Vec3,
     triangles: usize,
 ) -> Result<(), Failed> {
-    let ours = Surfacing::new(grid, selection, None)?.finish()?;
+    let ours = surface(grid, selection, None)?;
     if ours.triangles.len().abs_diff(triangles) * 1000 > triangles {
         return Err(format!("{} triangles, and VTK has {triangles}", ours.triangles.len()).into());
     }

@@ -14,8 +14,8 @@ use lumen::parallel::with_threads;
 use lumen::pipeline::filter::Filter;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Boundary, Settings, Smoothing, Window};
-use lumen::pipeline::smoothing::{SmoothingTask, smooth};
-use lumen::pipeline::task::{Budget, Progress, Task};
+use lumen::pipeline::smoothing::{smooth, smooth_keeping_terms};
+use lumen::pipeline::task::{Yielder, at_once};
 use lumen_test_support::data::VESSELS;
 
 /// Surfaces with open ends cut by a plane, and their voxels in mm.
@@ -109,10 +109,9 @@ fn check_threads_and_terms(mesh: &TriMesh, topology: &Topology) -> Result<(), Fa
         ensure(many == one, || format!("{threads} threads give something else than one"))?;
     }
     let wide = Smoothing { pass_band: 0.2, window: Window::Nuttall, ..settings };
-    let task = SmoothingTask::new(&mesh.positions, topology, settings.boundary, &Filter::new(&wide));
-    let mut task = task.keeping_terms(64_000_000);
-    ensure(matches!(task.advance(Budget::UNLIMITED), Progress::Done(_)), || "not done".to_owned())?;
-    match task.into_terms() {
+    let (wide, never) = (Filter::new(&wide), Yielder::never());
+    let run = smooth_keeping_terms(&mesh.positions, topology, settings.boundary, &wide, 64_000_000, &never);
+    match at_once(run).1 {
         Some(terms) => {
             ensure(terms.smooth(&Filter::new(&settings)) == one, || "the terms give something else".to_owned())
         }

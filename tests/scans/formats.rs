@@ -2,8 +2,7 @@
 
 use lumen::io::Axes;
 use lumen::io::volume::{Head, Part, Scan, ScanError, begin, data_name, is_volume, read};
-use lumen::task::Task;
-use lumen::volume::{Label, Selection, Surveying, VolumeError};
+use lumen::volume::{Label, Selection, VolumeError, survey};
 
 use crate::open;
 use crate::samples::{Nifti, all, assert_is_it, gzip, little, metaimage, nrrd, vti};
@@ -142,7 +141,7 @@ fn a_mask_is_told_from_a_scan_and_its_labels_are_counted() {
     let survey = |text: &str, size: &str| {
         let header = metaimage("", "LOCAL").replace("BinaryData = True", "BinaryData = False").replace("6 5 4", size);
         let scan = open(&[("a.mha", [header.as_bytes(), text.as_bytes()].concat())]).unwrap();
-        Surveying::new(scan.grid.into()).finish()
+        survey(&scan.grid)
     };
     let mask = survey("0 0 3 3 0 1 0 3", "2 2 2");
     assert_eq!(mask.labels, [Label { value: 1, points: 1 }, Label { value: 3, points: 3 }]);

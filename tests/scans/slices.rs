@@ -3,8 +3,7 @@
 
 use lumen::io::volume::Scan;
 use lumen::mesh::{TriMesh, Vec3, cut_pieces};
-use lumen::task::Task;
-use lumen::volume::{Axis, Selection, Slice, Surfacing, slice};
+use lumen::volume::{Axis, Selection, Slice, slice, surface};
 
 use crate::open;
 
@@ -104,7 +103,7 @@ fn the_border_of_a_ball_in_a_slice_is_the_outline_of_its_surface() {
     for directions in [TURNED, mirrored] {
         let grid = std::sync::Arc::new(ball(directions).grid);
         assert_eq!(grid.geometry().is_left_handed(), directions == mirrored);
-        let mesh = Surfacing::new(&grid, Selection::Threshold(100.0), None).unwrap().finish().unwrap();
+        let mesh = surface(&grid, Selection::Threshold(100.0), None).unwrap();
         for (axis, index) in [(Axis::I, 20), (Axis::J, 35), (Axis::K, 13), (Axis::K, 28)] {
             // 127.5, half way, stands for 100.
             let picture = slice(&grid, axis, index, [0.0, 200.0]).unwrap();

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use lumen::mesh::{Vec3, components};
 use lumen::phantom::{Sample, Vessel, generate, vessels};
-use lumen::task::Task;
+use lumen::task::{Yielder, at_once};
 use lumen::vessel::Subject;
-use lumen::vessel::certificate::{Certificate, CertificateTask, Standing, TOLERANCE_PERCENT};
+use lumen::vessel::certificate::{Certificate, Standing, TOLERANCE_PERCENT};
 
 type Point = [f64; 3];
 
@@ -31,7 +31,8 @@ fn certificate(sample: Sample, triangles: usize) -> Certificate {
     let pieces = components(mesh.positions.len(), &mesh.triangles);
     let largest = pieces.largest().unwrap();
     let subject = Subject::new(&Arc::new(mesh.filtered(|t| pieces.of_triangle[t] == largest)));
-    CertificateTask::new([0, 1, 2].map(|_| subject.clone()), TOLERANCE_PERCENT).finish().unwrap()
+    let subjects = [0, 1, 2].map(|_| subject.clone());
+    at_once(Certificate::of(subjects, TOLERANCE_PERCENT, &Yielder::never())).unwrap()
 }
 
 fn line_of(vessel: &Vessel) -> Vec<(Point, f64)> {

@@ -15,15 +15,22 @@ use lumen::pipeline::response::wavelength;
 use lumen::pipeline::results::Smoothed;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Boundary, Keep, Settings, SettingsError, Smoothing, Target, Window};
-use lumen::pipeline::smoothing::{SmoothingTask, smooth};
+use lumen::pipeline::smoothing::{Terms, smooth, smooth_in_slices, smooth_keeping_terms, smooth_varying};
 use lumen::pipeline::stage::Stage;
-use lumen::pipeline::task::{Budget, Progress, Task};
+use lumen::pipeline::task::{Budget, Progress, Running, Yielder, at_once};
 use proptest::prelude::*;
 
 /// The phantoms, small.
 static PHANTOMS: LazyLock<[Arc<TriMesh>; 2]> = LazyLock::new(|| {
     [(Sample::Aorta, 12_000), (Sample::Coronary, 30_000)].map(|(s, n)| Arc::new(generate(s, n).unwrap()))
 });
+
+/// The terms of a run.
+fn terms(mesh: &TriMesh, topology: &Topology, settings: &Smoothing) -> Terms {
+    let (filter, never) = (Filter::new(settings), Yielder::never());
+    let run = smooth_keeping_terms(&mesh.positions, topology, settings.boundary, &filter, 64_000_000, &never);
+    at_once(run).1.unwrap()
+}
 
 fn settings() -> impl Strategy<Value = Smoothing> {
     let window = prop::sample::select(Window::ALL.to_vec());
@@ -73,9 +80,12 @@ proptest! {
             let many = with_threads(threads, || run(mesh, &topology, &settings));
             prop_assert!(many == one, "{threads} threads, {settings:?}");
         }
-        let mut task = SmoothingTask::new(&mesh.positions, &topology, settings.boundary, &Filter::new(&settings));
+        let (positions, topology, filter) = (&mesh.positions, &topology, &Filter::new(&settings));
+        let mut running = Running::new(|yielder| async move {
+            smooth_in_slices(positions, topology, settings.boundary, filter, &yielder).await
+        });
         let sliced = loop {
-            match with_threads(2, || task.advance(Budget::new(Duration::ZERO))) {
+            match with_threads(2, || running.advance(Budget::new(Duration::ZERO))) {
                 Progress::Working(fraction) => prop_assert!((0.0..=1.0).contains(&fraction)),
                 Progress::Done(positions) => break positions,
             }
@@ -89,10 +99,7 @@ proptest! {
     ) {
         let mesh = &PHANTOMS[phantom];
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let mut task = SmoothingTask::new(&mesh.positions, &topology, settings.boundary, &Filter::new(&settings));
-        task = task.keeping_terms(64_000_000);
-        prop_assert!(matches!(task.advance(Budget::UNLIMITED), Progress::Done(_)));
-        let terms = task.into_terms().unwrap();
+        let terms = terms(mesh, &topology, &settings);
         let other = Smoothing { iterations: other.iterations.min(terms.degree() as u32), boundary: settings.boundary, ..other };
         prop_assert!(terms.smooth(&Filter::new(&other)) == run(mesh, &topology, &other));
     }
@@ -373,12 +380,9 @@ proptest! {
         let mesh = &PHANTOMS[phantom];
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let bands: Vec<f32> = mesh.positions.iter().map(|p| 0.02 * (2.0 + (p.z * 0.1).sin())).collect();
-        let task = SmoothingTask::new(&mesh.positions, &topology, settings.boundary, &Filter::new(&settings));
-        let mut task = task.keeping_terms(64_000_000);
-        prop_assert!(matches!(task.advance(Budget::UNLIMITED), Progress::Done(_)));
-        let terms = task.into_terms().unwrap();
+        let terms = terms(mesh, &topology, &settings);
         let other = Smoothing { iterations: other.iterations.min(terms.degree() as u32), boundary: settings.boundary, ..other };
-        let own = SmoothingTask::varying(&mesh.positions, &topology, &other, &bands).finish();
+        let (own, _) = at_once(smooth_varying(&mesh.positions, &topology, &other, &bands, 0, &Yielder::never()));
         prop_assert!(terms.smooth_varying(&other, &bands) == own);
     }
 }

@@ -6,9 +6,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 use lumen::mesh::TriMesh;
-use lumen::task::Task;
 use lumen::vessel::{Centrelines, Subject, Zone};
-use lumen::volume::{Geometry, Grid, Samples, Selection, Surfacing};
+use lumen::volume::{Geometry, Grid, Samples, Selection, surface};
 
 /// The surface of the mask of what is inside, on a grid of this spacing in mm.
 fn masked(low: DVec3, high: DVec3, voxel: f64, inside: impl Fn(DVec3) -> bool) -> TriMesh {
@@ -22,7 +21,7 @@ fn masked(low: DVec3, high: DVec3, voxel: f64, inside: impl Fn(DVec3) -> bool) -
     };
     let samples = (0..size.iter().product()).map(|n| u8::from(inside(at(n)))).collect();
     let grid = Grid::new(geometry, Samples::U8(samples), 1.0, 0.0).unwrap();
-    Surfacing::new(&Arc::new(grid), Selection::Threshold(0.5), None).unwrap().finish().unwrap()
+    surface(&Arc::new(grid), Selection::Threshold(0.5), None).unwrap()
 }
 
 /// A tube from the origin along `axis`, its ends flat and closed, or open.

@@ -4,7 +4,7 @@
 //! vertices left out, numbers turned into mm, windings made to agree, inward components turned. Welding comes before
 //! the change of unit, because rounding to f32 after a multiplication can make two places one.
 //!
-//! The stage is done in slices: for a surface of ten million triangles it takes longer than the reading of its bytes.
+//! The stage rests now and then: for a surface of ten million triangles it takes longer than the reading of its bytes.
 
 use std::mem;
 
@@ -14,55 +14,42 @@ use super::error::ReadError;
 use super::raw::{RawSurface, check_size};
 use super::report::{ImportReport, Imported};
 use super::warnings::sentences;
-use super::weld::Welding;
+use super::weld::weld;
 use super::{Axes, Unit};
 use lumen_mesh::arrays::infos;
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{Array, Components, EdgeCounts, Topology, TriMesh, components, measures, winding};
 
 /// Farther out than this, in mm, nothing is a place in a body, and squares near the end of f32's range.
 pub(super) const FARTHEST_MM: f64 = 1e9;
 
 /// Takes a surface from a file through the stage; fails where nothing of it has a place or an area.
-pub(super) struct FileImport {
-    import: Import,
-    format: &'static str,
-}
-
-impl FileImport {
-    pub(super) fn new(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Self, ReadError> {
-        let format = raw.label;
-        if raw.triangles.is_empty() {
-            return Err(ReadError::NoTriangles { format, vertices: raw.positions.len() });
-        }
-        check_size(raw.positions.len(), raw.triangles.len())?;
-        let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
-        for &v in raw.triangles.as_flattened() {
-            for x in raw.positions[v as usize].to_array() {
-                let value = f64::from(x) * scale;
-                // NaN is in no range.
-                if !(-FARTHEST_MM..=FARTHEST_MM).contains(&value) {
-                    return Err(ReadError::Coordinate { vertex: v as usize + 1, value });
-                }
+pub(super) async fn import_file(
+    raw: RawSurface,
+    unit: Unit,
+    axes: Axes,
+    yielder: &Yielder,
+) -> Result<Imported, ReadError> {
+    let format = raw.label;
+    if raw.triangles.is_empty() {
+        return Err(ReadError::NoTriangles { format, vertices: raw.positions.len() });
+    }
+    check_size(raw.positions.len(), raw.triangles.len())?;
+    let scale = if raw.in_mm { 1.0 } else { unit.to_mm() };
+    for &v in raw.triangles.as_flattened() {
+        for x in raw.positions[v as usize].to_array() {
+            let value = f64::from(x) * scale;
+            // NaN is in no range.
+            if !(-FARTHEST_MM..=FARTHEST_MM).contains(&value) {
+                return Err(ReadError::Coordinate { vertex: v as usize + 1, value });
             }
         }
-        Ok(Self { import: Import::new(raw, unit, axes), format })
     }
-}
-
-impl Task for FileImport {
-    type Output = Result<Imported, ReadError>;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
-        match self.import.advance(budget) {
-            Progress::Working(fraction) => Progress::Working(fraction),
-            Progress::Done(imported) if imported.mesh.triangles.is_empty() => {
-                let triangles = imported.report.triangles;
-                Progress::Done(Err(ReadError::AllDegenerate { format: self.format, triangles }))
-            }
-            Progress::Done(imported) => Progress::Done(Ok(imported)),
-        }
+    let imported = import(raw, unit, axes, yielder).await;
+    if imported.mesh.triangles.is_empty() {
+        return Err(ReadError::AllDegenerate { format, triangles: imported.report.triangles });
     }
+    Ok(imported)
 }
 
 /// Takes a surface that was made, not read, through the same stage; its positions are in mm, its axes the patient's as
@@ -71,28 +58,48 @@ impl Task for FileImport {
 /// # Panics
 /// When an index of `mesh` is out of range.
 pub fn import_mesh(mesh: TriMesh, format_label: &str) -> Imported {
-    let mut imported = Import::made(mesh).finish();
-    imported.report.format = format_label.to_owned();
+    at_once(import_made(mesh, format_label.to_owned(), Axes::Lps, Vec::new(), &Yielder::never()))
+}
+
+/// As [`import_mesh`], in these axes, resting now and then. The warnings on what it was made of stand before those on the
+/// surface.
+///
+/// # Panics
+/// When an index of `mesh` is out of range.
+pub async fn import_made(
+    mesh: TriMesh,
+    format: String,
+    axes: Axes,
+    warnings: Vec<String>,
+    yielder: &Yielder,
+) -> Imported {
+    let raw = RawSurface::new("", mesh.positions, mesh.triangles);
+    let mut imported = import(raw, Unit::Millimetre, Axes::Lps, yielder).await;
+    (imported.report.format, imported.report.axes) = (format, axes);
+    imported.report.warnings.splice(..0, warnings);
     imported
 }
 
-/// The stage itself.
-pub(super) struct Import {
+/// The stage itself. Welding rests between blocks, each of the other steps is one piece.
+async fn import(mut raw: RawSurface, unit: Unit, axes: Axes, yielder: &Yielder) -> Imported {
+    let triangles = raw.triangles.len();
+    let lists = (mem::take(&mut raw.positions), mem::take(&mut raw.triangles), mem::take(&mut raw.arrays));
+    let import = Import { raw, triangles, unit, axes };
+    let (mesh, arrays) = weld(lists.0, lists.1, lists.2, &yielder.part(0.0..0.5)).await;
+    yielder.rest(0.5).await;
+    let oriented = import.orient(mesh, arrays);
+    yielder.rest(0.8).await;
+    import.measure(oriented)
+}
+
+/// A surface in the stage.
+struct Import {
     /// The surface, without its lists, which went on to the steps.
     raw: RawSurface,
     /// Triangles in the file.
     triangles: usize,
     unit: Unit,
     axes: Axes,
-    step: Step,
-}
-
-/// How far the stage is: welding is cut into slices, each of the others is one.
-enum Step {
-    Weld(Welding),
-    Orient(TriMesh, Vec<Array>),
-    Measure(Box<Oriented>),
-    Done,
 }
 
 /// A surface whose windings agree as far as they can.
@@ -110,18 +117,6 @@ struct Oriented {
 }
 
 impl Import {
-    fn new(mut raw: RawSurface, unit: Unit, axes: Axes) -> Self {
-        let triangles = raw.triangles.len();
-        let lists = (mem::take(&mut raw.positions), mem::take(&mut raw.triangles), mem::take(&mut raw.arrays));
-        let step = Step::Weld(Welding::new(lists.0, lists.1, lists.2));
-        Self { raw, triangles, unit, axes, step }
-    }
-
-    /// Of a surface that was made.
-    pub(super) fn made(mesh: TriMesh) -> Self {
-        Self::new(RawSurface::new("", mesh.positions, mesh.triangles), Unit::Millimetre, Axes::Lps)
-    }
-
     /// Turns triangles until neighbours agree.
     fn orient(&self, mut mesh: TriMesh, arrays: Vec<Array>) -> Oriented {
         if !self.raw.in_mm && self.unit.to_mm() != 1.0 {
@@ -145,7 +140,7 @@ impl Import {
     }
 
     /// Turns pieces outward, and measures.
-    fn measure(&mut self, oriented: Oriented) -> Imported {
+    fn measure(self, oriented: Oriented) -> Imported {
         let Oriented { mut mesh, arrays, mut topology, pieces, edges, duplicate_triangles, orientable, .. } = oriented;
         let components_turned = winding::turn_outward(&mut mesh, &topology, &pieces, &orientable);
         if components_turned > 0 {
@@ -179,36 +174,11 @@ impl Import {
             moved_mm: ((DVec3::ZERO - self.raw.origin) * scale).to_array(),
             skipped: self.raw.skipped,
             arrays: infos(&arrays),
-            warnings: mem::take(&mut self.raw.warnings),
+            warnings: self.raw.warnings,
         };
         let mut told = sentences(&report);
         report.warnings.append(&mut told);
         Imported { mesh, arrays, report }
-    }
-}
-
-impl Task for Import {
-    type Output = Imported;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Imported> {
-        match mem::replace(&mut self.step, Step::Done) {
-            Step::Weld(mut welding) => match welding.advance(budget) {
-                Progress::Working(fraction) => {
-                    self.step = Step::Weld(welding);
-                    Progress::Working(0.5 * fraction)
-                }
-                Progress::Done((mesh, arrays)) => {
-                    self.step = Step::Orient(mesh, arrays);
-                    Progress::Working(0.5)
-                }
-            },
-            Step::Orient(mesh, arrays) => {
-                self.step = Step::Measure(Box::new(self.orient(mesh, arrays)));
-                Progress::Working(0.8)
-            }
-            Step::Measure(oriented) => Progress::Done(self.measure(*oriented)),
-            Step::Done => panic!("an import that is done goes no further"),
-        }
     }
 }
 
@@ -240,7 +210,7 @@ mod tests {
     use lumen_mesh::shapes::tube;
 
     fn import(raw: RawSurface, unit: Unit, axes: Axes) -> Result<Imported, ReadError> {
-        FileImport::new(raw, unit, axes)?.finish()
+        at_once(import_file(raw, unit, axes, &Yielder::never()))
     }
 
     /// Ten triangle corners of a tetrahedron of the given size, not welded, one triangle turned over, with a

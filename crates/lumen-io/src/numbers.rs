@@ -49,11 +49,6 @@ impl<'a> TextNumbers<'a> {
         self.words.next().is_none()
     }
 
-    /// The line of the last word.
-    pub(super) fn line(&self) -> usize {
-        self.words.line()
-    }
-
     fn parse<T>(&mut self, of: impl Fn(&[u8]) -> Option<T>) -> Option<T> {
         let word = self.words.next()?;
         let value = of(word);

@@ -9,19 +9,18 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::mem;
 
 use glam::DVec3;
 
 use super::error::ReadError;
 use super::output::Output;
+use super::pace::Pace;
 use super::polygons::Faces;
 use super::raw::RawSurface;
 use super::room::Room;
 use super::text;
 use lumen_language::say;
 use lumen_mesh::arrays::{On, Scalar, Values};
-use lumen_mesh::task::{Budget, Progress};
 use lumen_mesh::{Array, Vec3};
 
 /// Lines between two looks at the clock.
@@ -37,12 +36,29 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
         })
 }
 
-/// An OBJ file on its way to a surface, in slices, with positions relative to an origin.
-pub(super) struct Parsing {
+/// Reads a file, with positions relative to an origin.
+pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+    if !text::is_text(bytes) {
+        let problem = say!("errors-no-text");
+        return Err(ReadError::Malformed { format: "OBJ", problem });
+    }
+    let mut lines = Lines { bytes: text::without_mark(bytes), at: 0, line: 1 };
+    let mut reader = Reader::new(origin);
+    loop {
+        let before = lines.at;
+        for _ in 0..BLOCK {
+            match lines.next() {
+                Some((line, row)) => reader.take(line, &row)?,
+                None => return reader.surface(bytes.len()),
+            }
+        }
+        pace.rest((lines.at - before) as f64).await;
+    }
+}
+
+/// What was read so far.
+struct Reader {
     origin: DVec3,
-    /// Where the next line begins, behind a byte-order mark, and its number.
-    at: usize,
-    line: usize,
     positions: Vec<Vec3>,
     faces: Faces,
     colours: Values,
@@ -54,17 +70,10 @@ pub(super) struct Parsing {
     farthest: (u32, usize),
 }
 
-impl Parsing {
-    /// Of `bytes`, which are handed over again with each slice.
-    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
-        if !text::is_text(bytes) {
-            let problem = say!("errors-no-text");
-            return Err(ReadError::Malformed { format: "OBJ", problem });
-        }
-        Ok(Self {
+impl Reader {
+    fn new(origin: DVec3) -> Self {
+        Self {
             origin,
-            at: 0,
-            line: 1,
             positions: Vec::new(),
             faces: Faces::default(),
             colours: Values::new(Scalar::F32),
@@ -73,23 +82,6 @@ impl Parsing {
             points: 0,
             faces_read: 0,
             farthest: (0, 0),
-        })
-    }
-
-    pub(super) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
-        let text = text::without_mark(bytes);
-        let mut lines = Lines { bytes: text, at: self.at, line: self.line };
-        loop {
-            for _ in 0..BLOCK {
-                let Some((line, row)) = lines.next() else { return Progress::Done(self.surface(bytes.len())) };
-                if let Err(error) = self.take(line, &row) {
-                    return Progress::Done(Err(error));
-                }
-            }
-            if budget.is_spent() {
-                (self.at, self.line) = (lines.at, lines.line);
-                return Progress::Working(self.at.min(text.len()) as f32 / text.len().max(1) as f32);
-            }
         }
     }
 
@@ -145,20 +137,19 @@ impl Parsing {
     }
 
     /// The surface, once all lines are read, of a file of `file` bytes.
-    fn surface(&mut self, file: usize) -> Result<RawSurface, ReadError> {
+    fn surface(self, file: usize) -> Result<RawSurface, ReadError> {
         let (corner, face) = self.farthest;
         if face > 0 && corner as usize >= self.positions.len() {
             let (index, vertices) = (i64::from(corner) + 1, self.positions.len());
             return Err(ReadError::IndexOutOfRange { format: "OBJ", face, index, vertices });
         }
-        let mut raw = RawSurface::of_faces("OBJ", mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        let mut raw = RawSurface::of_faces("OBJ", self.positions, &self.faces);
         (raw.has_doubles, raw.origin) = (true, self.origin);
         raw.skipped.lines = self.lines;
         raw.skipped.points = self.points;
         let mut arrays = Vec::new();
         if self.colours.len() == 3 * raw.positions.len() {
-            let colours = mem::replace(&mut self.colours, Values::new(Scalar::F32));
-            arrays.push(Array::new("RGB", On::Point, 3, colours));
+            arrays.push(Array::new("RGB", On::Point, 3, self.colours));
         }
         // The cell of a triangle is its group here.
         if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
@@ -269,12 +260,10 @@ pub(super) fn write(output: &Output) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lumen_mesh::task::at_once;
 
     fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-        match Parsing::new(bytes, DVec3::ZERO)?.advance(bytes, Budget::UNLIMITED) {
-            Progress::Done(read) => read,
-            Progress::Working(_) => panic!("without a limit it runs to its end"),
-        }
+        at_once(super::read(bytes, DVec3::ZERO, &Pace::never()))
     }
 
     #[test]

@@ -1,151 +1,76 @@
-//! The bytes of a file on their way to the polygons in them, in slices.
-//!
-//! STL, PLY and OBJ keep what stands between two slices themselves; the readers of VTK's files and of glTF rest between
-//! blocks of work (`pace`).
-
-use std::ops::Deref;
-use std::sync::Arc;
+//! The bytes of a file on their way to the polygons in them.
 
 use glam::DVec3;
 
 use super::axes::{self, Axes};
 use super::detect::{self, Content};
 use super::error::ReadError;
-use super::pace::Paced;
+use super::pace::Pace;
 use super::raw::RawSurface;
 use super::room::Room;
 use super::{ImportOptions, Unit, far, gltf, obj, ply, stl, vtk};
-use lumen_mesh::task::{Budget, Progress};
+use lumen_mesh::task::Yielder;
 
 /// The polygons in a file, the unit of its numbers and its axes.
 pub(super) type Parsed = (RawSurface, Unit, Axes);
 
-/// The bytes of a file: of a caller who waits, or kept until they are parsed.
-#[derive(Clone)]
-pub(super) enum Bytes<'a> {
-    Lent(&'a [u8]),
-    Kept(Arc<Vec<u8>>),
-}
-
-impl Deref for Bytes<'_> {
-    type Target = [u8];
-
-    fn deref(&self) -> &[u8] {
-        match self {
-            Self::Lent(bytes) => bytes,
-            Self::Kept(bytes) => bytes,
-        }
+/// Parses the bytes of a file.
+pub(super) async fn parse(
+    bytes: &[u8],
+    name: &str,
+    options: &ImportOptions,
+    yielder: &Yielder,
+) -> Result<Parsed, ReadError> {
+    let content = detect::detect(bytes, name)?;
+    let unit = options.unit.unwrap_or(match content {
+        Content::Glb | Content::Gltf => Unit::Metre,
+        _ => Unit::Millimetre,
+    });
+    let pace = Pace::new(yielder, bytes.len());
+    let mut raw = polygons(content, bytes, unit, DVec3::ZERO, &pace).await?;
+    if let Some(origin) = far::origin_for(&raw, unit) {
+        // Once more, relative to a place within the surface; never both at once.
+        drop(raw);
+        pace.begin_again();
+        pace.rest(0.0).await;
+        raw = polygons(content, bytes, unit, origin, &pace).await?;
     }
+    Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
+    let axes = match content {
+        Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
+        Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,
+    };
+    Ok((raw, unit, axes))
 }
 
-/// A file that is being parsed.
-pub(super) struct Parsing<'a> {
-    bytes: Bytes<'a>,
+/// The polygons in a file, with positions relative to an origin.
+async fn polygons(
     content: Content,
+    bytes: &[u8],
     unit: Unit,
-    parser: Parser<'a>,
-    /// Whether it is read once more, relative to a place within the surface (`far`).
-    is_again: bool,
-    /// The largest fraction so far: what is read again is not undone.
-    told: f32,
-}
-
-/// What parses.
-enum Parser<'a> {
-    Stl(stl::Parsing),
-    Ply(Box<ply::Parsing>),
-    Obj(Box<obj::Parsing>),
-    /// VTP, VTK, GLB or glTF.
-    Paced(Paced<'a>),
-}
-
-impl<'a> Parser<'a> {
-    /// Of positions relative to an origin.
-    fn new(content: Content, bytes: &Bytes<'a>, unit: Unit, origin: DVec3) -> Result<Self, ReadError> {
-        let (own, file) = (bytes.clone(), bytes.len());
-        Ok(match content {
-            Content::Stl => Self::Stl(stl::Parsing::new(bytes, origin)?),
-            Content::Ply => Self::Ply(Box::new(ply::Parsing::new(bytes, origin)?)),
-            Content::Obj => Self::Obj(Box::new(obj::Parsing::new(bytes, origin)?)),
-            Content::Vtp => {
-                Self::Paced(Paced::new(file, move |pace| async move { vtk::read_xml(&own, origin, &pace).await }))
-            }
-            Content::Vtk => {
-                Self::Paced(Paced::new(file, move |pace| async move { vtk::read_legacy(&own, origin, &pace).await }))
-            }
-            Content::Glb => {
-                Self::Paced(Paced::new(
-                    file,
-                    move |pace| async move { gltf::read_binary(&own, unit, origin, &pace).await },
-                ))
-            }
-            Content::Gltf => {
-                Self::Paced(Paced::new(
-                    file,
-                    move |pace| async move { gltf::read_text(&own, unit, origin, &pace).await },
-                ))
-            }
-        })
-    }
-}
-
-impl<'a> Parsing<'a> {
-    pub(super) fn new(bytes: Bytes<'a>, name: &str, options: &ImportOptions) -> Result<Self, ReadError> {
-        let content = detect::detect(&bytes, name)?;
-        let unit = options.unit.unwrap_or(match content {
-            Content::Glb | Content::Gltf => Unit::Metre,
-            _ => Unit::Millimetre,
-        });
-        let parser = Parser::new(content, &bytes, unit, DVec3::ZERO)?;
-        Ok(Self { bytes, content, unit, parser, is_again: false, told: 0.0 })
-    }
-
-    /// Parses on; the fraction never falls.
-    pub(super) fn advance(&mut self, budget: Budget) -> Progress<Result<Parsed, ReadError>> {
-        let bytes = &self.bytes;
-        let progress = match &mut self.parser {
-            Parser::Stl(parsing) => parsing.advance(bytes, budget),
-            Parser::Ply(parsing) => parsing.advance(bytes, budget),
-            Parser::Obj(parsing) => parsing.advance(bytes, budget),
-            Parser::Paced(reader) => reader.advance(budget),
-        };
-        match progress {
-            Progress::Working(fraction) => self.told = self.told.max(fraction),
-            Progress::Done(Err(error)) => return Progress::Done(Err(error)),
-            Progress::Done(Ok(raw)) => {
-                let origin = if self.is_again { None } else { far::origin_for(&raw, self.unit) };
-                let Some(origin) = origin else { return Progress::Done(self.parsed(raw)) };
-                // Never both at once.
-                drop(raw);
-                self.is_again = true;
-                match Parser::new(self.content, &self.bytes, self.unit, origin) {
-                    Ok(parser) => self.parser = parser,
-                    Err(error) => return Progress::Done(Err(error)),
-                }
-            }
-        }
-        Progress::Working(self.told)
-    }
-
-    fn parsed(&self, raw: RawSurface) -> Result<Parsed, ReadError> {
-        let bytes = &self.bytes;
-        Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
-        let axes = match self.content {
-            Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
-            Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,
-        };
-        Ok((raw, self.unit, axes))
+    origin: DVec3,
+    pace: &Pace,
+) -> Result<RawSurface, ReadError> {
+    match content {
+        Content::Stl => stl::read(bytes, origin, pace).await,
+        Content::Ply => ply::read(bytes, origin, pace).await,
+        Content::Obj => obj::read(bytes, origin, pace).await,
+        Content::Vtp => vtk::read_xml(bytes, origin, pace).await,
+        Content::Vtk => vtk::read_legacy(bytes, origin, pace).await,
+        Content::Glb => gltf::read_binary(bytes, unit, origin, pace).await,
+        Content::Gltf => gltf::read_text(bytes, unit, origin, pace).await,
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
     use std::time::Duration;
 
     use super::*;
-    use crate::{Imported, Reading, read};
+    use crate::{Imported, read, read_in_slices};
     use lumen_mesh::shapes::icosphere;
-    use lumen_mesh::task::Task as _;
+    use lumen_mesh::task::{Budget, Progress, Running};
     use lumen_mesh::{TriMesh, Vec3};
 
     /// A sphere in each format that has room for doubles or STL's facets, `offset` from the origin.
@@ -234,7 +159,8 @@ mod tests {
 
     /// What is read in the smallest slices, and the fractions that were told.
     fn in_slices(bytes: Vec<u8>, name: &str) -> (Imported, Vec<f32>) {
-        let mut reading = Reading::new(Arc::new(bytes), name.to_owned(), ImportOptions::default());
+        let (bytes, options) = (Arc::new(bytes), ImportOptions::default());
+        let mut reading = Running::new(|yielder| async move { read_in_slices(bytes, name, &options, &yielder).await });
         let mut told = Vec::new();
         loop {
             match reading.advance(Budget::new(Duration::ZERO)) {

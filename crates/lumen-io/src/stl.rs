@@ -4,18 +4,16 @@
 //! the free text of a binary header with "solid", which the crate `stl_io` takes for text; that is why the format is
 //! read here. Facet normals are not used: they are often wrong, and the winding says the same.
 
-use std::mem;
-
 use glam::DVec3;
 
 use super::error::{ReadError, WriteError};
 use super::output::Output;
+use super::pace::Pace;
 use super::polygons::Faces;
 use super::raw::{RawSurface, check_size};
 use super::text::{self, Words};
 use lumen_language::say;
 use lumen_mesh::Vec3;
-use lumen_mesh::task::{Budget, Progress};
 
 /// Facets, or words, between two looks at the clock.
 const BLOCK: usize = 1 << 15;
@@ -38,88 +36,70 @@ fn binary_length(facets: u32) -> u64 {
     (HEADER + 4) as u64 + FACET as u64 * u64::from(facets)
 }
 
-/// A file of either kind on its way to a surface, in slices; the text, which may have more digits than f32, with positions
-/// relative to an origin.
-pub(super) enum Parsing {
-    Binary(Facets),
-    Text(Box<Solids>),
-}
-
-impl Parsing {
-    /// Of `bytes`, which are handed over again with each slice.
-    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
-        if !has_binary_length(bytes) && text::is_text(bytes) {
-            Ok(Self::Text(Box::new(Solids::new(origin))))
-        } else {
-            Facets::new(bytes).map(Self::Binary)
-        }
-    }
-
-    pub(super) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
-        match self {
-            Self::Binary(facets) => facets.advance(bytes, budget),
-            Self::Text(solids) => solids.advance(bytes, budget),
-        }
+/// Reads a file of either kind; the text, which may have more digits than f32, with positions relative to an origin.
+pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+    if !has_binary_length(bytes) && text::is_text(bytes) {
+        read_text(bytes, origin, pace).await
+    } else {
+        read_binary(bytes, pace).await
     }
 }
 
 /// The binary form.
-pub(super) struct Facets {
-    count: u32,
-    /// The corners of those that are read.
-    positions: Vec<Vec3>,
+async fn read_binary(bytes: &[u8], pace: &Pace) -> Result<RawSurface, ReadError> {
+    let cut_short = |what: String, announced: u64, found: usize| ReadError::CutShort {
+        format: BINARY,
+        what,
+        announced,
+        found: found as u64,
+    };
+    let count = announced(bytes).ok_or_else(|| cut_short(say!("errors-header-bytes"), 84, bytes.len()))?;
+    if binary_length(count) > bytes.len() as u64 {
+        return Err(cut_short(say!("errors-triangles"), u64::from(count), (bytes.len() - HEADER - 4) / FACET));
+    }
+    check_size(0, count as usize)?;
+    let mut positions = Vec::with_capacity(3 * count as usize);
+    let (body, trailing) = bytes[HEADER + 4..].split_at(FACET * count as usize);
+    for block in body.as_chunks::<FACET>().0.chunks(BLOCK) {
+        for facet in block {
+            // A facet is its normal, its corners and two bytes of its own.
+            for corner in facet[12..48].as_chunks::<12>().0 {
+                let [x, y, z] =
+                    [0, 4, 8].map(|i| f32::from_le_bytes([corner[i], corner[i + 1], corner[i + 2], corner[i + 3]]));
+                positions.push(Vec3::new(x, y, z));
+            }
+        }
+        pace.rest((FACET * block.len()) as f64).await;
+    }
+    let triangles = (0..count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let mut raw = RawSurface::new(BINARY, positions, triangles);
+    if !trailing.is_empty() {
+        raw.warnings.push(say!("errors-stl-trailing", bytes = trailing.len().to_string()));
+    }
+    Ok(raw)
 }
 
-impl Facets {
-    fn new(bytes: &[u8]) -> Result<Self, ReadError> {
-        let cut_short = |what: String, announced: u64, found: usize| ReadError::CutShort {
-            format: BINARY,
-            what,
-            announced,
-            found: found as u64,
-        };
-        let count = announced(bytes).ok_or_else(|| cut_short(say!("errors-header-bytes"), 84, bytes.len()))?;
-        if binary_length(count) > bytes.len() as u64 {
-            return Err(cut_short(say!("errors-triangles"), u64::from(count), (bytes.len() - HEADER - 4) / FACET));
-        }
-        check_size(0, count as usize)?;
-        Ok(Self { count, positions: Vec::with_capacity(3 * count as usize) })
-    }
-
-    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
-        let count = self.count as usize;
-        let (body, trailing) = bytes[HEADER + 4..].split_at(FACET * count);
-        let left = &body.as_chunks::<FACET>().0[self.positions.len() / 3..];
-        for block in left.chunks(BLOCK) {
-            for facet in block {
-                // A facet is its normal, its corners and two bytes of its own.
-                for corner in facet[12..48].as_chunks::<12>().0 {
-                    let [x, y, z] =
-                        [0, 4, 8].map(|i| f32::from_le_bytes([corner[i], corner[i + 1], corner[i + 2], corner[i + 3]]));
-                    self.positions.push(Vec3::new(x, y, z));
-                }
-            }
-            let done = self.positions.len() / 3;
-            if done < count && budget.is_spent() {
-                return Progress::Working(done as f32 / count as f32);
+/// The text form.
+async fn read_text(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+    let mut words = Words::new(text::without_mark(bytes), 1);
+    let mut solids = Solids { origin, ..Solids::default() };
+    loop {
+        let before = words.remaining();
+        for _ in 0..BLOCK {
+            match words.next() {
+                Some(word) => solids.take(word, &mut words)?,
+                None => return solids.surface(words.line()),
             }
         }
-        let triangles = (0..self.count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-        let mut raw = RawSurface::new(BINARY, mem::take(&mut self.positions), triangles);
-        if !trailing.is_empty() {
-            raw.warnings.push(say!("errors-stl-trailing", bytes = trailing.len().to_string()));
-        }
-        Progress::Done(Ok(raw))
+        pace.rest((before - words.remaining()) as f64).await;
     }
 }
 
 /// The text form, word by word: `solid`, `facet`, `outer loop`, `vertex`, in any case and with any indenting, any number
 /// of solids. Words that are none of these, such as colours, are passed over.
-pub(super) struct Solids {
+#[derive(Default)]
+struct Solids {
     origin: DVec3,
-    /// Where the next word is looked for, behind a byte-order mark, and the line there.
-    at: usize,
-    line: usize,
     positions: Vec<Vec3>,
     faces: Faces,
     in_loop: bool,
@@ -129,28 +109,6 @@ pub(super) struct Solids {
 }
 
 impl Solids {
-    fn new(origin: DVec3) -> Self {
-        let (positions, faces) = (Vec::new(), Faces::default());
-        Self { origin, at: 0, line: 1, positions, faces, in_loop: false, in_solid: false, known: false }
-    }
-
-    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
-        let text = text::without_mark(bytes);
-        let mut words = Words::new(&text[self.at..], self.line);
-        loop {
-            for _ in 0..BLOCK {
-                let Some(word) = words.next() else { return Progress::Done(self.surface(words.line())) };
-                if let Err(error) = self.take(word, &mut words) {
-                    return Progress::Done(Err(error));
-                }
-            }
-            if budget.is_spent() {
-                (self.at, self.line) = (text.len() - words.remaining(), words.line());
-                return Progress::Working(self.at as f32 / text.len() as f32);
-            }
-        }
-    }
-
     /// Takes a word, and what belongs to it.
     fn take(&mut self, word: &[u8], words: &mut Words) -> Result<(), ReadError> {
         let is = |keyword: &[u8]| word.eq_ignore_ascii_case(keyword);
@@ -178,7 +136,7 @@ impl Solids {
     }
 
     /// The surface, once there is no word left in `line`, the last.
-    fn surface(&mut self, line: usize) -> Result<RawSurface, ReadError> {
+    fn surface(self, line: usize) -> Result<RawSurface, ReadError> {
         if !self.known {
             let problem = say!("errors-stl-no-facet");
             return Err(ReadError::Malformed { format: "STL", problem });
@@ -187,7 +145,7 @@ impl Solids {
             let problem = say!("errors-stl-ends");
             return Err(ReadError::Syntax { format: ASCII, line, problem });
         }
-        let mut raw = RawSurface::of_faces(ASCII, mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        let mut raw = RawSurface::of_faces(ASCII, self.positions, &self.faces);
         (raw.has_doubles, raw.origin) = (true, self.origin);
         if self.in_solid {
             raw.warnings.push(say!("errors-stl-open"));
@@ -237,12 +195,10 @@ pub(super) fn write(&Output { mesh, axes, .. }: &Output) -> Result<Vec<u8>, Writ
 mod tests {
     use super::*;
     use lumen_mesh::TriMesh;
+    use lumen_mesh::task::at_once;
 
     fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-        match Parsing::new(bytes, DVec3::ZERO)?.advance(bytes, Budget::UNLIMITED) {
-            Progress::Done(read) => read,
-            Progress::Working(_) => panic!("without a limit it runs to its end"),
-        }
+        at_once(super::read(bytes, DVec3::ZERO, &Pace::never()))
     }
 
     const TWO: &str = "SOLID vertex of facets\n Facet Normal 0 0 1\n outer loop\nVERTEX 0 0 0\nvertex 1 0 0\n\

@@ -5,91 +5,63 @@
 //! depend on how the table hashes. Arrays go along: of vertices that become one, scalars take the mean and labels the
 //! majority.
 
-use std::mem;
-
 use hashbrown::hash_table::{Entry, HashTable};
 
 use lumen_mesh::arrays::On;
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::Yielder;
 use lumen_mesh::{Array, Blend, TriMesh, Vec3, compacted, used_vertices};
 
 /// Positions between two looks at the clock.
 const BLOCK: usize = 1 << 15;
 
-/// Coincident vertices welded, in slices; without degenerate triangles and unused vertices.
-pub(super) struct Welding {
+/// Coincident vertices welded: of `positions`, at most `u32::MAX`, `triangles` over them, and arrays of either. Without
+/// degenerate triangles and unused vertices.
+pub(super) async fn weld(
     positions: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
+    mut triangles: Vec<[u32; 3]>,
     arrays: Vec<Array>,
-    table: HashTable<u32>,
-    /// Each position once, in the order of first occurrence.
-    distinct: Vec<Vec3>,
-    /// For each position so far, its place in `distinct`.
-    index: Vec<u32>,
+    yielder: &Yielder,
+) -> (TriMesh, Vec<Array>) {
+    let (distinct, index) = distinct(&positions, yielder).await;
+    drop(positions);
+    let mut rows = Rows::of(&arrays, index.len(), &triangles);
+    for t in &mut triangles {
+        *t = t.map(|v| index[v as usize]);
+    }
+    let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+    if let Some(rows) = &mut rows {
+        rows.triangles = (0..triangles.len() as u32).filter(|&t| has_area(&triangles[t as usize])).collect();
+    }
+    triangles.retain(has_area);
+    let arrays = rows.map_or_else(Vec::new, |rows| rows.welded(&arrays, &index, &triangles));
+    (compacted(&distinct, triangles), arrays)
 }
 
-impl Welding {
-    /// Of `positions`, at most `u32::MAX`, `triangles` over them, and arrays of either.
-    pub(super) fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, arrays: Vec<Array>) -> Self {
-        // A closed surface written triangle by triangle has six entries a vertex, an indexed one has one.
-        let table = HashTable::with_capacity(positions.len() / 4);
-        let distinct = Vec::with_capacity(positions.len() / 4);
-        let index = Vec::with_capacity(positions.len());
-        Self { positions, triangles, arrays, table, distinct, index }
+/// Each position once, in the order of first occurrence, and for each position its place there; minus zeros become zeros.
+async fn distinct(positions: &[Vec3], yielder: &Yielder) -> (Vec<Vec3>, Vec<u32>) {
+    // A closed surface written triangle by triangle has six entries a vertex, an indexed one has one.
+    let mut table = HashTable::with_capacity(positions.len() / 4);
+    let mut distinct = Vec::with_capacity(positions.len() / 4);
+    let mut index = Vec::with_capacity(positions.len());
+    for block in positions.chunks(BLOCK) {
+        index.extend(block.iter().map(|&position| place(position, &mut table, &mut distinct)));
+        yielder.rest(index.len() as f32 / positions.len() as f32).await;
     }
-
-    /// Looks up the next positions; minus zeros become zeros.
-    fn look_up(&mut self, positions: usize) {
-        let Self { table, distinct, index, .. } = self;
-        for &position in &self.positions[index.len()..][..positions] {
-            let position = position + Vec3::ZERO;
-            let key = bits(position);
-            let found =
-                table.entry(hash(key), |&v| bits(distinct[v as usize]) == key, |&v| hash(bits(distinct[v as usize])));
-            index.push(match found {
-                Entry::Occupied(entry) => *entry.get(),
-                Entry::Vacant(entry) => {
-                    let v = distinct.len() as u32;
-                    entry.insert(v);
-                    distinct.push(position);
-                    v
-                }
-            });
-        }
-    }
-
-    /// The surface, once all are looked up, and its arrays.
-    fn welded(&mut self) -> (TriMesh, Vec<Array>) {
-        let Self { positions, triangles, arrays, table, distinct, index } =
-            mem::replace(self, Self::new(Vec::new(), Vec::new(), Vec::new()));
-        drop((positions, table));
-        let mut kept = triangles;
-        let mut rows = Rows::of(&arrays, index.len(), &kept);
-        for t in &mut kept {
-            *t = t.map(|v| index[v as usize]);
-        }
-        let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
-        if let Some(rows) = &mut rows {
-            rows.triangles = (0..kept.len() as u32).filter(|&t| has_area(&kept[t as usize])).collect();
-        }
-        kept.retain(has_area);
-        let arrays = rows.map_or_else(Vec::new, |rows| rows.welded(&arrays, &index, &kept));
-        (compacted(&distinct, kept), arrays)
-    }
+    (distinct, index)
 }
 
-impl Task for Welding {
-    type Output = (TriMesh, Vec<Array>);
-
-    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
-        loop {
-            match self.positions.len() - self.index.len() {
-                0 => return Progress::Done(self.welded()),
-                left => self.look_up(left.min(BLOCK)),
-            }
-            if budget.is_spent() {
-                return Progress::Working(self.index.len() as f32 / self.positions.len() as f32);
-            }
+/// The place of a position among the distinct ones, to which it is added where it is new.
+fn place(position: Vec3, table: &mut HashTable<u32>, distinct: &mut Vec<Vec3>) -> u32 {
+    let position = position + Vec3::ZERO;
+    let key = bits(position);
+    let found = table.entry(hash(key), |&v| bits(distinct[v as usize]) == key, |&v| hash(bits(distinct[v as usize])));
+    match found {
+        Entry::Occupied(entry) => *entry.get(),
+        Entry::Vacant(entry) => {
+            let v = distinct.len() as u32;
+            entry.insert(v);
+            distinct.push(position);
+            v
         }
     }
 }
@@ -147,12 +119,11 @@ impl Rows {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lumen_mesh::task::at_once;
 
     /// The positions that stay, and what became of each.
     fn weld(positions: &[Vec3]) -> (Vec<Vec3>, Vec<u32>) {
-        let mut welding = Welding::new(positions.to_vec(), Vec::new(), Vec::new());
-        welding.look_up(positions.len());
-        (welding.distinct, welding.index)
+        at_once(distinct(positions, &Yielder::never()))
     }
 
     #[test]

@@ -9,16 +9,21 @@
 //!
 //! The result does not depend on how the work was sliced.
 
+use std::sync::Arc;
 use std::task::Poll;
 
 use glam::{Vec3, Vec3A};
 
+use super::TriMesh;
 use super::closest_point::is_sliver;
 use super::nearest::{Leaf, Node, SurfaceIndex};
 use super::split_boxes::boxes;
+use crate::task::Yielder;
 
 /// Most triangles in a leaf.
 const LEAF: usize = 4;
+/// Units of work between two looks at the clock.
+const WORK: usize = 8192;
 const BINS: usize = 16;
 /// Binary splits above a range after which it is only halved.
 const DEEP: u8 = 32;
@@ -249,7 +254,7 @@ fn halves(range: &Range, items: &mut [Item], axis: usize) -> [Range; 2] {
 
 impl SurfaceIndex {
     /// Builds the index in O(n log n). Triangles with a coordinate that is not finite are left out. To build in
-    /// slices, use [`IndexBuild`].
+    /// slices, use [`Self::build`].
     ///
     /// # Panics
     /// When an index of a triangle is out of range.
@@ -259,6 +264,28 @@ impl SurfaceIndex {
             if let Poll::Ready(index) = build.advance(positions, triangles, usize::MAX) {
                 return index;
             }
+        }
+    }
+
+    /// As [`Self::new`], resting every fraction of a millisecond.
+    ///
+    /// # Panics
+    /// When an index of a triangle is out of range.
+    pub async fn build(positions: &[Vec3], triangles: &[[u32; 3]], yielder: &Yielder) -> Self {
+        let mut build = IndexBuild::new();
+        loop {
+            if let Poll::Ready(index) = build.advance(positions, triangles, WORK) {
+                return index;
+            }
+            yielder.rest(build.fraction()).await;
+        }
+    }
+
+    /// The index of `mesh` that is known, or one that is built.
+    pub async fn known_or_built(known: Option<Arc<Self>>, mesh: &TriMesh, yielder: &Yielder) -> Arc<Self> {
+        match known {
+            Some(index) => index,
+            None => Arc::new(Self::build(&mesh.positions, &mesh.triangles, yielder).await),
         }
     }
 }

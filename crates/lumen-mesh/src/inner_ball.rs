@@ -20,6 +20,7 @@ use glam::{DVec3, Vec3, Vec4};
 use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
 use super::ray::Hit;
 use super::{Topology, TriMesh};
+use crate::task::{Yielder, at_once};
 
 /// Cosine and sine of 15 degrees, the half-angle of the cone in which a wall faces another.
 const FACING: [f64; 2] = [0.965_925_826_289_068_3, 0.258_819_045_102_520_7];
@@ -40,73 +41,71 @@ pub struct InnerBall {
 /// A vertex this near to another, as a part of that one's radius, takes its radius over.
 const NEAR: f32 = 0.2;
 
-/// The inner balls of a surface, found in slices.
+/// Balls between two looks at the clock.
+const BALLS: usize = 64;
+
+/// The inner balls of a surface.
 #[derive(Clone, Debug, Default)]
 pub struct InnerRadii {
-    /// Radius at each vertex in mm, infinite where no wall faces it; not a number where it is not known yet.
+    /// Radius at each vertex in mm, infinite where no wall faces it.
     pub radii: Vec<f32>,
     /// The vertices whose balls were found, ascending; the others took theirs over.
     pub own: Vec<u32>,
-    limit: Option<f32>,
-    next: usize,
-    queue: Vec<u32>,
 }
 
-impl InnerRadii {
-    /// Looks at the next `count` vertices of `mesh`; whether these were the last. `topology` and `index` must be those
-    /// of the surface, and all the same at each call. The result does not depend on `count`.
-    pub fn advance(&mut self, mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex, count: usize) -> bool {
-        let vertices = topology.vertex_count();
-        self.radii.resize(vertices, f32::NAN);
-        // No ball inside of a surface is larger than its box.
-        let limit = *self.limit.get_or_insert_with(|| mesh.bounds().diagonal().min(f32::MAX));
-        let mut left = count;
-        while self.next < vertices && left > 0 {
-            let v = self.next;
-            self.next += 1;
-            if self.radii[v].is_nan() {
-                let normal = outward_normal(mesh, topology, v as u32);
-                let ball = normal.and_then(|normal| index.inner_ball(mesh.positions[v], normal, limit));
-                self.radii[v] = ball.map_or(f32::INFINITY, |ball| ball.radius);
-                if ball.is_some() {
-                    self.own.push(v as u32);
-                }
-                self.spread(mesh, topology, v as u32);
-                left -= 1;
-            }
-        }
-        self.next == vertices
-    }
-
-    /// Gives the radius at `v` to the vertices around that are near and have none.
-    fn spread(&mut self, mesh: &TriMesh, topology: &Topology, v: u32) {
-        let (radius, p) = (self.radii[v as usize], mesh.positions[v as usize]);
-        let reach = NEAR * radius;
-        if !radius.is_finite() {
-            return;
-        }
-        self.queue.push(v);
-        while let Some(v) = self.queue.pop() {
-            for &n in topology.neighbours(v) {
-                if self.radii[n as usize].is_nan() && mesh.positions[n as usize].distance(p) <= reach {
-                    self.radii[n as usize] = radius;
-                    self.queue.push(n);
-                }
-            }
-        }
-    }
-
-    /// The part that is done, 0 to 1.
-    pub fn fraction(&self) -> f32 {
-        self.next as f32 / self.radii.len().max(1) as f32
-    }
-}
-
-/// The inner balls of a surface.
+/// The inner balls of a surface; `topology` and `index` must be those of `mesh`.
 pub fn inner_radii(mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex) -> InnerRadii {
-    let mut balls = InnerRadii::default();
-    while !balls.advance(mesh, topology, index, usize::MAX) {}
-    balls
+    at_once(inner_radii_in_slices(mesh, topology, index, &Yielder::never()))
+}
+
+/// As [`inner_radii`], resting every fraction of a millisecond.
+pub async fn inner_radii_in_slices(
+    mesh: &TriMesh,
+    topology: &Topology,
+    index: &SurfaceIndex,
+    yielder: &Yielder,
+) -> InnerRadii {
+    let vertices = topology.vertex_count();
+    // No ball inside of a surface is larger than its box.
+    let limit = mesh.bounds().diagonal().min(f32::MAX);
+    // Not a number where it is not known yet.
+    let (mut radii, mut own) = (vec![f32::NAN; vertices], Vec::new());
+    let (mut queue, mut found) = (Vec::new(), 0);
+    for v in 0..vertices {
+        if !radii[v].is_nan() {
+            continue;
+        }
+        let normal = outward_normal(mesh, topology, v as u32);
+        let ball = normal.and_then(|normal| index.inner_ball(mesh.positions[v], normal, limit));
+        radii[v] = ball.map_or(f32::INFINITY, |ball| ball.radius);
+        if ball.is_some() {
+            own.push(v as u32);
+            spread(mesh, topology, &mut radii, v as u32, &mut queue);
+        }
+        found += 1;
+        if found % BALLS == 0 {
+            yielder.rest((v + 1) as f32 / vertices as f32).await;
+        }
+    }
+    InnerRadii { radii, own }
+}
+
+/// Gives the radius at `v` to the vertices around that are near and have none; `queue` is room for them.
+fn spread(mesh: &TriMesh, topology: &Topology, radii: &mut [f32], v: u32, queue: &mut Vec<u32>) {
+    let (radius, p) = (radii[v as usize], mesh.positions[v as usize]);
+    let reach = NEAR * radius;
+    if !radius.is_finite() {
+        return;
+    }
+    queue.push(v);
+    while let Some(v) = queue.pop() {
+        for &n in topology.neighbours(v) {
+            if radii[n as usize].is_nan() && mesh.positions[n as usize].distance(p) <= reach {
+                radii[n as usize] = radius;
+                queue.push(n);
+            }
+        }
+    }
 }
 
 /// The outward normal at vertex `v`, weighted by area; `None` where the triangles have none.
@@ -290,8 +289,11 @@ impl Extent {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
     use crate::shapes::{icosphere, sagitta, square, tube};
+    use crate::task::{Budget, Progress, Running};
 
     fn balls(mesh: &TriMesh, limit: f32) -> Vec<Option<InnerBall>> {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
@@ -386,11 +388,18 @@ mod tests {
         distinct.sort_by(f32::total_cmp);
         distinct.dedup();
         assert!(distinct.len() * 2 < whole.len(), "{} of {}", distinct.len(), whole.len());
-        for count in [1, 37] {
-            let mut sliced = InnerRadii::default();
-            while !sliced.advance(&mesh, &topology, &index, count) {}
-            assert_eq!(sliced.radii, whole);
-        }
+        let (mesh, topology, index) = (&mesh, &topology, &index);
+        let mut running =
+            Running::new(|yielder| async move { inner_radii_in_slices(mesh, topology, index, &yielder).await });
+        let mut slices = 1;
+        let sliced = loop {
+            match running.advance(Budget::new(Duration::ZERO)) {
+                Progress::Working(_) => slices += 1,
+                Progress::Done(sliced) => break sliced,
+            }
+        };
+        assert!(slices > 1);
+        assert_eq!(sliced.radii, whole);
     }
 
     #[test]

@@ -55,13 +55,13 @@ pub use cut::{Outline, cut, cut_pieces};
 pub use glam::Vec3;
 pub use hausdorff::{Beyond, Reach, TOLERANCE};
 pub use index_build::IndexBuild;
-pub use inner_ball::{InnerBall, InnerRadii, inner_radii, outward_normal};
+pub use inner_ball::{InnerBall, InnerRadii, inner_radii, inner_radii_in_slices, outward_normal};
 pub use inside::Sides;
 pub use measures::{
     Measures, measures, measures_within, oriented_loops, surface_area, triangle_area, volume, volume_of,
 };
 pub use nearest::{Nearest, SurfaceIndex};
-pub use refit::Refitting;
+pub use refit::refitted;
 pub use roughness::{Roughness, roughness};
 pub use roughness::{bends, summarise_bends};
 pub use self_intersections::self_intersections;

@@ -5,78 +5,54 @@
 use super::closest_point::is_sliver;
 use super::nearest::{Leaf, Node, SurfaceIndex};
 use super::{TriMesh, Vec3};
+use crate::task::{Yielder, blocks};
 
 /// Leaves or nodes between two looks at the clock.
 const PIECE: usize = 4096;
 
-/// The making of the index of a surface that has the triangles of another and places of its own, in pieces.
-#[derive(Debug)]
-pub struct Refitting {
-    leaves: Vec<Leaf>,
-    nodes: Vec<Node>,
-    /// Nodes that are done: a node stands behind its parent, so the last come first.
-    fitted: usize,
+/// The index of `moved`, from `index`, which is of a surface of the same triangles. What was left out of that stays out.
+///
+/// # Panics
+/// When `moved` has fewer triangles.
+pub async fn refitted(index: &SurfaceIndex, moved: &TriMesh, yielder: &Yielder) -> SurfaceIndex {
+    let all = (index.leaves.len() + index.nodes.len()).max(1) as f32;
+    let mut leaves = Vec::with_capacity(index.leaves.len());
+    for block in blocks(index.leaves.len(), PIECE) {
+        leaves.extend(index.leaves[block].iter().map(|old| {
+            let corners = moved.corners(old.triangle as usize);
+            Leaf { corners, triangle: old.triangle, is_sliver: is_sliver(corners), sides: Leaf::ALL_SIDES }
+        }));
+        yielder.rest(leaves.len() as f32 / all).await;
+    }
+    let mut nodes = vec![Node::EMPTY; index.nodes.len()];
+    for block in blocks(nodes.len(), PIECE) {
+        let end = block.end;
+        // A node stands behind its parent, so the last come first.
+        for from_last in block {
+            let n = nodes.len() - 1 - from_last;
+            nodes[n] = fitted(&index.nodes[n], &nodes, &leaves);
+        }
+        yielder.rest((leaves.len() + end) as f32 / all).await;
+    }
+    SurfaceIndex { nodes, leaves, planes: Vec::new(), triangles: index.triangles }
 }
 
-impl Refitting {
-    /// Starts; [`Self::advance`] does the work.
-    pub fn new(index: &SurfaceIndex) -> Self {
-        let leaves = Vec::with_capacity(index.leaves.len());
-        Self { leaves, nodes: vec![Node::EMPTY; index.nodes.len()], fitted: 0 }
+/// The node `old` with the boxes that its children have among `nodes` and `leaves`.
+fn fitted(old: &Node, nodes: &[Node], leaves: &[Leaf]) -> Node {
+    let mut node = Node::EMPTY;
+    for lane in 0..usize::from(old.used) {
+        let (child, count) = (old.child[lane], old.count[lane]);
+        let (min, max) = match usize::from(count) {
+            0 => around(&nodes[child as usize]),
+            count => {
+                let leaves = &leaves[child as usize..child as usize + count];
+                let corners = leaves.iter().flat_map(|leaf| leaf.corners);
+                corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+            }
+        };
+        node.add(min, max, child, count);
     }
-
-    /// The next piece of the index of `moved`, from `index`, which is of a surface of the same triangles. What was left out
-    /// of that stays out. The index once it is there, after which this must not be called again.
-    ///
-    /// # Panics
-    /// When `moved` has fewer triangles.
-    pub fn advance(&mut self, index: &SurfaceIndex, moved: &TriMesh) -> Option<SurfaceIndex> {
-        let done = self.leaves.len();
-        if done < index.leaves.len() {
-            let end = index.leaves.len().min(done + PIECE);
-            self.leaves.extend(index.leaves[done..end].iter().map(|old| {
-                let corners = moved.corners(old.triangle as usize);
-                Leaf { corners, triangle: old.triangle, is_sliver: is_sliver(corners), sides: Leaf::ALL_SIDES }
-            }));
-            return None;
-        }
-        let end = self.nodes.len().min(self.fitted + PIECE);
-        for from_last in self.fitted..end {
-            let n = self.nodes.len() - 1 - from_last;
-            self.nodes[n] = self.fitted_node(&index.nodes[n]);
-        }
-        self.fitted = end;
-        (end == self.nodes.len()).then(|| SurfaceIndex {
-            nodes: std::mem::take(&mut self.nodes),
-            leaves: std::mem::take(&mut self.leaves),
-            planes: Vec::new(),
-            triangles: index.triangles,
-        })
-    }
-
-    /// A node with the boxes that its children have now.
-    fn fitted_node(&self, old: &Node) -> Node {
-        let mut node = Node::EMPTY;
-        for lane in 0..usize::from(old.used) {
-            let (child, count) = (old.child[lane], old.count[lane]);
-            let (min, max) = match usize::from(count) {
-                0 => around(&self.nodes[child as usize]),
-                count => {
-                    let leaves = &self.leaves[child as usize..child as usize + count];
-                    let corners = leaves.iter().flat_map(|leaf| leaf.corners);
-                    corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
-                }
-            };
-            node.add(min, max, child, count);
-        }
-        node
-    }
-
-    /// The part that is done, 0 to 1.
-    pub fn fraction(&self, index: &SurfaceIndex) -> f32 {
-        let all = index.leaves.len() + index.nodes.len();
-        (self.leaves.len() + self.fitted) as f32 / all.max(1) as f32
-    }
+    node
 }
 
 /// The box around a node's boxes.
@@ -91,6 +67,7 @@ mod tests {
     use super::*;
     use crate::self_intersections;
     use crate::shapes::{icosphere, joined};
+    use crate::task::at_once;
     use crate::{Crossing, Indexed, Topology, distance_to_triangle};
 
     #[test]
@@ -105,12 +82,7 @@ mod tests {
         // One sphere into the other, and both bent.
         let nearer = |p: Vec3| if p.x > 8.5 { p - 4.0 * Vec3::X } else { p };
         moved.positions.iter_mut().for_each(|p| *p = nearer(*p) + Vec3::Z * (p.x * 0.4).sin());
-        let mut refitting = Refitting::new(&index);
-        let refitted = loop {
-            if let Some(refitted) = refitting.advance(&index, &moved) {
-                break refitted;
-            }
-        };
+        let refitted = at_once(refitted(&index, &moved, &Yielder::never()));
         let crossing = Crossing::none(&refitted, &moved.triangles);
         let topology = Topology::new(moved.positions.len(), &moved.triangles);
         let surface = Indexed { mesh: &moved, topology: Some(&topology) };

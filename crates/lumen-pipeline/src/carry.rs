@@ -17,10 +17,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::progressive::MADE;
-use super::task::{Budget, Progress, Task};
+use super::task::{Yielder, blocks};
 use lumen_mesh::arrays::On;
 use lumen_mesh::parallel;
-use lumen_mesh::{Array, Blend, Nearest, SurfaceIndex, Topology, TriMesh, Vec3, triangle_area, used_vertices};
+use lumen_mesh::{Array, Blend, Nearest, SurfaceIndex, Topology, TriMesh, Vec3, blended, triangle_area, used_vertices};
 
 /// Closest points between two looks at the clock, and of one thread.
 const SLICE: usize = 16_384;
@@ -43,12 +43,42 @@ pub struct Entered {
     pub vertex_of_node: Arc<[u32]>,
 }
 
-/// Carries arrays to a level, in slices.
-#[derive(Debug)]
-pub struct CarryTask {
-    from: Entered,
-    level: Arc<TriMesh>,
-    index: Arc<SurfaceIndex>,
+/// Carries arrays to the level of these `triangles` over the nodes; `level` is the same over its own vertices, `index` of
+/// that.
+pub async fn carry(
+    from: &Entered,
+    triangles: &[[u32; 3]],
+    level: &TriMesh,
+    index: &SurfaceIndex,
+    yielder: &Yielder,
+) -> Vec<Array> {
+    let nodes = used_vertices(from.vertex_of_node.len(), triangles);
+    let has = |on: On| from.arrays.iter().any(|array| array.on == on);
+    let wanted = |on: On, count: usize| if has(on) { count } else { 0 };
+    // How many points are looked for on the one surface and on the other.
+    let (on_one, on_other) = (wanted(On::Point, nodes.len()), wanted(On::Triangle, from.mesh.triangles.len()));
+    let all = (on_one + on_other) as f32;
+    let (vertices, heirs) = (Blend::with_capacity(nodes.len(), nodes.len()), Vec::new());
+    let mut carrying = Carrying { from, level, index, nodes, vertices, heirs };
+    for block in blocks(on_one, SLICE) {
+        let end = block.end;
+        carrying.follow_vertices(block);
+        yielder.rest(end as f32 / all).await;
+    }
+    for block in blocks(on_other, SLICE) {
+        let end = block.end;
+        carrying.follow_triangles(block);
+        yielder.rest((on_one + end) as f32 / all).await;
+    }
+    let of_triangles = if on_other > 0 { carrying.triangles() } else { Blend::default() };
+    blended(&from.arrays, &carrying.vertices, &of_triangles)
+}
+
+/// Arrays on their way to a level.
+struct Carrying<'a> {
+    from: &'a Entered,
+    level: &'a TriMesh,
+    index: &'a SurfaceIndex,
     /// The node that each vertex of the level is.
     nodes: Vec<u32>,
     vertices: Blend,
@@ -56,24 +86,10 @@ pub struct CarryTask {
     heirs: Vec<u32>,
 }
 
-impl CarryTask {
-    /// To the level of these `triangles` over the nodes; `level` is the same over its own vertices, `index` of that.
-    pub fn new(from: Entered, triangles: &[[u32; 3]], level: Arc<TriMesh>, index: Arc<SurfaceIndex>) -> Self {
-        let nodes = used_vertices(from.vertex_of_node.len(), triangles);
-        let vertices = Blend::with_capacity(nodes.len(), nodes.len());
-        Self { from, level, index, nodes, vertices, heirs: Vec::new() }
-    }
-
-    /// How many points are looked for on the one surface and on the other.
-    fn counts(&self) -> [usize; 2] {
-        let has = |on: On| self.from.arrays.iter().any(|array| array.on == on);
-        let wanted = |on: On, count: usize| if has(on) { count } else { 0 };
-        [wanted(On::Point, self.nodes.len()), wanted(On::Triangle, self.from.mesh.triangles.len())]
-    }
-
+impl Carrying<'_> {
     /// Finds what the next vertices of the level are made of.
     fn follow_vertices(&mut self, range: Range<usize>) {
-        let Entered { index, vertex_of_node, .. } = &self.from;
+        let Entered { index, vertex_of_node, .. } = self.from;
         let (nodes, positions) = (&self.nodes, &self.level.positions);
         let found = nearest(range.clone(), |v| {
             (vertex_of_node[nodes[v] as usize] == MADE).then(|| positions[v]).map(|p| (index.as_ref(), p))
@@ -94,8 +110,8 @@ impl CarryTask {
 
     /// Finds the triangles of the level that the next triangles give their area to.
     fn follow_triangles(&mut self, range: Range<usize>) {
-        let (index, mesh) = (&self.index, &self.from.mesh);
-        let found = nearest(range, |t| Some((index.as_ref(), centroid(mesh.corners(t)))));
+        let (index, mesh) = (self.index, &self.from.mesh);
+        let found = nearest(range, |t| Some((index, centroid(mesh.corners(t)))));
         self.heirs.extend(found.iter().map(|found| found.map_or(u32::MAX, |found| found.triangle)));
     }
 
@@ -122,33 +138,11 @@ impl CarryTask {
 
     /// The triangle of the surface that entered which is closest to a point.
     fn below(&self, p: Vec3) -> Option<u32> {
-        let Entered { index, finest, topology, mesh, vertex_of_node, .. } = &self.from;
+        let Entered { index, finest, topology, mesh, vertex_of_node, .. } = self.from;
         let found = index.nearest(p)?;
         let corners = finest.triangles[found.triangle as usize].map(|node| vertex_of_node[node as usize]);
         let is_it = |&&t: &&u32| corners.iter().all(|v| mesh.triangles[t as usize].contains(v));
         topology.triangles(corners[0]).iter().find(is_it).copied()
-    }
-}
-
-impl Task for CarryTask {
-    type Output = Vec<Array>;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Vec<Array>> {
-        let [vertices, triangles] = self.counts();
-        loop {
-            let (at, to) = (self.vertices.len(), self.heirs.len());
-            if at < vertices {
-                self.follow_vertices(at..(at + SLICE).min(vertices));
-            } else if to < triangles {
-                self.follow_triangles(to..(to + SLICE).min(triangles));
-            } else {
-                let of_triangles = if triangles > 0 { self.triangles() } else { Blend::default() };
-                return Progress::Done(lumen_mesh::blended(&self.from.arrays, &self.vertices, &of_triangles));
-            }
-            if budget.is_spent() {
-                return Progress::Working((at + to) as f32 / (vertices + triangles).max(1) as f32);
-            }
-        }
     }
 }
 

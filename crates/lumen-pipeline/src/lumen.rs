@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::narrowest::{CLEAR, ball_centre, is_inside, ring_median};
 use super::response::edge_length;
+use super::task::{Yielder, at_once, blocks};
 use lumen_mesh::parallel;
 use lumen_mesh::{InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
 
@@ -26,6 +27,9 @@ const MOST: usize = 20_000;
 const AGREE: f32 = 1.4;
 /// A vessel of less than so many mean edges in diameter counts as drawn shut by smoothing: reduction cannot lose it.
 pub(super) const SHUT: f64 = 0.25;
+/// Samples between two looks at the clock, and inner balls, of about 200 ns each, that may become some.
+const SAMPLES: usize = 256;
+const BALLS: usize = 4096;
 /// Samples that are measured in one piece.
 const PIECE: usize = 64;
 
@@ -55,80 +59,51 @@ pub struct Narrowing {
 
 /// Samples of the vessels of `mesh`, from its inner balls; `index` is of this surface, in whatever numbering.
 pub fn samples(mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> Vec<Sample> {
-    let mut sampling = Sampling::new(mesh);
-    sampling.choose(mesh, topology, balls, usize::MAX);
-    while !sampling.advance(index, usize::MAX) {}
-    sampling.finish()
+    at_once(samples_in_slices(mesh, topology, balls, index, &Yielder::never()))
 }
 
-/// The taking of samples, in slices: [`Self::choose`] until all balls are looked at, then [`Self::advance`].
-#[derive(Debug)]
-pub(super) struct Sampling {
-    /// Radius that a ball must have, in mm.
-    least: f32,
-    /// Balls that were looked at.
-    looked: usize,
-    /// The cells that have a ball.
-    taken: HashSet<(i32, [i32; 3])>,
-    /// Middles and radii of the balls that may be samples.
-    chosen: Vec<(Vec3, f32)>,
-    next: usize,
-    found: Vec<Sample>,
-}
-
-impl Sampling {
-    /// Of the vessels of `mesh`.
-    pub(super) fn new(mesh: &TriMesh) -> Self {
-        let least = (edge_length(mesh) * SHUT / 2.0) as f32;
-        Self { least, looked: 0, taken: HashSet::new(), chosen: Vec::new(), next: 0, found: Vec::new() }
-    }
-
-    /// Looks at the next `count` inner balls of the surface, about 200 ns each; whether these were the last.
-    pub(super) fn choose(&mut self, mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, count: usize) -> bool {
-        let end = balls.own.len().min(self.looked.saturating_add(count));
-        let mut ring = Vec::new();
-        for &v in &balls.own[self.looked..end] {
+/// As [`samples`], resting every millisecond or so.
+pub async fn samples_in_slices(
+    mesh: &TriMesh,
+    topology: &Topology,
+    balls: &InnerRadii,
+    index: &SurfaceIndex,
+    yielder: &Yielder,
+) -> Vec<Sample> {
+    // Radius that a ball must have, in mm.
+    let least = (edge_length(mesh) * SHUT / 2.0) as f32;
+    // The cells that have a ball; middles and radii of the balls that may be samples.
+    let (mut taken, mut chosen, mut ring) = (HashSet::new(), Vec::new(), Vec::new());
+    for block in blocks(balls.own.len(), BALLS) {
+        for &v in &balls.own[block] {
             let radius = balls.radii[v as usize];
-            let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > self.least) else {
+            let Some(centre) = ball_centre(mesh, topology, &balls.radii, v).filter(|_| radius > least) else {
                 continue;
             };
             let median = ring_median(topology, &balls.radii, v, &mut ring);
             let agrees = radius * AGREE >= median && radius <= median * AGREE;
-            if agrees && self.taken.insert(cell(centre, radius)) {
-                self.chosen.push((centre, radius));
+            if agrees && taken.insert(cell(centre, radius)) {
+                chosen.push((centre, radius));
             }
         }
-        self.looked = end;
-        end == balls.own.len()
+        yielder.rest(0.0).await;
     }
-
-    /// Looks at the next `count`, by an index of the surface in whatever numbering; whether these were the last. What is
-    /// found does not depend on `count`.
-    pub(super) fn advance(&mut self, index: &SurfaceIndex, count: usize) -> bool {
-        let end = self.chosen.len().min(self.next.saturating_add(count));
-        let chosen = &self.chosen[self.next..end];
-        let found = parallel::map_ranges(chosen.len(), PIECE, |piece| {
-            chosen[piece].iter().filter_map(|&(at, radius)| sample(at, radius, index)).collect::<Vec<_>>()
+    drop(taken);
+    let mut found = Vec::new();
+    for block in blocks(chosen.len(), SAMPLES) {
+        let (end, chosen_now) = (block.end, &chosen[block]);
+        let pieces = parallel::map_ranges(chosen_now.len(), PIECE, |piece| {
+            chosen_now[piece].iter().filter_map(|&(at, radius)| sample(at, radius, index)).collect::<Vec<_>>()
         });
-        self.found.extend(found.into_iter().flatten());
-        self.next = end;
-        end == self.chosen.len()
+        found.extend(pieces.into_iter().flatten());
+        yielder.rest(end as f32 / chosen.len() as f32).await;
     }
-
-    /// The part that is done, 0 to 1.
-    pub(super) fn fraction(&self) -> f32 {
-        self.next as f32 / self.chosen.len().max(1) as f32
+    // The narrowest, where they are too many.
+    if found.len() > MOST {
+        found.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
+        found.truncate(MOST);
     }
-
-    /// What was found: the narrowest, where they are too many.
-    pub(super) fn finish(self) -> Vec<Sample> {
-        let mut found = self.found;
-        if found.len() > MOST {
-            found.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
-            found.truncate(MOST);
-        }
-        found
-    }
+    found
 }
 
 /// A ball's middle, if it is inside and clear of the wall.

@@ -10,6 +10,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::task::{Yielder, blocks};
 use lumen_mesh::{InnerRadii, SurfaceIndex, Topology, TriMesh, Vec3, outward_normal};
 
 /// A ball's middle is at least this part of the radius away from the wall, or it is no lumen.
@@ -35,60 +36,48 @@ pub struct Narrowest {
     pub at_mm: [f32; 3],
 }
 
-/// The search for the narrowest place of a surface, in pieces of about a millisecond.
-#[derive(Debug, Default)]
-pub struct NarrowestSearch {
-    /// Inner balls that were looked at.
-    looked: usize,
-    /// The smallest of them, with their vertices: up to [`CANDIDATES`].
-    smallest: Vec<(f32, u32)>,
-    /// Of these, those that were moved to the middle.
-    moved: usize,
-    /// The least clearance in a middle, and where.
-    least: Option<(f32, Vec3)>,
-}
-
-impl NarrowestSearch {
-    /// The next piece of the search in `mesh`, whose inner balls are `balls`; whether it was the last. `index` is of this
-    /// surface, in whatever numbering.
-    pub fn advance(&mut self, mesh: &TriMesh, topology: &Topology, balls: &InnerRadii, index: &SurfaceIndex) -> bool {
-        if self.looked < balls.own.len() {
-            self.look(topology, balls);
-            return false;
-        }
-        if self.moved == 0 {
-            self.smallest.sort_unstable_by(by_radius);
-        }
-        let end = self.smallest.len().min(self.moved + MOVED);
-        for &(radius, v) in &self.smallest[self.moved..end] {
+/// The narrowest place of `mesh`, whose inner balls are `balls`; `None` where no wall faces another. `index` is of this
+/// surface, in whatever numbering.
+pub async fn narrowest(
+    mesh: &TriMesh,
+    topology: &Topology,
+    balls: &InnerRadii,
+    index: &SurfaceIndex,
+    yielder: &Yielder,
+) -> Option<Narrowest> {
+    let smallest = smallest(topology, balls, &yielder.part(0.0..0.5)).await;
+    let mut least: Option<(f32, Vec3)> = None;
+    for block in blocks(smallest.len(), MOVED) {
+        let end = block.end;
+        for &(radius, v) in &smallest[block] {
             let middle = ball_centre(mesh, topology, &balls.radii, v).and_then(|centre| centred(centre, index));
             let Some((at, clearance)) = middle else { continue };
-            let is_less = self.least.is_none_or(|(least, _)| clearance < least);
+            let is_less = least.is_none_or(|(least, _)| clearance < least);
             if is_less && clearance >= CLEAR * radius && is_inside(at, index) {
-                self.least = Some((clearance, at));
+                least = Some((clearance, at));
             }
         }
-        self.moved = end;
-        end == self.smallest.len()
+        yielder.rest(0.5 + 0.5 * end as f32 / smallest.len() as f32).await;
     }
+    let (clearance, at) = least?;
+    Some(Narrowest { diameter_mm: 2.0 * f64::from(clearance), at_mm: at.to_array() })
+}
 
-    fn look(&mut self, topology: &Topology, balls: &InnerRadii) {
-        let end = balls.own.len().min(self.looked + LOOKED);
-        let mut ring = Vec::new();
+/// The smallest balls as medians of their rings, with their vertices: up to [`CANDIDATES`], ascending.
+async fn smallest(topology: &Topology, balls: &InnerRadii, yielder: &Yielder) -> Vec<(f32, u32)> {
+    let (mut smallest, mut ring) = (Vec::new(), Vec::new());
+    for block in blocks(balls.own.len(), LOOKED) {
+        let end = block.end;
         let median = |&v: &u32| (ring_median(topology, &balls.radii, v, &mut ring), v);
-        self.smallest.extend(balls.own[self.looked..end].iter().map(median).filter(|(radius, _)| radius.is_finite()));
-        if self.smallest.len() > CANDIDATES {
-            self.smallest.select_nth_unstable_by(CANDIDATES, by_radius);
-            self.smallest.truncate(CANDIDATES);
+        smallest.extend(balls.own[block].iter().map(median).filter(|(radius, _)| radius.is_finite()));
+        if smallest.len() > CANDIDATES {
+            smallest.select_nth_unstable_by(CANDIDATES, by_radius);
+            smallest.truncate(CANDIDATES);
         }
-        self.looked = end;
+        yielder.rest(end as f32 / balls.own.len() as f32).await;
     }
-
-    /// The narrowest place that was found; `None` where no wall faces another.
-    pub fn found(&self) -> Option<Narrowest> {
-        let (clearance, at) = self.least?;
-        Some(Narrowest { diameter_mm: 2.0 * f64::from(clearance), at_mm: at.to_array() })
-    }
+    smallest.sort_unstable_by(by_radius);
+    smallest
 }
 
 fn by_radius(a: &(f32, u32), b: &(f32, u32)) -> std::cmp::Ordering {
@@ -133,6 +122,7 @@ pub(super) fn ball_centre(mesh: &TriMesh, topology: &Topology, radii: &[f32], v:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::task::at_once;
     use lumen_mesh::shapes::tube;
     use lumen_mesh::{inner_radii, shapes::icosphere};
 
@@ -140,9 +130,7 @@ mod tests {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
         let balls = inner_radii(mesh, &topology, &index);
-        let mut search = NarrowestSearch::default();
-        while !search.advance(mesh, &topology, &balls, &index) {}
-        search.found()
+        at_once(narrowest(mesh, &topology, &balls, &index, &Yielder::never()))
     }
 
     #[test]

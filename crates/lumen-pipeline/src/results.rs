@@ -16,7 +16,6 @@ use super::response::SmoothingResponse;
 use super::safe::Safe;
 use super::settings::Settings;
 use super::shape::Shape;
-use super::stage::Stage;
 pub use super::times::StageTimes;
 use super::times::Times;
 use lumen_mesh::mending::{Faults, MendReport};
@@ -95,62 +94,6 @@ impl Indices {
         self.level = None;
         if finest > most {
             self.finest = None;
-        }
-    }
-}
-
-impl Results {
-    /// Whether the slot of `stage` is filled.
-    pub(super) fn has(&self, stage: Stage) -> bool {
-        match stage {
-            Stage::Mending => self.mended.is_some(),
-            Stage::Connectivity => self.kept.is_some(),
-            Stage::Smoothing => self.smoothed.is_some(),
-            Stage::Decimation => self.levels.is_some(),
-            Stage::Bound => self.bound.is_some(),
-            Stage::Level => self.reduced.is_some(),
-            Stage::Deviation => self.deviations.is_some(),
-            Stage::Arrays => self.arrays.is_some(),
-            Stage::SmoothedMeasures => self.smoothed_measures.is_some(),
-            Stage::Measures => self.level_measures.is_some(),
-            Stage::Faults => self.faults.is_some(),
-            Stage::Vessels => self.vessels.is_some(),
-            Stage::Certificate => self.certified.is_some(),
-            Stage::Safe => self.safe.is_some(),
-        }
-    }
-
-    /// Empties the slot of `stage`.
-    pub(super) fn clear(&mut self, stage: Stage) {
-        match stage {
-            Stage::Mending => (self.mended, self.connectivity) = (None, None),
-            Stage::Connectivity => (self.kept, self.indices.kept) = (None, None),
-            Stage::Smoothing => self.smoothed = None,
-            Stage::Decimation => (self.levels, self.indices.finest) = (None, None),
-            Stage::Bound => {
-                self.bound = None;
-                self.times.begin(stage);
-            }
-            Stage::Level => (self.reduced, self.indices.level) = (None, None),
-            Stage::Deviation => self.deviations = None,
-            Stage::Arrays => self.arrays = None,
-            Stage::SmoothedMeasures => self.smoothed_measures = None,
-            Stage::Vessels => {
-                self.vessels = None;
-                self.times.begin(stage);
-            }
-            Stage::Certificate => {
-                self.certified = None;
-                self.times.begin(stage);
-            }
-            Stage::Faults => self.faults = None,
-            Stage::Safe => self.safe = None,
-            Stage::Measures => {
-                self.level_measures = None;
-                // Both times are told as one: that of the smoothed surface counts where it was spent for this level.
-                self.times.begin(Stage::SmoothedMeasures);
-                self.times.begin(stage);
-            }
         }
     }
 }

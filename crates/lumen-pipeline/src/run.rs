@@ -8,8 +8,8 @@
 //! numbers that are no stage of the method (`stages/measures.rs`).
 //!
 //! [`Pipeline::set`] drops what a change of settings makes stale; [`Pipeline::advance`] works on the first stage that is
-//! missing. A change of the reduction rate alone costs a level and its deviation. Both go by the table in
-//! [`stage`](super::stage): a new stage has a line in each function there, a slot in [`Results`] and a file in `stages/`.
+//! missing. A change of the reduction rate alone costs a level and its deviation. Both go by the rows of the stages: a new one
+//! has a name in [`stage`](super::stage), a slot in [`Results`], and in `stages/` a line and a file with its row.
 
 use std::sync::Arc;
 
@@ -24,9 +24,9 @@ use super::results::{
 };
 use super::safe::Safe;
 use super::settings::{Keep, Settings, SettingsError};
-use super::smoothing::Preparation;
+use super::smoothing::{KeptTerms, Preparation};
 use super::stage::{PerStage, Stage, Wanted, stale};
-use super::stages::{self, Run};
+use super::stages::Run;
 use super::store::Store;
 use super::task::{Budget, Progress, milliseconds};
 use lumen_mesh::arrays::On;
@@ -53,7 +53,7 @@ pub struct Pipeline {
     /// The last results that reached a level, for when the next are cancelled.
     last: Option<Results>,
     /// What is under way. A stage that a change of the settings does not touch goes on when its turn comes again.
-    running: PerStage<Option<Box<dyn Run>>>,
+    running: PerStage<Option<Run>>,
     /// The making of what makes another pass band cheap, which waits for the stages.
     preparation: Option<Preparation>,
 }
@@ -142,7 +142,7 @@ impl Pipeline {
             self.store.is_smoothed_again = false;
         }
         for stage in Stage::ALL.into_iter().filter(|&stage| stale[stage]) {
-            self.store.now.clear(stage);
+            (stage.row().clear)(&mut self.store.now);
             self.running[stage] = None;
         }
         Ok(())
@@ -158,9 +158,9 @@ impl Pipeline {
     pub fn prepare(&mut self, budget: Budget) -> bool {
         let Some(kept) = self.store.now.kept.as_ref().filter(|_| self.can_prepare()) else { return false };
         let mut preparation =
-            self.preparation.take().unwrap_or_else(|| Preparation::new(kept, &self.settings().smoothing));
-        if preparation.advance(budget) {
-            self.store.terms = preparation.into_terms();
+            self.preparation.take().unwrap_or_else(|| KeptTerms::preparation(kept, &self.settings().smoothing));
+        if let Progress::Done(terms) = preparation.advance(budget) {
+            self.store.terms = terms.map(Arc::new);
             return false;
         }
         self.preparation = Some(preparation);
@@ -187,29 +187,32 @@ impl Pipeline {
     pub fn advance(&mut self, budget: Budget) -> Result<Advance, SettingsError> {
         let Some(stage) = self.next_stage() else { return Ok(Advance::Idle) };
         let start = Instant::now();
-        let done = self.work(stage, budget)?;
+        let done = self.work(stage, budget);
         self.store.now.times.add(stage, milliseconds(start));
-        if let Progress::Working(fraction) = done {
-            return Ok(Advance::Working(stage, fraction));
+        match done {
+            Progress::Working(fraction) => return Ok(Advance::Working(stage, fraction)),
+            Progress::Done(done) => {
+                self.running[stage] = None;
+                done?;
+            }
         }
-        self.running[stage] = None;
         if stage == Stage::Level {
             self.last = None;
         }
         Ok(Advance::Finished(stage))
     }
 
-    fn work(&mut self, stage: Stage, budget: Budget) -> Result<Progress<()>, SettingsError> {
+    fn work(&mut self, stage: Stage, budget: Budget) -> Progress<Result<(), SettingsError>> {
         if self.running[stage].is_none() {
             self.store.now.times.begin(stage);
-            self.running[stage] = stages::start(stage, &self.store);
+            self.running[stage] = (stage.row().start)(&self.store);
             if budget.is_spent() && self.running[stage].is_some() {
-                return Ok(Progress::Working(0.0));
+                return Progress::Working(0.0);
             }
         }
         match &mut self.running[stage] {
             Some(run) => run.advance(&mut self.store, budget),
-            None => Ok(Progress::Done(())),
+            None => Progress::Done(Ok(())),
         }
     }
 
@@ -225,7 +228,9 @@ impl Pipeline {
     /// The first stage that is wanted and has no result.
     pub fn next_stage(&self) -> Option<Stage> {
         let now = &self.store.now;
-        Stage::ALL.into_iter().find(|&stage| stage.is_wanted(&now.settings, self.wanted) && !now.has(stage))
+        Stage::ALL
+            .into_iter()
+            .find(|&stage| (stage.row().is_wanted)(&now.settings, self.wanted) && !(stage.row().has)(now))
     }
 
     /// The surface as it was opened.

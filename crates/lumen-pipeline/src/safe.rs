@@ -19,12 +19,12 @@ use serde::{Deserialize, Serialize};
 use super::pinch::Pinch;
 use super::progressive::ProgressiveMesh;
 use super::settings::{Target, reduction_percent};
-use super::task::{Budget, Progress, Task};
+use super::task::Yielder;
 use lumen_language::say;
 use lumen_language::{decimal, signed};
 use lumen_mesh::TriMesh;
 use lumen_vessel::Subject;
-use lumen_vessel::certificate::{Basis, BranchCalibre, Candidate, Standing, Verdict};
+use lumen_vessel::certificate::{Basis, BranchCalibre, Standing, Verdict};
 
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
 const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
@@ -72,21 +72,35 @@ impl Safe {
     }
 }
 
-/// The search in slices.
-pub struct SafeTask {
-    basis: Arc<Basis>,
-    progressive: Arc<ProgressiveMesh>,
+/// How far the levels of `progressive`, which was made from the smoothed surface of `basis`, are safe; `pinch` is the first.
+/// To take a level out is one piece.
+pub(crate) async fn safe_in_slices(
+    basis: &Basis,
+    progressive: &ProgressiveMesh,
     pinch: Option<Pinch>,
     tolerance_percent: f64,
-    step: Step,
-    /// What was found at each rate that was looked at.
-    looks: Vec<Look>,
+    yielder: &Yielder,
+) -> Safe {
+    let (triangles, branches) = (progressive.triangles.len(), basis.of_smoothed(tolerance_percent));
+    let looks = vec![Look { per_mille: 0, reached: None, triangles, branches }];
+    let mut search = Search { pinch, tolerance_percent, looks };
+    while let Some(rate) = search.next_rate() {
+        let done = search.fraction();
+        yielder.rest(done).await;
+        let (look, mesh) = Look::at(progressive, rate);
+        let subject = Subject::new(&Arc::new(mesh));
+        let branches = basis.measured(&subject, tolerance_percent, &yielder.part(done..done)).await;
+        search.add(Look { branches, ..look });
+    }
+    search.found()
 }
 
-enum Step {
-    /// A level is measured; its branches are not known yet.
-    Level(Look, Box<Candidate>),
-    Done,
+/// The search for the highest rate that is safe.
+struct Search {
+    pinch: Option<Pinch>,
+    tolerance_percent: f64,
+    /// What was found at each rate that was looked at.
+    looks: Vec<Look>,
 }
 
 /// A rate that was looked at.
@@ -113,21 +127,7 @@ impl Look {
     }
 }
 
-impl SafeTask {
-    /// Of all levels of `progressive`, which was made from the smoothed surface of `basis`; `pinch` is the first.
-    pub fn new(
-        basis: Arc<Basis>,
-        progressive: Arc<ProgressiveMesh>,
-        pinch: Option<Pinch>,
-        tolerance_percent: f64,
-    ) -> Self {
-        let (triangles, branches) = (progressive.triangles.len(), basis.of_smoothed(tolerance_percent));
-        let looks = vec![Look { per_mille: 0, reached: None, triangles, branches }];
-        let mut task = Self { basis, progressive, pinch, tolerance_percent, step: Step::Done, looks };
-        task.step = task.next();
-        task
-    }
-
+impl Search {
     /// Whether smoothing left branch `i` its calibre, as far as it can be measured.
     fn counts(&self, i: usize) -> bool {
         self.looks.first().is_some_and(|look| look.branches[i].verdict_smoothed != Verdict::Changed)
@@ -181,13 +181,6 @@ impl SafeTask {
         let (good, bad) = self.bounds();
         let (good, bad) = (good?.per_mille, bad?.per_mille);
         (bad - good > 1).then(|| good.midpoint(bad))
-    }
-
-    /// Begins with the next level, if there is one to look at.
-    fn next(&self) -> Step {
-        let Some(rate) = self.next_rate() else { return Step::Done };
-        let (look, mesh) = Look::at(&self.progressive, rate);
-        Step::Level(look, Box::new(Candidate::new(Subject::new(&Arc::new(mesh)))))
     }
 
     fn add(&mut self, look: Look) {
@@ -249,34 +242,6 @@ fn is_lost(first: &BranchCalibre, now: &BranchCalibre) -> bool {
     let was_counted = first.standings.iter().zip(&now.standings).filter(|of| *of.0 == Standing::Counts);
     let still = was_counted.filter(|of| matches!(of.1, Standing::Counts | Standing::Ambiguous)).count();
     (still as f64) < MEASURED * first.stations_counted as f64
-}
-
-impl Task for SafeTask {
-    type Output = Safe;
-
-    /// To take a level out is one piece.
-    fn advance(&mut self, budget: Budget) -> Progress<Safe> {
-        loop {
-            self.step = match std::mem::replace(&mut self.step, Step::Done) {
-                Step::Level(look, mut candidate) => {
-                    match candidate.advance(&self.basis, self.tolerance_percent, budget) {
-                        None => {
-                            self.step = Step::Level(look, candidate);
-                            return Progress::Working(self.fraction());
-                        }
-                        Some(branches) => {
-                            self.add(Look { branches, ..look });
-                            self.next()
-                        }
-                    }
-                }
-                Step::Done => return Progress::Done(self.found()),
-            };
-            if budget.is_spent() && !matches!(self.step, Step::Done) {
-                return Progress::Working(self.fraction());
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -3,18 +3,16 @@
 //!
 //! What the smallest lumen is, `narrowest.rs` says.
 
-use std::ops::{Deref, Range};
 use std::sync::Arc;
-use std::task::Poll;
 
 use serde::{Deserialize, Serialize};
 
-use super::narrowest::{Narrowest, NarrowestSearch};
-use super::task::{Budget, Progress, Task};
+use super::narrowest::{Narrowest, narrowest};
+use super::task::{Yielder, at_once, blocks};
 use lumen_mesh::parallel;
 use lumen_mesh::{
-    AngleCounts, Angles, Crossing, IndexBuild, Indexed, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends,
-    summarise_bends,
+    AngleCounts, Angles, Crossing, Indexed, InnerRadii, Roughness, SurfaceIndex, Topology, TriMesh, bends,
+    inner_radii_in_slices, summarise_bends,
 };
 
 /// The shape of a surface.
@@ -37,18 +35,17 @@ pub struct Measured {
     pub shape: Shape,
     /// The inner balls.
     pub balls: InnerRadii,
-    /// The triangles that run into others, in the numbering of the index; ascending.
-    pub crossing: Vec<u32>,
+    /// The index that was used.
+    pub index: Arc<SurfaceIndex>,
 }
 
-/// What is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Wanted {
-    All,
-    /// All, and nothing runs into anything.
-    AllButCrossings,
-    Radii,
-    Crossings,
+/// What is known of a surface before its shape is measured.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// An index of the surface, and the mesh that it is of: the surface in whatever numbering.
+    pub index: Option<(Arc<TriMesh>, Arc<SurfaceIndex>)>,
+    /// Whether no triangle runs into another.
+    pub crosses_nothing: bool,
 }
 
 /// The shape of `mesh`, whose triangles must not repeat a vertex.
@@ -57,7 +54,7 @@ enum Wanted {
 /// When an index of a triangle is out of range.
 pub fn shape(mesh: &TriMesh) -> Shape {
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-    ShapeTask::new(mesh, &topology).finish().shape
+    at_once(shape_in_slices(mesh, &topology, Known::default(), &Yielder::never())).shape
 }
 
 /// Pieces of work that are given out at once, for each thread; and the size of each, in triangles or vertices.
@@ -67,247 +64,70 @@ const HEAVY: usize = 512;
 /// Pairs of triangles that are looked at in one piece of work, about: where many lie in one place the pieces become
 /// smaller, down to a triangle.
 const LOOKS: usize = 1 << 16;
-/// Inner balls between two looks at the clock.
-const BALLS: usize = 64;
 
-/// The measuring of a shape in slices; `M` and `T` are any pointers to a mesh and its topology.
-#[derive(Debug)]
-pub struct ShapeTask<M, T> {
-    mesh: M,
-    topology: T,
-    /// The surface that the index is of, where it numbers its vertices and triangles in another way.
-    indexed: Option<M>,
-    index: Option<Arc<SurfaceIndex>>,
-    build: IndexBuild,
-    stage: Stage,
-    wanted: Wanted,
-    next: usize,
-    angles: AngleCounts,
-    bends: Vec<f32>,
-    crossing: Crossing,
-    /// Triangles in the next piece of the search for crossings.
-    heavy: usize,
-    balls: InnerRadii,
-    narrowest: NarrowestSearch,
-    /// The numbers that are there.
-    found: Shape,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-enum Stage {
-    Index,
-    Angles,
-    Bends,
-    Crossings,
-    Balls,
-    /// What was gathered is summed up, a number a step.
-    Sums,
-    Done,
-}
-
-impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> ShapeTask<M, T> {
-    /// The shape of `mesh`, whose adjacency is `topology`.
-    pub fn new(mesh: M, topology: T) -> Self {
-        Self {
-            mesh,
-            topology,
-            indexed: None,
-            index: None,
-            build: IndexBuild::new(),
-            stage: Stage::Index,
-            wanted: Wanted::All,
-            next: 0,
-            angles: AngleCounts::default(),
-            bends: Vec::new(),
-            crossing: Crossing::default(),
-            heavy: HEAVY / 8,
-            balls: InnerRadii::default(),
-            narrowest: NarrowestSearch::default(),
-            found: Shape::default(),
-        }
+/// As [`shape`], of a surface whose adjacency is `topology`. Rests about every millisecond; of the sums at the end sorting is
+/// one piece, of up to 50 ns a triangle.
+///
+/// # Panics
+/// When an index of a triangle is out of range.
+pub async fn shape_in_slices(mesh: &TriMesh, topology: &Topology, known: Known, yielder: &Yielder) -> Measured {
+    let (indexed, index) = match known.index {
+        Some((indexed, index)) => (Some(indexed), index),
+        None => (None, SurfaceIndex::known_or_built(None, mesh, &yielder.part(0.0..0.1)).await),
+    };
+    let block = LIGHT * PIECES * parallel::threads();
+    let (mut angles, triangles) = (AngleCounts::default(), mesh.triangles.len());
+    for block in blocks(triangles, block) {
+        let first = block.start;
+        let counts = parallel::map_ranges(block.len(), LIGHT, |piece| {
+            AngleCounts::of(mesh, first + piece.start..first + piece.end)
+        });
+        counts.into_iter().for_each(|counts| angles.add(counts));
+        yielder.rest(0.1 + 0.1 * block.end as f32 / triangles as f32).await;
     }
-
-    /// The radii of the inner balls alone; the rest of the shape stays empty.
-    #[must_use]
-    pub(super) fn radii_only(mesh: M, topology: T) -> Self {
-        Self { wanted: Wanted::Radii, ..Self::new(mesh, topology) }
+    let (mut all_bends, vertices) = (Vec::new(), topology.vertex_count());
+    for block in blocks(vertices, block) {
+        let first = block.start;
+        let pieces = parallel::map_ranges(block.len(), LIGHT, |piece| {
+            bends(mesh, topology, first + piece.start..first + piece.end)
+        });
+        pieces.into_iter().for_each(|piece| all_bends.extend(piece));
+        yielder.rest(0.2 + 0.1 * block.end as f32 / vertices as f32).await;
     }
-
-    /// The triangles that run into others alone; the rest of the shape stays empty.
-    #[must_use]
-    pub(super) fn crossings_only(mesh: M, topology: T) -> Self {
-        Self { wanted: Wanted::Crossings, ..Self::new(mesh, topology) }
-    }
-
-    /// Takes it from the caller that no triangle runs into another.
-    #[must_use]
-    pub(super) fn without_crossings(self) -> Self {
-        Self { wanted: Wanted::AllButCrossings, ..self }
-    }
-
-    /// Uses an index that is there already, of the same surface in the numbering of `indexed`.
-    #[must_use]
-    pub fn with_index(mut self, indexed: M, index: Arc<SurfaceIndex>) -> Self {
-        (self.indexed, self.index) = (Some(indexed), Some(index));
-        self
-    }
-
-    /// The index of the surface, once it is there.
-    pub fn index(&self) -> Option<&Arc<SurfaceIndex>> {
-        self.index.as_ref()
-    }
-
-    /// Number of things in the present stage, and how many are given out at once.
-    fn extent(&self) -> (usize, usize) {
-        match self.stage {
-            Stage::Index | Stage::Balls | Stage::Sums | Stage::Done => (0, 1),
-            Stage::Angles => (self.mesh.triangles.len(), LIGHT),
-            Stage::Bends => (self.topology.vertex_count(), LIGHT),
-            Stage::Crossings => (self.index.as_ref().map_or(0, |index| index.slots()), self.heavy),
-        }
-    }
-
-    fn step(&mut self) {
-        if self.stage == Stage::Index {
-            if self.add_index() {
-                self.stage = match self.wanted {
-                    Wanted::All | Wanted::AllButCrossings => Stage::Angles,
-                    Wanted::Radii => Stage::Balls,
-                    Wanted::Crossings => Stage::Crossings,
-                };
-            }
-            return;
-        }
-        if self.stage == Stage::Balls {
-            if self.add_balls() {
-                self.stage = if self.wanted == Wanted::Radii { Stage::Done } else { Stage::Sums };
-            }
-            return;
-        }
-        if self.stage == Stage::Sums {
-            self.sum_up();
-            return;
-        }
-        let (length, piece) = self.extent();
-        let end = length.min(self.next + piece * PIECES * parallel::threads());
-        self.work(self.next..end, piece);
-        self.next = end;
-        if end == length {
-            self.next = 0;
-            self.stage = match self.stage {
-                Stage::Angles => Stage::Bends,
-                Stage::Bends if self.wanted == Wanted::AllButCrossings => Stage::Balls,
-                Stage::Bends => Stage::Crossings,
-                Stage::Crossings if self.wanted == Wanted::All => Stage::Balls,
-                _ => Stage::Done,
-            };
-        }
-    }
-
-    fn add_index(&mut self) -> bool {
-        if self.index.is_none() {
-            match self.build.advance(&self.mesh.positions, &self.mesh.triangles, LIGHT) {
-                Poll::Ready(index) => self.index = Some(Arc::new(index)),
-                Poll::Pending => return false,
-            }
-        }
-        true
-    }
-
-    fn add_balls(&mut self) -> bool {
-        let Some(index) = &self.index else { return true };
-        self.balls.advance(&self.mesh, &self.topology, index, BALLS)
-    }
-
-    /// Works on a range of the present stage, on all cores.
-    fn work(&mut self, range: Range<usize>, piece: usize) {
-        let Some(index) = &self.index else { return };
-        let (mesh, topology): (&TriMesh, &Topology) = (&self.mesh, &self.topology);
-        let indexed: &TriMesh = self.indexed.as_ref().unwrap_or(&self.mesh);
-        let part = |part: Range<usize>| range.start + part.start..range.start + part.end;
-        match self.stage {
-            Stage::Angles => parallel::map_ranges(range.len(), piece, |p| AngleCounts::of(mesh, part(p)))
-                .into_iter()
-                .for_each(|counts| self.angles.add(counts)),
-            Stage::Bends => {
-                self.bends
-                    .extend(parallel::map_ranges(range.len(), piece, |p| bends(mesh, topology, part(p))).concat());
-            }
-            Stage::Crossings => {
-                if range.start == 0 {
-                    self.crossing = Crossing::none(index, &indexed.triangles);
-                }
-                let crossing = &self.crossing;
-                let topology = std::ptr::eq(indexed, mesh).then_some(topology);
-                let surface = Indexed { mesh: indexed, topology };
-                let looks =
-                    parallel::map_ranges(range.len(), piece, |p| index.mark_crossings(surface, part(p), crossing));
-                let most = looks.into_iter().max().unwrap_or(0);
-                self.heavy = if most > LOOKS { (piece / 2).max(1) } else { (2 * piece).min(HEAVY) };
-            }
-            Stage::Index | Stage::Balls | Stage::Sums | Stage::Done => {}
-        }
-    }
-
-    /// The part that is done, 0 to 1, by estimated time.
-    fn fraction(&self) -> f32 {
-        let (length, _) = self.extent();
-        let part = match self.stage {
-            Stage::Index => self.build.fraction(),
-            Stage::Sums => self.next as f32 / 3.0,
-            Stage::Balls => self.balls.fraction(),
-            _ => self.next as f32 / length.max(1) as f32,
+    let crossing = if known.crosses_nothing {
+        Vec::new()
+    } else {
+        let surface = match &indexed {
+            Some(indexed) if !std::ptr::eq(&**indexed, mesh) => Indexed { mesh: indexed, topology: None },
+            _ => Indexed { mesh, topology: Some(topology) },
         };
-        let (before, share) = match self.stage {
-            Stage::Index => (0.0, 0.1),
-            Stage::Angles => (0.1, 0.1),
-            Stage::Bends => (0.2, 0.1),
-            Stage::Crossings => (0.3, 0.35),
-            Stage::Balls => (0.65, 0.3),
-            Stage::Sums => (0.95, 0.05),
-            Stage::Done => (1.0, 0.0),
-        };
-        before + share * part
-    }
-
-    /// The next of the three numbers that need all that was gathered.
-    fn sum_up(&mut self) {
-        match self.next {
-            0 => self.found.roughness = summarise_bends(std::mem::take(&mut self.bends)),
-            1 => self.found.angles = std::mem::take(&mut self.angles).finish(),
-            _ => {
-                let (mesh, topology, balls) = (&self.mesh, &self.topology, &self.balls);
-                let search = &mut self.narrowest;
-                if self.index.as_ref().is_some_and(|index| !search.advance(mesh, topology, balls, index)) {
-                    return;
-                }
-                self.found.smallest_lumen = search.found();
-                self.stage = Stage::Done;
-            }
-        }
-        self.next += 1;
-    }
-
-    fn result(&mut self) -> Measured {
-        let crossing: Vec<u32> = std::mem::take(&mut self.crossing).triangles().collect();
-        let shape = Shape { self_intersecting_faces: crossing.len(), ..self.found.clone() };
-        Measured { shape, balls: std::mem::take(&mut self.balls), crossing }
-    }
+        crossing_triangles(surface, &index, &yielder.part(0.3..0.65)).await
+    };
+    let balls = inner_radii_in_slices(mesh, topology, &index, &yielder.part(0.65..0.95)).await;
+    let roughness = summarise_bends(all_bends);
+    yielder.rest(0.96).await;
+    let angles = angles.finish();
+    yielder.rest(0.97).await;
+    let smallest_lumen = narrowest(mesh, topology, &balls, &index, &yielder.part(0.97..1.0)).await;
+    let shape = Shape { roughness, angles, self_intersecting_faces: crossing.len(), smallest_lumen };
+    Measured { shape, balls, index }
 }
 
-impl<M: Deref<Target = TriMesh> + Sync, T: Deref<Target = Topology> + Sync> Task for ShapeTask<M, T> {
-    type Output = Measured;
-
-    /// The clock is read about every millisecond; of the sums at the end sorting is one piece, of up to 50 ns a triangle.
-    fn advance(&mut self, budget: Budget) -> Progress<Measured> {
-        while self.stage != Stage::Done {
-            self.step();
-            if self.stage != Stage::Done && budget.is_spent() {
-                return Progress::Working(self.fraction());
-            }
-        }
-        Progress::Done(self.result())
+/// The triangles of a surface that run into others of it; ascending.
+pub(super) async fn crossing_triangles(surface: Indexed<'_>, index: &SurfaceIndex, yielder: &Yielder) -> Vec<u32> {
+    let crossing = Crossing::none(index, &surface.mesh.triangles);
+    let (mut next, slots, mut piece) = (0, index.slots(), HEAVY / 8);
+    while next < slots {
+        let (first, end) = (next, slots.min(next + piece * PIECES * parallel::threads()));
+        let looks = parallel::map_ranges(end - first, piece, |part| {
+            index.mark_crossings(surface, first + part.start..first + part.end, &crossing)
+        });
+        let most = looks.into_iter().max().unwrap_or(0);
+        piece = if most > LOOKS { (piece / 2).max(1) } else { (2 * piece).min(HEAVY) };
+        next = end;
+        yielder.rest(next as f32 / slots as f32).await;
     }
+    crossing.triangles().collect()
 }
 
 #[cfg(test)]
@@ -317,6 +137,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::task::{Budget, Progress, Running};
     use lumen_mesh::Vec3;
     use lumen_mesh::shapes::{icosphere, square, tube};
 
@@ -391,10 +212,14 @@ mod tests {
         let mesh = waisted();
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let whole = shape(&mesh);
-        let mut task = ShapeTask::new(&mesh, &topology);
+        let (surface, adjacency) = (&mesh, &topology);
+        let mut running =
+            Running::new(
+                |yielder| async move { shape_in_slices(surface, adjacency, Known::default(), &yielder).await },
+            );
         let mut fraction = 0.0;
         let sliced = loop {
-            match task.advance(Budget::new(Duration::ZERO)) {
+            match running.advance(Budget::new(Duration::ZERO)) {
                 Progress::Working(now) => {
                     assert!((fraction..=1.0).contains(&now), "{fraction} then {now}");
                     fraction = now;
@@ -410,7 +235,8 @@ mod tests {
         let mut other = mesh.clone();
         other.triangles.reverse();
         let index = Arc::new(SurfaceIndex::new(&other.positions, &other.triangles));
-        let found = ShapeTask::new(&mesh, &topology).with_index(&other, index).finish().shape;
+        let known = Known { index: Some((Arc::new(other), index)), ..Known::default() };
+        let found = at_once(shape_in_slices(&mesh, &topology, known, &Yielder::never())).shape;
         for (a, b) in numbers(&found).into_iter().zip(numbers(&whole)) {
             assert!((a - b).abs() < 1e-5, "{a} {b}");
         }

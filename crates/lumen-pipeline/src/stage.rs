@@ -1,12 +1,12 @@
-//! The stages of the pipeline: their order, what each rests on, and what of the settings decides it.
+//! The stages of the pipeline, in their order.
 //!
-//! What [`run`](super::run) does by itself (what is stale after a change, what comes next) follows from this table; what a
-//! stage does is its file in `stages/`, and what it leaves its slot in [`results`](super::results).
+//! What a stage needs, what of the settings decides it, what it leaves and what it does says its [`Row`], in its file in
+//! `stages/`. What [`run`](super::run) does by itself (what is stale after a change, what comes next) follows from these.
 
 use serde::{Deserialize, Serialize};
 
 use super::settings::Settings;
-use lumen_language::say;
+use super::stages::{Row, row};
 
 /// A stage of the pipeline, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -62,64 +62,16 @@ impl Stage {
 
     /// What the stage is called while it runs, in the language that is spoken.
     pub fn label(self) -> String {
-        match self {
-            Self::Mending => say!("panel-stage-mending"),
-            Self::Connectivity => say!("panel-stage-connectivity"),
-            Self::Smoothing => say!("panel-stage-smoothing"),
-            Self::Decimation => say!("panel-stage-decimation"),
-            Self::Bound => say!("panel-stage-bound"),
-            Self::Level => say!("panel-stage-level"),
-            Self::Deviation => say!("panel-stage-deviation"),
-            Self::Arrays => say!("panel-stage-arrays"),
-            Self::SmoothedMeasures | Self::Measures => say!("panel-stage-measures"),
-            Self::Faults => say!("panel-stage-faults"),
-            Self::Vessels => say!("panel-stage-vessels"),
-            Self::Certificate => say!("panel-stage-certificate"),
-            Self::Safe => say!("panel-stage-safe"),
-        }
+        (self.row().label)()
     }
 
-    /// The stages whose results it takes.
-    fn rests_on(self) -> &'static [Self] {
-        match self {
-            Self::Mending | Self::Faults => &[],
-            Self::Connectivity => &[Self::Mending],
-            Self::Smoothing => &[Self::Connectivity],
-            Self::Decimation => &[Self::Smoothing],
-            Self::Bound | Self::SmoothedMeasures => &[Self::Decimation],
-            Self::Level => &[Self::Decimation, Self::Bound],
-            Self::Deviation | Self::Arrays => &[Self::Level],
-            Self::Measures => &[Self::Level, Self::SmoothedMeasures],
-            Self::Vessels => &[Self::Smoothing],
-            Self::Certificate => &[Self::Level, Self::Vessels],
-            Self::Safe => &[Self::SmoothedMeasures, Self::Vessels],
-        }
+    /// Whether the stage runs while the user works with the level, and nothing waits for it.
+    pub fn is_background(self) -> bool {
+        self.row().is_background
     }
 
-    /// Whether other settings make it another by themselves.
-    fn is_decided_anew(self, old: &Settings, new: &Settings) -> bool {
-        match self {
-            Self::Mending => old.mending != new.mending,
-            Self::Connectivity => old.keep != new.keep,
-            Self::Smoothing => !old.smoothing.gives_same(&new.smoothing),
-            Self::Decimation => !old.decimation.gives_same(&new.decimation),
-            Self::Bound | Self::Level => old.target != new.target,
-            Self::Certificate | Self::Safe => old.tolerance_percent != new.tolerance_percent,
-            Self::Deviation | Self::Arrays | Self::SmoothedMeasures | Self::Measures | Self::Faults | Self::Vessels => {
-                false
-            }
-        }
-    }
-
-    /// Whether it is made at all.
-    pub(super) fn is_wanted(self, settings: &Settings, wanted: Wanted) -> bool {
-        match self {
-            Self::Bound => settings.target.deviation_mm().is_some(),
-            Self::Deviation | Self::Arrays | Self::SmoothedMeasures | Self::Measures => wanted >= Wanted::Measures,
-            Self::Faults | Self::Vessels | Self::Certificate => wanted >= Wanted::Certificate,
-            Self::Safe => wanted >= Wanted::Safe,
-            Self::Mending | Self::Connectivity | Self::Smoothing | Self::Decimation | Self::Level => true,
-        }
+    pub(super) fn row(self) -> &'static Row {
+        row(self)
     }
 }
 
@@ -151,11 +103,11 @@ impl<T> std::ops::IndexMut<Stage> for PerStage<T> {
     }
 }
 
-/// Which stages are others after a change of the settings: those that it decides anew, and all that rest on them.
+/// Which stages are others after a change of the settings: those that it decides anew, and all that need them.
 pub(super) fn stale(old: &Settings, new: &Settings) -> PerStage<bool> {
     let mut stale = PerStage::default();
     for stage in Stage::ALL {
-        stale[stage] = stage.is_decided_anew(old, new) || stage.rests_on().iter().any(|&below| stale[below]);
+        stale[stage] = (stage.row().is_decided_anew)(old, new) || stage.row().needs.iter().any(|&below| stale[below]);
     }
     stale
 }
@@ -166,10 +118,10 @@ mod tests {
     use crate::settings::{Keep, Mending, Smoothing, Target};
 
     #[test]
-    fn no_stage_rests_on_a_later_one() {
+    fn no_stage_needs_a_later_one() {
         for (i, stage) in Stage::ALL.into_iter().enumerate() {
             assert_eq!(stage as usize, i);
-            assert!(stage.rests_on().iter().all(|&below| below < stage), "{stage:?}");
+            assert!(stage.row().needs.iter().all(|&below| below < stage), "{stage:?}");
         }
     }
 

@@ -22,7 +22,7 @@ pub(super) struct Store {
     /// The least pass bands that leave vessels their calibre, and the surface that they are of.
     pub(super) bands: Option<(Arc<Surface>, Arc<[f32]>)>,
     /// What makes another pass band cheap.
-    pub(super) terms: Option<KeptTerms>,
+    pub(super) terms: Option<Arc<KeptTerms>>,
     /// Whether the kept surface has been smoothed before: then it may well be again.
     pub(super) is_smoothed_again: bool,
 }
@@ -62,6 +62,12 @@ impl Store {
     pub(super) fn known_widths(&self) -> Option<&Arc<[f32]>> {
         let (kept, (of, widths)) = (self.now.kept.as_ref()?, self.widths.as_ref()?);
         Arc::ptr_eq(of, kept).then_some(widths)
+    }
+
+    /// The least pass bands of the kept surface, if they are known.
+    pub(super) fn known_bands(&self) -> Option<&Arc<[f32]>> {
+        let (kept, (of, bands)) = (self.now.kept.as_ref()?, self.bands.as_ref()?);
+        Arc::ptr_eq(of, kept).then_some(bands)
     }
 
     /// Whether there are no terms that suit the settings, though they would fit.

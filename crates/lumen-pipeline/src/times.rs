@@ -1,10 +1,8 @@
 //! How long the stages of the pipeline took.
 
 use serde::{Deserialize, Serialize};
-use web_time::Instant;
 
 use super::stage::{PerStage, Stage};
-use super::task::milliseconds;
 
 /// Milliseconds that each stage took when it last ran.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -84,12 +82,8 @@ impl Times {
         self.stages[stage] += ms - std::mem::take(&mut self.aside);
     }
 
-    /// Tells what was done since `start`, in the slice under way, apart from its stage.
-    pub(super) fn tell_apart(&mut self, part: Part, start: Instant) {
-        self.set_apart(part, milliseconds(start));
-    }
-
-    fn set_apart(&mut self, part: Part, ms: f64) {
+    /// Tells a part of the slice under way, of so many milliseconds, apart from its stage.
+    pub(super) fn tell_apart(&mut self, part: Part, ms: f64) {
         self.parts[part as usize] = ms;
         self.aside += ms;
     }
@@ -97,25 +91,16 @@ impl Times {
     /// As reports have them.
     pub(super) fn told(&self) -> StageTimes {
         let part = |part: Part| self.parts[part as usize];
-        StageTimes {
-            read: 0.0,
-            mending: self.stages[Stage::Mending],
-            connectivity: self.stages[Stage::Connectivity],
+        let mut told = StageTimes {
             adjacency: part(Part::Adjacency),
-            smoothing: self.stages[Stage::Smoothing],
-            decimation: self.stages[Stage::Decimation],
-            bound: self.stages[Stage::Bound],
-            level: self.stages[Stage::Level],
             normals: part(Part::Normals),
             areas: part(Part::KeptAreas) + part(Part::SmoothedAreas) + part(Part::LevelAreas),
-            deviation: self.stages[Stage::Deviation],
-            arrays: self.stages[Stage::Arrays],
-            measures: self.stages[Stage::SmoothedMeasures] + self.stages[Stage::Measures],
-            calibre: self.stages[Stage::Vessels] + self.stages[Stage::Certificate],
-            faults: self.stages[Stage::Faults],
-            safe: self.stages[Stage::Safe],
-            write: 0.0,
+            ..StageTimes::default()
+        };
+        for stage in Stage::ALL {
+            *(stage.row().time)(&mut told) += self.stages[stage];
         }
+        told
     }
 }
 
@@ -128,7 +113,7 @@ mod tests {
         let mut times = Times::default();
         times.begin(Stage::Smoothing);
         times.add(Stage::Smoothing, 4.0);
-        times.set_apart(Part::Adjacency, 2.0);
+        times.tell_apart(Part::Adjacency, 2.0);
         times.add(Stage::Smoothing, 8.0);
         times.add(Stage::Smoothing, 16.0);
         times.add(Stage::Level, 32.0);

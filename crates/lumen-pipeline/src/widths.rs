@@ -5,13 +5,11 @@
 //! surface: so it has no jumps, and a narrow place counts for the surface beside it. Where no wall of a piece faces
 //! another the radius is infinite.
 
-use std::ops::Deref;
 use std::sync::Arc;
 
 use super::narrowest::ring_median;
-use super::shape::ShapeTask;
-use super::task::{Budget, Progress, Task};
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh};
+use super::task::{Yielder, blocks};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, inner_radii_in_slices};
 
 /// By what the radius may grow from vertex to vertex: of the edge between them.
 const SLOPE: f32 = 1.0;
@@ -22,131 +20,49 @@ const MEDIANS: usize = 4;
 /// Sweeps at most: each goes all the way in one direction.
 const SWEEPS: usize = 12;
 
-/// The radii of a surface in mm, found in slices; `M` and `T` are any pointers to a mesh and its topology.
-pub(super) struct WidthTask<M, T> {
-    mesh: M,
-    topology: T,
-    balls: ShapeTask<M, T>,
-    /// Of the pass before.
-    radii: Vec<f32>,
-    widths: Vec<f32>,
-    step: Step,
-    next: usize,
-    has_changed: bool,
+/// The width at each vertex of `mesh`, whose adjacency is `topology`, as a radius in mm; and an index of the surface: the
+/// one that is there already, or a new one.
+pub(super) async fn widths(
+    mesh: &TriMesh,
+    topology: &Topology,
+    index: Option<Arc<SurfaceIndex>>,
+    yielder: &Yielder,
+) -> (Vec<f32>, Arc<SurfaceIndex>) {
+    let index = SurfaceIndex::known_or_built(index, mesh, &yielder.part(0.0..0.1)).await;
+    let balls = inner_radii_in_slices(mesh, topology, &index, &yielder.part(0.1..0.8)).await;
+    let mut widths = balls.radii;
+    let (count, mut radii, mut ring) = (widths.len(), Vec::new(), Vec::new());
+    for pass in 0..MEDIANS {
+        radii = std::mem::replace(&mut widths, Vec::with_capacity(count));
+        for block in blocks(count, VERTICES) {
+            widths.extend(block.map(|v| ring_median(topology, &radii, v as u32, &mut ring)));
+            yielder.rest(0.8 + 0.05 * pass as f32 / MEDIANS as f32).await;
+        }
+    }
+    drop(radii);
+    for sweep in 0..SWEEPS {
+        let mut has_changed = false;
+        for block in blocks(count, VERTICES) {
+            for i in block {
+                has_changed |= relax(mesh, topology, &mut widths, if sweep % 2 == 0 { i } else { count - 1 - i });
+            }
+            yielder.rest(0.85 + 0.15 * sweep as f32 / SWEEPS as f32).await;
+        }
+        if !has_changed {
+            break;
+        }
+    }
+    (widths, index)
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Step {
-    Balls,
-    Medians(usize),
-    Sweep(usize),
-    Done,
-}
-
-impl<M, T> WidthTask<M, T>
-where
-    M: Deref<Target = TriMesh> + Clone + Sync,
-    T: Deref<Target = Topology> + Clone + Sync,
-{
-    /// Of `mesh`, whose adjacency is `topology`.
-    pub(super) fn new(mesh: M, topology: T) -> Self {
-        Self {
-            balls: ShapeTask::radii_only(mesh.clone(), topology.clone()),
-            mesh,
-            topology,
-            radii: Vec::new(),
-            widths: Vec::new(),
-            step: Step::Balls,
-            next: 0,
-            has_changed: false,
-        }
+/// Lowers the width at `v` to what its neighbours leave it; whether it is lower than it was.
+fn relax(mesh: &TriMesh, topology: &Topology, widths: &mut [f32], v: usize) -> bool {
+    let p = mesh.positions[v];
+    let reach = |&n: &u32| widths[n as usize] + SLOPE * p.distance(mesh.positions[n as usize]);
+    let least = topology.neighbours(v as u32).iter().map(reach).fold(f32::INFINITY, f32::min);
+    let is_lower = least < widths[v];
+    if is_lower {
+        widths[v] = least;
     }
-
-    /// Uses an index of the surface that is there already.
-    #[must_use]
-    pub(super) fn with_index(mut self, index: Option<Arc<SurfaceIndex>>) -> Self {
-        if let Some(index) = index {
-            self.balls = self.balls.with_index(self.mesh.clone(), index);
-        }
-        self
-    }
-
-    /// The index of the surface, once it is built.
-    pub(super) fn index(&self) -> Option<&Arc<SurfaceIndex>> {
-        self.balls.index()
-    }
-
-    /// The next vertices of a pass over all.
-    fn advance_some(&mut self) {
-        let count = self.radii.len();
-        let end = count.min(self.next + VERTICES);
-        if let Step::Sweep(sweep) = self.step {
-            for i in self.next..end {
-                self.relax(if sweep % 2 == 0 { i } else { count - 1 - i });
-            }
-        } else {
-            let mut ring = Vec::new();
-            for v in self.next..end {
-                self.widths.push(ring_median(&self.topology, &self.radii, v as u32, &mut ring));
-            }
-        }
-        self.next = end;
-        if end < count {
-            return;
-        }
-        self.next = 0;
-        self.step = match self.step {
-            Step::Medians(pass) if pass + 1 < MEDIANS => {
-                self.radii = std::mem::take(&mut self.widths);
-                self.widths.reserve_exact(count);
-                Step::Medians(pass + 1)
-            }
-            Step::Medians(_) => Step::Sweep(0),
-            Step::Sweep(sweep) if std::mem::take(&mut self.has_changed) && sweep + 1 < SWEEPS => Step::Sweep(sweep + 1),
-            _ => Step::Done,
-        };
-    }
-
-    /// Lowers the width at `v` to what its neighbours leave it.
-    fn relax(&mut self, v: usize) {
-        let p = self.mesh.positions[v];
-        let reach = |&n: &u32| self.widths[n as usize] + SLOPE * p.distance(self.mesh.positions[n as usize]);
-        let least = self.topology.neighbours(v as u32).iter().map(reach).fold(f32::INFINITY, f32::min);
-        if least < self.widths[v] {
-            self.widths[v] = least;
-            self.has_changed = true;
-        }
-    }
-}
-
-impl<M, T> Task for WidthTask<M, T>
-where
-    M: Deref<Target = TriMesh> + Clone + Sync,
-    T: Deref<Target = Topology> + Clone + Sync,
-{
-    type Output = Vec<f32>;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Vec<f32>> {
-        loop {
-            match self.step {
-                Step::Balls => match self.balls.advance(budget) {
-                    Progress::Working(fraction) => return Progress::Working(0.8 * fraction),
-                    Progress::Done(measured) => {
-                        self.radii = measured.balls.radii;
-                        self.widths.reserve_exact(self.radii.len());
-                        self.step = Step::Medians(0);
-                    }
-                },
-                Step::Medians(_) | Step::Sweep(_) => self.advance_some(),
-                Step::Done => return Progress::Done(std::mem::take(&mut self.widths)),
-            }
-            if self.step != Step::Done && budget.is_spent() {
-                return Progress::Working(match self.step {
-                    Step::Medians(pass) => 0.8 + 0.05 * pass as f32 / MEDIANS as f32,
-                    Step::Sweep(sweep) => 0.85 + 0.15 * sweep as f32 / SWEEPS as f32,
-                    Step::Balls | Step::Done => 0.8,
-                });
-            }
-        }
-    }
+    is_lower
 }

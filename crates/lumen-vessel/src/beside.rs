@@ -232,14 +232,15 @@ mod tests {
 
     use super::*;
     use crate::Subject;
-    use crate::certificate::{CertificateTask, TOLERANCE_PERCENT};
+    use crate::certificate::{Certificate, TOLERANCE_PERCENT};
     use lumen_mesh::TriMesh;
     use lumen_mesh::shapes::{fork as forked, tube};
-    use lumen_mesh::task::Task as _;
+    use lumen_mesh::task::{Yielder, at_once};
 
     fn branches(mesh: &TriMesh) -> Vec<BranchCalibre> {
         let subject = || Subject::new(&Arc::new(mesh.clone()));
-        CertificateTask::new([subject(), subject(), subject()], TOLERANCE_PERCENT).finish().unwrap().branches
+        let subjects = [subject(), subject(), subject()];
+        at_once(Certificate::of(subjects, TOLERANCE_PERCENT, &Yielder::never())).unwrap().branches
     }
 
     #[test]

@@ -2,7 +2,6 @@
 //! station, in slices.
 
 use std::sync::Arc;
-use std::task::Poll;
 
 use glam::DVec3;
 
@@ -10,14 +9,12 @@ use super::section::{Found, Shell, Wall};
 use super::space::Space;
 use super::stations::Station;
 use lumen_mesh::parallel;
-use lumen_mesh::task::Budget;
-use lumen_mesh::{IndexBuild, SurfaceIndex, Topology, TriMesh};
+use lumen_mesh::task::{Yielder, blocks};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh};
 
 /// Stations that are measured between two looks at the clock, and in one piece.
 const BATCH: usize = 64;
 const PIECE: usize = 8;
-/// Units of work of the index between two looks at the clock: some 0.2 ms.
-const WORK: usize = 20_000;
 
 /// A surface that is measured.
 #[derive(Clone, Debug)]
@@ -42,42 +39,11 @@ impl Subject {
         let topology = Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
         Self { mesh, topology, index: None }
     }
-}
 
-/// An index that is there, or is being built.
-#[derive(Debug)]
-pub(super) enum Indexing {
-    /// There.
-    Done(Arc<SurfaceIndex>),
-    /// Not yet.
-    Working(Box<IndexBuild>),
-}
-
-impl Indexing {
-    pub(super) fn new(subject: &Subject) -> Self {
-        match &subject.index {
-            Some(index) => Self::Done(index.clone()),
-            None => Self::Working(Box::default()),
-        }
-    }
-
-    /// The index, once it is there.
-    pub(super) fn advance(&mut self, mesh: &TriMesh, budget: Budget) -> Option<Arc<SurfaceIndex>> {
-        if let Self::Working(build) = self {
-            loop {
-                if let Poll::Ready(index) = build.advance(&mesh.positions, &mesh.triangles, WORK) {
-                    *self = Self::Done(Arc::new(index));
-                    break;
-                }
-                if budget.is_spent() {
-                    return None;
-                }
-            }
-        }
-        match self {
-            Self::Done(index) => Some(index.clone()),
-            Self::Working(_) => None,
-        }
+    /// The space that it bounds.
+    pub(super) async fn space(&self, yielder: &Yielder) -> Space {
+        let index = SurfaceIndex::known_or_built(self.index.clone(), &self.mesh, yielder).await;
+        Space::new(&self.mesh, &self.topology, index)
     }
 }
 
@@ -111,77 +77,60 @@ pub(super) fn circle(area: f64) -> f64 {
     (area / std::f64::consts::PI).sqrt()
 }
 
-/// The measuring of one surface.
-#[derive(Debug)]
-pub(super) struct Measuring {
-    subject: Subject,
-    space: Space,
-    pub(super) found: Vec<Calibre>,
+/// Measures `subject`, which bounds `space`, at the stations. Nothing is known if the stations are of this surface.
+pub(super) async fn measure(
+    subject: &Subject,
+    space: &Space,
+    stations: &[Station],
+    known: Option<Known<'_>>,
+    yielder: &Yielder,
+) -> Vec<Calibre> {
+    let wall = Wall { shell: Shell { mesh: &subject.mesh, topology: &subject.topology }, index: &space.index };
+    let mut found = Vec::with_capacity(stations.len());
+    for block in blocks(stations.len(), BATCH) {
+        let first = block.start;
+        let one = |i: usize| at_station(wall, space, &stations[first + i], known, first + i);
+        let measured = parallel::map_ranges(block.len(), PIECE, |piece| piece.map(one).collect::<Vec<_>>());
+        found.extend(measured.into_iter().flatten());
+        yielder.rest(found.len() as f32 / stations.len() as f32).await;
+    }
+    found
 }
 
-impl Measuring {
-    pub(super) fn new(subject: &Subject, space: Space) -> Self {
-        Self { subject: subject.clone(), space, found: Vec::new() }
-    }
-
-    /// Measures some more stations; whether these were the last. Nothing is known if the stations are of this surface.
-    pub(super) fn advance(&mut self, stations: &[Station], known: Option<Known<'_>>, budget: Budget) -> bool {
-        let Subject { mesh, topology, .. } = &self.subject;
-        let wall = Wall { shell: Shell { mesh, topology }, index: &self.space.index };
-        let space = &self.space;
-        while self.found.len() < stations.len() {
-            let first = self.found.len();
-            let batch = &stations[first..stations.len().min(first + BATCH)];
-            let one = |i: usize| {
-                let Station { at, direction, .. } = batch[i];
-                let found = match known {
-                    None => wall.section(at, direction).map_or(Found::Open, Found::Closed),
-                    Some(known) => wall.follow(space, at, direction, known.radii[first + i]),
-                };
-                // The ball in the middle of the vessel, wherever that has moved to.
-                let middle = match found {
-                    Found::Closed(section) if known.is_some() && !space.is_inside(at.as_vec3()) => Some(section.middle),
-                    Found::Gone => None,
-                    _ => Some(at),
-                };
-                let inscribed = match middle {
-                    Some(middle) if space.is_inside(middle.as_vec3()) => {
-                        space.largest(middle).map(|ball| f64::from(ball.radius))
-                    }
-                    Some(_) => None,
-                    None => Some(0.0),
-                };
-                let section = match found {
-                    Found::Closed(section) => Some(section),
-                    Found::Open | Found::Gone => None,
-                };
-                let is_another_loop = known.zip(section).is_some_and(|(known, section)| {
-                    let Subject { mesh, topology, .. } = known.before;
-                    let before = known.calibres[first + i].triangle;
-                    let has_another = |triangle| {
-                        Shell { mesh, topology }.has_another_loop(triangle, at, direction, &space.index, section.area)
-                    };
-                    before.is_some_and(has_another)
-                });
-                Calibre {
-                    area_mm2: found.area(),
-                    inscribed_mm: inscribed,
-                    middle_mm: section.map(|section| section.middle),
-                    triangle: section.map(|section| section.triangle),
-                    is_another_loop,
-                }
-            };
-            let measured = parallel::map_ranges(batch.len(), PIECE, |piece| piece.map(one).collect::<Vec<_>>());
-            self.found.extend(measured.into_iter().flatten());
-            if budget.is_spent() {
-                break;
-            }
-        }
-        self.found.len() == stations.len()
-    }
-
-    /// The part that is done, 0 to 1.
-    pub(super) fn fraction(&self, stations: &[Station]) -> f32 {
-        self.found.len() as f32 / stations.len().max(1) as f32
+/// What the surface has at one of the stations, which has this `number`.
+fn at_station(wall: Wall<'_>, space: &Space, station: &Station, known: Option<Known<'_>>, number: usize) -> Calibre {
+    let Station { at, direction, .. } = *station;
+    let found = match known {
+        None => wall.section(at, direction).map_or(Found::Open, Found::Closed),
+        Some(known) => wall.follow(space, at, direction, known.radii[number]),
+    };
+    // The ball in the middle of the vessel, wherever that has moved to.
+    let middle = match found {
+        Found::Closed(section) if known.is_some() && !space.is_inside(at.as_vec3()) => Some(section.middle),
+        Found::Gone => None,
+        _ => Some(at),
+    };
+    let inscribed = match middle {
+        Some(middle) if space.is_inside(middle.as_vec3()) => space.largest(middle).map(|ball| f64::from(ball.radius)),
+        Some(_) => None,
+        None => Some(0.0),
+    };
+    let section = match found {
+        Found::Closed(section) => Some(section),
+        Found::Open | Found::Gone => None,
+    };
+    let is_another_loop = known.zip(section).is_some_and(|(known, section)| {
+        let Subject { mesh, topology, .. } = known.before;
+        let before = known.calibres[number].triangle;
+        let has_another =
+            |triangle| Shell { mesh, topology }.has_another_loop(triangle, at, direction, &space.index, section.area);
+        before.is_some_and(has_another)
+    });
+    Calibre {
+        area_mm2: found.area(),
+        inscribed_mm: inscribed,
+        middle_mm: section.map(|section| section.middle),
+        triangle: section.map(|section| section.triangle),
+        is_another_loop,
     }
 }

@@ -10,10 +10,11 @@ use super::certificate::*;
 use super::{Centrelines, Subject, TreeError};
 use lumen_mesh::TriMesh;
 use lumen_mesh::shapes::{fork, icosphere, in_capsule, isosurface, square, tube};
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::{Budget, Progress, Running};
 
-fn task(surfaces: [&TriMesh; 3]) -> CertificateTask {
-    CertificateTask::new(surfaces.map(|mesh| Subject::new(&Arc::new(mesh.clone()))), TOLERANCE_PERCENT)
+fn task(surfaces: [&TriMesh; 3]) -> Running<'static, Result<Certificate, CalibreError>> {
+    let subjects = surfaces.map(|mesh| Subject::new(&Arc::new(mesh.clone())));
+    Running::new(|yielder| async move { Certificate::of(subjects, TOLERANCE_PERCENT, &yielder).await })
 }
 
 fn certificate(surfaces: [&TriMesh; 3]) -> Certificate {

@@ -10,13 +10,14 @@ use std::fmt::{Display, Write as _};
 
 use serde::{Deserialize, Serialize};
 
-use super::calibre::{Calibre, Indexing, Measuring, Subject, circle};
+use super::calibre::{Calibre, Subject, circle, measure};
 use super::certificate::{CalibreError, checked};
 use super::recentring::recentre;
 use super::stations::{Station, Stations};
-use super::tree::{Branch, TreeTask};
+use super::tree::{Branch, Tree};
 use super::zones::{Zone, zones};
-use lumen_mesh::task::{Budget, Task};
+use lumen_mesh::SurfaceIndex;
+use lumen_mesh::task::{Yielder, at_once};
 
 /// A format of centrelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -64,23 +65,15 @@ impl Centrelines {
     /// # Errors
     /// [`CalibreError`], in one sentence, where there are no vessels in the surface.
     pub fn new(subject: &Subject) -> Result<Self, CalibreError> {
-        let mut indexing = Indexing::new(subject);
-        let index = loop {
-            if let Some(index) = indexing.advance(&subject.mesh, Budget::UNLIMITED) {
-                break index;
-            }
-        };
-        let tree = checked(TreeTask::new(&*subject.mesh, &*subject.topology, index).finish())?;
-        let mut stations = Stations::new(&tree);
-        let mut measuring = Measuring::new(subject, tree.space.clone());
-        while !measuring.advance(&stations.all, None, Budget::UNLIMITED) {}
-        let calibres = std::mem::take(&mut measuring.found);
-        let radii: Vec<Option<f64>> = calibres.iter().map(|found| found.area_mm2.map(circle)).collect();
-        let zones = zones(tree.branches(), &stations, &radii);
-        recentre(&mut stations, &calibres, &zones);
-        // Once more, where the stations are moved to.
-        while !measuring.advance(&stations.all, None, Budget::UNLIMITED) {}
-        let calibres = measuring.found;
+        at_once(Self::find(subject, &Yielder::never()))
+    }
+
+    async fn find(subject: &Subject, yielder: &Yielder) -> Result<Self, CalibreError> {
+        let Subject { mesh, topology, index } = subject;
+        let index = SurfaceIndex::known_or_built(index.clone(), mesh, &yielder.part(0.0..0.1)).await;
+        let part = yielder.part(0.1..0.6);
+        let tree = checked(Tree::with_topology_in_slices(mesh, topology, index, &part).await)?;
+        let (stations, zones, calibres) = settled(subject, &tree, &yielder.part(0.6..1.0)).await;
         Ok(Self { branches: tree.branches().to_vec(), stations, calibres, zones })
     }
 
@@ -176,6 +169,18 @@ impl Centrelines {
         }
         numbers
     }
+}
+
+/// The stations along the tree of a surface, where they stay, what each lies at, and the calibre there.
+pub(super) async fn settled(subject: &Subject, tree: &Tree, yielder: &Yielder) -> (Stations, Vec<Zone>, Vec<Calibre>) {
+    let mut stations = Stations::new(tree);
+    let calibres = measure(subject, &tree.space, &stations.all, None, &yielder.part(0.0..0.5)).await;
+    let radii: Vec<Option<f64>> = calibres.iter().map(|found| found.area_mm2.map(circle)).collect();
+    let zones = zones(tree.branches(), &stations, &radii);
+    recentre(&mut stations, &calibres, &zones);
+    // Once more, where the stations are moved to.
+    let calibres = measure(subject, &tree.space, &stations.all, None, &yielder.part(0.5..1.0)).await;
+    (stations, zones, calibres)
 }
 
 /// A data array as text, twelve numbers a line.

@@ -54,7 +54,7 @@ pub use locating::power;
 pub use paths::NONE;
 pub use space::Ball;
 pub use stations::{Station, Stations};
-pub use tree::{Branch, End, Tree, TreeTask};
+pub use tree::{Branch, End, Tree};
 
 /// Why there is no tree.
 #[derive(Clone, Debug, PartialEq, Error)]

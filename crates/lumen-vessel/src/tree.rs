@@ -1,18 +1,17 @@
 //! The vessel tree: branches between the places where vessels divide.
 
-use std::ops::Deref;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
 use super::TreeError;
-use super::balls::Filling;
+use super::balls::fill;
 use super::centreline::{Place, arcs, centreline};
 use super::locating::{Located, Segments};
 use super::paths::{Graph, Path};
 use super::space::{Ball, Space};
 use lumen_language::say;
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{SurfaceIndex, Topology, TriMesh, volume};
 
 /// A group of balls with less than this part of the largest group's volume is a speck, and has no branches.
@@ -78,105 +77,6 @@ struct Group {
     cuts: Vec<Vec<usize>>,
 }
 
-/// Finds a tree in slices: one ends after some balls, or after the centreline of a vessel. `M` and `T` are any pointers to
-/// a mesh and its topology.
-pub struct TreeTask<M, T> {
-    mesh: M,
-    topology: T,
-    step: Step,
-}
-
-enum Step {
-    Begin(Arc<SurfaceIndex>),
-    Space(Box<Space>),
-    Fill(Box<Space>, Box<Filling>),
-    Graph(Box<Space>, Box<Filling>),
-    /// The groups that are left, last first, and the one whose centrelines are being found.
-    Lines(Box<Tree>, Vec<u32>, Option<Group>),
-    Over,
-}
-
-impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> TreeTask<M, T> {
-    /// Of a surface, the adjacency of its triangles, none of which repeats a vertex, and an index of it.
-    pub fn new(mesh: M, topology: T, index: Arc<SurfaceIndex>) -> Self {
-        Self { mesh, topology, step: Step::Begin(index) }
-    }
-
-    fn graph(&self, space: Space, filling: Filling) -> Result<Tree, TreeError> {
-        let found = filling.finished();
-        if found.is_sheet {
-            return Err(TreeError::Sheet { balls: found.balls.len() });
-        }
-        let graph = Graph::new(found);
-        if graph.balls.is_empty() {
-            let is_turned = volume(&self.mesh, &self.topology) < 0.0;
-            let triangles = self.mesh.triangles.len();
-            return Err(if is_turned { TreeError::InsideOut } else { TreeError::NoInside { triangles } });
-        }
-        Ok(Tree { space, graph, branches: Vec::new(), groups: Vec::new(), segments: Segments::default() })
-    }
-}
-
-impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for TreeTask<M, T> {
-    type Output = Result<Tree, TreeError>;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
-        loop {
-            let fraction;
-            (self.step, fraction) = match std::mem::replace(&mut self.step, Step::Over) {
-                Step::Begin(_) | Step::Over if self.mesh.triangles.is_empty() => {
-                    return Progress::Done(Err(TreeError::NoTriangles));
-                }
-                Step::Begin(index) => (Step::Space(Box::new(Space::new(&self.mesh, &self.topology, index))), 0.0),
-                Step::Space(space) => {
-                    let filling = Filling::new(&self.mesh);
-                    (Step::Fill(space, Box::new(filling)), 0.0)
-                }
-                Step::Fill(space, mut filling) => {
-                    let is_done = filling.advance(&self.mesh, &space, budget);
-                    let fraction = 0.7 * filling.fraction();
-                    (if is_done { Step::Graph(space, filling) } else { Step::Fill(space, filling) }, fraction)
-                }
-                Step::Graph(space, filling) => match self.graph(*space, *filling) {
-                    Ok(tree) => {
-                        let mut groups = tree.largest_groups();
-                        groups.reverse();
-                        (Step::Lines(Box::new(tree), groups, None), 0.7)
-                    }
-                    Err(error) => return Progress::Done(Err(error)),
-                },
-                Step::Lines(mut tree, mut groups, None) => match groups.pop() {
-                    Some(number) => {
-                        let group = tree.group(number);
-                        (Step::Lines(tree, groups, group), 0.7)
-                    }
-                    None => {
-                        for Branch { id, ostium, points, arcs, .. } in &tree.branches {
-                            tree.segments.add(*id, &points[*ostium..], &arcs[*ostium..]);
-                        }
-                        return Progress::Done(Ok(*tree));
-                    }
-                },
-                Step::Lines(mut tree, groups, Some(mut group)) => {
-                    let is_done = tree.add_line(&mut group);
-                    let fraction = 0.7 + 0.3 * group.lines.len() as f32 / group.paths.len().max(1) as f32;
-                    let rest = if is_done {
-                        tree.add_branches(group);
-                        None
-                    } else {
-                        Some(group)
-                    };
-                    (Step::Lines(tree, groups, rest), fraction)
-                }
-                Step::Over => unreachable!("a task that is done is not advanced"),
-            };
-            if budget.is_spent() {
-                return Progress::Working(fraction);
-            }
-        }
-    }
-}
-
 /// The vessel tree of a surface.
 #[derive(Clone, Debug)]
 pub struct Tree {
@@ -222,7 +122,47 @@ impl Tree {
     /// # Errors
     /// As [`Self::new`].
     pub fn with_topology(mesh: &TriMesh, topology: &Topology, index: Arc<SurfaceIndex>) -> Result<Self, TreeError> {
-        TreeTask::new(mesh, topology, index).finish()
+        at_once(Self::with_topology_in_slices(mesh, topology, index, &Yielder::never()))
+    }
+
+    /// As [`Self::with_topology`], resting after some balls, and after the centreline of a vessel.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub async fn with_topology_in_slices(
+        mesh: &TriMesh,
+        topology: &Topology,
+        index: Arc<SurfaceIndex>,
+        yielder: &Yielder,
+    ) -> Result<Self, TreeError> {
+        if mesh.triangles.is_empty() {
+            return Err(TreeError::NoTriangles);
+        }
+        let space = Space::new(mesh, topology, index);
+        yielder.rest(0.0).await;
+        let found = fill(mesh, &space, &yielder.part(0.0..0.7)).await;
+        if found.is_sheet {
+            return Err(TreeError::Sheet { balls: found.balls.len() });
+        }
+        let graph = Graph::new(found);
+        if graph.balls.is_empty() {
+            let (is_turned, triangles) = (volume(mesh, topology) < 0.0, mesh.triangles.len());
+            return Err(if is_turned { TreeError::InsideOut } else { TreeError::NoInside { triangles } });
+        }
+        let (branches, groups, segments) = (Vec::new(), Vec::new(), Segments::default());
+        let mut tree = Self { space, graph, branches, groups, segments };
+        for number in tree.largest_groups() {
+            yielder.rest(0.7).await;
+            let Some(mut group) = tree.group(number) else { continue };
+            while !tree.add_line(&mut group) {
+                yielder.rest(0.7 + 0.3 * group.lines.len() as f32 / group.paths.len() as f32).await;
+            }
+            tree.add_branches(group);
+        }
+        for Branch { id, ostium, points, arcs, .. } in &tree.branches {
+            tree.segments.add(*id, &points[*ostium..], &arcs[*ostium..]);
+        }
+        Ok(tree)
     }
 
     /// The branches, those of the largest tree first; a parent comes before its branches.

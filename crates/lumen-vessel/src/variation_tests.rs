@@ -5,15 +5,15 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Subject;
-use super::certificate::{BranchCalibre, CertificateTask, TOLERANCE_PERCENT};
+use super::certificate::{BranchCalibre, Certificate, TOLERANCE_PERCENT};
 use super::variation::{Kind, Variation};
 use lumen_mesh::TriMesh;
 use lumen_mesh::shapes::{isosurface, tube};
-use lumen_mesh::task::Task;
+use lumen_mesh::task::{Yielder, at_once};
 
 fn branches(mesh: &TriMesh) -> Vec<BranchCalibre> {
     let subjects = [0, 1, 2].map(|_| Subject::new(&Arc::new(mesh.clone())));
-    CertificateTask::new(subjects, TOLERANCE_PERCENT).finish().unwrap().branches
+    at_once(Certificate::of(subjects, TOLERANCE_PERCENT, &Yielder::never())).unwrap().branches
 }
 
 fn found(mesh: &TriMesh) -> Vec<Variation> {

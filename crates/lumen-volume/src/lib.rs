@@ -6,7 +6,7 @@
 //! - `marching_cubes` with `cube_cases` cut anything that can say what lies inside, the phantoms' vessels too; `surface`
 //!   cuts a selection; `reduced` makes the smaller volume that a preview is cut from; `slice` is a picture, in a `window` of values.
 //!
-//! What takes long is a [`Task`](lumen_mesh::task::Task), done in slices. Files are read by `io`.
+//! What takes long rests now and then ([`task`](lumen_mesh::task)). Files are read by `io`.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
@@ -27,10 +27,10 @@ pub use error::VolumeError;
 pub use geometry::{Geometry, GeometryError, Region};
 pub use grid::Grid;
 pub use marching_cubes::{MarchingCubes, Mask};
-pub use reduced::{PREVIEW_POINTS, Reducing, preview_step};
+pub use reduced::{PREVIEW_POINTS, preview_step, reduced_in_slices};
 pub use samples::{SampleType, Samples};
 pub use selection::{PRESETS, Preset, Selection};
 pub use slice::{Axis, Slice, slice};
-pub use surface::{MOST_TRIANGLES, Surfacing};
-pub use survey::{BINS, Label, Survey, Surveying};
+pub use surface::{MOST_TRIANGLES, region_of, surface, surface_in_slices};
+pub use survey::{BINS, Label, Survey, survey, survey_in_slices};
 pub use window::{WINDOWS, Window};

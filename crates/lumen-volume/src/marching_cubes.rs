@@ -15,7 +15,7 @@ use glam::{DMat3, DVec3};
 
 use super::cube_cases::{CubeCases, EDGES};
 use super::geometry::Geometry;
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::Yielder;
 use lumen_mesh::{TriMesh, compacted};
 
 /// What lies inside on a grid, asked for slice by slice in ascending order.
@@ -105,7 +105,7 @@ struct EdgeMaps {
 }
 
 /// Makes the surface of a mask: triangles counter-clockwise seen from outside, every vertex used, no edge with more than
-/// two triangles. A slice of work is at least a layer of cubes.
+/// two triangles.
 pub struct MarchingCubes<M> {
     mask: M,
     size: [usize; 3],
@@ -160,18 +160,9 @@ impl<M: Mask> MarchingCubes<M> {
         if self.is_done() { 1.0 } else { self.layer as f32 / (self.size[2] - 1) as f32 }
     }
 
-    /// Triangles so far.
-    pub fn triangles(&self) -> usize {
-        self.mesh.triangles.len()
-    }
-
     /// The surface of the layers that are done.
-    pub fn into_mesh(mut self) -> TriMesh {
-        self.take()
-    }
-
-    fn take(&mut self) -> TriMesh {
-        let mut mesh = std::mem::take(&mut self.mesh);
+    pub fn into_mesh(self) -> TriMesh {
+        let mut mesh = self.mesh;
         if self.is_left_handed {
             for triangle in &mut mesh.triangles {
                 triangle.swap(1, 2);
@@ -179,6 +170,20 @@ impl<M: Mask> MarchingCubes<M> {
         }
         // Cubes that were left out made vertices that nobody uses.
         if self.any_cut { compacted(&mesh.positions, mesh.triangles) } else { mesh }
+    }
+
+    /// The whole surface; `None` where it has more than `most` triangles. Rests after each layer of cubes.
+    pub async fn surface(mut self, most: usize, yielder: &Yielder) -> Option<TriMesh> {
+        loop {
+            self.advance_layer();
+            if self.mesh.triangles.len() > most {
+                return None;
+            }
+            if self.is_done() {
+                return Some(self.into_mesh());
+            }
+            yielder.rest(self.fraction()).await;
+        }
     }
 
     /// Does the next layer of cubes.
@@ -229,22 +234,6 @@ impl<M: Mask> MarchingCubes<M> {
         self.maps.along_x.swap(0, 1);
         self.maps.along_y.swap(0, 1);
         self.layer += 1;
-    }
-}
-
-impl<M: Mask> Task for MarchingCubes<M> {
-    type Output = TriMesh;
-
-    fn advance(&mut self, budget: Budget) -> Progress<TriMesh> {
-        loop {
-            self.advance_layer();
-            if self.is_done() {
-                return Progress::Done(self.take());
-            }
-            if budget.is_spent() {
-                return Progress::Working(self.fraction());
-            }
-        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::grid::Grid;
 use super::marching_cubes::MarchingCubes;
 use super::selection::{Selected, Selection};
 use lumen_mesh::TriMesh;
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::{Yielder, at_once};
 
 /// The most triangles that a surface is made of: with what the import stage takes for each, 1.6 GB.
 pub const MOST_TRIANGLES: usize = 12_000_000;
@@ -16,54 +16,56 @@ pub const MOST_TRIANGLES: usize = 12_000_000;
 /// The most points of a slice, for each of which the way over the grid takes some 22 bytes.
 const MOST_OF_A_SLICE: usize = 1 << 26;
 
-/// Makes the surface of a selection: LPS millimetres, triangles counter-clockwise seen from outside, open where the
-/// selection meets the faces of the volume or of the box. A vertex lies where values interpolated along its grid edge reach
-/// the threshold, or half way for labels.
-pub struct Surfacing {
-    /// `None` once it is given up or done.
-    cubes: Option<MarchingCubes<Selected>>,
+/// The surface of a selection: LPS millimetres, triangles counter-clockwise seen from outside, open where the selection meets
+/// the faces of the volume or of the box. A vertex lies where values interpolated along its grid edge reach the threshold, or
+/// half way for labels. Only what is within `region`, if there is one, is looked at.
+///
+/// # Errors
+/// As [`region_of`], and [`VolumeError::NoSurface`], [`VolumeError::TooManyTriangles`].
+pub fn surface(grid: &Arc<Grid>, selection: Selection, region: Option<Region>) -> Result<TriMesh, VolumeError> {
+    at_once(surface_in_slices(grid, selection, region_of(grid, region)?, &Yielder::never()))
+}
+
+/// The part of a volume within a box; all of it without one.
+///
+/// # Errors
+/// [`VolumeError::OutsideBox`] where the box holds no two points along each axis, [`VolumeError::SliceTooLarge`] where
+/// a slice of it has more than 67 million.
+pub fn region_of(grid: &Grid, region: Option<Region>) -> Result<Region, VolumeError> {
+    let geometry = grid.geometry();
+    let region = region.unwrap_or_else(|| Region::all(geometry)).within(geometry);
+    let region = region.ok_or(VolumeError::OutsideBox { size: geometry.size })?;
+    let [i, j, _] = region.size();
+    if i.saturating_mul(j) > MOST_OF_A_SLICE {
+        return Err(VolumeError::SliceTooLarge { points: i.saturating_mul(j), limit: MOST_OF_A_SLICE });
+    }
+    Ok(region)
+}
+
+/// As [`surface`], resting after each layer of cubes; `region` is from [`region_of`].
+///
+/// # Errors
+/// [`VolumeError::NoSurface`], [`VolumeError::TooManyTriangles`].
+pub async fn surface_in_slices(
+    grid: &Arc<Grid>,
+    selection: Selection,
+    region: Region,
+    yielder: &Yielder,
+) -> Result<TriMesh, VolumeError> {
+    limited(grid, selection, region, MOST_TRIANGLES, yielder).await
+}
+
+async fn limited(
+    grid: &Arc<Grid>,
+    selection: Selection,
+    region: Region,
     limit: usize,
-}
-
-impl Surfacing {
-    /// Before the first layer. Only what is within `region`, if there is one, is looked at.
-    ///
-    /// # Errors
-    /// [`VolumeError::OutsideBox`] where the box holds no two points along each axis, [`VolumeError::SliceTooLarge`] where
-    /// a slice of it has more than 67 million.
-    pub fn new(grid: &Arc<Grid>, selection: Selection, region: Option<Region>) -> Result<Self, VolumeError> {
-        let geometry = grid.geometry();
-        let region = region.unwrap_or_else(|| Region::all(geometry)).within(geometry);
-        let region = region.ok_or(VolumeError::OutsideBox { size: geometry.size })?;
-        let [i, j, _] = region.size();
-        if i.saturating_mul(j) > MOST_OF_A_SLICE {
-            return Err(VolumeError::SliceTooLarge { points: i.saturating_mul(j), limit: MOST_OF_A_SLICE });
-        }
-        let selected = Selected::new(Arc::clone(grid), selection, region);
-        Ok(Self { cubes: Some(MarchingCubes::new(&geometry.cropped(&region), selected)), limit: MOST_TRIANGLES })
-    }
-}
-
-impl Task for Surfacing {
-    type Output = Result<TriMesh, VolumeError>;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Self::Output> {
-        while let Some(cubes) = &mut self.cubes {
-            cubes.advance_layer();
-            if cubes.triangles() > self.limit {
-                self.cubes = None;
-                return Progress::Done(Err(VolumeError::TooManyTriangles { limit: self.limit }));
-            }
-            if cubes.is_done() {
-                break;
-            }
-            if budget.is_spent() {
-                return Progress::Working(cubes.fraction());
-            }
-        }
-        let mesh = self.cubes.take().map(MarchingCubes::into_mesh).unwrap_or_default();
-        Progress::Done(if mesh.triangles.is_empty() { Err(VolumeError::NoSurface) } else { Ok(mesh) })
-    }
+    yielder: &Yielder,
+) -> Result<TriMesh, VolumeError> {
+    let selected = Selected::new(Arc::clone(grid), selection, region);
+    let cubes = MarchingCubes::new(&grid.geometry().cropped(&region), selected);
+    let mesh = cubes.surface(limit, yielder).await.ok_or(VolumeError::TooManyTriangles { limit })?;
+    if mesh.triangles.is_empty() { Err(VolumeError::NoSurface) } else { Ok(mesh) }
 }
 
 #[cfg(test)]
@@ -105,7 +107,7 @@ mod tests {
     }
 
     fn surface(grid: Grid, selection: Selection, region: Option<Region>) -> Result<TriMesh, VolumeError> {
-        Surfacing::new(&Arc::new(grid), selection, region)?.finish()
+        super::surface(&Arc::new(grid), selection, region)
     }
 
     /// Closed, wound outwards, at its place.
@@ -207,8 +209,8 @@ mod tests {
     fn more_triangles_than_can_be_worked_on_are_refused() {
         let geometry = oblique(false);
         let grid = Arc::new(Grid::new(geometry, ball(geometry, |value| value as i16), 1.0, 0.0).unwrap());
-        let mut work = Surfacing::new(&grid, Selection::Threshold(300.0), None).unwrap();
-        work.limit = 1000;
-        assert_eq!(work.finish(), Err(VolumeError::TooManyTriangles { limit: 1000 }));
+        let region = region_of(&grid, None).unwrap();
+        let found = at_once(limited(&grid, Selection::Threshold(300.0), region, 1000, &Yielder::never()));
+        assert_eq!(found, Err(VolumeError::TooManyTriangles { limit: 1000 }));
     }
 }

@@ -1,12 +1,10 @@
 //! What is in a volume: its range, its labels where it is a mask, and how often which value occurs.
 
-use std::sync::Arc;
-
 use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
 use super::samples::{Sample, with_samples};
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::{Yielder, at_once, blocks};
 
 /// Bars of a histogram.
 pub const BINS: usize = 256;
@@ -49,77 +47,44 @@ impl Survey {
     }
 }
 
-/// Makes a [`Survey`] in two passes: range and labels, then the histogram.
-pub struct Surveying {
-    grid: Arc<Grid>,
-    /// Numbers of the pass that are done with.
-    done: usize,
-    is_counting: bool,
-    range: [f64; 2],
-    /// Every stored number so far and how often; `None` once there are too many.
-    values: Option<Vec<(f64, u64)>>,
-    bins: Vec<u64>,
+/// What is in `grid`.
+pub fn survey(grid: &Grid) -> Survey {
+    at_once(survey_in_slices(grid, &Yielder::never()))
 }
 
-impl Surveying {
-    /// Before the first number.
-    pub fn new(grid: Arc<Grid>) -> Self {
-        let range = [f64::INFINITY, f64::NEG_INFINITY];
-        Self { grid, done: 0, is_counting: false, range, values: Some(Vec::new()), bins: vec![0; BINS] }
+/// As [`survey`], resting every millisecond or so: a pass for range and labels, and one for the histogram.
+pub async fn survey_in_slices(grid: &Grid, yielder: &Yielder) -> Survey {
+    let all = grid.samples().len();
+    let mut stored = [f64::INFINITY, f64::NEG_INFINITY];
+    // Every stored number so far and how often; `None` once there are too many.
+    let mut values = Some(Vec::new());
+    for block in blocks(all, STRETCH) {
+        let end = block.end;
+        with_samples!(grid.samples(), samples => collect(&samples[block], &mut stored, &mut values));
+        yielder.rest(0.5 * end as f32 / all as f32).await;
     }
-
-    fn finish_range(&mut self) {
-        let ends = self.range.map(|stored| self.grid.value_of(stored));
-        let is_empty = self.range[0] > self.range[1];
-        self.range = if is_empty { [0.0; 2] } else { [ends[0].min(ends[1]), ends[0].max(ends[1])] };
-        (self.done, self.is_counting) = (0, true);
+    let ends = stored.map(|stored| grid.value_of(stored));
+    let is_empty = stored[0] > stored[1];
+    let range = if is_empty { [0.0; 2] } else { [ends[0].min(ends[1]), ends[0].max(ends[1])] };
+    let mut histogram = vec![0; BINS];
+    for block in blocks(all, STRETCH) {
+        let end = block.end;
+        with_samples!(grid.samples(), samples => count(&samples[block], grid, range, &mut histogram));
+        yielder.rest(0.5 + 0.5 * end as f32 / all as f32).await;
     }
-
-    fn survey(&mut self) -> Survey {
-        let values = self.values.take().unwrap_or_default();
-        let labels = values.iter().map(|&(stored, points)| (self.grid.value_of(stored), points));
-        let mut labels: Vec<(f64, u64)> = labels.collect();
-        labels.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let is_label = |value: f64| (0.0..=65_535.0).contains(&value) && libm::trunc(value) == value;
-        // Without anything around it there is no mask.
-        let is_mask = labels.len() > 1 && labels[0].0 == 0.0 && labels.iter().all(|&(value, _)| is_label(value));
-        let labels = labels.into_iter().filter(|&(value, _)| is_mask && value != 0.0);
-        Survey {
-            range: self.range,
-            histogram: std::mem::take(&mut self.bins),
-            labels: labels.map(|(value, points)| Label { value: value as i64, points }).collect(),
-        }
-    }
+    Survey { range, histogram, labels: labels(grid, &values.unwrap_or_default()) }
 }
 
-impl Task for Surveying {
-    type Output = Survey;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Survey> {
-        let grid = Arc::clone(&self.grid);
-        let all = grid.samples().len();
-        loop {
-            let part = self.done..all.min(self.done + STRETCH);
-            self.done = part.end;
-            with_samples!(grid.samples(), values => {
-                if self.is_counting {
-                    count(&values[part], &grid, self.range, &mut self.bins);
-                } else {
-                    collect(&values[part], &mut self.range, &mut self.values);
-                }
-            });
-            if self.done == all {
-                if self.is_counting {
-                    return Progress::Done(self.survey());
-                }
-                self.finish_range();
-            }
-            if budget.is_spent() {
-                let passes = self.done as f32 / all.max(1) as f32 + f32::from(u8::from(self.is_counting));
-                return Progress::Working(passes / 2.0);
-            }
-        }
-    }
+/// The labels of a mask in which each of these stored numbers is so often; none where they are those of a scan.
+fn labels(grid: &Grid, values: &[(f64, u64)]) -> Vec<Label> {
+    let labels = values.iter().map(|&(stored, points)| (grid.value_of(stored), points));
+    let mut labels: Vec<(f64, u64)> = labels.collect();
+    labels.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let is_label = |value: f64| (0.0..=65_535.0).contains(&value) && libm::trunc(value) == value;
+    // Without anything around it there is no mask.
+    let is_mask = labels.len() > 1 && labels[0].0 == 0.0 && labels.iter().all(|&(value, _)| is_label(value));
+    let labels = labels.into_iter().filter(|&(value, _)| is_mask && value != 0.0);
+    labels.map(|(value, points)| Label { value: value as i64, points }).collect()
 }
 
 /// Widens the range by some stored numbers, and counts them while they are few.

@@ -8,9 +8,12 @@ use super::super::machine::{Machine, SLICE};
 use super::message::{ScanCommand, ScanEvent, ScanWork};
 use super::opening::{Found, Opening};
 use super::shelf::{Empty, Shelf};
+use crate::mesh::TriMesh;
 use crate::say;
-use crate::task::{Budget, Progress, Task};
-use crate::volume::{Grid, Reducing, Region, Selection, Surfacing, Survey, VolumeError, preview_step, slice};
+use crate::task::{Budget, Progress, Running};
+use crate::volume::{
+    Grid, Region, Selection, Survey, VolumeError, preview_step, reduced_in_slices, region_of, slice, surface_in_slices,
+};
 
 /// A volume and surfaces of it, as a machine of commands and events.
 pub struct ScanEngine {
@@ -34,19 +37,28 @@ struct Current {
 enum Job {
     /// For a preview that is asked for, if one is.
     Reducing {
-        task: Reducing,
+        work: Running<'static, Arc<Grid>>,
         step: usize,
         then: Option<Wanted>,
     },
     Preview {
-        task: Surfacing,
+        work: Surfacing,
         generation: u64,
         step: usize,
     },
     Surface {
-        task: Surfacing,
+        work: Surfacing,
         generation: u64,
     },
+}
+
+/// A surface that is being made.
+type Surfacing = Running<'static, Result<TriMesh, VolumeError>>;
+
+/// Begins with the surface of a selection.
+fn surfacing(grid: &Arc<Grid>, selection: Selection, region: Option<Region>) -> Result<Surfacing, VolumeError> {
+    let (grid, region) = (Arc::clone(grid), region_of(grid, region)?);
+    Ok(Running::new(move |yielder| async move { surface_in_slices(&grid, selection, region, &yielder).await }))
 }
 
 /// A preview that is asked for.
@@ -110,8 +122,8 @@ impl ScanEngine {
 
     fn begin_surface(&mut self, generation: u64, selection: Selection, region: Option<Region>) {
         let Some(current) = self.current(generation) else { return };
-        match selection.check(&current.survey).and_then(|()| Surfacing::new(&current.grid, selection, region)) {
-            Ok(task) => current.job = Some(Job::Surface { task, generation }),
+        match selection.check(&current.survey).and_then(|()| surfacing(&current.grid, selection, region)) {
+            Ok(work) => current.job = Some(Job::Surface { work, generation }),
             Err(error) => self.refuse(generation, error.to_string()),
         }
     }
@@ -180,7 +192,7 @@ impl ScanEngine {
 /// What a job makes.
 enum Made {
     Reduced(Arc<Grid>),
-    Surface(Result<crate::mesh::TriMesh, VolumeError>),
+    Surface(Result<TriMesh, VolumeError>),
 }
 
 impl Job {
@@ -192,8 +204,8 @@ impl Job {
             }
         }
         match self {
-            Self::Reducing { task, .. } => made(task.advance(budget), Made::Reduced),
-            Self::Preview { task, .. } | Self::Surface { task, .. } => made(task.advance(budget), Made::Surface),
+            Self::Reducing { work, .. } => made(work.advance(budget), Made::Reduced),
+            Self::Preview { work, .. } | Self::Surface { work, .. } => made(work.advance(budget), Made::Surface),
         }
     }
 
@@ -210,8 +222,12 @@ impl Job {
 impl Current {
     /// Begins a copy at reduced resolution.
     fn reduce(&mut self, step: usize, then: Option<Wanted>) {
-        let task = Reducing::new(Arc::clone(&self.grid), step, self.survey.is_mask());
-        self.job = Some(Job::Reducing { task, step, then });
+        let (grid, is_mask) = (Arc::clone(&self.grid), self.survey.is_mask());
+        let work =
+            Running::new(
+                move |yielder| async move { Arc::new(reduced_in_slices(&grid, step, is_mask, &yielder).await) },
+            );
+        self.job = Some(Job::Reducing { work, step, then });
     }
 
     /// Begins a preview, or the copy that it takes.
@@ -225,8 +241,8 @@ impl Current {
                     // A thin box holds two of the coarser points at least.
                     last: std::array::from_fn(|axis| last[axis].div_ceil(step).max(first[axis] / step + 1)),
                 });
-                let task = Surfacing::new(grid, wanted.selection, region)?;
-                self.job = Some(Job::Preview { task, generation: wanted.generation, step });
+                let work = surfacing(grid, wanted.selection, region)?;
+                self.job = Some(Job::Preview { work, generation: wanted.generation, step });
             }
             _ => match &mut self.job {
                 // It is being made already.

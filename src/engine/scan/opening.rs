@@ -11,8 +11,8 @@ use super::shelf::{Shelf, length, piece};
 use crate::io::volume::{self, HEAD, Head, Part, Scan, Stream};
 use crate::language::decimal;
 use crate::say;
-use crate::task::{Budget, Progress, Task};
-use crate::volume::{Grid, Survey, Surveying};
+use crate::task::{Budget, Progress, Running};
+use crate::volume::{Grid, Survey, survey_in_slices};
 
 /// Files of which more are a series, each of which is read whole.
 const MOST_HEADS: usize = 4;
@@ -51,7 +51,7 @@ enum Stage {
         current: Vec<u8>,
     },
     Surveying {
-        task: Surveying,
+        survey: Running<'static, Survey>,
         grid: Arc<Grid>,
         opened: Box<OpenedScan>,
     },
@@ -83,8 +83,8 @@ impl Opening {
     /// One plain sentence: a file cannot be read, or is none that can be opened.
     pub(super) fn advance(&mut self, shelf: &mut dyn Shelf, budget: Budget) -> Result<Progress<Found>, String> {
         loop {
-            if let Stage::Surveying { task, grid, opened } = &mut self.stage {
-                return Ok(match task.advance(budget) {
+            if let Stage::Surveying { survey, grid, opened } = &mut self.stage {
+                return Ok(match survey.advance(budget) {
                     Progress::Working(fraction) => Progress::Working(fraction),
                     Progress::Done(survey) => {
                         opened.survey = survey;
@@ -200,6 +200,8 @@ impl Opening {
             proposed: None,
             warnings: scan.warnings,
         });
-        Stage::Surveying { task: Surveying::new(Arc::clone(&grid)), grid, opened }
+        let surveyed = Arc::clone(&grid);
+        let survey = Running::new(|yielder| async move { survey_in_slices(&surveyed, &yielder).await });
+        Stage::Surveying { survey, grid, opened }
     }
 }

@@ -6,10 +6,11 @@ use glam::DVec3;
 use super::super::Unit;
 use super::super::error::ReadError;
 use super::super::output::Output;
-use super::super::pace::{Pace, at_once};
+use super::super::pace::Pace;
 use super::super::raw::RawSurface;
 use super::super::text::BASE64;
 use super::{read_binary, read_text, write};
+use lumen_mesh::task::at_once;
 use lumen_mesh::{TriMesh, Vec3};
 
 /// A glTF text of four vertices of a unit square, drawn by `primitive` under `nodes`.
@@ -29,7 +30,7 @@ fn square(nodes: &str, primitive: &str) -> String {
 }
 
 fn read(text: &str) -> Result<RawSurface, ReadError> {
-    at_once(read_text(text.as_bytes(), Unit::Metre, DVec3::ZERO, &Pace::default()))
+    at_once(read_text(text.as_bytes(), Unit::Metre, DVec3::ZERO, &Pace::never()))
 }
 
 #[test]
@@ -107,7 +108,7 @@ fn compressed_meshes_are_refused_by_the_name_of_the_compression() {
 #[test]
 fn a_container_that_lies_is_refused() {
     let problem = |bytes: &[u8]| {
-        let read = at_once(read_binary(bytes, Unit::Metre, DVec3::ZERO, &Pace::default()));
+        let read = at_once(read_binary(bytes, Unit::Metre, DVec3::ZERO, &Pace::never()));
         read.err().unwrap().to_string()
     };
     assert_eq!(problem(b"glTF\x02\0\0"), "The GLB file is cut short: it announces 12 bytes and holds 7.");
@@ -141,7 +142,7 @@ fn millimetres_survive_the_metre_bit_for_bit() {
     let normals = vec![Vec3::Z; mesh.positions.len()];
     for normals in [None, Some(&normals[..])] {
         let raw = write(&Output { normals, ..Output::new(&mesh) }).unwrap();
-        let raw = at_once(read_binary(&raw, Unit::Metre, DVec3::ZERO, &Pace::default())).unwrap();
+        let raw = at_once(read_binary(&raw, Unit::Metre, DVec3::ZERO, &Pace::never())).unwrap();
         assert_eq!((&raw.positions, &raw.triangles), (&mesh.positions, &mesh.triangles));
     }
 }

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::super::columns::Columns;
 use super::super::error::ReadError;
 use super::super::numbers::Numbers;
+use super::super::pace::Pace;
 use super::super::polygons::Faces;
 use super::super::raw::RawSurface;
 use super::super::room::Room;
@@ -16,16 +17,29 @@ use super::malformed;
 use lumen_language::say;
 use lumen_mesh::Vec3;
 use lumen_mesh::arrays::On;
-use lumen_mesh::task::{Budget, Progress};
 
 /// Rows between two looks at the clock.
 const BLOCK: u64 = 1 << 14;
 
-/// The numbers of a file, row by row.
-pub(super) struct Body {
-    /// Bytes of it that are read, and the line there.
-    pub(super) at: usize,
-    pub(super) line: usize,
+/// Reads the `numbers` of a file of so many bytes, row by row, with positions relative to an origin.
+pub(super) async fn read(
+    header: &Header,
+    file: usize,
+    origin: DVec3,
+    numbers: &mut impl Numbers,
+    pace: &Pace,
+) -> Result<RawSurface, ReadError> {
+    let mut body = Body::new(header, file, origin);
+    while let Some(element) = header.elements.get(body.element) {
+        let before = numbers.remaining();
+        body.read(header.encoding, element, numbers)?;
+        pace.rest((before - numbers.remaining()) as f64).await;
+    }
+    Ok(body.surface(header, numbers.remaining()))
+}
+
+/// What was read so far.
+struct Body {
     origin: DVec3,
     room: Room,
     /// An index beyond this can stand for no vertex, and may be too large to be kept as one.
@@ -44,12 +58,10 @@ pub(super) struct Body {
 
 impl Body {
     /// Of a file of `file` bytes.
-    pub(super) fn new(header: &Header, file: usize, origin: DVec3) -> Self {
+    fn new(header: &Header, file: usize, origin: DVec3) -> Self {
         let vertices = header.elements.iter().filter(|e| e.name == "vertex");
         let has_extras = |e: &Element| e.name == "face" && Extras::are_in(&e.properties, On::Triangle);
         Self {
-            at: 0,
-            line: header.body_line,
             origin,
             room: Room::of(file),
             claimed: vertices.map(|e| e.count).fold(0, u64::saturating_add),
@@ -62,26 +74,6 @@ impl Body {
             cells: 0,
             notes_cells: header.elements.iter().any(has_extras),
         }
-    }
-
-    /// Reads on with `numbers`, those that are left; the fraction is not told here.
-    pub(super) fn advance(
-        &mut self,
-        header: &Header,
-        numbers: &mut impl Numbers,
-        budget: Budget,
-    ) -> Progress<Result<RawSurface, ReadError>> {
-        let before = numbers.remaining();
-        while let Some(element) = header.elements.get(self.element) {
-            if let Err(error) = self.read(header.encoding, element, numbers) {
-                return Progress::Done(Err(error));
-            }
-            if budget.is_spent() {
-                self.at += before - numbers.remaining();
-                return Progress::Working(0.0);
-            }
-        }
-        Progress::Done(Ok(self.surface(header, numbers.remaining())))
     }
 
     /// Reads the next rows of an element, and goes on to the next one after its last.
@@ -182,11 +174,11 @@ impl Body {
     }
 
     /// The surface, once all is read and so many bytes are left.
-    fn surface(&mut self, header: &Header, left: usize) -> RawSurface {
+    fn surface(self, header: &Header, left: usize) -> RawSurface {
         let label = header.encoding.label();
-        let mut raw = RawSurface::of_faces(label, mem::take(&mut self.positions), &mem::take(&mut self.faces));
+        let mut raw = RawSurface::of_faces(label, self.positions, &self.faces);
         (raw.has_doubles, raw.origin) = (has_doubles(header), self.origin);
-        raw.carry(mem::take(&mut self.columns).finish(), self.room);
+        raw.carry(self.columns.finish(), self.room);
         if header.encoding != Encoding::Ascii && left > 0 {
             raw.warnings.push(say!("errors-ply-trailing", bytes = left.to_string()));
         }

@@ -13,7 +13,7 @@ mod write;
 
 use super::error::ReadError;
 
-pub(super) use parsing::Parsing;
+pub(super) use parsing::read;
 pub(super) use write::write;
 
 fn malformed(problem: String) -> ReadError {

@@ -3,18 +3,13 @@
 use glam::DVec3;
 
 use super::super::error::ReadError;
+use super::super::pace::Pace;
 use super::super::raw::RawSurface;
-use super::Parsing;
 use lumen_mesh::Vec3;
-use lumen_mesh::task::{Budget, Progress};
+use lumen_mesh::task::at_once;
 
 fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-    let mut parsing = Parsing::new(bytes, DVec3::ZERO)?;
-    loop {
-        if let Progress::Done(read) = parsing.advance(bytes, Budget::UNLIMITED) {
-            return read;
-        }
-    }
+    at_once(super::read(bytes, DVec3::ZERO, &Pace::never()))
 }
 
 const SQUARE: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement camera 1\nproperty list uchar float view\n\

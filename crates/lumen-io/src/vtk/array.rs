@@ -31,7 +31,7 @@ pub(super) enum Content<'a> {
 
 impl Array<'_> {
     /// The numbers, one after another; `format` is for faults.
-    pub(super) fn numbers(&self, format: &'static str) -> Box<dyn Numbers + '_> {
+    pub(super) fn numbers(&self, format: &'static str) -> Box<dyn Numbers + Send + '_> {
         match &self.content {
             &Content::Text { text, line } => Box::new(TextNumbers::new(format, Words::new(text, line), false)),
             Content::Little(bytes) => Box::new(BinaryNumbers::<false>::new(bytes)),

@@ -10,12 +10,13 @@ use quick_xml::events::Event;
 
 use super::super::error::ReadError;
 use super::super::numbers::Scalar;
-use super::super::pace::{Pace, at_once};
+use super::super::pace::Pace;
 use super::super::text;
 use super::array::Content;
 use super::xml_arrays::Arrays;
 use super::xml_structure::{DataArray, Structure, attribute, broken, inline_text, malformed};
 use lumen_language::say;
+use lumen_mesh::task::at_once;
 
 const FORMAT: &str = "VTI";
 
@@ -114,7 +115,7 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
     let file = file.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-element", name = "VTKFile")))?;
     let extent = found.whole.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-points")))?;
     let array = found.array.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-array")))?;
-    let pace = Pace::default();
+    let pace = Pace::never();
     let opened = at_once(Arrays::new(&file, bytes, room, &pace).open(&array))?;
     let values = match opened.content {
         Content::Text { text, .. } => Values::Text(text),

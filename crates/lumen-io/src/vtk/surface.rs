@@ -56,7 +56,7 @@ pub(super) struct Cells<'a> {
 
 /// Numbers of a list of cells, and the number that is next.
 struct Stream<'a> {
-    numbers: Box<dyn Numbers + 'a>,
+    numbers: Box<dyn Numbers + Send + 'a>,
     kind: Scalar,
     weight: f64,
 }

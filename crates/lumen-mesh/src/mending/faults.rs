@@ -6,11 +6,11 @@ use super::holes::{Hole, Opening, holes};
 use super::sides::doubles;
 use super::wall::Wall;
 use crate::disjoint_sets::union;
-use crate::task::{Budget, Progress};
+use crate::task::{Yielder, at_once, blocks};
 use crate::{Topology, TriMesh, opposite};
 
 /// Vertices between two looks at the clock.
-const SLICE: u32 = 32_768;
+const SLICE: usize = 32_768;
 
 /// What is wrong with a surface, and where.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,11 +30,32 @@ pub struct Faults {
 impl Faults {
     /// Those of `mesh`, but for the wall; `topology` must be that of its triangles.
     pub fn of(mesh: &TriMesh, topology: &Topology) -> Self {
-        let mut search = FaultSearch::default();
-        loop {
-            if let Progress::Done(found) = search.advance(mesh, topology, Budget::UNLIMITED) {
-                return found;
+        at_once(Self::of_in_slices(mesh, topology, &Yielder::never()))
+    }
+
+    /// As [`Self::of`], resting every few milliseconds; what is listed of openings and of triangles that are there twice is one
+    /// piece.
+    pub async fn of_in_slices(mesh: &TriMesh, topology: &Topology, yielder: &Yielder) -> Self {
+        let count = topology.vertex_count();
+        let (mut edges, mut vertices, mut fan) = (Vec::new(), Vec::new(), Fan::default());
+        for block in blocks(count, SLICE) {
+            let end = block.end;
+            for v in block.start as u32..end as u32 {
+                let row = topology.neighbours(v).iter().zip(topology.edge_uses(v));
+                edges.extend(row.filter(|&(&w, edge)| v < w && edge.is_non_manifold()).map(|(&w, _)| [v, w]));
+                if fan.is_crowded(mesh, topology, v) {
+                    vertices.push(v);
+                }
             }
+            yielder.rest(end as f32 / count as f32).await;
+        }
+        let doubles = if edges.is_empty() { Vec::new() } else { doubles(mesh) };
+        Self {
+            non_manifold_vertices: vertices,
+            doubles: (0..).zip(doubles).filter(|&(_, is_double)| is_double).map(|(t, _)| t).collect(),
+            holes: holes(mesh, topology),
+            non_manifold_edges: edges,
+            wall: None,
         }
     }
 
@@ -78,45 +99,6 @@ pub struct FaultCounts {
     pub sheet_edges: usize,
     /// The wall, where the surface is one with two sides.
     pub wall: Option<Wall>,
-}
-
-/// The search for [`Faults`], but for the wall, in slices.
-#[derive(Debug, Default)]
-pub struct FaultSearch {
-    next: u32,
-    edges: Vec<[u32; 2]>,
-    vertices: Vec<u32>,
-    fan: Fan,
-}
-
-impl FaultSearch {
-    /// Works on `mesh`, whose adjacency is `topology`: the same at each call. What is listed of openings and of triangles
-    /// that are there twice is one slice.
-    pub fn advance(&mut self, mesh: &TriMesh, topology: &Topology, budget: Budget) -> Progress<Faults> {
-        let count = topology.vertex_count() as u32;
-        while self.next < count {
-            for v in self.next..count.min(self.next + SLICE) {
-                let row = topology.neighbours(v).iter().zip(topology.edge_uses(v));
-                self.edges.extend(row.filter(|&(&w, edge)| v < w && edge.is_non_manifold()).map(|(&w, _)| [v, w]));
-                if self.fan.is_crowded(mesh, topology, v) {
-                    self.vertices.push(v);
-                }
-            }
-            self.next = count.min(self.next + SLICE);
-            if budget.is_spent() {
-                return Progress::Working(self.next as f32 / count as f32);
-            }
-        }
-        let (edges, vertices) = (std::mem::take(&mut self.edges), std::mem::take(&mut self.vertices));
-        let doubles = if edges.is_empty() { Vec::new() } else { doubles(mesh) };
-        Progress::Done(Faults {
-            non_manifold_vertices: vertices,
-            doubles: (0..).zip(doubles).filter(|&(_, is_double)| is_double).map(|(t, _)| t).collect(),
-            holes: holes(mesh, topology),
-            non_manifold_edges: edges,
-            wall: None,
-        })
-    }
 }
 
 /// The walk around a vertex; keeps its lists.

@@ -10,15 +10,15 @@
 
 use glam::{DVec3, Vec3};
 
+use super::fair;
 use super::holes::{Hole, Opening, behind, edges, holes};
 use super::patch_mesh::Patch;
 use super::refine::refine;
 pub use super::triangulate::LONGEST;
-use super::triangulate::Triangulation;
-use super::{BUILD, fair};
+use super::triangulate::triangulate;
 use crate::crossing::{Face, cross};
-use crate::task::{Budget, Progress};
-use crate::{Blend, IndexBuild, SurfaceIndex, Topology, TriMesh};
+use crate::task::{Yielder, at_once};
+use crate::{Blend, SurfaceIndex, Topology, TriMesh};
 
 /// What is new is made of so many vertices or triangles of the rim.
 const SOURCES: usize = 4;
@@ -40,18 +40,40 @@ pub struct Filled {
     pub left: usize,
 }
 
-/// Fills the holes of a surface, in slices.
-#[derive(Debug)]
-pub struct FillTask {
+/// Fills the holes of `mesh` that are at most `limit` mm across.
+pub fn fill(mesh: &TriMesh, limit: f64) -> Filled {
+    at_once(fill_in_slices(mesh, limit, &Yielder::never()))
+}
+
+/// As [`fill`], resting between the holes, and while a large one is triangulated. A patch is one piece.
+pub async fn fill_in_slices(mesh: &TriMesh, limit: f64, yielder: &Yielder) -> Filled {
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let mut holes = holes(mesh, &topology);
+    holes.retain(|hole| hole.opening == Opening::Hole && hole.diameter_mm <= limit);
+    let index = if holes.is_empty() {
+        SurfaceIndex::default()
+    } else {
+        SurfaceIndex::build(&mesh.positions, &mesh.triangles, &yielder.part(0.0..0.3)).await
+    };
+    let mut filling = Filling { mesh, topology, index, done: Vec::new() };
+    for (number, hole) in holes.iter().enumerate() {
+        let part = yielder.part(0.3..1.0);
+        let [begun, end] = [number, number + 1].map(|number| number as f32 / holes.len() as f32);
+        let triangles = filling.triangles(&hole.rim, &part.part(begun..end)).await;
+        let patch = triangles.and_then(|triangles| filling.patch(&hole.rim, triangles));
+        filling.done.extend(patch.map(|patch| Done { hole: number, ..patch }));
+        part.rest(end).await;
+    }
+    filling.result(&holes)
+}
+
+/// A surface while its holes are filled.
+struct Filling<'a> {
+    mesh: &'a TriMesh,
     topology: Topology,
-    holes: Vec<Hole>,
-    /// Of the surface, once there is a hole to fill.
-    build: IndexBuild,
-    index: Option<SurfaceIndex>,
-    next: usize,
-    under_way: Option<Triangulation>,
+    /// Of the surface, where there is a hole to fill.
+    index: SurfaceIndex,
     done: Vec<Done>,
-    left: usize,
 }
 
 /// A patch in its place.
@@ -67,65 +89,24 @@ struct Done {
     high: Vec3,
 }
 
-impl FillTask {
-    /// Of the holes of `mesh` that are at most `limit` mm across.
-    pub fn new(mesh: &TriMesh, limit: f64) -> Self {
-        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let mut holes = holes(mesh, &topology);
-        holes.retain(|hole| hole.opening == Opening::Hole && hole.diameter_mm <= limit);
-        let (build, index, next, under_way) = (IndexBuild::new(), None, 0, None);
-        Self { topology, holes, build, index, next, under_way, done: Vec::new(), left: 0 }
-    }
-
-    /// Works on `mesh`, which it was made for.
-    pub fn advance(&mut self, mesh: &TriMesh, budget: Budget) -> Progress<Filled> {
-        while !self.holes.is_empty() && self.index.is_none() {
-            if let std::task::Poll::Ready(index) = self.build.advance(&mesh.positions, &mesh.triangles, BUILD) {
-                self.index = Some(index);
-            } else if budget.is_spent() {
-                return Progress::Working(0.3 * self.build.fraction());
-            }
-        }
-        while self.next < self.holes.len() {
-            if let Some(triangles) = self.triangulate(mesh, budget) {
-                let done = triangles.and_then(|triangles| self.patch(mesh, triangles));
-                match done {
-                    Some(done) => self.done.push(done),
-                    None => self.left += 1,
-                }
-                self.under_way = None;
-                self.next += 1;
-            }
-            if budget.is_spent() {
-                return Progress::Working(0.3 + 0.7 * self.next as f32 / self.holes.len() as f32);
-            }
-        }
-        Progress::Done(self.result(mesh))
-    }
-
-    /// The first triangles over the next hole, once they are known.
-    fn triangulate(&mut self, mesh: &TriMesh, budget: Budget) -> Option<Option<Vec<[u32; 3]>>> {
-        let rim = &self.holes[self.next].rim;
+impl Filling<'_> {
+    /// The first triangles over a hole.
+    async fn triangles(&self, rim: &[u32], yielder: &Yielder) -> Option<Vec<[u32; 3]>> {
         if rim.len() > LONGEST {
-            return Some(None);
+            return None;
         }
-        let topology = &self.topology;
-        let task = self.under_way.get_or_insert_with(|| {
-            let normal = |(a, b)| {
-                let corners = behind(mesh, topology, a, b).map(|(t, _)| mesh.corners(t as usize).map(Vec3::as_dvec3));
-                corners.map_or(DVec3::ZERO, |[a, b, c]| (b - a).cross(c - a).normalize_or_zero())
-            };
-            Triangulation::new(points(mesh, rim), edges(rim).map(normal).collect(), chords(topology, rim))
-        });
-        match task.advance(budget) {
-            Progress::Working(_) => None,
-            Progress::Done(triangles) => Some(triangles),
-        }
+        let Self { mesh, topology, .. } = self;
+        let normal = |(a, b)| {
+            let corners = behind(mesh, topology, a, b).map(|(t, _)| mesh.corners(t as usize).map(Vec3::as_dvec3));
+            corners.map_or(DVec3::ZERO, |[a, b, c]| (b - a).cross(c - a).normalize_or_zero())
+        };
+        let behind: Vec<DVec3> = edges(rim).map(normal).collect();
+        triangulate(points(mesh, rim), behind, chords(topology, rim), yielder).await
     }
 
-    /// The patch over the next hole that begins with `triangles`, if one crosses nothing.
-    fn patch(&self, mesh: &TriMesh, triangles: Vec<[u32; 3]>) -> Option<Done> {
-        let rim = &self.holes[self.next].rim;
+    /// The patch over a hole that begins with `triangles`, if one crosses nothing.
+    fn patch(&self, rim: &[u32], triangles: Vec<[u32; 3]>) -> Option<Done> {
+        let mesh = self.mesh;
         let taken = chords(&self.topology, rim);
         let is_taken = |a: u32, b: u32| taken.binary_search(&[a.min(b), a.max(b)]).is_ok();
         let first = Patch::new(points(mesh, rim), triangles);
@@ -137,7 +118,7 @@ impl FillTask {
                 around.iter().map(|&w| at(w).distance(at(v))).sum::<f64>() / around.len() as f64
             })
             .collect();
-        let mut sorted = rim.clone();
+        let mut sorted = rim.to_vec();
         sorted.sort_unstable();
         let beyond: Vec<Vec<DVec3>> = rim
             .iter()
@@ -154,14 +135,14 @@ impl FillTask {
         fair::fair(&mut plate, &beyond);
         let bend = first.sharpest().max(FOLD);
         [plate, membrane].into_iter().filter(|patch| patch.sharpest() <= bend).chain([first]).find_map(|patch| {
-            let done = self.placed(mesh, &patch)?;
-            (!self.crosses(mesh, &done)).then_some(done)
+            let done = self.placed(rim, &patch)?;
+            (!self.crosses(&done)).then_some(done)
         })
     }
 
     /// The patch among the vertices of the surface.
-    fn placed(&self, mesh: &TriMesh, patch: &Patch) -> Option<Done> {
-        let rim = &self.holes[self.next].rim;
+    fn placed(&self, rim: &[u32], patch: &Patch) -> Option<Done> {
+        let mesh = self.mesh;
         let (origin, count) = (origin(mesh, rim), mesh.positions.len() as u32);
         let points: Vec<Vec3> = patch.points[patch.rim..].iter().map(|p| (*p + origin).as_vec3()).collect();
         let own = |v: u32| if (v as usize) < patch.rim { rim[v as usize] } else { count + v - patch.rim as u32 };
@@ -173,12 +154,12 @@ impl FillTask {
             .as_flattened()
             .iter()
             .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
-        (low.is_finite() && high.is_finite()).then_some(Done { hole: self.next, points, triangles, index, low, high })
+        (low.is_finite() && high.is_finite()).then_some(Done { hole: 0, points, triangles, index, low, high })
     }
 
     /// Whether a patch runs into the surface, into itself or into one that is in its place.
-    fn crosses(&self, mesh: &TriMesh, new: &Done) -> bool {
-        let Some(surface) = &self.index else { return true };
+    fn crosses(&self, new: &Done) -> bool {
+        let (mesh, surface) = (self.mesh, &self.index);
         let near: Vec<&Done> =
             self.done.iter().filter(|done| done.low.cmple(new.high).all() && done.high.cmpge(new.low).all()).collect();
         (0..).zip(&new.triangles).any(|(number, &triangle)| {
@@ -209,12 +190,12 @@ impl FillTask {
     }
 
     /// The surface with its patches.
-    fn result(&mut self, mesh: &TriMesh) -> Filled {
-        let done = std::mem::take(&mut self.done);
-        let mut filled = mesh.clone();
+    fn result(&self, holes: &[Hole]) -> Filled {
+        let Self { mesh, done, .. } = self;
+        let mut filled = (*mesh).clone();
         let (mut new_vertices, mut new_triangles) = (Vec::new(), Vec::new());
-        for Done { hole, points, triangles, .. } in &done {
-            let rim = &self.holes[*hole].rim;
+        for Done { hole, points, triangles, .. } in done {
+            let rim = &holes[*hole].rim;
             let shift = filled.positions.len() as u32 - mesh.positions.len() as u32;
             let along: Vec<(u32, Vec3)> = edges(rim)
                 .filter_map(|(a, b)| {
@@ -236,17 +217,7 @@ impl FillTask {
             triangles: Blend::of_rows(0..mesh.triangles.len() as u32).followed_by(&new_triangles),
             mesh: filled,
             filled: done.len(),
-            left: self.left,
-        }
-    }
-}
-
-/// Fills the holes of `mesh` that are at most `limit` mm across.
-pub fn fill(mesh: &TriMesh, limit: f64) -> Filled {
-    let mut task = FillTask::new(mesh, limit);
-    loop {
-        if let Progress::Done(filled) = task.advance(mesh, Budget::UNLIMITED) {
-            return filled;
+            left: holes.len() - done.len(),
         }
     }
 }

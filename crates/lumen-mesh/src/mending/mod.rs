@@ -3,7 +3,7 @@
 //! [`faults`] finds and lists; the others change a surface, only where they are asked to, and say what they did: [`weld`]
 //! joins open edges that nearly meet, [`wall`] takes the lumen out of a wall with two sides, [`split`] parts the sheets
 //! that meet in an edge or a vertex, [`fill`] closes holes. Each hands back what its vertices and triangles were made of,
-//! as a [`Blend`](super::Blend), so that arrays can follow. [`MendTask`] does what is asked for in this order, in slices.
+//! as a [`Blend`](super::Blend), so that arrays can follow. [`mend`] does what is asked for in this order.
 //!
 //! Lengths are in mm. Results depend neither on slices nor on the number of threads.
 
@@ -20,9 +20,6 @@ mod triangulate;
 pub mod wall;
 pub mod weld;
 
-pub use faults::{FaultCounts, FaultKind, FaultPlace, FaultSearch, Faults};
+pub use faults::{FaultCounts, FaultKind, FaultPlace, Faults};
 pub use holes::{Hole, Opening};
-pub use task::{MendReport, MendTask, Mended, Mending};
-
-/// Work on the hierarchy of boxes between two looks at the clock.
-const BUILD: usize = 100_000;
+pub use task::{MendReport, Mended, Mending, mend};

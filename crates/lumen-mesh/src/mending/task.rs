@@ -3,11 +3,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fill::{FillTask, Filled};
+use super::fill::{Filled, fill_in_slices};
 use super::split::{Split, split};
-use super::wall::{Lumen, Wall, WallTask};
-use super::weld::{WeldTask, Welded};
-use crate::task::{Budget, Progress, Task};
+use super::wall::{Lumen, Wall, WallFound, find_in_slices};
+use super::weld::{Welded, weld_in_slices};
+use crate::task::Yielder;
 use crate::{Array, Blend, Topology, TriMesh, blended, components, winding};
 use lumen_language::exact;
 use lumen_language::say;
@@ -112,42 +112,42 @@ pub struct Mended {
     pub report: MendReport,
 }
 
-/// Mends a surface, in slices. Parting sheets and making windings agree are one slice each.
-#[derive(Debug)]
-pub struct MendTask {
-    asked: Mending,
-    mesh: TriMesh,
-    arrays: Vec<Array>,
-    report: MendReport,
-    step: Step,
-}
-
-#[derive(Debug)]
-enum Step {
-    BeginWeld,
-    Weld(Box<WeldTask>),
-    Orient(Before),
-    BeginLumen,
-    Lumen(Box<WallTask>),
-    Split,
-    BeginFill,
-    Fill(Box<FillTask>),
-    End,
-}
-
-/// What follows when windings agree.
-#[derive(Clone, Copy, Debug)]
-enum Before {
-    Lumen,
-    Fill,
-}
-
-impl MendTask {
-    /// Of `mesh`, whose triangles repeat no vertex, with its arrays.
-    pub fn new(mesh: TriMesh, arrays: Vec<Array>, asked: Mending) -> Self {
-        Self { asked, mesh, arrays, report: MendReport::default(), step: Step::BeginWeld }
+/// Mends `mesh`, whose triangles repeat no vertex, with its arrays. Parting sheets and making windings agree are one piece
+/// each.
+pub async fn mend(mesh: TriMesh, arrays: Vec<Array>, asked: Mending, yielder: &Yielder) -> Mended {
+    let mut made = Mended { mesh, arrays, report: MendReport::default() };
+    if let Some(tolerance) = asked.weld_mm {
+        let Welded { mesh, vertices, joined, limited } =
+            weld_in_slices(&made.mesh, tolerance, &yielder.part(0.0..0.2)).await;
+        (made.report.vertices_welded, made.report.weld_limited) = (joined, limited);
+        made.take(mesh, Some(&vertices), None);
+        yielder.rest(0.2).await;
+        made.orient();
     }
+    yielder.rest(0.25).await;
+    // Where its sides do not agree there is no wall to be found, as `Faults` finds none.
+    if asked.lumen && made.topology().is_consistent() {
+        let WallFound { wall, lumen } = find_in_slices(&made.mesh, None, true, &yielder.part(0.25..0.5)).await;
+        made.take_lumen(wall, lumen);
+    }
+    yielder.rest(0.5).await;
+    if asked.split {
+        made.split();
+        yielder.rest(0.6).await;
+        made.orient();
+    }
+    yielder.rest(0.65).await;
+    if let Some(limit) = asked.fill_mm {
+        let Filled { mesh, vertices, triangles, filled, left } =
+            fill_in_slices(&made.mesh, limit, &yielder.part(0.65..1.0)).await;
+        (made.report.holes_filled, made.report.holes_left) = (filled, left);
+        made.report.triangles_added = mesh.triangles.len() - made.mesh.triangles.len();
+        made.take(mesh, Some(&vertices), Some(&triangles));
+    }
+    made
+}
 
+impl Mended {
     /// Goes over to what a step made.
     fn take(&mut self, mesh: TriMesh, vertices: Option<&Blend>, triangles: Option<&Blend>) {
         if !self.arrays.is_empty() {
@@ -193,82 +193,6 @@ impl MendTask {
             self.take(mesh, Some(&vertices), Some(&triangles));
         }
     }
-
-    /// One step, or a slice of one; what part of the work that is.
-    fn go_on(&mut self, budget: Budget) -> f32 {
-        let Mending { weld_mm, split, fill_mm, lumen } = self.asked;
-        let (next, part) = match std::mem::replace(&mut self.step, Step::End) {
-            Step::BeginWeld => match weld_mm {
-                Some(tolerance) => (Step::Weld(Box::new(WeldTask::new(&self.mesh, tolerance))), 0.0),
-                None => (Step::BeginLumen, 0.2),
-            },
-            Step::Weld(mut task) => match task.advance(&self.mesh, budget) {
-                Progress::Working(fraction) => (Step::Weld(task), 0.2 * fraction),
-                Progress::Done(Welded { mesh, vertices, joined, limited }) => {
-                    (self.report.vertices_welded, self.report.weld_limited) = (joined, limited);
-                    self.take(mesh, Some(&vertices), None);
-                    (Step::Orient(Before::Lumen), 0.2)
-                }
-            },
-            Step::Orient(before) => {
-                self.orient();
-                match before {
-                    Before::Lumen => (Step::BeginLumen, 0.25),
-                    Before::Fill => (Step::BeginFill, 0.65),
-                }
-            }
-            // Where its sides do not agree there is no wall to be found, as `Faults` finds none.
-            Step::BeginLumen if lumen && self.topology().is_consistent() => {
-                (Step::Lumen(Box::new(WallTask::new(&self.mesh, true))), 0.25)
-            }
-            Step::BeginLumen => (Step::Split, 0.5),
-            Step::Lumen(mut task) => match task.advance(&self.mesh, budget) {
-                Progress::Working(fraction) => (Step::Lumen(task), 0.25 + 0.25 * fraction),
-                Progress::Done(found) => {
-                    self.take_lumen(found.wall, found.lumen);
-                    (Step::Split, 0.5)
-                }
-            },
-            Step::Split if split => {
-                self.split();
-                (Step::Orient(Before::Fill), 0.6)
-            }
-            Step::Split => (Step::BeginFill, 0.65),
-            Step::BeginFill => match fill_mm {
-                Some(limit) => (Step::Fill(Box::new(FillTask::new(&self.mesh, limit))), 0.65),
-                None => (Step::End, 1.0),
-            },
-            Step::Fill(mut task) => match task.advance(&self.mesh, budget) {
-                Progress::Working(fraction) => (Step::Fill(task), 0.65 + 0.35 * fraction),
-                Progress::Done(Filled { mesh, vertices, triangles, filled, left }) => {
-                    (self.report.holes_filled, self.report.holes_left) = (filled, left);
-                    self.report.triangles_added = mesh.triangles.len() - self.mesh.triangles.len();
-                    self.take(mesh, Some(&vertices), Some(&triangles));
-                    (Step::End, 1.0)
-                }
-            },
-            Step::End => (Step::End, 1.0),
-        };
-        self.step = next;
-        part
-    }
-}
-
-impl Task for MendTask {
-    type Output = Mended;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Mended> {
-        loop {
-            let part = self.go_on(budget);
-            if matches!(self.step, Step::End) {
-                let (mesh, arrays) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.arrays));
-                return Progress::Done(Mended { mesh, arrays, report: self.report });
-            }
-            if budget.is_spent() {
-                return Progress::Working(part);
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -283,11 +207,12 @@ mod tests {
     use crate::Vec3;
     use crate::arrays::{On, Values};
     use crate::shapes::{icosphere, tube};
+    use crate::task::{Budget, Progress, Running, at_once};
 
     const ALL: Mending = Mending { weld_mm: Some(0.01), split: true, fill_mm: Some(3.0), lumen: true };
 
     fn mended(mesh: &TriMesh, asked: Mending) -> Mended {
-        MendTask::new(mesh.clone(), Vec::new(), asked).finish()
+        at_once(mend(mesh.clone(), Vec::new(), asked, &Yielder::never()))
     }
 
     #[test]
@@ -312,7 +237,7 @@ mod tests {
             Array::new("z", On::Point, 1, Values::from_floats(&heights)),
             Array::new("t", On::Triangle, 1, Values::from_floats(&numbers)),
         ];
-        let whole = MendTask::new(mesh.clone(), arrays.clone(), ALL).finish();
+        let whole = at_once(mend(mesh.clone(), arrays.clone(), ALL, &Yielder::never()));
         assert_eq!((whole.report.edges_split, whole.report.holes_filled), (1, 1));
         assert_eq!(
             [whole.arrays[0].len(), whole.arrays[1].len()],
@@ -321,7 +246,7 @@ mod tests {
         for (v, p) in whole.mesh.positions.iter().enumerate() {
             assert!((whole.arrays[0].values.get(v) - f64::from(p.z)).abs() < 1.0, "new ones are as those around");
         }
-        let mut slices = MendTask::new(mesh, arrays, ALL);
+        let mut slices = Running::new(|yielder| async move { mend(mesh, arrays, ALL, &yielder).await });
         let sliced = loop {
             if let Progress::Done(sliced) = slices.advance(Budget::new(Duration::ZERO)) {
                 break sliced;

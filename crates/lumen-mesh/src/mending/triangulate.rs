@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use crate::task::{Budget, Progress};
+use crate::task::Yielder;
 
 /// The longest loop that is triangulated.
 pub const LONGEST: usize = 512;
@@ -38,9 +38,31 @@ impl Cost {
     }
 }
 
-/// A loop on its way to triangles.
-#[derive(Debug)]
-pub(super) struct Triangulation {
+/// The triangles over the loop through `points`, by their numbers, in the direction in which the triangles behind it run,
+/// whose normals are `behind`; two points of `taken`, the lower first, are not joined. `None` where there are none.
+pub(super) async fn triangulate(
+    points: Vec<DVec3>,
+    behind: Vec<DVec3>,
+    mut taken: Vec<[u32; 2]>,
+    yielder: &Yielder,
+) -> Option<Vec<[u32; 3]>> {
+    let count = points.len();
+    taken.sort_unstable();
+    let (costs, by_way_of) = (vec![Cost::NONE; count * count], vec![0; count * count]);
+    let mut table = Table { points, behind, taken, costs, by_way_of };
+    for span in 2..count {
+        for i in 0..count - span {
+            let k = i + span;
+            (table.costs[i * count + k], table.by_way_of[i * count + k]) = table.best(i, k);
+        }
+        let part = span as f32 / count as f32;
+        yielder.rest(part * part).await;
+    }
+    table.costs[count - 1].bend.is_finite().then(|| table.triangles())
+}
+
+/// The least that every stretch of the loop costs.
+struct Table {
     points: Vec<DVec3>,
     /// The normal of the triangle behind each edge of the loop, from each vertex to the next.
     behind: Vec<DVec3>,
@@ -49,25 +71,9 @@ pub(super) struct Triangulation {
     /// For the stretch from `i` to `k`, how bad it is at best, and by way of which vertex.
     costs: Vec<Cost>,
     by_way_of: Vec<u16>,
-    span: usize,
 }
 
-impl Triangulation {
-    /// Of the loop through `points`, in the direction in which the triangles behind it run, whose normals are `behind`;
-    /// two points of `taken`, the lower first, are not joined.
-    pub(super) fn new(points: Vec<DVec3>, behind: Vec<DVec3>, mut taken: Vec<[u32; 2]>) -> Self {
-        let count = points.len();
-        taken.sort_unstable();
-        Self {
-            points,
-            behind,
-            taken,
-            costs: vec![Cost::NONE; count * count],
-            by_way_of: vec![0; count * count],
-            span: 2,
-        }
-    }
-
+impl Table {
     fn normal(&self, i: usize, m: usize, k: usize) -> (DVec3, f64) {
         // The patch runs along the loop the other way.
         let [a, b, c] = [k, m, i].map(|v| self.points[v]);
@@ -109,23 +115,9 @@ impl Triangulation {
         best
     }
 
-    /// The triangles, by the numbers of the points; `None` where there are none without joining points of `taken`.
-    pub(super) fn advance(&mut self, budget: Budget) -> Progress<Option<Vec<[u32; 3]>>> {
+    /// The triangles that cost least, by the numbers of the points.
+    fn triangles(&self) -> Vec<[u32; 3]> {
         let count = self.points.len();
-        while self.span < count {
-            for i in 0..count - self.span {
-                let k = i + self.span;
-                (self.costs[i * count + k], self.by_way_of[i * count + k]) = self.best(i, k);
-            }
-            self.span += 1;
-            if budget.is_spent() {
-                let part = self.span as f32 / count as f32;
-                return Progress::Working(part * part);
-            }
-        }
-        if !self.costs[count - 1].bend.is_finite() {
-            return Progress::Done(None);
-        }
         let mut triangles = Vec::with_capacity(count - 2);
         let mut stretches = vec![(0, count - 1)];
         while let Some((i, k)) = stretches.pop() {
@@ -135,21 +127,19 @@ impl Triangulation {
                 stretches.extend([(m, k), (i, m)]);
             }
         }
-        Progress::Done(Some(triangles))
+        triangles
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::task::at_once;
 
     fn of(points: &[[f64; 3]], taken: Vec<[u32; 2]>) -> Option<Vec<[u32; 3]>> {
         let points: Vec<DVec3> = points.iter().map(|&p| DVec3::from(p)).collect();
         let behind = vec![DVec3::NEG_Z; points.len()];
-        let Progress::Done(triangles) = Triangulation::new(points, behind, taken).advance(Budget::UNLIMITED) else {
-            panic!("without a limit it ends");
-        };
-        triangles
+        at_once(triangulate(points, behind, taken, &Yielder::never()))
     }
 
     #[test]

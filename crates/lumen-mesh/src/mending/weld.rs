@@ -9,14 +9,13 @@
 //! [`REACH`] of the mean length of the edges at it, so a rim as narrow as its own triangles stays open, whatever the
 //! tolerance. What this does not do: a vertex that lies along another's edge (a T-junction) is joined to nothing.
 
-use std::task::Poll;
+use std::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::BUILD;
 use crate::parallel;
-use crate::task::{Budget, Progress};
-use crate::{Blend, IndexBuild, SurfaceIndex, Topology, TriMesh};
+use crate::task::{Yielder, at_once, blocks};
+use crate::{Blend, SurfaceIndex, Topology, TriMesh};
 
 /// The part of the mean length of its edges by which a vertex is joined at most.
 pub const REACH: f32 = 0.5;
@@ -49,27 +48,37 @@ struct Pair {
     high: u32,
 }
 
-/// Joins open edges, in slices.
-#[derive(Debug)]
-pub struct WeldTask {
+/// Joins open edges of `mesh` within `tolerance` mm, more than 0.
+pub fn weld(mesh: &TriMesh, tolerance: f64) -> Welded {
+    at_once(weld_in_slices(mesh, tolerance, &Yielder::never()))
+}
+
+/// As [`weld`], resting every few milliseconds.
+pub async fn weld_in_slices(mesh: &TriMesh, tolerance: f64, yielder: &Yielder) -> Welded {
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let rims = Rims::new(mesh, &topology, tolerance as f32);
+    let points: Vec<[u32; 3]> = rims.open.iter().map(|&v| [v; 3]).collect();
+    let index = SurfaceIndex::build(&mesh.positions, &points, &yielder.part(0.0..0.4)).await;
+    let mut pairs = Vec::new();
+    for block in blocks(rims.open.len(), SLICE) {
+        let end = block.end;
+        pairs.extend(rims.pairs(mesh, &topology, &index, block));
+        yielder.rest(0.4 + 0.5 * end as f32 / rims.open.len() as f32).await;
+    }
+    join(mesh, &topology, &rims, pairs)
+}
+
+/// Vertices on open edges.
+struct Rims {
     tolerance: f32,
-    topology: Topology,
-    /// Vertices on open edges, ascending, and how far each may be joined.
+    /// The vertices, ascending, and how far each may be joined.
     open: Vec<u32>,
     reach: Vec<f32>,
     limited: usize,
-    points: Vec<[u32; 3]>,
-    build: IndexBuild,
-    index: Option<SurfaceIndex>,
-    searched: usize,
-    pairs: Vec<Pair>,
 }
 
-impl WeldTask {
-    /// Of the open edges of `mesh` within `tolerance` mm, more than 0.
-    pub fn new(mesh: &TriMesh, tolerance: f64) -> Self {
-        let tolerance = tolerance as f32;
-        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+impl Rims {
+    fn new(mesh: &TriMesh, topology: &Topology, tolerance: f32) -> Self {
         let is_open = |&v: &u32| topology.edge_uses(v).iter().any(|edge| edge.is_boundary());
         let open: Vec<u32> = (0..mesh.positions.len() as u32).filter(is_open).collect();
         let mean_edge = |v: u32| {
@@ -80,35 +89,14 @@ impl WeldTask {
         let reach: Vec<f32> = open.iter().map(|&v| REACH * mean_edge(v) as f32).collect();
         let limited = reach.iter().filter(|&&reach| reach < tolerance).count();
         let reach = reach.iter().map(|reach| reach.min(tolerance)).collect();
-        let points = open.iter().map(|&v| [v; 3]).collect();
-        let (build, index, searched, pairs) = (IndexBuild::new(), None, 0, Vec::new());
-        Self { tolerance, topology, open, reach, limited, points, build, index, searched, pairs }
+        Self { tolerance, open, reach, limited }
     }
 
-    /// Works on `mesh`, which it was made for.
-    pub fn advance(&mut self, mesh: &TriMesh, budget: Budget) -> Progress<Welded> {
-        while self.index.is_none() {
-            if let Poll::Ready(index) = self.build.advance(&mesh.positions, &self.points, BUILD) {
-                self.index = Some(index);
-            } else if budget.is_spent() {
-                return Progress::Working(0.4 * self.build.fraction());
-            }
-        }
-        while self.searched < self.open.len() {
-            self.search(mesh);
-            if budget.is_spent() {
-                return Progress::Working(0.4 + 0.5 * self.searched as f32 / self.open.len() as f32);
-            }
-        }
-        Progress::Done(self.join(mesh))
-    }
-
-    /// Finds the partners of the next vertices.
-    fn search(&mut self, mesh: &TriMesh) {
-        let Some(index) = &self.index else { return };
-        let (from, to) = (self.searched, self.open.len().min(self.searched + SLICE));
-        let (open, reach, topology) = (&self.open, &self.reach, &self.topology);
-        let found = parallel::map_ranges(to - from, CHUNK, |range| {
+    /// The partners of these vertices, by their places.
+    fn pairs(&self, mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex, block: Range<usize>) -> Vec<Pair> {
+        let Self { open, reach, .. } = self;
+        let from = block.start;
+        let found = parallel::map_ranges(block.len(), CHUNK, |range| {
             let (mut pairs, mut near) = (Vec::new(), Vec::new());
             for at in from + range.start..from + range.end {
                 let (v, p) = (open[at], mesh.positions[open[at] as usize]);
@@ -129,43 +117,39 @@ impl WeldTask {
             }
             pairs
         });
-        self.pairs.extend(found.into_iter().flatten());
-        self.searched = to;
+        found.concat()
     }
+}
 
-    /// Joins the pairs, the nearest first.
-    fn join(&mut self, mesh: &TriMesh) -> Welded {
-        let at = |v: u32| mesh.positions[v as usize];
-        let order = |v: u32| at(v).to_array().map(f32::to_bits);
-        let mut pairs = std::mem::take(&mut self.pairs);
-        pairs.sort_unstable_by(|a, b| {
-            let place = |pair: &Pair| (order(pair.low).min(order(pair.high)), order(pair.low).max(order(pair.high)));
-            a.squared
-                .total_cmp(&b.squared)
-                .then_with(|| place(a).cmp(&place(b)))
-                .then((a.low, a.high).cmp(&(b.low, b.high)))
-        });
-        let mut clusters = Clusters::new(mesh.positions.len());
-        let farthest = self.tolerance * self.tolerance;
-        for Pair { low, high, .. } in pairs {
-            clusters.join(low, high, |v, w| {
-                at(v).distance_squared(at(w)) <= farthest && self.topology.edge(v, w).is_none()
-            });
-        }
-        let (row_of, rows) = clusters.numbered();
-        let joined = mesh.positions.len() - rows;
-        let vertices = Blend::of_groups(rows, &row_of, |_| 1.0);
-        let mean = |row: usize| match vertices.sources(row) {
-            [(v, _)] => at(*v),
-            sources => {
-                let sum: DVec3 = sources.iter().map(|&(v, _)| at(v).as_dvec3()).sum();
-                (sum / sources.len() as f64).as_vec3()
-            }
-        };
-        let positions = (0..rows).map(mean).collect();
-        let triangles = mesh.triangles.iter().map(|t| t.map(|v| row_of[v as usize])).collect();
-        Welded { mesh: TriMesh { positions, triangles }, vertices, joined, limited: self.limited }
+/// Joins the pairs, the nearest first.
+fn join(mesh: &TriMesh, topology: &Topology, rims: &Rims, mut pairs: Vec<Pair>) -> Welded {
+    let at = |v: u32| mesh.positions[v as usize];
+    let order = |v: u32| at(v).to_array().map(f32::to_bits);
+    pairs.sort_unstable_by(|a, b| {
+        let place = |pair: &Pair| (order(pair.low).min(order(pair.high)), order(pair.low).max(order(pair.high)));
+        a.squared
+            .total_cmp(&b.squared)
+            .then_with(|| place(a).cmp(&place(b)))
+            .then((a.low, a.high).cmp(&(b.low, b.high)))
+    });
+    let mut clusters = Clusters::new(mesh.positions.len());
+    let farthest = rims.tolerance * rims.tolerance;
+    for Pair { low, high, .. } in pairs {
+        clusters.join(low, high, |v, w| at(v).distance_squared(at(w)) <= farthest && topology.edge(v, w).is_none());
     }
+    let (row_of, rows) = clusters.numbered();
+    let joined = mesh.positions.len() - rows;
+    let vertices = Blend::of_groups(rows, &row_of, |_| 1.0);
+    let mean = |row: usize| match vertices.sources(row) {
+        [(v, _)] => at(*v),
+        sources => {
+            let sum: DVec3 = sources.iter().map(|&(v, _)| at(v).as_dvec3()).sum();
+            (sum / sources.len() as f64).as_vec3()
+        }
+    };
+    let positions = (0..rows).map(mean).collect();
+    let triangles = mesh.triangles.iter().map(|t| t.map(|v| row_of[v as usize])).collect();
+    Welded { mesh: TriMesh { positions, triangles }, vertices, joined, limited: rims.limited }
 }
 
 /// Vertices that become one.
@@ -224,16 +208,6 @@ impl Clusters {
             }
         }
         (row_of, rows as usize)
-    }
-}
-
-/// Joins open edges of `mesh` within `tolerance` mm.
-pub fn weld(mesh: &TriMesh, tolerance: f64) -> Welded {
-    let mut task = WeldTask::new(mesh, tolerance);
-    loop {
-        if let Progress::Done(welded) = task.advance(mesh, Budget::UNLIMITED) {
-            return welded;
-        }
     }
 }
 

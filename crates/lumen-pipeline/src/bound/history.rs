@@ -4,44 +4,38 @@ use std::ops::Range;
 
 use glam::Vec3;
 
+use super::trial::UNITS;
 use crate::progressive::ProgressiveMesh;
+use lumen_mesh::task::{Yielder, blocks};
 
-/// The triangles that each step of a run ended or changed; it is made in slices.
+/// The triangles that each step of a run ended or changed.
 #[derive(Debug, Default)]
 pub(super) struct History {
     /// For each step and one more, where its triangles begin.
     starts: Vec<u32>,
     /// Triangles that have a corner at a node that the step ends.
     triangles: Vec<u32>,
-    /// Triangles that were looked at: each twice.
-    looked_at: usize,
 }
 
 impl History {
-    /// Looks at up to `work` triangles and says whether that is all.
-    pub(super) fn advance(&mut self, mesh: &ProgressiveMesh, work: usize) -> bool {
+    pub(super) async fn new(mesh: &ProgressiveMesh, yielder: &Yielder) -> Self {
         let count = mesh.triangles.len();
-        if self.looked_at == 0 {
-            self.starts = vec![0; mesh.errors.len() + 2];
+        let mut starts = vec![0; mesh.errors.len() + 2];
+        for block in blocks(count, UNITS) {
+            each_change(mesh, block, |step, _| starts[step as usize + 2] += 1);
+            yielder.rest(0.0).await;
         }
-        if self.looked_at < count {
-            let range = self.looked_at..count.min(self.looked_at + work);
-            self.looked_at = range.end;
-            each_change(mesh, range, |step, _| self.starts[step as usize + 2] += 1);
-            if self.looked_at == count {
-                (1..self.starts.len()).for_each(|i| self.starts[i] += self.starts[i - 1]);
-                self.triangles = vec![0; self.starts[self.starts.len() - 1] as usize];
-            }
-        } else if self.looked_at < 2 * count {
-            let range = self.looked_at - count..count.min(self.looked_at - count + work);
-            self.looked_at = count + range.end;
-            each_change(mesh, range, |step, t| {
-                let place = &mut self.starts[step as usize + 1];
-                self.triangles[*place as usize] = t;
+        (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
+        let mut triangles = vec![0; starts[starts.len() - 1] as usize];
+        for block in blocks(count, UNITS) {
+            each_change(mesh, block, |step, t| {
+                let place = &mut starts[step as usize + 1];
+                triangles[*place as usize] = t;
                 *place += 1;
             });
+            yielder.rest(0.0).await;
         }
-        self.looked_at == 2 * count
+        Self { starts, triangles }
     }
 
     /// The triangles, as they stand after `step` steps, that the next one ends or changes.
@@ -93,6 +87,7 @@ mod tests {
     use crate::decimation::decimate;
     use crate::settings::{Decimation, Method};
     use lumen_mesh::Topology;
+    use lumen_mesh::task::at_once;
     use lumen_vessel::phantom::{Sample, generate};
 
     /// A phantom by either method.
@@ -107,8 +102,7 @@ mod tests {
     #[test]
     fn a_step_puts_back_what_the_level_before_has_and_the_one_after_has_not() {
         for levels in runs() {
-            let mut history = History::default();
-            while !history.advance(&levels, 100) {}
+            let history = at_once(History::new(&levels, &Yielder::never()));
             let corners = |steps: u32| -> Vec<[Vec3; 3]> {
                 levels.triangles_at(steps).iter().map(|t| t.map(|v| levels.positions[v as usize])).collect()
             };

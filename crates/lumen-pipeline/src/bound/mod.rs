@@ -20,17 +20,14 @@
 mod history;
 mod trial;
 
-use std::sync::Arc;
-use std::task::Poll;
-
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use self::history::History;
-use self::trial::{Memory, Surfaces, Trial, UNITS, Witness, distance};
+use self::trial::{Memory, Surfaces, Witness, distance, ruled_out};
 use super::progressive::ProgressiveMesh;
-use super::task::{Budget, Progress, Task};
-use lumen_mesh::{IndexBuild, SurfaceIndex, TriMesh, distance_to_triangle};
+use super::task::Yielder;
+use lumen_mesh::{SurfaceIndex, TriMesh, distance_to_triangle};
 
 /// Steps of a leap between two looks at the clock.
 const STEPS: u32 = 32;
@@ -45,143 +42,66 @@ pub struct Bound {
     pub next_coarser_mm: Option<f64>,
 }
 
-/// The search for the level, in slices.
-pub struct BoundTask {
-    progressive: Arc<ProgressiveMesh>,
-    finest: Arc<TriMesh>,
-    /// The bound in mm.
-    bound: f64,
-    build: IndexBuild,
-    fine: Option<Arc<SurfaceIndex>>,
-    history: History,
-    /// Whether each node is a vertex of the finest level.
-    is_vertex: Vec<bool>,
-    memory: Memory,
-    work: Work,
-    /// What rules out the level one step coarser than the one at work.
-    last: Option<Last>,
-}
-
-enum Work {
-    /// The next level, in steps, if it is not the finest.
-    Begin(u32),
-    Trial(Box<Trial>),
-    /// Points that are beyond the bound of the level after so many steps.
-    Leap(u32, Vec<Vec3>),
-    /// The level is found; the next coarser is measured from this point.
-    Measure(u32, Vec3, Box<(IndexBuild, Vec<[u32; 3]>)>),
-}
-
+/// What rules out the level one step coarser than the one at work.
+#[derive(Clone, Copy)]
 enum Last {
     Point(Vec3),
     Distance(f64),
 }
 
-impl BoundTask {
-    /// A search over the levels of `progressive`, whose finest is `finest`, for the coarsest within `bound` mm.
-    pub fn new(progressive: Arc<ProgressiveMesh>, finest: Arc<TriMesh>, bound: f64) -> Self {
-        Self {
-            work: Work::Begin(progressive.errors.len() as u32),
-            memory: Memory::new(finest.triangles.len()),
-            is_vertex: is_vertex(&progressive),
-            progressive,
-            finest,
-            bound,
-            build: IndexBuild::new(),
-            fine: None,
-            history: History::default(),
-            last: None,
-        }
-    }
-
-    /// Uses an index of the finest level that is there already.
-    #[must_use]
-    pub fn with_index(mut self, index: Arc<SurfaceIndex>) -> Self {
-        self.fine = Some(index);
-        self
-    }
-
-    /// The index of the finest level, once it is built.
-    pub fn index(&self) -> Option<&Arc<SurfaceIndex>> {
-        self.fine.as_ref()
-    }
-
-    /// One piece of work; the result when it is there.
-    fn step(&mut self) -> Option<Bound> {
-        let Some(fine) = &self.fine else {
-            if let Poll::Ready(index) = self.build.advance(&self.finest.positions, &self.finest.triangles, UNITS) {
-                self.fine = Some(Arc::new(index));
+/// The coarsest level of `progressive`, whose finest is `finest` with this `index`, that is within `bound_mm`. Rests every
+/// fraction of a millisecond, but for the beginning of each level (a few nanoseconds a node).
+pub async fn bound_in_slices(
+    progressive: &ProgressiveMesh,
+    finest: &TriMesh,
+    index: &SurfaceIndex,
+    bound_mm: f64,
+    yielder: &Yielder,
+) -> Bound {
+    let most = progressive.errors.len() as u32;
+    // The part that is done: how far the search has come from the coarsest level.
+    let at = |steps: u32| {
+        let done = 1.0 - steps as f32 / most.max(1) as f32;
+        yielder.part(done..done)
+    };
+    let history = History::new(progressive, &at(most)).await;
+    let is_vertex = is_vertex(progressive);
+    let all = Surfaces { progressive, finest, fine: index, is_vertex: &is_vertex };
+    let mut memory = Memory::new(finest.triangles.len());
+    let (mut steps, mut last) = (most, None);
+    while steps > 0 {
+        match ruled_out(&all, steps, bound_mm, &mut memory, &at(steps)).await {
+            None => break,
+            Some(Witness::Triangle { birth, distance }) => {
+                last = Some(Last::Distance(distance));
+                steps = birth.saturating_sub(1);
             }
-            return None;
-        };
-        if !self.history.advance(&self.progressive, UNITS) {
-            return None;
-        }
-        match &mut self.work {
-            Work::Begin(0) => return self.found(0),
-            Work::Begin(steps) => {
-                self.work = Work::Trial(Box::new(Trial::new(&self.progressive, *steps, self.bound)));
-            }
-            Work::Trial(trial) => {
-                let all =
-                    Surfaces { progressive: &self.progressive, finest: &self.finest, fine, is_vertex: &self.is_vertex };
-                let steps = trial.steps;
-                match trial.advance(&all, &mut self.memory) {
-                    Poll::Pending => {}
-                    Poll::Ready(None) => return self.found(steps),
-                    Poll::Ready(Some(Witness::Points(points))) => self.work = Work::Leap(steps, points),
-                    Poll::Ready(Some(Witness::Triangle { birth, distance })) => {
-                        self.last = Some(Last::Distance(distance));
-                        self.work = Work::Begin(birth.saturating_sub(1));
+            Some(Witness::Points(mut points)) => {
+                // A level of no steps is the surface itself.
+                while steps > 0 {
+                    steps -= 1;
+                    if let Some(point) = step_back(progressive, &history, steps, &mut points, bound_mm) {
+                        last = Some(Last::Point(point));
+                        break;
+                    }
+                    if steps.is_multiple_of(STEPS) {
+                        at(steps).rest(1.0).await;
                     }
                 }
             }
-            Work::Leap(steps, points) => {
-                for _ in 0..STEPS {
-                    // A level of no steps is the surface itself.
-                    if let Some(last) = step_back(&self.progressive, &self.history, *steps - 1, points, self.bound) {
-                        self.last = Some(Last::Point(last));
-                        self.work = Work::Begin(*steps - 1);
-                        return None;
-                    }
-                    *steps -= 1;
-                    if *steps == 0 {
-                        self.work = Work::Begin(0);
-                        return None;
-                    }
-                }
-            }
-            Work::Measure(steps, point, next) => {
-                let (build, level) = &mut **next;
-                if let Poll::Ready(index) = build.advance(&self.progressive.positions, level, UNITS) {
-                    return Some(Bound { steps: *steps, next_coarser_mm: Some(distance(&index, *point)) });
-                }
-            }
         }
-        None
+        at(steps).rest(1.0).await;
     }
-
-    /// The level is found; what is left is how far the next coarser is.
-    fn found(&mut self, steps: u32) -> Option<Bound> {
-        match self.last {
-            None => Some(Bound { steps, next_coarser_mm: None }),
-            Some(Last::Distance(distance)) => Some(Bound { steps, next_coarser_mm: Some(distance) }),
-            Some(Last::Point(point)) => {
-                let level = self.progressive.triangles_at(steps + 1);
-                self.work = Work::Measure(steps, point, Box::new((IndexBuild::new(), level)));
-                None
-            }
+    let next_coarser_mm = match last {
+        None => None,
+        Some(Last::Distance(distance)) => Some(distance),
+        Some(Last::Point(point)) => {
+            let level = progressive.triangles_at(steps + 1);
+            let index = SurfaceIndex::build(&progressive.positions, &level, &at(steps)).await;
+            Some(distance(&index, point))
         }
-    }
-
-    /// The part that is done, 0 to 1: how far the search has come from the coarsest level.
-    fn fraction(&self) -> f32 {
-        let steps = match &self.work {
-            Work::Begin(steps) | Work::Leap(steps, _) | Work::Measure(steps, ..) => *steps,
-            Work::Trial(trial) => trial.steps,
-        };
-        1.0 - steps as f32 / self.progressive.errors.len().max(1) as f32
-    }
+    };
+    Bound { steps, next_coarser_mm }
 }
 
 /// Whether each node is a vertex of the finest level.
@@ -213,31 +133,16 @@ fn step_back(
     last.filter(|_| points.is_empty())
 }
 
-impl Task for BoundTask {
-    type Output = Bound;
-
-    /// The clock is read every fraction of a millisecond, but for the beginning of each level (a few nanoseconds a
-    /// node).
-    fn advance(&mut self, budget: Budget) -> Progress<Bound> {
-        loop {
-            if let Some(bound) = self.step() {
-                return Progress::Done(bound);
-            }
-            if budget.is_spent() {
-                return Progress::Working(self.fraction());
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
     use std::time::Duration;
 
     use super::*;
     use crate::decimation::decimate;
     use crate::deviation::deviation;
     use crate::settings::{Decimation, Method};
+    use crate::task::{Budget, Progress, Running, at_once};
     use lumen_mesh::{Topology, surface_area};
     use lumen_vessel::phantom::{Sample, generate};
 
@@ -251,7 +156,9 @@ mod tests {
     }
 
     fn search(levels: &Arc<ProgressiveMesh>, bound: f64) -> Bound {
-        BoundTask::new(levels.clone(), Arc::new(levels.finest()), bound).finish()
+        let finest = levels.finest();
+        let index = SurfaceIndex::new(&finest.positions, &finest.triangles);
+        at_once(bound_in_slices(levels, &finest, &index, bound, &Yielder::never()))
     }
 
     fn largest(levels: &ProgressiveMesh, steps: u32, samples: usize) -> f64 {
@@ -296,13 +203,16 @@ mod tests {
     }
 
     #[test]
-    fn slices_and_a_given_index_change_nothing_and_progress_goes_up() {
+    fn slices_change_nothing_and_progress_goes_up() {
         let levels = levels(&generate(Sample::Aorta, 2_000).unwrap());
         let whole = search(&levels, 0.2);
-        let mut task = BoundTask::new(levels.clone(), Arc::new(levels.finest()), 0.2);
+        let (levels, finest) = (&levels, &levels.finest());
+        let index = &SurfaceIndex::new(&finest.positions, &finest.triangles);
+        let mut running =
+            Running::new(|yielder| async move { bound_in_slices(levels, finest, index, 0.2, &yielder).await });
         let mut before = 0.0;
         let sliced = loop {
-            match task.advance(Budget::new(Duration::ZERO)) {
+            match running.advance(Budget::new(Duration::ZERO)) {
                 Progress::Working(now) => {
                     assert!((before..=1.0).contains(&now), "{before} then {now}");
                     before = now;
@@ -311,9 +221,6 @@ mod tests {
             }
         };
         assert_eq!(sliced, whole);
-        let index = task.index().unwrap().clone();
-        let again = BoundTask::new(levels.clone(), Arc::new(levels.finest()), 0.2).with_index(index).finish();
-        assert_eq!(again, whole);
     }
 
     #[test]

@@ -7,7 +7,8 @@ use glam::Vec3;
 
 use super::history::births;
 use crate::progressive::ProgressiveMesh;
-use lumen_mesh::{IndexBuild, Reach, SurfaceIndex, TriMesh};
+use lumen_mesh::task::{Yielder, blocks};
+use lumen_mesh::{Reach, SurfaceIndex, TriMesh};
 
 /// Queries or pieces between two looks at the clock.
 const QUERIES: usize = 64;
@@ -59,198 +60,166 @@ pub(super) struct Surfaces<'a> {
     pub(super) is_vertex: &'a [bool],
 }
 
-/// A level that is being tried.
-pub(super) struct Trial {
-    pub(super) steps: u32,
+/// What rules out the level after `steps` steps by a bound of `bound` mm; `None` where it is within.
+pub(super) async fn ruled_out(
+    all: &Surfaces<'_>,
+    steps: u32,
     bound: f64,
-    level: Vec<[u32; 3]>,
-    build: IndexBuild,
+    memory: &mut Memory,
+    yielder: &Yielder,
+) -> Option<Witness> {
+    let triangles = all.progressive.triangles_at(steps);
+    yielder.rest(0.0).await;
+    let index = SurfaceIndex::build(&all.progressive.positions, &triangles, yielder).await;
+    let mut level = Level { steps, bound, triangles, index, births: Vec::new() };
+    if let Some(witness) = level.nodes(all, yielder).await {
+        return Some(witness);
+    }
+    level.births = births(all.progressive, steps);
+    if let Some(witness) = level.points(all, memory, yielder).await {
+        return Some(witness);
+    }
+    match level.coarse(all, memory, yielder).await {
+        Some(witness) => Some(witness),
+        None => level.fine(all, memory, yielder).await,
+    }
+}
+
+/// A level that is being tried.
+struct Level {
+    steps: u32,
+    bound: f64,
+    triangles: Vec<[u32; 3]>,
     index: SurfaceIndex,
-    stage: Stage,
-    next: usize,
-    beyond: Vec<Vec3>,
     births: Vec<u32>,
-    witness: Option<Witness>,
-    reach: Reach,
-    /// Triangles still to be settled, in this order.
-    order: Vec<u32>,
-    /// Whether the triangle in hand was begun.
-    is_begun: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Stage {
-    Index,
-    /// Vertices that are gone.
-    Nodes,
-    /// Corners, middles of sides and centroids of the level's triangles.
-    Points,
-    /// The level's triangles, to the last point.
-    Coarse,
-    /// The finest level's triangles, to the last point.
-    Fine,
-}
-
-impl Trial {
-    /// A trial of the level after `steps` steps by a bound of `bound` mm.
-    pub(super) fn new(progressive: &ProgressiveMesh, steps: u32, bound: f64) -> Self {
-        Self {
-            steps,
-            bound,
-            level: progressive.triangles_at(steps),
-            build: IndexBuild::new(),
-            index: SurfaceIndex::default(),
-            stage: Stage::Index,
-            next: 0,
-            beyond: Vec::new(),
-            births: Vec::new(),
-            witness: None,
-            reach: Reach::new(bound),
-            order: Vec::new(),
-            is_begun: false,
-        }
-    }
-
-    /// One piece of work: `Ready(None)` where the level is within.
-    pub(super) fn advance(&mut self, all: &Surfaces<'_>, memory: &mut Memory) -> Poll<Option<Witness>> {
-        let found = match self.stage {
-            Stage::Index => self.build.advance(&all.progressive.positions, &self.level, UNITS).map(|index| {
-                self.index = index;
-                None
-            }),
-            Stage::Nodes => self.nodes(all),
-            Stage::Points => self.points(all, memory),
-            Stage::Coarse => self.coarse(all, memory),
-            Stage::Fine => self.fine(all, memory),
-        };
-        if found != Poll::Ready(None) {
-            return found;
-        }
-        self.next = 0;
-        self.stage = match self.stage {
-            Stage::Index => Stage::Nodes,
-            Stage::Nodes => {
-                self.births = births(all.progressive, self.steps);
-                Stage::Points
-            }
-            Stage::Points => {
-                let is_open = |&t: &u32| memory.coarse[t as usize] != self.births[t as usize];
-                self.order = self.index.triangles().filter(is_open).collect();
-                Stage::Coarse
-            }
-            Stage::Coarse => {
-                let is_open = |&t: &u32| {
-                    let (by, birth) = memory.fine[t as usize];
-                    self.births.get(by as usize) != Some(&birth)
-                };
-                self.order = all.fine.triangles().filter(is_open).collect();
-                Stage::Fine
-            }
-            Stage::Fine => return Poll::Ready(None),
-        };
-        Poll::Pending
-    }
-
+impl Level {
     /// Vertices that are gone, the first to go first: they rule out most levels. (Those of the level are on it.)
-    fn nodes(&mut self, all: &Surfaces<'_>) -> Poll<Option<Witness>> {
+    async fn nodes(&self, all: &Surfaces<'_>, yielder: &Yielder) -> Option<Witness> {
         let ProgressiveMesh { positions, node_ends, .. } = all.progressive;
         let alive = node_ends.partition_point(|&end| end >= self.steps);
-        let gone = &positions[alive..];
-        let end = gone.len().min(self.next + QUERIES);
-        let vertices = gone.iter().zip(&all.is_vertex[alive..]).rev();
-        for (&p, &is_vertex) in vertices.skip(self.next).take(QUERIES) {
-            if is_vertex && p.is_finite() && !self.index.is_within(p, self.bound as f32) {
-                self.beyond.push(p);
+        let (gone, is_vertex) = (&positions[alive..], &all.is_vertex[alive..]);
+        let mut beyond = Vec::new();
+        for (gone, is_vertex) in gone.rchunks(QUERIES).zip(is_vertex.rchunks(QUERIES)) {
+            for (&p, &is_vertex) in gone.iter().zip(is_vertex).rev() {
+                if is_vertex && p.is_finite() && !self.index.is_within(p, self.bound as f32) {
+                    beyond.push(p);
+                }
             }
+            if beyond.len() >= POINTS {
+                break;
+            }
+            yielder.rest(0.0).await;
         }
-        self.next = end;
-        if self.beyond.len() >= POINTS || (end == gone.len() && !self.beyond.is_empty()) {
-            return Poll::Ready(Some(Witness::Points(std::mem::take(&mut self.beyond))));
-        }
-        if end == gone.len() { Poll::Ready(None) } else { Poll::Pending }
+        (!beyond.is_empty()).then_some(Witness::Points(beyond))
     }
 
     /// Some points of the level's triangles; the witness is the oldest triangle that is beyond.
-    fn points(&mut self, all: &Surfaces<'_>, memory: &mut Memory) -> Poll<Option<Witness>> {
-        let end = self.level.len().min(self.next + QUERIES / 4);
-        for t in self.next..end {
-            if memory.seen[t] == self.births[t] {
-                continue;
-            }
-            let [a, b, c] = self.level[t].map(|v| all.progressive.positions[v as usize]);
-            let points = [(a + b + c) / 3.0, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, a, b, c];
-            let is_new = self.level[t].iter().any(|&v| !all.is_vertex[v as usize]);
-            let points = &points[..if is_new { 7 } else { 4 }];
-            match points.iter().find(|&&p| !all.fine.is_within(p, self.bound as f32)) {
-                None => memory.seen[t] = self.births[t],
-                Some(&p) => self.offer(t, distance(all.fine, p)),
-            }
-        }
-        self.next = end;
-        if end == self.level.len() { Poll::Ready(self.witness.take()) } else { Poll::Pending }
-    }
-
-    /// Keeps triangle `t` as a witness if it is older than the one there is.
-    fn offer(&mut self, t: usize, distance: f64) {
-        let birth = self.births[t];
-        if !matches!(self.witness, Some(Witness::Triangle { birth: oldest, .. }) if oldest <= birth) {
-            self.witness = Some(Witness::Triangle { birth, distance });
-        }
-    }
-
-    fn coarse(&mut self, all: &Surfaces<'_>, memory: &mut Memory) -> Poll<Option<Witness>> {
-        for _ in 0..QUERIES {
-            let Some(&t) = self.order.get(self.next) else { return Poll::Ready(self.witness.take()) };
-            let t = t as usize;
-            let corners = || self.level[t].map(|v| all.progressive.positions[v as usize]);
-            match settle(&mut self.reach, &mut self.is_begun, corners, all.fine) {
-                Settled::Open => return Poll::Pending,
-                Settled::Within(_) => memory.coarse[t] = self.births[t],
-                Settled::Beyond(found) => self.offer(t, found.distance),
-            }
-            self.next += 1;
-        }
-        Poll::Pending
-    }
-
-    fn fine(&mut self, all: &Surfaces<'_>, memory: &mut Memory) -> Poll<Option<Witness>> {
-        for _ in 0..QUERIES {
-            let Some(&t) = self.order.get(self.next) else { return Poll::Ready(None) };
-            let t = t as usize;
-            match settle(&mut self.reach, &mut self.is_begun, || all.finest.corners(t), &self.index) {
-                Settled::Open => return Poll::Pending,
-                Settled::Within(by) => {
-                    memory.fine[t] = by.map_or((0, NO_BIRTH), |by| (by, self.births[by as usize]));
+    async fn points(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Witness> {
+        let mut oldest = Oldest::default();
+        for block in blocks(self.triangles.len(), QUERIES / 4) {
+            for t in block {
+                if memory.seen[t] == self.births[t] {
+                    continue;
                 }
-                Settled::Beyond(found) => return Poll::Ready(Some(Witness::Points(vec![found.point]))),
+                let [a, b, c] = self.corners(all, t);
+                let points = [(a + b + c) / 3.0, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, a, b, c];
+                let is_new = self.triangles[t].iter().any(|&v| !all.is_vertex[v as usize]);
+                let points = &points[..if is_new { 7 } else { 4 }];
+                match points.iter().find(|&&p| !all.fine.is_within(p, self.bound as f32)) {
+                    None => memory.seen[t] = self.births[t],
+                    Some(&p) => oldest.offer(self.births[t], distance(all.fine, p)),
+                }
             }
-            self.next += 1;
+            yielder.rest(0.0).await;
         }
-        Poll::Pending
+        oldest.witness()
+    }
+
+    /// The level's triangles, to the last point.
+    async fn coarse(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Witness> {
+        let is_open = |&t: &u32| memory.coarse[t as usize] != self.births[t as usize];
+        let order: Vec<u32> = self.index.triangles().filter(is_open).collect();
+        let (mut oldest, mut reach) = (Oldest::default(), Reach::new(self.bound));
+        for block in order.chunks(QUERIES) {
+            for &t in block {
+                let t = t as usize;
+                match settle(&mut reach, self.corners(all, t), all.fine, yielder).await {
+                    Settled::Within(_) => memory.coarse[t] = self.births[t],
+                    Settled::Beyond(found) => oldest.offer(self.births[t], found.distance),
+                }
+            }
+            yielder.rest(0.0).await;
+        }
+        oldest.witness()
+    }
+
+    /// The finest level's triangles, to the last point.
+    async fn fine(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Witness> {
+        let is_open = |&t: &u32| {
+            let (by, birth) = memory.fine[t as usize];
+            self.births.get(by as usize) != Some(&birth)
+        };
+        let order: Vec<u32> = all.fine.triangles().filter(is_open).collect();
+        let mut reach = Reach::new(self.bound);
+        for block in order.chunks(QUERIES) {
+            for &t in block {
+                let t = t as usize;
+                match settle(&mut reach, all.finest.corners(t), &self.index, yielder).await {
+                    Settled::Within(by) => {
+                        memory.fine[t] = by.map_or((0, NO_BIRTH), |by| (by, self.births[by as usize]));
+                    }
+                    Settled::Beyond(found) => return Some(Witness::Points(vec![found.point])),
+                }
+            }
+            yielder.rest(0.0).await;
+        }
+        None
+    }
+
+    fn corners(&self, all: &Surfaces<'_>, t: usize) -> [Vec3; 3] {
+        self.triangles[t].map(|v| all.progressive.positions[v as usize])
+    }
+}
+
+/// The oldest triangle that is beyond, by its birth, and a distance of it.
+#[derive(Default)]
+struct Oldest(Option<(u32, f64)>);
+
+impl Oldest {
+    fn offer(&mut self, birth: u32, distance: f64) {
+        if self.0.is_none_or(|(oldest, _)| birth < oldest) {
+            self.0 = Some((birth, distance));
+        }
+    }
+
+    fn witness(self) -> Option<Witness> {
+        self.0.map(|(birth, distance)| Witness::Triangle { birth, distance })
     }
 }
 
 /// What came of a triangle.
 enum Settled {
-    Open,
     /// It is within; of this one triangle, if it was one.
     Within(Option<u32>),
     Beyond(lumen_mesh::Beyond),
 }
 
-/// Goes on with a triangle, from its beginning unless `is_begun`.
-fn settle(reach: &mut Reach, is_begun: &mut bool, corners: impl Fn() -> [Vec3; 3], surface: &SurfaceIndex) -> Settled {
-    let is_whole = !*is_begun;
-    if is_whole {
-        reach.begin(corners());
+/// Whether a triangle is within the bound of a surface.
+async fn settle(reach: &mut Reach, corners: [Vec3; 3], surface: &SurfaceIndex, yielder: &Yielder) -> Settled {
+    reach.begin(corners);
+    let mut is_whole = true;
+    let mut found = reach.advance(surface, 1);
+    while found.is_pending() {
+        yielder.rest(0.0).await;
+        is_whole = false;
+        found = reach.advance(surface, QUERIES);
     }
-    let settled = match reach.advance(surface, if is_whole { 1 } else { QUERIES }) {
-        Poll::Ready(None) => Settled::Within(reach.nearest().filter(|_| is_whole)),
+    match found {
         Poll::Ready(Some(found)) => Settled::Beyond(found),
-        Poll::Pending => Settled::Open,
-    };
-    *is_begun = matches!(settled, Settled::Open);
-    settled
+        _ => Settled::Within(reach.nearest().filter(|_| is_whole)),
+    }
 }
 
 /// Distance of `p` from a surface in mm; infinite from one of no triangles.
@@ -263,19 +232,11 @@ mod tests {
     use super::*;
     use lumen_mesh::distance_to_triangle;
     use lumen_mesh::shapes::square;
+    use lumen_mesh::task::at_once;
 
     /// What comes of a triangle.
     fn settled(corners: [Vec3; 3], surface: &SurfaceIndex, bound: f64) -> Settled {
-        let (mut reach, mut is_begun) = (Reach::new(bound), false);
-        loop {
-            match settle(&mut reach, &mut is_begun, || corners, surface) {
-                Settled::Open => assert!(is_begun),
-                settled => {
-                    assert!(!is_begun, "the next triangle begins anew");
-                    return settled;
-                }
-            }
-        }
+        at_once(settle(&mut Reach::new(bound), corners, surface, &Yielder::never()))
     }
 
     #[test]
@@ -299,7 +260,7 @@ mod tests {
                     of_one += 1;
                 }
                 Settled::Within(None) => of_many += 1,
-                Settled::Open | Settled::Beyond(_) => panic!("all is {height} mm above the square"),
+                Settled::Beyond(_) => panic!("all is {height} mm above the square"),
             }
         }
         assert!(of_one > 20 && of_many > 20, "{of_one} {of_many}");

@@ -84,23 +84,19 @@ pub(crate) fn labels_of(mesh: &TriMesh, arrays: &[Array]) -> Option<Vec<u32>> {
 mod tests {
     use glam::Vec3;
 
-    use super::super::DecimationTask;
+    use super::super::{Holds, decimate_in_slices};
     use super::*;
     use crate::progressive::ProgressiveMesh;
     use crate::settings::{Decimation, Method, Target};
-    use crate::task::Task;
+    use crate::task::{Yielder, at_once};
     use lumen_mesh::arrays::{Scalar, Values};
     use lumen_mesh::shapes::{square, tube};
 
     fn decimated(mesh: &TriMesh, method: Method, labels: Option<Vec<u32>>) -> ProgressiveMesh {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let settings = Decimation { method, ..Decimation::default() };
-        let task = DecimationTask::new(mesh, &topology, &settings);
-        let levels = match labels {
-            Some(labels) => task.with_labels(labels.into()),
-            None => task,
-        };
-        let levels = levels.finish();
+        let holds = Holds { labels: labels.as_deref(), ..Holds::default() };
+        let levels = at_once(decimate_in_slices(mesh, &topology, &settings, holds, &Yielder::never())).progressive;
         levels.assert_well_formed();
         levels
     }

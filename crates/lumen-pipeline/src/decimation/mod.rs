@@ -40,16 +40,16 @@ mod ways;
 mod weights;
 
 pub(super) use self::borders::labels_of;
-pub use self::task::DecimationTask;
+pub use self::task::{Decimated, Holds, decimate_in_slices};
 pub use self::ways::{Fate, Ways};
 use super::progressive::ProgressiveMesh;
 use super::settings::Decimation;
-use lumen_mesh::task::Task;
+use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{Topology, TriMesh};
 
 /// Decimates `mesh` as far as it goes.
 pub fn decimate(mesh: &TriMesh, topology: &Topology, settings: &Decimation) -> ProgressiveMesh {
-    DecimationTask::new(mesh, topology, settings).finish()
+    at_once(decimate_in_slices(mesh, topology, settings, Holds::default(), &Yielder::never())).progressive
 }
 
 #[cfg(test)]
@@ -105,7 +105,8 @@ mod tests {
     fn spared(mesh: &TriMesh, method: Method, widths: Vec<f32>) -> ProgressiveMesh {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let settings = Decimation { method, ..Decimation::default() };
-        let levels = DecimationTask::new(mesh, &topology, &settings).with_widths(widths.into()).finish();
+        let holds = Holds { widths: Some(&widths), ..Holds::default() };
+        let levels = at_once(decimate_in_slices(mesh, &topology, &settings, holds, &Yielder::never())).progressive;
         levels.assert_well_formed();
         levels
     }

@@ -1,7 +1,4 @@
-//! A run in slices: the rings, the feature edges, each vertex judged once, then rounds until no vertex can go.
-
-use std::ops::Deref;
-use std::sync::Arc;
+//! A run: the rings, the feature edges, each vertex judged once, then rounds until no vertex can go.
 
 use super::collapse::{LAST, Refusal, Surface};
 use super::method::{self, Candidate, Judged};
@@ -13,7 +10,7 @@ use super::weights::ratios;
 use crate::classes::Lines;
 use crate::progressive::{Limit, Merge, ProgressiveMesh};
 use crate::settings::{Decimation, Method};
-use lumen_mesh::task::{Budget, Progress, Task};
+use lumen_mesh::task::{Yielder, blocks};
 use lumen_mesh::{EdgeUse, Topology, TriMesh, components};
 
 /// Vertices between two looks at the clock.
@@ -25,34 +22,79 @@ const EFFORT: usize = 1 << 15;
 /// Slots that get their rings between two looks at the clock before the first vertex is met.
 const LINKED: usize = 1 << 15;
 
-/// How far a run is.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd)]
-enum Phase {
-    /// Slots get their rings.
-    Linking,
-    /// Slots without a ring are dropped.
-    Numbering,
-    /// Pieces are counted.
-    Counting,
-    /// Feature edges are found and the method sees each slot; the next one.
-    Meeting(u32),
-    /// Each slot is judged for the first time; the next one.
-    Judging(u32),
-    /// Rounds.
-    Collapsing,
+/// What a run leaves.
+pub struct Decimated {
+    /// Every level.
+    pub progressive: ProgressiveMesh,
+    /// For each node the vertex of the surface that entered, or `MADE`.
+    pub vertex_of_node: Vec<u32>,
 }
 
-/// A decimation run in slices; `M` is any pointer to a mesh, `T` any to its topology.
-pub struct DecimationTask<M, T> {
-    mesh: M,
-    topology: T,
+/// What a run holds on to besides the shape.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Holds<'a> {
+    /// Thin vessels (`weights.rs`), where they are spared: the radius of the vessel at each vertex of the mesh in mm, infinite
+    /// where it is in none.
+    pub widths: Option<&'a [f32]>,
+    /// The borders between labels (`borders.rs`): a number for each triangle of the mesh.
+    pub labels: Option<&'a [u32]>,
+}
+
+/// Decimates `mesh`, whose topology is `topology`, as far as it goes. Rests about every millisecond; before the first vertex is
+/// judged pieces take some 20 ms at a million triangles.
+pub async fn decimate_in_slices(
+    mesh: &TriMesh,
+    topology: &Topology,
+    settings: &Decimation,
+    holds: Holds<'_>,
+    yielder: &Yielder,
+) -> Decimated {
+    let mut run = Run::new(mesh, topology, settings);
+    // Slots get their rings, those without one are dropped, and pieces are counted.
+    while !run.surface.rings.link(mesh, topology, LINKED) {
+        yielder.rest(0.0).await;
+    }
+    yielder.rest(0.0).await;
+    run.number(holds.widths);
+    yielder.rest(0.0).await;
+    let count = components(mesh.positions.len(), &mesh.triangles).count();
+    run.surface.guard.start(&run.surface.rings, count == 1 && run.surface.rings.is_closed());
+    yielder.rest(0.0).await;
+    run.guard_ready(yielder, 0.0).await;
+
+    // Feature edges are found and the method sees each slot, then each is judged for the first time. Both take about a tenth
+    // of the run.
+    let total = run.total as f32;
+    for block in blocks(run.total, CHUNK) {
+        let end = block.end;
+        for v in block.start as u32..end as u32 {
+            if let Some(labels) = holds.labels {
+                run.surface.find_borders(v, mesh, topology, labels);
+            }
+            run.surface.meet(v, run.crease);
+            run.note_lines(v);
+        }
+        yielder.rest(0.05 * end as f32 / total).await;
+    }
+    for block in blocks(run.total, CHUNK) {
+        let end = block.end;
+        (block.start as u32..end as u32).for_each(|v| run.begin(v));
+        yielder.rest(0.05 + 0.05 * end as f32 / total).await;
+    }
+    while run.collapse_some() {
+        let done = 0.1 + 0.9 * (1.0 - run.schedule.alive as f32 / total);
+        yielder.rest(done).await;
+        run.guard_ready(yielder, done).await;
+    }
+    run.result()
+}
+
+/// A run under way.
+struct Run<'a> {
+    mesh: &'a TriMesh,
+    topology: &'a Topology,
     surface: Surface,
     schedule: Schedule,
-    phase: Phase,
-    /// Radius of the vessel at each vertex of the mesh in mm, where thin vessels are spared.
-    widths: Option<Arc<[f32]>>,
-    /// For each triangle of the mesh a number, between different ones of which a border is held.
-    labels: Option<Arc<[u32]>>,
     /// Cosine of the feature angle.
     crease: f32,
     /// What is found of the surface that entered, by its vertices.
@@ -63,21 +105,17 @@ pub struct DecimationTask<M, T> {
     total: usize,
 }
 
-impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, T> {
-    /// Starts decimating `mesh`, whose topology is `topology`.
-    pub fn new(mesh: M, topology: T, settings: &Decimation) -> Self {
+impl<'a> Run<'a> {
+    fn new(mesh: &'a TriMesh, topology: &'a Topology, settings: &Decimation) -> Self {
         let method: Box<dyn method::Method + Send> = match settings.method {
             Method::Schroeder => Box::new(Schroeder::default()),
             Method::Quadric => Box::new(Quadric::default()),
         };
         Self {
-            surface: Surface::new(&mesh, method),
+            surface: Surface::new(mesh, method),
             mesh,
             topology,
             schedule: Schedule::default(),
-            phase: Phase::Linking,
-            widths: None,
-            labels: None,
             crease: libm::cos(settings.feature_angle.to_radians()) as f32,
             lines: Lines::default(),
             merges: Vec::new(),
@@ -86,48 +124,48 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
         }
     }
 
-    /// Spares thin vessels (`weights.rs`): `widths` has the radius of the vessel at each vertex of the mesh in mm, infinite
-    /// where it is in none.
-    #[must_use]
-    pub fn with_widths(self, widths: Arc<[f32]>) -> Self {
-        Self { widths: Some(widths), ..self }
-    }
-
-    /// Holds the borders between labels (`borders.rs`): `labels` has a number for each triangle of the mesh.
-    #[must_use]
-    pub fn with_labels(self, labels: Arc<[u32]>) -> Self {
-        Self { labels: Some(labels), ..self }
-    }
-
-    /// The next piece of what comes before the first vertex is met; at most some 20 ms at a million triangles.
-    fn prepare(&mut self) {
-        let rings = &mut self.surface.rings;
-        match self.phase {
-            Phase::Linking => {
-                if rings.link(&self.mesh, &self.topology, LINKED) {
-                    self.phase = Phase::Numbering;
-                }
-            }
-            Phase::Numbering => {
-                rings.compact();
-                let count = rings.len();
-                self.surface.method.start(count);
-                if let Some(widths) = self.widths.take() {
-                    self.surface.weigh(&ratios(&widths));
-                }
-                self.schedule = Schedule::new(count);
-                self.merges.reserve(count);
-                self.errors.reserve(count);
-                self.total = count;
-                self.phase = Phase::Counting;
-            }
-            Phase::Counting => {
-                let count = components(self.mesh.positions.len(), &self.mesh.triangles).count();
-                self.surface.guard.start(rings, count == 1 && rings.is_closed());
-                self.phase = Phase::Meeting(0);
-            }
-            Phase::Meeting(_) | Phase::Judging(_) | Phase::Collapsing => {}
+    /// Drops slots without a ring, and gets ready for the others.
+    fn number(&mut self, widths: Option<&[f32]>) {
+        self.surface.rings.compact();
+        let count = self.surface.rings.len();
+        self.surface.method.start(count);
+        if let Some(widths) = widths {
+            self.surface.weigh(&ratios(widths));
         }
+        self.schedule = Schedule::new(count);
+        self.merges.reserve(count);
+        self.errors.reserve(count);
+        self.total = count;
+    }
+
+    /// Goes on until the guard knows the surface, which it has to begin with again where the rings were compacted.
+    async fn guard_ready(&mut self, yielder: &Yielder, done: f32) {
+        while !self.surface.guard.is_ready() {
+            self.surface.guard.advance(&self.surface.rings, &mut self.surface.star);
+            yielder.rest(done).await;
+        }
+    }
+
+    /// Visits the next vertices, fewer where the guard has much to do; whether there are more.
+    fn collapse_some(&mut self) -> bool {
+        let mut effort = 0;
+        for _ in 0..CHUNK {
+            let goes_on = match self.schedule.pop() {
+                Some(v) => {
+                    self.visit(v);
+                    true
+                }
+                None => self.next_round(),
+            };
+            if !goes_on {
+                return false;
+            }
+            effort += self.surface.guard.take_effort();
+            if effort > EFFORT || !self.surface.guard.is_ready() {
+                break;
+            }
+        }
+        true
     }
 
     /// Takes note of the feature edges and open edges around `v`, and whether it is complex.
@@ -180,7 +218,7 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
             self.schedule.keys[v as usize] = key;
             return;
         }
-        match self.surface.way(&self.mesh, v, &judged, limits, threshold) {
+        match self.surface.way(self.mesh, v, &judged, limits, threshold) {
             Ok((candidate, tip)) => self.collapse(v, &candidate, tip),
             Err(Refusal::Later(key)) => self.schedule.keys[v as usize] = key,
             Err(Refusal::Stuck(stuck)) => match self.eased(v, &judged, stuck) {
@@ -220,7 +258,15 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
         }
     }
 
-    fn result(&mut self) -> ProgressiveMesh {
+    fn next_round(&mut self) -> bool {
+        if self.schedule.is_sparse() {
+            let kept = self.surface.compact();
+            self.schedule.compact(&kept);
+        }
+        self.schedule.next_round()
+    }
+
+    fn result(self) -> Decimated {
         let mut limit = Limit::default();
         for state in &self.schedule.states {
             match state.stuck {
@@ -230,86 +276,9 @@ impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> DecimationTask<M, 
                 None => {}
             }
         }
-        let errors = std::mem::take(&mut self.errors);
-        let levels = ProgressiveMesh::from_merges(&self.mesh, &self.merges, &self.surface.rings.made, errors, limit);
-        levels.with_lines(&std::mem::take(&mut self.lines), &self.vertices_of_nodes())
-    }
-
-    /// For each node of the result the vertex of the surface that entered, or `MADE`.
-    pub fn vertices_of_nodes(&self) -> Vec<u32> {
-        let (vertices, made) = (self.mesh.positions.len(), self.surface.rings.made.len());
-        ProgressiveMesh::vertices_of_nodes(vertices, made, &self.merges)
-    }
-
-    /// The next piece of work. Returns false when there is none.
-    fn step(&mut self) -> bool {
-        let count = self.surface.rings.len() as u32;
-        match self.phase {
-            Phase::Linking | Phase::Numbering | Phase::Counting => self.prepare(),
-            _ if !self.surface.guard.is_ready() => {
-                self.surface.guard.advance(&self.surface.rings, &mut self.surface.star);
-            }
-            Phase::Meeting(v) if v < count => {
-                if let Some(labels) = &self.labels {
-                    self.surface.find_borders(v, &self.mesh, &self.topology, labels);
-                }
-                self.surface.meet(v, self.crease);
-                self.note_lines(v);
-                self.phase = Phase::Meeting(v + 1);
-            }
-            Phase::Meeting(_) => self.phase = Phase::Judging(0),
-            Phase::Judging(v) if v < count => {
-                self.begin(v);
-                self.phase = Phase::Judging(v + 1);
-            }
-            Phase::Judging(_) => self.phase = Phase::Collapsing,
-            Phase::Collapsing => match self.schedule.pop() {
-                Some(v) => self.visit(v),
-                None => return self.next_round(),
-            },
-        }
-        true
-    }
-
-    fn next_round(&mut self) -> bool {
-        if self.schedule.is_sparse() {
-            let kept = self.surface.compact();
-            self.schedule.compact(&kept);
-        }
-        self.schedule.next_round()
-    }
-
-    fn fraction(&self) -> f32 {
-        let total = self.total.max(1) as f32;
-        // Seeing and judging all vertices once takes about a tenth of the run.
-        match self.phase {
-            Phase::Linking | Phase::Numbering | Phase::Counting => 0.0,
-            Phase::Meeting(v) => 0.05 * v as f32 / total,
-            Phase::Judging(v) => 0.05 + 0.05 * v as f32 / total,
-            Phase::Collapsing => 0.1 + 0.9 * (1.0 - self.schedule.alive as f32 / total),
-        }
-    }
-}
-
-impl<M: Deref<Target = TriMesh>, T: Deref<Target = Topology>> Task for DecimationTask<M, T> {
-    type Output = ProgressiveMesh;
-
-    fn advance(&mut self, budget: Budget) -> Progress<ProgressiveMesh> {
-        loop {
-            // A step may be long before the guard is ready, and among very many triangles.
-            let mut effort = 0;
-            for _ in 0..CHUNK {
-                if !self.step() {
-                    return Progress::Done(self.result());
-                }
-                effort += self.surface.guard.take_effort();
-                if effort > EFFORT || self.phase < Phase::Meeting(0) || !self.surface.guard.is_ready() {
-                    break;
-                }
-            }
-            if budget.is_spent() {
-                return Progress::Working(self.fraction());
-            }
-        }
+        let made = &self.surface.rings.made;
+        let vertex_of_node = ProgressiveMesh::vertices_of_nodes(self.mesh.positions.len(), made.len(), &self.merges);
+        let levels = ProgressiveMesh::from_merges(self.mesh, &self.merges, made, self.errors, limit);
+        Decimated { progressive: levels.with_lines(&self.lines, &vertex_of_node), vertex_of_node }
     }
 }

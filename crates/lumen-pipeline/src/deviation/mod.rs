@@ -10,7 +10,7 @@
 //! 2014). A sample is thus known from its number alone, and the result depends on neither slices nor threads: all cores
 //! measure samples, and of equal distances the first counts.
 //!
-//! The same samples make a map over the second surface ([`DeviationTask::with_map`]): each counts at the corners of the
+//! The same samples make a map over the second surface ([`Comparing::with_map`]): each counts at the corners of the
 //! triangle that it lies on or is nearest to, by its place there, and a vertex has the mean of what counts at it. So the
 //! mean over the map is the mean that is reported, and its range is that of the percentile: a map of the farthest point
 //! around each vertex would be of another kind than the numbers beside it. With the map come the histogram of the samples
@@ -23,10 +23,10 @@ mod summary;
 mod task;
 
 pub use summary::Deviation;
-pub use task::{Comparison, DeviationTask};
+pub use task::{Compared, Comparing, Comparison, compare};
 
 use lumen_mesh::TriMesh;
-use lumen_mesh::task::Task;
+use lumen_mesh::task::{Yielder, at_once};
 
 /// Samples of each surface for a report.
 pub const REPORT_SAMPLES: usize = 200_000;
@@ -38,22 +38,31 @@ pub const INTERACTIVE_SAMPLES: usize = 50_000;
 /// # Panics
 /// When an index of a triangle is out of range.
 pub fn deviation(a: &TriMesh, b: &TriMesh, samples: usize) -> Option<Deviation> {
-    Some(DeviationTask::new(a, b, samples).finish()?.deviation)
+    let how = Comparing { samples, ..Comparing::default() };
+    Some(at_once(compare(a, b, how, &Yielder::never())).comparison?.deviation)
 }
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
     use std::time::Duration;
 
     use super::*;
     use crate::histogram::Histogram;
     use lumen_mesh::parallel;
     use lumen_mesh::shapes::{icosphere, sagitta, square};
-    use lumen_mesh::task::{Budget, Progress};
+    use lumen_mesh::task::{Budget, Progress, Running};
     use lumen_mesh::{Vec3, triangle_area};
 
     const SAMPLES: usize = 20_000;
+
+    fn comparison(a: &TriMesh, b: &TriMesh, how: Comparing) -> Comparison {
+        at_once(compare(a, b, how, &Yielder::never())).comparison.unwrap()
+    }
+
+    /// With a map.
+    fn compared(a: &TriMesh, b: &TriMesh, samples: usize) -> Comparison {
+        comparison(a, b, Comparing { samples, with_map: true, index_of_a: None })
+    }
 
     #[test]
     fn parallel_planes_are_their_distance_apart() {
@@ -117,7 +126,7 @@ mod tests {
         let mut tipped = flat.clone();
         tipped.positions[60].z = 3.0;
         for (a, b) in [(&tipped, &flat), (&flat, &tipped)] {
-            let found = DeviationTask::new(a, b, 10).finish().unwrap();
+            let found = comparison(a, b, Comparing { samples: 10, ..Comparing::default() });
             assert_eq!(found.deviation.max, 3.0);
             let tip = tipped.positions[60].to_array();
             let foot = [tip[0], tip[1], 0.0];
@@ -132,7 +141,7 @@ mod tests {
         let floor = square(20, 10.0, 0.0);
         let mut steps = floor.clone();
         steps.positions.iter_mut().for_each(|p| p.z = 0.5 + ((p.x - 3.0) * 0.375).clamp(0.0, 1.5));
-        let found = DeviationTask::new(&floor, &steps, SAMPLES).with_map().finish().unwrap();
+        let found = compared(&floor, &steps, SAMPLES);
         for (p, &near) in steps.positions.iter().zip(&found.map) {
             let expected = if p.x < 2.0 { 0.5 } else { 2.0 };
             assert!((2.0..8.5).contains(&p.x) || (near - expected).abs() < 1e-4, "{p}: {near}");
@@ -150,7 +159,7 @@ mod tests {
     fn what_lies_outside_is_positive_and_what_lies_inside_negative() {
         let (small, large) = (icosphere(4, 10.0, Vec3::ZERO), icosphere(4, 11.0, Vec3::ZERO));
         for (a, b, sign) in [(&small, &large, 1.0), (&large, &small, -1.0)] {
-            let found = DeviationTask::new(a, b, SAMPLES).with_map().finish().unwrap();
+            let found = compared(a, b, SAMPLES);
             assert!(found.signed_map.iter().all(|&signed| (signed - sign).abs() < 0.05), "{sign}");
             let Histogram { inside, outside, .. } = &found.histogram;
             let (inside, outside) = (inside.iter().sum::<u32>(), outside.iter().sum::<u32>());
@@ -159,7 +168,7 @@ mod tests {
         }
         // A sphere that was moved lies outside where it was moved to, by as much as the cosine says.
         let moved = icosphere(4, 10.0, Vec3::X * 0.5);
-        let found = DeviationTask::new(&small, &moved, SAMPLES).with_map().finish().unwrap();
+        let found = compared(&small, &moved, SAMPLES);
         for (p, &signed) in moved.positions.iter().zip(&found.signed_map) {
             let expected = 0.5 * (p.x - 0.5) / 10.0;
             assert!((signed - expected).abs() < 0.06, "{p}: {signed} for {expected}");
@@ -173,9 +182,9 @@ mod tests {
     #[test]
     fn a_map_of_few_samples_has_no_holes_and_none_is_made_unless_asked() {
         let (low, high) = (square(40, 10.0, 0.0), square(40, 10.0, 3.0));
-        let found = DeviationTask::new(&low, &high, 5).with_map().finish().unwrap();
+        let found = compared(&low, &high, 5);
         assert!(found.map.iter().all(|&near| (near - 3.0).abs() < 1e-5), "{:?}", found.map);
-        assert!(DeviationTask::new(&low, &high, 5).finish().unwrap().map.is_empty());
+        assert!(comparison(&low, &high, Comparing { samples: 5, ..Comparing::default() }).map.is_empty());
     }
 
     #[test]
@@ -184,7 +193,7 @@ mod tests {
         let mut littered = flat.clone();
         littered.positions.extend([Vec3::splat(50.0), Vec3::splat(f32::NAN)]);
         for (a, b) in [(&littered, &flat), (&flat, &littered)] {
-            let found = DeviationTask::new(a, b, 100).with_map().finish().unwrap();
+            let found = compared(a, b, 100);
             assert_eq!((found.deviation.max, found.map), (0.0, vec![0.0; b.positions.len()]));
         }
     }
@@ -200,29 +209,29 @@ mod tests {
 
     #[test]
     fn slices_and_a_given_index_change_nothing() {
-        let (a, b) = (Arc::new(icosphere(3, 10.0, Vec3::ZERO)), Arc::new(icosphere(4, 10.5, Vec3::X)));
-        let whole = DeviationTask::new(a.clone(), b.clone(), 5000).with_map().finish().unwrap();
-        let mut task = DeviationTask::new(a.clone(), b.clone(), 5000).with_map();
+        let (a, b) = (&icosphere(3, 10.0, Vec3::ZERO), &icosphere(4, 10.5, Vec3::X));
+        let how = Comparing { samples: 5000, with_map: true, index_of_a: None };
+        let whole = compared(a, b, 5000);
+        let mut running = Running::new(|yielder| async move { compare(a, b, how, &yielder).await });
         let mut fraction = 0.0;
         let sliced = loop {
-            match task.advance(Budget::new(Duration::ZERO)) {
+            match running.advance(Budget::new(Duration::ZERO)) {
                 Progress::Working(now) => {
                     assert!((fraction..=1.0).contains(&now), "{fraction} then {now}");
                     fraction = now;
                 }
-                Progress::Done(result) => break result.unwrap(),
+                Progress::Done(result) => break result,
             }
         };
-        let index = task.index_of_a().unwrap().clone();
-        assert_eq!(sliced, whole);
-        assert_eq!(DeviationTask::new(a, b, 5000).with_map().with_index_of_a(index).finish().unwrap(), whole);
+        assert_eq!(sliced.comparison.unwrap(), whole);
+        let [index_of_a, _] = sliced.indices;
+        assert_eq!(comparison(a, b, Comparing { samples: 5000, with_map: true, index_of_a }), whole);
     }
 
     #[test]
     fn the_number_of_threads_changes_nothing() {
         let (a, b) = (icosphere(4, 10.0, Vec3::ZERO), icosphere(3, 10.2, Vec3::new(0.3, 0.2, 0.1)));
-        let all =
-            |threads| parallel::with_threads(threads, || DeviationTask::new(&a, &b, 5000).with_map().finish().unwrap());
+        let all = |threads| parallel::with_threads(threads, || compared(&a, &b, 5000));
         let alone = all(1);
         assert_eq!([all(2), all(7)], [alone.clone(), alone]);
     }

@@ -1,59 +1,50 @@
 //! Points spread evenly over a surface: sample `i` of `n` lies in the `i`-th of `n` equal parts of the area, in the order
 //! of the triangles, and its place there comes from a hash of `i`.
 
-use std::ops::Deref;
-use std::sync::Arc;
-use std::task::Poll;
-
 use glam::Vec3;
 
 use lumen_mesh::chance;
-use lumen_mesh::{IndexBuild, SurfaceIndex, TriMesh, triangle_area};
+use lumen_mesh::task::{Yielder, blocks};
+use lumen_mesh::{TriMesh, triangle_area};
 
 /// Triangles between two looks at the clock.
-pub(super) const UNITS: usize = 8192;
+const UNITS: usize = 8192;
 
 /// One of the two surfaces that are compared.
 #[derive(Debug)]
-pub(super) struct Side<M> {
-    pub(super) mesh: M,
-    pub(super) index: Option<Arc<SurfaceIndex>>,
+pub(super) struct Side<'a> {
+    pub(super) mesh: &'a TriMesh,
     /// Area of the triangles up to and with each, in mm2.
-    pub(super) areas: Vec<f64>,
+    areas: Vec<f64>,
     /// Vertices that a triangle uses.
     pub(super) used: Vec<bool>,
 }
 
-impl<M: Deref<Target = TriMesh>> Side<M> {
-    /// Adds the areas of triangles `from..to` and returns `to`.
-    pub(super) fn add_areas(&mut self, from: usize, to: usize) -> usize {
-        if from == 0 {
-            self.used = vec![false; self.mesh.positions.len()];
-            self.areas.reserve_exact(self.mesh.triangles.len());
-        }
-        let mut total = self.areas.last().copied().unwrap_or(0.0);
-        for t in from..to {
-            let area = triangle_area(self.mesh.corners(t));
-            if area.is_finite() {
-                total += area;
-                for v in self.mesh.triangles[t] {
-                    self.used[v as usize] = true;
+impl<'a> Side<'a> {
+    pub(super) async fn new(mesh: &'a TriMesh, yielder: &Yielder) -> Self {
+        let count = mesh.triangles.len();
+        let (mut areas, mut used) = (Vec::with_capacity(count), vec![false; mesh.positions.len()]);
+        let mut total = 0.0;
+        for block in blocks(count, UNITS) {
+            let end = block.end;
+            for t in block {
+                let area = triangle_area(mesh.corners(t));
+                if area.is_finite() {
+                    total += area;
+                    for v in mesh.triangles[t] {
+                        used[v as usize] = true;
+                    }
                 }
+                areas.push(total);
             }
-            self.areas.push(total);
+            yielder.rest(end as f32 / count as f32).await;
         }
-        to
+        Self { mesh, areas, used }
     }
 
-    /// Continues the index; whether it is there.
-    pub(super) fn add_index(&mut self, build: &mut IndexBuild) -> bool {
-        if self.index.is_none() {
-            match build.advance(&self.mesh.positions, &self.mesh.triangles, UNITS) {
-                Poll::Ready(index) => self.index = Some(Arc::new(index)),
-                Poll::Pending => return false,
-            }
-        }
-        true
+    /// Whether it has any area: without, there are no samples, and nothing is near to it.
+    pub(super) fn has_area(&self) -> bool {
+        self.areas.last().is_some_and(|&area| area > 0.0)
     }
 }
 
@@ -66,13 +57,13 @@ pub(super) struct Sample {
 }
 
 /// `count` points spread evenly over a surface.
-pub(super) struct Sampler<'a, M> {
-    pub(super) side: &'a Side<M>,
+pub(super) struct Sampler<'a> {
+    pub(super) side: &'a Side<'a>,
     pub(super) count: usize,
     pub(super) stream: u64,
 }
 
-impl<M: Deref<Target = TriMesh>> Sampler<'_, M> {
+impl Sampler<'_> {
     /// 1 where the way from the first surface to the second at a sample, whose nearest point on the other is `foot`, leads
     /// out of them, else -1.
     pub(super) fn sign(&self, sample: &Sample, foot: Vec3) -> f32 {
@@ -112,14 +103,14 @@ fn unit(stream: u64, i: usize, axis: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lumen_mesh::task::at_once;
 
     #[test]
     fn samples_are_spread_by_area() {
         // Triangles of very different size; each gets its share of the samples to within one at either end.
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(-9.0, 0.0, 0.0), Vec3::new(0.0, -90.0, 0.0)];
         let mesh = TriMesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]] };
-        let mut side = Side { mesh: &mesh, index: None, areas: Vec::new(), used: Vec::new() };
-        side.add_areas(0, 3);
+        let side = at_once(Side::new(&mesh, &Yielder::never()));
         let sampler = Sampler { side: &side, count: 8200, stream: 1 };
         let points: Vec<Vec3> = sampler.samples(0, 8200).map(|sample| sample.point).collect();
         let large = points.iter().filter(|p| p.y < 0.0).count();

@@ -1,22 +1,21 @@
-//! The comparison in slices: which surface is measured to which, in which order, and what is kept of it.
+//! The comparison: which surface is measured to which, in which order, and what is kept of it.
 
-use std::ops::Deref;
 use std::sync::Arc;
 
 use glam::Vec3;
 
 use super::map::DistanceMap;
-use super::sampling::{Sampler, Side, UNITS};
+use super::sampling::{Sampler, Side};
 use super::summary::{Deviation, Farthest, summary};
 use crate::histogram::Histogram;
 use lumen_mesh::parallel;
-use lumen_mesh::task::{Budget, Progress, Task};
-use lumen_mesh::{IndexBuild, Nearest, SurfaceIndex, TriMesh};
+use lumen_mesh::task::{Yielder, blocks};
+use lumen_mesh::{Nearest, SurfaceIndex, TriMesh};
 
 /// Queries of a core between two looks at the clock.
 const QUERIES: usize = 256;
 
-/// What a [`DeviationTask`] finds.
+/// What [`compare`] finds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// The summary.
@@ -30,225 +29,162 @@ pub struct Comparison {
     pub histogram: Histogram,
 }
 
-/// A comparison of two surfaces in slices; `M` is any pointer to a mesh.
-#[derive(Debug)]
-pub struct DeviationTask<M> {
+/// How two surfaces are compared.
+#[derive(Clone, Debug, Default)]
+pub struct Comparing {
+    /// Of each surface, at least one.
+    pub samples: usize,
+    /// Whether a map of the distances over the second surface is made as well.
+    pub with_map: bool,
+    /// An index of the first surface that is there already: for many levels compared with one input.
+    pub index_of_a: Option<Arc<SurfaceIndex>>,
+}
+
+/// What came of comparing two surfaces.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// `None` where one of the surfaces has no area.
+    pub comparison: Option<Comparison>,
+    /// The indices of both, as far as they were built or given.
+    pub indices: [Option<Arc<SurfaceIndex>>; 2],
+}
+
+/// Compares `a` with `b`. Rests every fraction of a millisecond; the summary at the end takes up to 15 ns a sample in one
+/// piece.
+pub async fn compare(a: &TriMesh, b: &TriMesh, how: Comparing, yielder: &Yielder) -> Compared {
+    let Comparing { samples, with_map, index_of_a } = how;
+    let samples = samples.max(1);
+    let [areas_a, areas_b, of_b, vertices_a, samples_a, of_a, samples_b, vertices_b, map] =
+        parts(a, b, samples, index_of_a.is_some()).map(|part| yielder.part(part));
+    let a = Side::new(a, &areas_a).await;
+    if !a.has_area() {
+        return Compared { comparison: None, indices: [index_of_a, None] };
+    }
+    let b = Side::new(b, &areas_b).await;
+    if !b.has_area() {
+        return Compared { comparison: None, indices: [index_of_a, None] };
+    }
+    let index_of_b = SurfaceIndex::known_or_built(None, b.mesh, &of_b).await;
+    let mut measured = Measured { samples, map: with_map.then(DistanceMap::new), ..Measured::default() };
+    // Vertices count where they are farther than all before.
+    measured.vertices([&a, &b], 0, &index_of_b, &vertices_a).await;
+    measured.samples([&a, &b], 0, &index_of_b, &samples_a).await;
+    let index_of_a = SurfaceIndex::known_or_built(index_of_a, a.mesh, &of_a).await;
+    measured.samples([&a, &b], 1, &index_of_a, &samples_b).await;
+    measured.vertices([&a, &b], 1, &index_of_a, &vertices_b).await;
+    if let Some(spreading) = &mut measured.map {
+        while !spreading.spread(&b.mesh.triangles) {
+            map.rest(0.0).await;
+        }
+    }
+    map.rest(1.0).await;
+    Compared { comparison: Some(measured.summed_up()), indices: [Some(index_of_a), Some(index_of_b)] }
+}
+
+/// The parts of the work that each step of [`compare`] is, by rule of thumb in nanoseconds.
+fn parts(a: &TriMesh, b: &TriMesh, samples: usize, has_index: bool) -> [std::ops::Range<f32>; 9] {
+    let [triangles_a, triangles_b] = [a, b].map(|mesh| mesh.triangles.len());
+    let [vertices_a, vertices_b] = [a, b].map(|mesh| mesh.positions.len());
+    let costs = [
+        10 * triangles_a,
+        10 * triangles_b,
+        250 * triangles_b,
+        200 * vertices_a,
+        700 * samples,
+        if has_index { 0 } else { 250 * triangles_a },
+        700 * samples,
+        200 * vertices_b,
+        20 * (triangles_b + samples),
+    ];
+    let all = costs.iter().sum::<usize>().max(1) as f32;
+    let mut done = 0;
+    costs.map(|cost| {
+        let begun = done;
+        done += cost;
+        begun as f32 / all..done as f32 / all
+    })
+}
+
+/// What was measured so far.
+#[derive(Default)]
+struct Measured {
+    /// Of each surface.
     samples: usize,
-    sides: [Side<M>; 2],
-    /// Position in [`STAGES`].
-    stage: usize,
-    /// Position within the stage.
-    next: usize,
-    build: IndexBuild,
-    index_was_given: bool,
     distances: Vec<f32>,
     farthest: Farthest,
     /// Over the second surface, where it was asked for.
     map: Option<DistanceMap>,
-    result: Option<Comparison>,
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Stage {
-    /// Prefix sums of this side's areas.
-    Areas(usize),
-    /// The index of this side's triangles.
-    Index(usize),
-    /// This side's vertices to the other.
-    Vertices(usize),
-    /// This side's samples to the other.
-    Samples(usize),
-    /// The map, where it was asked for.
-    Map,
-    Summary,
-}
-
-/// Vertices count where they are farther than all before.
-const STAGES: [Stage; 10] = [
-    Stage::Areas(0),
-    Stage::Areas(1),
-    Stage::Index(1),
-    Stage::Vertices(0),
-    Stage::Samples(0),
-    Stage::Index(0),
-    Stage::Samples(1),
-    Stage::Vertices(1),
-    Stage::Map,
-    Stage::Summary,
-];
-
-impl<M: Deref<Target = TriMesh> + Sync> DeviationTask<M> {
-    /// A comparison of `a` with `b` by `samples` samples of each (at least one).
-    pub fn new(a: M, b: M, samples: usize) -> Self {
-        Self {
-            samples: samples.max(1),
-            sides: [a, b].map(|mesh| Side { mesh, index: None, areas: Vec::new(), used: Vec::new() }),
-            stage: 0,
-            next: 0,
-            build: IndexBuild::new(),
-            index_was_given: false,
-            distances: Vec::new(),
-            farthest: Farthest::default(),
-            map: None,
-            result: None,
-        }
-    }
-
-    /// Makes a map of the distances over `b` as well.
-    #[must_use]
-    pub fn with_map(mut self) -> Self {
-        self.map = Some(DistanceMap::new());
-        self
-    }
-
-    /// Uses an index of `a` that is there already: for many levels compared with one input.
-    #[must_use]
-    pub fn with_index_of_a(mut self, index: Arc<SurfaceIndex>) -> Self {
-        self.sides[0].index = Some(index);
-        self.index_was_given = true;
-        self
-    }
-
-    /// The index of `a`, once it is built.
-    pub fn index_of_a(&self) -> Option<&Arc<SurfaceIndex>> {
-        self.sides[0].index.as_ref()
-    }
-
-    /// The index of `b`, once it is built.
-    pub fn index_of_b(&self) -> Option<&Arc<SurfaceIndex>> {
-        self.sides[1].index.as_ref()
-    }
-
-    /// The part that is done, 0-1, by estimated time.
-    fn fraction(&self) -> f32 {
-        let cost = |stage: &Stage| self.cost(*stage) as f32;
-        let done: f32 = STAGES[..self.stage].iter().map(cost).sum();
-        let all: f32 = STAGES.iter().map(cost).sum();
-        let current = STAGES.get(self.stage).map_or(0.0, |&stage| match stage {
-            Stage::Index(_) => cost(&stage) * self.build.fraction(),
-            _ => cost(&stage) * self.next as f32 / self.length(stage).max(1) as f32,
-        });
-        (done + current) / all
-    }
-
-    /// Number of things a stage goes through.
-    fn length(&self, stage: Stage) -> usize {
-        match stage {
-            Stage::Areas(side) | Stage::Index(side) => self.sides[side].mesh.triangles.len(),
-            Stage::Vertices(side) => self.sides[side].mesh.positions.len(),
-            Stage::Samples(_) | Stage::Summary => self.samples,
-            Stage::Map if self.map.is_some() => self.sides[1].mesh.triangles.len(),
-            Stage::Map => 0,
-        }
-    }
-
-    /// Time of a stage, in nanoseconds by rule of thumb.
-    fn cost(&self, stage: Stage) -> usize {
-        let each = match stage {
-            Stage::Areas(_) => 10,
-            Stage::Index(0) if self.index_was_given => 0,
-            Stage::Index(_) => 250,
-            Stage::Samples(_) => 700,
-            Stage::Vertices(_) => 200,
-            Stage::Map | Stage::Summary => 20,
-        };
-        1 + each * self.length(stage)
-    }
-
-    /// One piece of the current stage.
-    fn step(&mut self) {
-        let stage = STAGES[self.stage];
-        let length = self.length(stage);
-        let done = match stage {
-            Stage::Areas(side) => {
-                self.next = self.sides[side].add_areas(self.next, length.min(self.next + UNITS));
-                // A surface without area has no samples, and nothing is near to it.
-                if self.next == length && self.sides[side].areas.last().is_none_or(|&area| area <= 0.0) {
-                    self.stage = STAGES.len();
-                    return;
-                }
-                self.next == length
-            }
-            Stage::Index(side) => self.sides[side].add_index(&mut self.build),
-            Stage::Vertices(side) => {
-                let end = length.min(self.next + QUERIES * parallel::threads());
-                self.measure_vertices(side, end);
-                self.next = end;
-                end == length
-            }
-            Stage::Samples(side) => {
-                let end = length.min(self.next + QUERIES * parallel::threads());
-                self.measure_samples(side, end);
-                self.next = end;
-                end == length
-            }
-            Stage::Map => self.map.as_mut().is_none_or(|map| map.spread(&self.sides[1].mesh.triangles)),
-            Stage::Summary => {
-                let most = f64::from(self.farthest.distance.max(0.0));
-                let histogram =
-                    if self.map.is_some() { Histogram::new(&self.distances, most) } else { Histogram::default() };
-                self.distances.iter_mut().for_each(|distance| *distance = distance.abs());
-                let deviation = summary(&mut self.distances, &self.farthest);
-                let [map, signed_map] = self.map.take().map(|map| map.means()).unwrap_or_default();
-                self.result = Some(Comparison { deviation, map, signed_map, histogram });
-                true
-            }
-        };
-        if done {
-            self.stage += 1;
-            self.next = 0;
-        }
-    }
-
-    fn measure_vertices(&mut self, side: usize, end: usize) {
-        let Side { mesh, used, .. } = &self.sides[side];
-        let Some(other) = &self.sides[1 - side].index else { return };
-        let (first, sofar) = (self.next, self.farthest.distance);
-        let pieces = parallel::map_ranges(end - first, QUERIES, |piece| {
-            let mut queries = Queries::new(other, side);
-            let piece = first + piece.start..first + piece.end;
-            for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
-                if used && !other.is_within(p, sofar) {
-                    queries.measure(p);
-                }
-            }
-            queries
-        });
-        pieces.into_iter().for_each(|queries| self.farthest.take(queries.farthest));
-    }
-
-    fn measure_samples(&mut self, side: usize, end: usize) {
-        let Some(other) = &self.sides[1 - side].index else { return };
-        let sampler = Sampler { side: &self.sides[side], count: self.samples, stream: side as u64 };
-        let (first, wants_map) = (self.next, self.map.is_some());
-        let pieces = parallel::map_ranges(end - first, QUERIES, |piece| {
-            let mut queries = Queries::new(other, side);
-            for sample in sampler.samples(first + piece.start, first + piece.end) {
-                let found = queries.measure(sample.point);
-                let distance = found.map_or(0.0, |found| found.distance);
-                let sign = if wants_map { found.map_or(1.0, |found| sampler.sign(&sample, found.point)) } else { 1.0 };
-                queries.distances.push(distance.copysign(sign));
-                if wants_map {
-                    let foot = found.map(|found| (found.triangle, found.barycentric));
-                    queries.places.push(if side == 0 { foot } else { Some((sample.triangle, sample.weights)) });
-                }
-            }
-            queries
-        });
-        if let Some(map) = &mut self.map {
-            map.reserve(self.sides[1].mesh.positions.len());
-        }
-        for Queries { distances, places, farthest, .. } in pieces {
-            self.farthest.take(farthest);
-            if let Some(map) = &mut self.map {
-                for (place, &distance) in places.into_iter().zip(&distances) {
-                    if let Some((triangle, weights)) = place {
-                        map.add(self.sides[1].mesh.triangles[triangle as usize], weights, distance);
+impl Measured {
+    /// Measures the vertices of one side to the other, of which `other` is the index.
+    async fn vertices(&mut self, sides: [&Side<'_>; 2], side: usize, other: &SurfaceIndex, yielder: &Yielder) {
+        let Side { mesh, used, .. } = sides[side];
+        let count = mesh.positions.len();
+        for block in blocks(count, QUERIES * parallel::threads()) {
+            let (first, end, sofar) = (block.start, block.end, self.farthest.distance);
+            let pieces = parallel::map_ranges(block.len(), QUERIES, |piece| {
+                let mut queries = Queries::new(other, side);
+                let piece = first + piece.start..first + piece.end;
+                for (&p, &used) in mesh.positions[piece.clone()].iter().zip(&used[piece]) {
+                    if used && !other.is_within(p, sofar) {
+                        queries.measure(p);
                     }
                 }
-            }
-            self.distances.extend(distances);
+                queries
+            });
+            pieces.into_iter().for_each(|queries| self.farthest.take(queries.farthest));
+            yielder.rest(end as f32 / count as f32).await;
         }
+    }
+
+    /// Measures the samples of one side to the other, of which `other` is the index.
+    async fn samples(&mut self, sides: [&Side<'_>; 2], side: usize, other: &SurfaceIndex, yielder: &Yielder) {
+        let second = sides[1].mesh;
+        let sampler = Sampler { side: sides[side], count: self.samples, stream: side as u64 };
+        let wants_map = self.map.is_some();
+        if let Some(map) = &mut self.map {
+            map.reserve(second.positions.len());
+        }
+        for block in blocks(self.samples, QUERIES * parallel::threads()) {
+            let (first, end) = (block.start, block.end);
+            let pieces = parallel::map_ranges(block.len(), QUERIES, |piece| {
+                let mut queries = Queries::new(other, side);
+                for sample in sampler.samples(first + piece.start, first + piece.end) {
+                    let found = queries.measure(sample.point);
+                    let distance = found.map_or(0.0, |found| found.distance);
+                    let sign =
+                        if wants_map { found.map_or(1.0, |found| sampler.sign(&sample, found.point)) } else { 1.0 };
+                    queries.distances.push(distance.copysign(sign));
+                    if wants_map {
+                        let foot = found.map(|found| (found.triangle, found.barycentric));
+                        queries.places.push(if side == 0 { foot } else { Some((sample.triangle, sample.weights)) });
+                    }
+                }
+                queries
+            });
+            for Queries { distances, places, farthest, .. } in pieces {
+                self.farthest.take(farthest);
+                if let Some(map) = &mut self.map {
+                    for (place, &distance) in places.into_iter().zip(&distances) {
+                        if let Some((triangle, weights)) = place {
+                            map.add(second.triangles[triangle as usize], weights, distance);
+                        }
+                    }
+                }
+                self.distances.extend(distances);
+            }
+            yielder.rest(end as f32 / self.samples as f32).await;
+        }
+    }
+
+    fn summed_up(mut self) -> Comparison {
+        let most = f64::from(self.farthest.distance.max(0.0));
+        let histogram = if self.map.is_some() { Histogram::new(&self.distances, most) } else { Histogram::default() };
+        self.distances.iter_mut().for_each(|distance| *distance = distance.abs());
+        let deviation = summary(&mut self.distances, &self.farthest);
+        let [map, signed_map] = self.map.take().map(|map| map.means()).unwrap_or_default();
+        Comparison { deviation, map, signed_map, histogram }
     }
 }
 
@@ -282,22 +218,5 @@ impl<'a> Queries<'a> {
         let points = if self.side == 0 { [p, point] } else { [point, p] };
         self.farthest.take(Farthest { distance, points });
         found
-    }
-}
-
-impl<M: Deref<Target = TriMesh> + Sync> Task for DeviationTask<M> {
-    /// `None` where one of the surfaces has no area.
-    type Output = Option<Comparison>;
-
-    /// The clock is read every fraction of a millisecond; the summary at the end takes up to 15 ns a sample in one
-    /// piece.
-    fn advance(&mut self, budget: Budget) -> Progress<Option<Comparison>> {
-        while self.stage < STAGES.len() {
-            self.step();
-            if self.stage < STAGES.len() && budget.is_spent() {
-                return Progress::Working(self.fraction());
-            }
-        }
-        Progress::Done(self.result.take())
     }
 }

@@ -16,9 +16,7 @@
 
 mod tree;
 
-use std::ops::{Deref, Range};
-use std::sync::Arc;
-use std::task::Poll;
+use std::ops::Range;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -27,17 +25,14 @@ use self::tree::Tree;
 use super::lumen::{PINCHED, Sample, clearances, samples, worst};
 use super::progressive::{NEVER, ProgressiveMesh};
 use super::settings::{Target, reduction_percent};
-use super::shape::ShapeTask;
-use super::task::{Budget, Progress, Task};
+use super::task::{Yielder, at_once, blocks};
 use lumen_language::decimal;
 use lumen_language::say;
 use lumen_mesh::parallel;
-use lumen_mesh::{IndexBuild, SurfaceIndex, Topology, TriMesh, Vec3, distance_to_triangle};
+use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, distance_to_triangle, inner_radii};
 
 /// Triangles of a core that are followed between two looks at the clock.
 const TRIANGLES: usize = 128;
-/// Triangles that are indexed between two looks at the clock.
-const UNITS: usize = 8192;
 /// Rates, in tenths of a percent, from 0 on.
 const RATES: usize = Target::MAX_PER_MILLE as usize + 1;
 
@@ -73,33 +68,64 @@ impl std::fmt::Display for Pinch {
 pub fn first_pinch(progressive: &ProgressiveMesh) -> Option<Pinch> {
     let finest = progressive.finest();
     let topology = Topology::new(finest.positions.len(), &finest.triangles);
-    let mut task = ShapeTask::radii_only(&finest, &topology);
-    let index = loop {
-        if let Progress::Done(measured) = task.advance(Budget::UNLIMITED) {
-            break task.index().map(|index| samples(&finest, &topology, &measured.balls, index));
-        }
-    };
-    PinchTask::new(progressive, index?.into()).finish()
+    let index = SurfaceIndex::new(&finest.positions, &finest.triangles);
+    let samples = samples(&finest, &topology, &inner_radii(&finest, &topology, &index), &index);
+    at_once(first_pinch_of(progressive, &samples, &Yielder::never()))
 }
 
-/// The search for the first pinch, in slices; `P` is any pointer to a progressive mesh.
-#[derive(Debug)]
-pub struct PinchTask<P> {
-    progressive: P,
-    samples: Arc<[Sample]>,
+/// As [`first_pinch`], by these samples of the finest level. Rests every millisecond or so; taking a level and measuring the
+/// samples on it are one piece each, of up to 20 ns a triangle and 2 microseconds a sample.
+pub async fn first_pinch_of(progressive: &ProgressiveMesh, samples: &[Sample], yielder: &Yielder) -> Option<Pinch> {
+    if samples.is_empty() {
+        return None;
+    }
+    let count = progressive.triangles.len();
+    let mut search = Search::new(progressive, samples);
+    for block in blocks(count, TRIANGLES * parallel::threads()) {
+        let end = block.end;
+        search.follow(block);
+        yielder.rest(0.9 * end as f32 / count as f32).await;
+    }
+    search.settle_passes();
+    for rate in 0..RATES as u32 {
+        if !search.is_suspect[rate as usize] {
+            continue;
+        }
+        let mesh = progressive.extract(&progressive.level(Target::Reduction(rate)).triangles);
+        let at = 0.9 + 0.1 * rate as f32 / RATES as f32;
+        let index = SurfaceIndex::build(&mesh.positions, &mesh.triangles, &yielder.part(at..at)).await;
+        if let Some(pinch) = pinched(samples, rate, &mesh, &index) {
+            return Some(pinch);
+        }
+        yielder.rest(at).await;
+    }
+    None
+}
+
+/// The vessel that is pinched most at this rate, if one is; `mesh` is the level.
+fn pinched(samples: &[Sample], rate: u32, mesh: &TriMesh, index: &SurfaceIndex) -> Option<Pinch> {
+    let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
+    let clearances = clearances(samples, mesh, &topology, index);
+    let (i, _) = worst(samples, &clearances).filter(|(_, ratio)| *ratio < PINCHED)?;
+    Some(Pinch {
+        from_percent: reduction_percent(1000, 1000 - rate as usize),
+        triangles: mesh.triangles.len(),
+        at_mm: samples[i].at.to_array(),
+        diameter_before_mm: 2.0 * f64::from(samples[i].clearance),
+        diameter_after_mm: 2.0 * f64::from(clearances[i]),
+    })
+}
+
+/// The search for rates at which a vessel may be pinched.
+struct Search<'a> {
+    progressive: &'a ProgressiveMesh,
+    samples: &'a [Sample],
     tree: Tree,
     /// Steps of the level at each rate.
     steps: Vec<u32>,
-    /// Triangles that were followed to their end.
-    followed: usize,
     /// Whether each rate has a triangle that is too close to a sample, or a sample outside.
     is_suspect: Vec<bool>,
     passes: Vec<Pass>,
-    /// The rate that is looked at.
-    rate: usize,
-    build: IndexBuild,
-    level: Option<TriMesh>,
-    found: Option<Pinch>,
 }
 
 /// The surface passes over a sample.
@@ -119,33 +145,24 @@ struct Followed {
     passes: Vec<Pass>,
 }
 
-impl<P: Deref<Target = ProgressiveMesh> + Sync> PinchTask<P> {
-    /// Of all levels, by samples of the finest.
-    pub fn new(progressive: P, samples: Arc<[Sample]>) -> Self {
+impl<'a> Search<'a> {
+    fn new(progressive: &'a ProgressiveMesh, samples: &'a [Sample]) -> Self {
         let count = progressive.triangles.len();
         let steps = |rate: u32| progressive.steps_to(Target::Reduction(rate).triangles(count));
         Self {
             steps: (0..RATES as u32).map(steps).collect(),
-            tree: Tree::new(&samples),
-            followed: if samples.is_empty() { count } else { 0 },
+            tree: Tree::new(samples),
             is_suspect: vec![false; RATES],
             passes: Vec::new(),
-            rate: 0,
-            build: IndexBuild::new(),
-            level: None,
-            found: None,
             progressive,
             samples,
         }
     }
 
-    /// Follows the next triangles; whether those were the last.
-    fn follow(&mut self) -> bool {
-        let count = self.progressive.triangles.len();
-        let end = count.min(self.followed + TRIANGLES * parallel::threads());
-        let first = self.followed;
-        let this = &*self;
-        let pieces = parallel::map_ranges(end - first, TRIANGLES, |piece| {
+    /// Follows these triangles.
+    fn follow(&mut self, block: Range<usize>) {
+        let (first, this) = (block.start, &*self);
+        let pieces = parallel::map_ranges(block.len(), TRIANGLES, |piece| {
             let (mut found, mut near) = (Followed::default(), Vec::new());
             (first + piece.start..first + piece.end).for_each(|t| this.follow_one(t, &mut found, &mut near));
             found
@@ -154,13 +171,11 @@ impl<P: Deref<Target = ProgressiveMesh> + Sync> PinchTask<P> {
             close.into_iter().for_each(|rates| self.is_suspect[rates].fill(true));
             self.passes.extend(passes);
         }
-        self.followed = end;
-        end == count
     }
 
     /// Follows triangle `t` from the finest level to its end.
     fn follow_one(&self, t: usize, found: &mut Followed, near: &mut Vec<u32>) {
-        let ProgressiveMesh { triangles, node_ends, parents, positions, .. } = &*self.progressive;
+        let ProgressiveMesh { triangles, node_ends, parents, positions, .. } = self.progressive;
         let end_of = |corners: [u32; 3]| corners.map(|v| node_ends[v as usize]).into_iter().fold(NEVER, u32::min);
         let mut corners = triangles[t];
         loop {
@@ -229,64 +244,6 @@ impl<P: Deref<Target = ProgressiveMesh> + Sync> PinchTask<P> {
             }
         }
     }
-
-    /// The next rate to look at.
-    fn next_suspect(&mut self) -> Option<u32> {
-        let rest = self.is_suspect.get(self.rate..).filter(|_| self.found.is_none())?;
-        self.rate += rest.iter().position(|&is_suspect| is_suspect)?;
-        Some(self.rate as u32)
-    }
-
-    fn look(&mut self, rate: u32, mesh: &TriMesh, index: &SurfaceIndex) {
-        let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
-        let clearances = clearances(&self.samples, mesh, &topology, index);
-        let found = worst(&self.samples, &clearances).filter(|(_, ratio)| *ratio < PINCHED);
-        self.rate += 1;
-        self.found = found.map(|(i, _)| Pinch {
-            from_percent: reduction_percent(1000, 1000 - rate as usize),
-            triangles: mesh.triangles.len(),
-            at_mm: self.samples[i].at.to_array(),
-            diameter_before_mm: 2.0 * f64::from(self.samples[i].clearance),
-            diameter_after_mm: 2.0 * f64::from(clearances[i]),
-        });
-    }
-
-    fn fraction(&self) -> f32 {
-        let followed = self.followed as f32 / self.progressive.triangles.len().max(1) as f32;
-        0.9 * followed + 0.1 * self.rate as f32 / RATES as f32
-    }
-}
-
-impl<P: Deref<Target = ProgressiveMesh> + Sync> Task for PinchTask<P> {
-    type Output = Option<Pinch>;
-
-    /// The clock is read every millisecond or so; taking a level and measuring the samples on it are one piece each,
-    /// of up to 20 ns a triangle and 2 microseconds a sample.
-    fn advance(&mut self, budget: Budget) -> Progress<Option<Pinch>> {
-        while self.followed < self.progressive.triangles.len() {
-            if self.follow() {
-                self.settle_passes();
-            }
-            if budget.is_spent() {
-                return Progress::Working(self.fraction());
-            }
-        }
-        while let Some(rate) = self.next_suspect() {
-            let progressive = &*self.progressive;
-            let mesh = self
-                .level
-                .get_or_insert_with(|| progressive.extract(&progressive.level(Target::Reduction(rate)).triangles));
-            if let Poll::Ready(index) = self.build.advance(&mesh.positions, &mesh.triangles, UNITS)
-                && let Some(mesh) = self.level.take()
-            {
-                self.look(rate, &mesh, &index);
-            }
-            if budget.is_spent() {
-                return Progress::Working(self.fraction());
-            }
-        }
-        Progress::Done(self.found.take())
-    }
 }
 
 /// What becomes of a sample when the triangle `before` becomes the one, or those, with a corner at `to`: 1 where the
@@ -310,12 +267,14 @@ fn passes_over(sample: &Sample, before: [Vec3; 3], to: Vec3) -> i32 {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::lumen::narrowing;
     use crate::progressive::{Limit, Merge};
     use crate::run::Pipeline;
     use crate::settings::{Decimation, Method, Settings, Smoothing};
-    use lumen_mesh::inner_radii;
+    use crate::task::{Budget, Progress, Running};
     use lumen_mesh::shapes::{icosphere, joined, square, tube};
 
     fn samples_of(mesh: &TriMesh) -> Vec<Sample> {
@@ -380,7 +339,7 @@ mod tests {
             progressive.assert_well_formed();
             let samples = samples_of(&wall);
             let expected = by_looking(&progressive, &samples).expect("the wall is at the axis for a while");
-            let pinch = PinchTask::new(&progressive, samples.into()).finish().unwrap();
+            let pinch = at_once(first_pinch_of(&progressive, &samples, &Yielder::never())).unwrap();
             assert_eq!(rate(&pinch), expected, "{steps:?}: {pinch:?}");
             assert!((pinch.at_mm[2] - 20.0).abs() < 3.0 && (3.4..4.0).contains(&pinch.diameter_before_mm), "{pinch:?}");
         }
@@ -425,9 +384,10 @@ mod tests {
         let progressive = levels(tube(24, 60, 20.0, |_| 0.75), Method::Schroeder);
         let whole = first_pinch(&progressive);
         let finest = progressive.finest();
-        let mut task = PinchTask::new(&*progressive, samples_of(&finest).into());
+        let (levels, samples) = (&*progressive, samples_of(&finest));
+        let mut running = Running::new(|yielder| async move { first_pinch_of(levels, &samples, &yielder).await });
         let sliced = loop {
-            match task.advance(Budget::new(std::time::Duration::ZERO)) {
+            match running.advance(Budget::new(std::time::Duration::ZERO)) {
                 Progress::Working(fraction) => assert!((0.0..=1.0).contains(&fraction)),
                 Progress::Done(found) => break found,
             }

@@ -15,10 +15,10 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use crate::results::{Surface, Weakened};
-use crate::shape::{Measured, ShapeTask};
-use crate::task::{Budget, Progress, Task};
+use crate::shape::crossing_triangles;
+use crate::task::Yielder;
 use lumen_mesh::parallel;
-use lumen_mesh::{Refitting, SurfaceIndex, Topology, TriMesh};
+use lumen_mesh::{Indexed, SurfaceIndex, Topology, TriMesh, refitted};
 
 /// Rings over which the part falls from 1 to 0.
 const RINGS: f32 = 8.0;
@@ -31,11 +31,9 @@ const ROUNDS: u32 = 16;
 /// Triangles whose neighbourhood is looked up in one piece of work.
 const PIECE: usize = 256;
 
-type Search = Box<ShapeTask<Arc<TriMesh>, Arc<Topology>>>;
-
 /// What the guard left.
 #[derive(Debug)]
-pub struct Guarded {
+pub(crate) struct Guarded {
     /// The surface.
     pub mesh: Arc<TriMesh>,
     /// Where the filter was weakened; `None` where it was nowhere.
@@ -46,19 +44,60 @@ pub struct Guarded {
 
 impl Guarded {
     /// What the filter made, not looked at.
-    pub fn without(mesh: TriMesh) -> Self {
+    pub(crate) fn without(mesh: TriMesh) -> Self {
         Self { mesh: Arc::new(mesh), weakened: None, crosses_nothing: false }
     }
 }
 
-/// The guard at work, in slices.
-pub struct GuardTask {
-    kept: Arc<Surface>,
-    kept_index: Option<Arc<SurfaceIndex>>,
-    /// As the filter made it.
-    smoothed: Arc<TriMesh>,
-    /// Of that.
+/// Keeps `smoothed`, the positions that the filter gave the vertices of `kept`, from crossing where `kept` does not. `index`
+/// is that of `kept`, if there is one. To put back what is weakened is one piece: about 50 ns a vertex of the surface.
+pub(crate) async fn guard(
+    kept: &Surface,
     index: Option<Arc<SurfaceIndex>>,
+    smoothed: Vec<Vec3>,
+    yielder: &Yielder,
+) -> Guarded {
+    let mesh = Arc::new(TriMesh { positions: smoothed, triangles: kept.mesh.triangles.clone() });
+    let part = yielder.part(0.0..0.2);
+    let smoothed_index = match &index {
+        Some(index) => refitted(index, &mesh, &part).await,
+        None => SurfaceIndex::build(&mesh.positions, &mesh.triangles, &part).await,
+    };
+    let after = crossing(&mesh, &kept.topology, &smoothed_index, &yielder.part(0.2..0.8)).await;
+    if after.is_empty() {
+        return Guarded { mesh, weakened: None, crosses_nothing: true };
+    }
+    let before = {
+        let part = yielder.part(0.8..0.9);
+        let index = SurfaceIndex::known_or_built(index, &kept.mesh, &part).await;
+        crossing(&kept.mesh, &kept.topology, &index, &part).await
+    };
+    let mut crossed = vec![false; kept.mesh.triangles.len()];
+    before.into_iter().for_each(|t| crossed[t as usize] = true);
+
+    let (heights, spared, rounds) = (Vec::new(), 0, 0);
+    let mut weakening =
+        Weakening { kept, smoothed: mesh.clone(), index: smoothed_index, mesh, heights, crossed, spared, rounds };
+    let (mut crossed, part) = (after, yielder.part(0.9..0.95));
+    while let Some((patch, numbers)) = weakening.weaken(&crossed) {
+        let topology = Topology::new(patch.positions.len(), &patch.triangles);
+        let index = SurfaceIndex::build(&patch.positions, &patch.triangles, &part).await;
+        let still = crossing(&patch, &topology, &index, &part).await;
+        crossed = still.into_iter().map(|t| numbers[t as usize]).collect();
+    }
+    weakening.result()
+}
+
+async fn crossing(mesh: &TriMesh, topology: &Topology, index: &SurfaceIndex, yielder: &Yielder) -> Vec<u32> {
+    crossing_triangles(Indexed { mesh, topology: Some(topology) }, index, yielder).await
+}
+
+/// The surface while the filter is weakened on it.
+struct Weakening<'a> {
+    kept: &'a Surface,
+    /// As the filter made it, and an index of that.
+    smoothed: Arc<TriMesh>,
+    index: SurfaceIndex,
     /// As it is now.
     mesh: Arc<TriMesh>,
     /// Heights from which the part follows, by vertex.
@@ -67,51 +106,18 @@ pub struct GuardTask {
     crossed: Vec<bool>,
     spared: usize,
     rounds: u32,
-    step: Step,
 }
 
-enum Step {
-    /// The hierarchy of the surface before smoothing takes the boxes of that after it.
-    Refit(Arc<SurfaceIndex>, Refitting),
-    /// Triangles that cross after smoothing.
-    After(Search),
-    /// Triangles that cross before it, as some do after it.
-    Before(Search, Vec<u32>),
-    /// Triangles that cross still, of the ones that were moved and those near them: the search, and their numbers.
-    Again(Search, Vec<u32>),
-}
-
-impl GuardTask {
-    /// Starts from `smoothed`, the positions that the filter gave the vertices of `kept`. `kept_index` is that of `kept`,
-    /// if there is one.
-    pub fn new(kept: Arc<Surface>, kept_index: Option<Arc<SurfaceIndex>>, smoothed: Vec<Vec3>) -> Self {
-        let mesh = Arc::new(TriMesh { positions: smoothed, triangles: kept.mesh.triangles.clone() });
-        let step = match &kept_index {
-            Some(index) => Step::Refit(index.clone(), Refitting::new(index)),
-            None => Step::After(Box::new(ShapeTask::crossings_only(mesh.clone(), kept.topology.clone()))),
-        };
-        Self {
-            kept_index,
-            smoothed: mesh.clone(),
-            index: None,
-            mesh,
-            heights: Vec::new(),
-            crossed: Vec::new(),
-            spared: 0,
-            rounds: 0,
-            step,
-            kept,
-        }
-    }
-
-    fn result(&mut self, crosses_nothing: bool) -> Guarded {
+impl Weakening<'_> {
+    fn result(self) -> Guarded {
         let parts: Vec<f32> = self.heights.iter().map(|&height| part(height)).collect();
         let weakened = (!parts.is_empty()).then_some(Weakened { parts, spared: self.spared });
-        Guarded { mesh: self.mesh.clone(), weakened, crosses_nothing }
+        Guarded { mesh: self.mesh, weakened, crosses_nothing: false }
     }
 
-    /// Weakens the filter at the triangles of `crossing` that crossed none before; `None` where there is none.
-    fn weaken(&mut self, crossing: &[u32]) -> Option<Step> {
+    /// Weakens the filter at the triangles of `crossing` that crossed none before; `None` where there is none. Triangles may
+    /// cross still of the ones that were moved and those near them: these as a surface, and their numbers.
+    fn weaken(&mut self, crossing: &[u32]) -> Option<(TriMesh, Vec<u32>)> {
         let new: Vec<u32> = crossing.iter().copied().filter(|&t| !self.crossed[t as usize]).collect();
         // Once all is as it was, nothing crosses that did not.
         if new.is_empty() || self.rounds >= ROUNDS {
@@ -147,8 +153,7 @@ impl GuardTask {
                 local[v as usize]
             }));
         }
-        let topology = Arc::new(Topology::new(patch.positions.len(), &patch.triangles));
-        Some(Step::Again(Box::new(ShapeTask::crossings_only(Arc::new(patch), topology)), near))
+        Some((patch, near))
     }
 
     /// Raises the heights at `triangles` to twice what they are, and lets them fall by one a ring around.
@@ -178,12 +183,11 @@ impl GuardTask {
         let triangles = &self.mesh.triangles;
         let is_moved = |t: u32| triangles[t as usize].iter().any(|&v| self.heights[v as usize] > 0);
         let moved: Vec<u32> = (0..triangles.len() as u32).filter(|&t| is_moved(t)).collect();
-        let Some(index) = &self.index else { return moved };
         let mut near = parallel::map_ranges(moved.len(), PIECE, |range| {
             let mut near = Vec::new();
             for &t in &moved[range] {
                 let [a, b, c] = self.mesh.corners(t as usize);
-                index.for_each_near(a.min(b).min(c), a.max(b).max(c), |t| near.push(t));
+                self.index.for_each_near(a.min(b).min(c), a.max(b).max(c), |t| near.push(t));
             }
             near.sort_unstable();
             near.dedup();
@@ -201,61 +205,4 @@ impl GuardTask {
 fn part(height: u16) -> f32 {
     let at = (f32::from(height) / RINGS).min(1.0);
     at * at * (3.0 - 2.0 * at)
-}
-
-impl Task for GuardTask {
-    type Output = Guarded;
-
-    /// To put back what is weakened is one piece: about 50 ns a vertex of the surface.
-    fn advance(&mut self, budget: Budget) -> Progress<Guarded> {
-        loop {
-            let next = match &mut self.step {
-                Step::Refit(index, refitting) => match refitting.advance(index, &self.mesh) {
-                    None if budget.is_spent() => return Progress::Working(0.2 * refitting.fraction(index)),
-                    None => continue,
-                    Some(refitted) => {
-                        let search = ShapeTask::crossings_only(self.mesh.clone(), self.kept.topology.clone());
-                        let search = search.with_index(self.mesh.clone(), Arc::new(refitted));
-                        Some(Step::After(Box::new(search)))
-                    }
-                },
-                Step::After(search) => match search.advance(budget) {
-                    Progress::Working(fraction) => return Progress::Working(0.2 + 0.6 * fraction),
-                    Progress::Done(Measured { crossing, .. }) if crossing.is_empty() => {
-                        return Progress::Done(self.result(true));
-                    }
-                    Progress::Done(Measured { crossing, .. }) => {
-                        self.index = search.index().cloned();
-                        let Surface { mesh, topology, .. } = &*self.kept;
-                        let search = ShapeTask::crossings_only(mesh.clone(), topology.clone());
-                        let search = match self.kept_index.take() {
-                            Some(index) => search.with_index(mesh.clone(), index),
-                            None => search,
-                        };
-                        Some(Step::Before(Box::new(search), crossing))
-                    }
-                },
-                Step::Before(search, after) => match search.advance(budget) {
-                    Progress::Working(fraction) => return Progress::Working(0.8 + 0.1 * fraction),
-                    Progress::Done(Measured { crossing, .. }) => {
-                        self.crossed = vec![false; self.kept.mesh.triangles.len()];
-                        crossing.iter().for_each(|&t| self.crossed[t as usize] = true);
-                        let after = std::mem::take(after);
-                        self.weaken(&after)
-                    }
-                },
-                Step::Again(search, numbers) => match search.advance(budget) {
-                    Progress::Working(_) => return Progress::Working(0.95),
-                    Progress::Done(Measured { crossing, .. }) => {
-                        let crossing: Vec<u32> = crossing.into_iter().map(|t| numbers[t as usize]).collect();
-                        self.weaken(&crossing)
-                    }
-                },
-            };
-            match next {
-                Some(step) => self.step = step,
-                None => return Progress::Done(self.result(false)),
-            }
-        }
-    }
 }

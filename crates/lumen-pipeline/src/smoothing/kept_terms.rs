@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{SmoothingTask, Terms};
+use super::{Terms, smooth_keeping_terms};
 use crate::filter::Filter;
 use crate::results::Surface;
 use crate::settings::{Boundary, Smoothing};
-use crate::task::{Budget, Progress, Task};
-use lumen_mesh::Topology;
+use crate::task::{Running, Yielder};
 
 /// Bytes that terms may take. Surfaces of more than about 53,000 vertices at 100 iterations are filtered anew each time.
 pub(crate) const TERMS_BYTES: usize = 64_000_000;
@@ -20,6 +19,17 @@ pub(crate) struct KeptTerms {
 }
 
 impl KeptTerms {
+    /// The `terms` of a run over `of`, if it kept them.
+    pub(crate) fn of(of: &Arc<Surface>, boundary: Boundary, terms: Option<Terms>) -> Option<Self> {
+        Some(Self { of: of.clone(), boundary, terms: terms? })
+    }
+
+    /// Runs the filter over `kept` for its terms alone.
+    pub(crate) fn preparation(kept: &Arc<Surface>, settings: &Smoothing) -> Preparation {
+        let (kept, settings) = (kept.clone(), *settings);
+        Running::new(|yielder| prepare(kept, settings, yielder))
+    }
+
     /// Whether another filter for `settings` on `kept` is but a sum of these.
     pub(crate) fn suit(&self, kept: &Arc<Surface>, settings: &Smoothing) -> bool {
         let degree = settings.iterations as usize;
@@ -38,36 +48,12 @@ impl KeptTerms {
     }
 }
 
+/// A run of the filter for its terms alone.
+pub(crate) type Preparation = Running<'static, Option<KeptTerms>>;
+
 /// Runs the filter for its terms alone.
-pub(crate) struct Preparation {
-    kept: Arc<Surface>,
-    boundary: Boundary,
-    task: SmoothingTask<Arc<Topology>>,
-}
-
-impl Preparation {
-    pub(crate) fn new(kept: &Arc<Surface>, settings: &Smoothing) -> Self {
-        let positions = &kept.mesh.positions;
-        let task = SmoothingTask::new(positions, kept.topology.clone(), settings.boundary, &Filter::new(settings));
-        Self { kept: kept.clone(), boundary: settings.boundary, task: task.keeping_terms(TERMS_BYTES) }
-    }
-
-    /// Works until `budget` is spent; whether all is done.
-    pub(crate) fn advance(&mut self, budget: Budget) -> bool {
-        matches!(self.task.advance(budget), Progress::Done(_))
-    }
-
-    /// The terms of a run that is done.
-    pub(crate) fn into_terms(self) -> Option<KeptTerms> {
-        kept_terms(self.task, self.kept, self.boundary)
-    }
-}
-
-/// The terms of a run that is done, if it kept them.
-pub(crate) fn kept_terms(
-    task: SmoothingTask<Arc<Topology>>,
-    of: Arc<Surface>,
-    boundary: Boundary,
-) -> Option<KeptTerms> {
-    Some(KeptTerms { of, boundary, terms: task.into_terms()? })
+async fn prepare(kept: Arc<Surface>, settings: Smoothing, yielder: Yielder) -> Option<KeptTerms> {
+    let (positions, boundary, filter) = (&kept.mesh.positions, settings.boundary, Filter::new(&settings));
+    let (_, terms) = smooth_keeping_terms(positions, &kept.topology, boundary, &filter, TERMS_BYTES, &yielder).await;
+    KeptTerms::of(&kept, boundary, terms)
 }

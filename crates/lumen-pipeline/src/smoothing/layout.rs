@@ -7,9 +7,9 @@ use super::order::Order;
 use super::stencil::Stencil;
 
 /// What the strips are made from.
-pub(super) struct Layout<T> {
+pub(super) struct Layout<'a> {
     pub(super) order: Order,
-    pub(super) stencil: Stencil<T>,
+    pub(super) stencil: Stencil<'a>,
     /// Three numbers at each vertex, and the middle of them, strays not counted.
     pub(super) values: Vec<Vec3>,
     pub(super) centre: Vec3,

@@ -28,25 +28,23 @@ mod strip;
 mod terms;
 mod volume;
 
-use std::ops::Deref;
-
 use glam::{Vec3, Vec4};
 
-pub use self::calibre::LeastPassBands;
+pub(crate) use self::calibre::least_pass_bands;
 use self::gains::{Gains, Mix};
-pub use self::guard::{GuardTask, Guarded};
-pub(crate) use self::kept_terms::{KeptTerms, Preparation, TERMS_BYTES, kept_terms};
+pub(crate) use self::guard::{Guarded, guard};
+pub(crate) use self::kept_terms::{KeptTerms, Preparation, TERMS_BYTES};
 use self::layout::Layout;
 use self::order::Order;
 use self::placement::Placement;
-pub use self::restore::RestoreTask;
+pub(crate) use self::restore::restore;
 use self::stencil::Stencil;
 use self::strip::{Strip, Wave};
 pub use self::terms::Terms;
-pub use self::volume::{Before, TOLERANCE as VOLUME_TOLERANCE, VolumeTask};
+pub(crate) use self::volume::{Before, TOLERANCE as VOLUME_TOLERANCE, hold_volume};
 use super::filter::Filter;
 use super::settings::{Boundary, Smoothing};
-use super::task::{Budget, Progress, Task};
+use super::task::{Yielder, at_once};
 use lumen_mesh::parallel;
 use lumen_mesh::{Bounds, Topology};
 
@@ -59,147 +57,121 @@ const CACHE: usize = 1 << 20;
 /// Bytes of a vertex and its row that a pass touches.
 const BYTES_A_VERTEX: usize = 3 * 16 + 6 * 4;
 
-/// A smoothing run in slices; `T` is any pointer to the topology.
-pub struct SmoothingTask<T> {
-    /// Until the strips are laid out.
-    layout: Option<Layout<T>>,
-    strips: Vec<Strip>,
+/// The smoothed positions of a surface, in mm.
+pub fn smooth(positions: &[Vec3], topology: &Topology, boundary: Boundary, filter: &Filter) -> Vec<Vec3> {
+    at_once(smooth_in_slices(positions, topology, boundary, filter, &Yielder::never()))
+}
+
+/// As [`smooth`], resting every millisecond or so.
+pub async fn smooth_in_slices(
+    positions: &[Vec3],
+    topology: &Topology,
+    boundary: Boundary,
+    filter: &Filter,
+    yielder: &Yielder,
+) -> Vec<Vec3> {
+    smooth_keeping_terms(positions, topology, boundary, filter, 0, yielder).await.0
+}
+
+/// As [`smooth_in_slices`], with the terms where they take no more than `bytes`.
+pub async fn smooth_keeping_terms(
+    positions: &[Vec3],
+    topology: &Topology,
+    boundary: Boundary,
+    filter: &Filter,
+    bytes: usize,
+    yielder: &Yielder,
+) -> (Vec<Vec3>, Option<Terms>) {
+    let stencil = Stencil::new(positions, topology, boundary);
+    filtered(positions.to_vec(), stencil, Coefficients::of(filter), bytes, yielder).await
+}
+
+/// Smooths each vertex with a pass band of its own, or that of `settings` if it is larger; the rest is as `settings`
+/// say. Gives the positions in mm, and the terms where they take no more than `bytes`.
+pub async fn smooth_varying(
+    positions: &[Vec3],
+    topology: &Topology,
+    settings: &Smoothing,
+    pass_bands: &[f32],
+    bytes: usize,
+    yielder: &Yielder,
+) -> (Vec<Vec3>, Option<Terms>) {
+    let stencil = Stencil::new(positions, topology, settings.boundary);
+    let (gains, mixes) = Gains::varying(settings, pass_bands);
+    filtered(positions.to_vec(), stencil, Coefficients { gains, mixes, gain: 1.0 }, bytes, yielder).await
+}
+
+/// By what each term counts at each vertex.
+struct Coefficients {
     gains: Gains,
-    placement: Placement,
+    /// Empty where the gains are the same everywhere.
+    mixes: Vec<Mix>,
     /// `f(0)`.
     gain: f64,
-    /// Whether the terms are kept.
-    keeps_terms: bool,
-    /// The wave under way, and the passes in one.
-    wave: Wave,
-    depth: usize,
 }
 
-impl<T: Deref<Target = Topology> + Clone + Sync> SmoothingTask<T> {
-    /// Starts smoothing `positions` (mm) with `filter`; `topology` is that of the surface.
-    pub fn new(positions: &[Vec3], topology: T, boundary: Boundary, filter: &Filter) -> Self {
-        let stencil = Stencil::new(positions, topology.clone(), boundary);
-        Self::of_field(positions.to_vec(), &topology, stencil, filter)
-    }
-
-    /// Starts smoothing each vertex with a pass band of its own, or that of `settings` if it is larger; the rest is as
-    /// `settings` say.
-    pub fn varying(positions: &[Vec3], topology: T, settings: &Smoothing, pass_bands: &[f32]) -> Self {
-        let stencil = Stencil::new(positions, topology.clone(), settings.boundary);
-        let (gains, mixes) = Gains::varying(settings, pass_bands);
-        Self::with_gains(positions.to_vec(), &topology, stencil, gains, mixes, 1.0)
-    }
-
-    /// Starts smoothing any three numbers at each vertex.
-    fn of_field(values: Vec<Vec3>, topology: &Topology, stencil: Stencil<T>, filter: &Filter) -> Self {
-        Self::with_gains(values, topology, stencil, Gains::of(filter), Vec::new(), filter.dc_gain())
-    }
-
-    /// `mixes` is empty where the gains are the same everywhere; `gain` is `f(0)`.
-    fn with_gains(
-        values: Vec<Vec3>,
-        topology: &Topology,
-        stencil: Stencil<T>,
-        gains: Gains,
-        mixes: Vec<Mix>,
-        gain: f64,
-    ) -> Self {
-        let centre = Bounds::of_most(&values).centre();
-        let mut order = Order::new(topology, &stencil, &mixes);
-        let chunks = order.chunks.len() - 1;
-        let count = strip_count(chunks);
-        let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);
-        let depth = (CACHE / (widest * BYTES_A_VERTEX)).clamp(2, DEEPEST).min((chunks / count / 2).max(1));
-        let own = |i: usize| i * chunks / count..(i + 1) * chunks / count;
-        let fixed = (0..values.len() as u32).filter(|&v| stencil.stays(v));
-        let fixed = fixed.map(|v| (v, values[v as usize])).collect();
-        Self {
-            strips: (0..count).map(|i| Strip::new(&order, own(i), depth)).collect(),
-            gains,
-            placement: Placement { fixed, places: std::mem::take(&mut order.places), centre },
-            layout: Some(Layout { order, stencil, values, centre, mixes }),
-            gain,
-            keeps_terms: false,
-            wave: Wave { first: 1, count: 0 },
-            depth,
-        }
-    }
-
-    /// Keeps the terms, for [`Self::into_terms`], if they take no more than `bytes`.
-    #[must_use]
-    pub fn keeping_terms(mut self, bytes: usize) -> Self {
-        let degree = self.gains.degree();
-        self.keeps_terms = Terms::bytes(self.placement.places.len(), degree) <= bytes as u64;
-        self
-    }
-
-    /// Lays out the strips; whether they are.
-    fn lay_out(&mut self, budget: Budget) -> bool {
-        let Some(layout) = &self.layout else { return true };
-        let (gains, places) = (&self.gains, &self.placement.places);
-        let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
-        let done = parallel::map(strips, |strip| strip.lay_out(layout, places, gains, budget));
-        if !done.into_iter().all(|done| done) {
-            return false;
-        }
-        self.layout = None;
-        if self.keeps_terms {
-            let degree = self.gains.degree();
-            self.strips.iter_mut().for_each(|strip| strip.keep_terms(degree));
-        }
-        self.next_wave(1);
-        true
-    }
-
-    fn next_wave(&mut self, first: usize) {
-        self.wave = Wave { first, count: self.depth.min(self.gains.degree() + 1 - first) };
-        self.strips.iter_mut().for_each(Strip::rewind);
-    }
-
-    fn progress(&self) -> f32 {
-        let strips = self.strips.iter().map(|strip| strip.progress(self.wave)).sum::<f32>() / self.strips.len() as f32;
-        let passes = (self.wave.first - 1) as f32 + strips * self.wave.count as f32;
-        passes / self.gains.degree().max(1) as f32
-    }
-
-    /// What was kept of a run that is done.
-    pub fn into_terms(self) -> Option<Terms> {
-        let blocks = self.strips.into_iter().map(|strip| strip.terms).collect();
-        self.keeps_terms.then(|| Terms::new(blocks, self.gains.degree(), self.placement))
+impl Coefficients {
+    fn of(filter: &Filter) -> Self {
+        Self { gains: Gains::of(filter), mixes: Vec::new(), gain: filter.dc_gain() }
     }
 }
 
-impl<T: Deref<Target = Topology> + Clone + Sync> Task for SmoothingTask<T> {
-    type Output = Vec<Vec3>;
+/// Filters any three numbers at each vertex.
+async fn filtered(
+    values: Vec<Vec3>,
+    stencil: Stencil<'_>,
+    coefficients: Coefficients,
+    bytes: usize,
+    yielder: &Yielder,
+) -> (Vec<Vec3>, Option<Terms>) {
+    let Coefficients { gains, mixes, gain } = coefficients;
+    let centre = Bounds::of_most(&values).centre();
+    let mut order = Order::new(&stencil, &mixes);
+    let chunks = order.chunks.len() - 1;
+    let count = strip_count(chunks);
+    let widest = order.chunks.windows(2).map(|pair| (pair[1] - pair[0]) as usize).max().unwrap_or(1).max(1);
+    let depth = (CACHE / (widest * BYTES_A_VERTEX)).clamp(2, DEEPEST).min((chunks / count / 2).max(1));
+    let own = |i: usize| i * chunks / count..(i + 1) * chunks / count;
+    let mut strips: Vec<Strip> = (0..count).map(|i| Strip::new(&order, own(i), depth)).collect();
+    let fixed = (0..values.len() as u32).filter(|&v| stencil.stays(v));
+    let fixed = fixed.map(|v| (v, values[v as usize])).collect();
+    let placement = Placement { fixed, places: std::mem::take(&mut order.places), centre };
 
-    fn advance(&mut self, budget: Budget) -> Progress<Vec<Vec3>> {
-        if !self.lay_out(budget) {
-            return Progress::Working(0.0);
-        }
-        while self.wave.count > 0 {
-            let (wave, gains) = (self.wave, &self.gains);
-            let strips: Vec<&mut Strip> = self.strips.iter_mut().collect();
-            let done = parallel::map(strips, |strip| strip.advance(wave, gains, budget));
-            if !done.into_iter().all(|done| done) {
-                return Progress::Working(self.progress());
-            }
-            for seam in 1..self.strips.len() {
-                let (before, after) = self.strips.split_at_mut(seam);
-                before[seam - 1].exchange(&mut after[0]);
-            }
-            self.next_wave(wave.first + wave.count);
-            if self.wave.count > 0 && budget.is_spent() {
-                return Progress::Working(self.progress());
-            }
-        }
-        let sums: Vec<&[Vec4]> = self.strips.iter().map(Strip::own_sum).collect();
-        Progress::Done(self.placement.place(&sums, self.gain))
+    let layout = Layout { order, stencil, values, centre, mixes };
+    while !each(&mut strips, |strip| strip.lay_out(&layout, &placement.places, &gains, yielder)) {
+        yielder.pause(0.0).await;
     }
+    drop(layout);
+
+    let degree = gains.degree();
+    let keeps_terms = bytes > 0 && Terms::bytes(placement.places.len(), degree) <= bytes as u64;
+    if keeps_terms {
+        strips.iter_mut().for_each(|strip| strip.keep_terms(degree));
+    }
+    let mut first = 1;
+    while first <= degree {
+        let wave = Wave { first, count: depth.min(degree + 1 - first) };
+        strips.iter_mut().for_each(Strip::rewind);
+        while !each(&mut strips, |strip| strip.advance(wave, &gains, yielder)) {
+            let done = strips.iter().map(|strip| strip.progress(wave)).sum::<f32>() / strips.len() as f32;
+            yielder.pause(((first - 1) as f32 + done * wave.count as f32) / degree as f32).await;
+        }
+        for seam in 1..strips.len() {
+            let (before, after) = strips.split_at_mut(seam);
+            before[seam - 1].exchange(&mut after[0]);
+        }
+        first += wave.count;
+        yielder.rest((first - 1) as f32 / degree as f32).await;
+    }
+    let sums: Vec<&[Vec4]> = strips.iter().map(Strip::own_sum).collect();
+    let positions = placement.place(&sums, gain);
+    let blocks = strips.into_iter().map(|strip| strip.terms).collect();
+    (positions, keeps_terms.then(|| Terms::new(blocks, degree, placement)))
 }
 
-/// The smoothed positions of a surface.
-pub fn smooth(positions: &[Vec3], topology: &Topology, boundary: Boundary, filter: &Filter) -> Vec<Vec3> {
-    SmoothingTask::new(positions, topology, boundary, filter).finish()
+/// Works on all strips at once; whether all are done.
+fn each(strips: &mut [Strip], work: impl Fn(&mut Strip) -> bool + Sync + Send) -> bool {
+    parallel::map(strips.iter_mut().collect(), work).into_iter().all(|done| done)
 }
 
 /// Strips for so many chunks: one a thread, but none so small that the halos would be most of it.
@@ -210,6 +182,7 @@ fn strip_count(chunks: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::task::{Budget, Progress, Running};
 
     /// A flat n x n grid of quads split in two, spacing 1 mm.
     fn grid(n: u32, z: impl Fn(u32, u32) -> f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
@@ -261,10 +234,13 @@ mod tests {
         let topology = Topology::new(positions.len(), &triangles);
         let filter = Filter::new(&Smoothing { iterations: 7, ..Smoothing::PAPER });
         let whole = smooth(&positions, &topology, Boundary::Loop, &filter);
-        let mut task = SmoothingTask::new(&positions, &topology, Boundary::Loop, &filter);
+        let (positions, topology, filter) = (&positions, &topology, &filter);
+        let mut running = Running::new(|yielder| async move {
+            smooth_in_slices(positions, topology, Boundary::Loop, filter, &yielder).await
+        });
         let mut slices = 0;
         let sliced = loop {
-            match task.advance(Budget::new(std::time::Duration::ZERO)) {
+            match running.advance(Budget::new(std::time::Duration::ZERO)) {
                 Progress::Working(fraction) => assert!((0.0..=1.0).contains(&fraction)),
                 Progress::Done(result) => break result,
             }

@@ -7,8 +7,6 @@
 //! of their rows, so that the inner loop has no count to guess, and those that take the setting's own coefficients before
 //! the ones that look up theirs.
 
-use std::ops::Deref;
-
 use super::gains::Mix;
 use super::stencil::Stencil;
 use lumen_mesh::Topology;
@@ -28,7 +26,8 @@ pub(super) struct Order {
 
 impl Order {
     /// `mixes` say where each vertex stands in the row of filters; they are empty where there is one.
-    pub(super) fn new<T: Deref<Target = Topology>>(topology: &Topology, stencil: &Stencil<T>, mixes: &[Mix]) -> Self {
+    pub(super) fn new(stencil: &Stencil, mixes: &[Mix]) -> Self {
+        let topology = stencil.topology;
         let count = topology.vertex_count();
         let mut order = Self { vertices: Vec::with_capacity(count), places: vec![UNSEEN; count], chunks: vec![0] };
         for seed in 0..count as u32 {

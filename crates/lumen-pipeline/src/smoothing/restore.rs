@@ -17,8 +17,6 @@
 //! It is Tukey's twicing (1977) along the normals, as in `super::volume`, but by a short filter, and each place for
 //! itself.
 
-use std::sync::Arc;
-
 use glam::Vec3;
 
 use super::Stencil;
@@ -27,8 +25,7 @@ use crate::normals::{Weighting, vertex_normals};
 use crate::response::edge_length;
 use crate::results::Surface;
 use crate::settings::Smoothing;
-use crate::task::{Budget, Progress, Task};
-use lumen_mesh::Topology;
+use crate::task::{Yielder, blocks};
 use lumen_mesh::parallel;
 
 /// Means with the neighbours. They reach as far as around vessels of some five edges' radius; of a wave of four edges
@@ -41,169 +38,87 @@ const PIECE: usize = 4096;
 /// Vertices between two looks at the clock.
 const VERTICES: usize = 16 * PIECE;
 
-/// The restoration at work, in slices.
-pub struct RestoreTask {
-    /// As it was before smoothing; its windings agree.
-    kept: Arc<Surface>,
-    stencil: Stencil<Arc<Topology>>,
-    /// As the filter made it.
+/// Puts back what `smoothed`, the positions in mm that the filter of `settings` gave the vertices of `kept`, each with its
+/// own of `bands`, took off thin vessels. They stay as they are where no vessel asked for a wider pass band than the
+/// settings', or the windings do not agree: then no side is the inside.
+pub(crate) async fn restore(
+    kept: &Surface,
     smoothed: Vec<Vec3>,
-    /// Of each vertex, and that of the setting.
-    bands: Arc<[f32]>,
-    pass_band: f32,
-    /// Before smoothing until the losses are known, then after it.
-    normals: Vec<Vec3>,
-    /// In mm, positive where the surface moved inwards, as far as they are evened out.
-    losses: Vec<f32>,
-    /// Of the pass at work.
-    evened: Vec<f32>,
-    step: Step,
-    /// The vertices of the pass that are done.
-    done: usize,
-}
+    settings: &Smoothing,
+    bands: &[f32],
+    yielder: &Yielder,
+) -> Vec<Vec3> {
+    let pass_band = settings.pass_band as f32;
+    let Some(loops) = kept.loops.as_deref().filter(|_| bands.iter().any(|&band| band > pass_band)) else {
+        return smoothed;
+    };
+    let Surface { mesh, topology, .. } = kept;
+    let steps = MEANS as f32 + 3.0;
+    let stencil = Stencil::new(&mesh.positions, topology, settings.boundary);
+    let before = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
+    yielder.rest(1.0 / steps).await;
+    let after = vertex_normals(&smoothed, &mesh.triangles, Weighting::Area);
+    let mut losses = losses(kept, &before, &smoothed, &after);
+    drop(before);
+    yielder.rest(2.0 / steps).await;
 
-#[derive(Clone, Copy)]
-enum Step {
-    Normals,
-    Losses,
-    Even(usize),
-    Place,
-}
-
-impl RestoreTask {
-    /// Starts from `smoothed`, the positions in mm that the filter of `settings` gave the vertices of `kept`, each with its
-    /// own of `bands`.
-    ///
-    /// # Errors
-    /// The positions as they are, where no vessel asked for a wider pass band than the settings', or the windings do not
-    /// agree: then no side is the inside.
-    pub fn new(
-        kept: &Arc<Surface>,
-        smoothed: Vec<Vec3>,
-        settings: &Smoothing,
-        bands: &Arc<[f32]>,
-    ) -> Result<Self, Vec<Vec3>> {
-        let pass_band = settings.pass_band as f32;
-        if kept.loops.is_none() || bands.iter().all(|&band| band <= pass_band) {
-            return Err(smoothed);
+    let mut evened = vec![0.0; losses.len()];
+    for mean in 0..MEANS {
+        for block in blocks(losses.len(), VERTICES) {
+            let first = block.start;
+            parallel::for_each_chunk_mut(&mut evened[block], PIECE, |from, chunk| {
+                for (v, evened) in (first + from..).zip(chunk) {
+                    // A rim too is evened with the wall behind it, though the filter knows its loop alone.
+                    let around = topology.neighbours(v as u32);
+                    let sum = around.iter().map(|&n| losses[n as usize]).sum::<f32>();
+                    *evened = (losses[v] + sum / around.len().max(1) as f32) / 2.0;
+                }
+            });
+            yielder.rest((2.0 + mean as f32) / steps).await;
         }
-        Ok(Self {
-            kept: kept.clone(),
-            stencil: Stencil::new(&kept.mesh.positions, kept.topology.clone(), settings.boundary),
-            bands: bands.clone(),
-            pass_band,
-            normals: Vec::new(),
-            losses: Vec::new(),
-            evened: vec![0.0; smoothed.len()],
-            smoothed,
-            step: Step::Normals,
-            done: 0,
-        })
+        std::mem::swap(&mut losses, &mut evened);
     }
 
-    fn normals_of(&self, positions: &[Vec3]) -> Vec<Vec3> {
-        vertex_normals(positions, &self.kept.mesh.triangles, Weighting::Area)
-    }
-
-    /// What smoothing took at each vertex.
-    fn measure(&mut self) {
-        let after = self.normals_of(&self.smoothed);
-        let (opened, before, smoothed) = (&self.kept.mesh.positions, &self.normals, &self.smoothed);
-        let topology = &self.kept.topology;
-        let typical = edge_length(&self.kept.mesh) as f32;
-        let loss = |v: usize| {
-            let loss = (opened[v] - smoothed[v]).dot((before[v] + after[v]).normalize_or_zero());
-            // What moved by more than an edge was no vessel's wall: a flap, a short slit drawn together, or a spike, whose own
-            // edges are as long as it is.
-            let around = topology.neighbours(v as u32);
-            let lengths = around.iter().map(|&n| opened[v].distance(opened[n as usize])).sum::<f32>();
-            let edge = (lengths / around.len().max(1) as f32).min(LONG * typical);
-            loss.max(-edge).min(edge)
-        };
-        self.losses = parallel::map_ranges(smoothed.len(), PIECE, |range| range.map(loss).collect::<Vec<_>>()).concat();
-        self.normals = after;
-    }
-
-    /// The next vertices of a mean with the neighbours; whether they were the last.
-    fn even_some(&mut self) -> bool {
-        let (first, end) = (self.done, self.losses.len().min(self.done + VERTICES));
-        let (losses, topology) = (&self.losses, &self.kept.topology);
-        parallel::for_each_chunk_mut(&mut self.evened[first..end], PIECE, |from, chunk| {
-            for (v, evened) in (first + from..).zip(chunk) {
-                // A rim too is evened with the wall behind it, though the filter knows its loop alone.
-                let around = topology.neighbours(v as u32);
-                let sum = around.iter().map(|&n| losses[n as usize]).sum::<f32>();
-                *evened = (losses[v] + sum / around.len().max(1) as f32) / 2.0;
-            }
-        });
-        self.done = end;
-        if end < self.losses.len() {
-            return false;
-        }
-        self.done = 0;
-        std::mem::swap(&mut self.losses, &mut self.evened);
-        true
-    }
-
-    /// The positions with what was lost.
-    fn place(&mut self) -> Vec<Vec3> {
-        let loops = self.kept.loops.as_deref().unwrap_or_default();
-        let directions = directions(&self.smoothed, &self.normals, loops);
-        let mut positions = std::mem::take(&mut self.smoothed);
-        parallel::for_each_chunk_mut(&mut positions, PIECE, |first, chunk| {
-            for (v, position) in (first..).zip(chunk) {
-                let share = (self.bands[v] / self.pass_band - 1.0).clamp(0.0, 1.0);
-                if share > 0.0 && !self.stencil.stays(v as u32) {
-                    *position += directions[v].as_vec3() * (share * self.losses[v]);
-                }
-            }
-        });
-        positions
-    }
-}
-
-impl Task for RestoreTask {
-    type Output = Vec<Vec3>;
-
-    fn advance(&mut self, budget: Budget) -> Progress<Vec<Vec3>> {
-        loop {
-            let step = self.step;
-            self.step = match step {
-                Step::Normals => {
-                    self.normals = self.normals_of(&self.kept.mesh.positions);
-                    Step::Losses
-                }
-                Step::Losses => {
-                    self.measure();
-                    Step::Even(0)
-                }
-                Step::Even(mean) if !self.even_some() => Step::Even(mean),
-                Step::Even(mean) if mean + 1 < MEANS => Step::Even(mean + 1),
-                Step::Even(_) => Step::Place,
-                Step::Place => return Progress::Done(self.place()),
-            };
-            if budget.is_spent() {
-                let steps = MEANS as f32 + 3.0;
-                return Progress::Working(match self.step {
-                    Step::Normals => 0.0,
-                    Step::Losses => 1.0 / steps,
-                    Step::Even(mean) => (2.0 + mean as f32) / steps,
-                    Step::Place => 1.0 - 1.0 / steps,
-                });
+    let directions = directions(&smoothed, &after, loops);
+    let mut positions = smoothed;
+    parallel::for_each_chunk_mut(&mut positions, PIECE, |first, chunk| {
+        for (v, position) in (first..).zip(chunk) {
+            let share = (bands[v] / pass_band - 1.0).clamp(0.0, 1.0);
+            if share > 0.0 && !stencil.stays(v as u32) {
+                *position += directions[v].as_vec3() * (share * losses[v]);
             }
         }
-    }
+    });
+    positions
+}
+
+/// What smoothing took at each vertex, in mm, positive where the surface moved inwards; `before` and `after` are its normals.
+fn losses(kept: &Surface, before: &[Vec3], smoothed: &[Vec3], after: &[Vec3]) -> Vec<f32> {
+    let opened = &kept.mesh.positions;
+    let typical = edge_length(&kept.mesh) as f32;
+    let loss = |v: usize| {
+        let loss = (opened[v] - smoothed[v]).dot((before[v] + after[v]).normalize_or_zero());
+        // What moved by more than an edge was no vessel's wall: a flap, a short slit drawn together, or a spike, whose own
+        // edges are as long as it is.
+        let around = kept.topology.neighbours(v as u32);
+        let lengths = around.iter().map(|&n| opened[v].distance(opened[n as usize])).sum::<f32>();
+        let edge = (lengths / around.len().max(1) as f32).min(LONG * typical);
+        loss.max(-edge).min(edge)
+    };
+    parallel::map_ranges(smoothed.len(), PIECE, |range| range.map(loss).collect::<Vec<_>>()).concat()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
     use std::time::Duration;
 
     use glam::Quat;
 
     use super::*;
+    use crate::task::{Budget, Progress, Running, at_once};
     use lumen_mesh::shapes::tube;
-    use lumen_mesh::{Measures, TriMesh, oriented_loops};
+    use lumen_mesh::{Measures, Topology, TriMesh, oriented_loops};
 
     const RADIUS: f32 = 2.0;
     const SETTINGS: Smoothing = Smoothing::AUTO;
@@ -221,12 +136,16 @@ mod tests {
     }
 
     /// The pass bands of a vessel that is thin everywhere.
-    fn thin(kept: &Surface) -> Arc<[f32]> {
-        vec![0.1; kept.mesh.positions.len()].into()
+    fn thin(kept: &Surface) -> Vec<f32> {
+        vec![0.1; kept.mesh.positions.len()]
     }
 
-    fn restored(kept: &Arc<Surface>, smoothed: &[Vec3]) -> Vec<Vec3> {
-        RestoreTask::new(kept, smoothed.to_vec(), &SETTINGS, &thin(kept)).ok().unwrap().finish()
+    fn restored(kept: &Surface, smoothed: &[Vec3]) -> Vec<Vec3> {
+        restored_by(kept, smoothed, &thin(kept))
+    }
+
+    fn restored_by(kept: &Surface, smoothed: &[Vec3], bands: &[f32]) -> Vec<Vec3> {
+        at_once(restore(kept, smoothed.to_vec(), &SETTINGS, bands, &Yielder::never()))
     }
 
     /// The largest part by which a vertex is off the radius.
@@ -289,13 +208,11 @@ mod tests {
         let kept = kept();
         let drawn_in: Vec<Vec3> = kept.mesh.positions.iter().map(|p| *p * 0.98).collect();
         let band = SETTINGS.pass_band as f32;
-        let wide: Arc<[f32]> = vec![band; drawn_in.len()].into();
-        let unchanged = RestoreTask::new(&kept, drawn_in.clone(), &SETTINGS, &wide).err();
-        assert!(unchanged.is_some_and(|positions| positions == drawn_in));
+        assert!(restored_by(&kept, &drawn_in, &vec![band; drawn_in.len()]) == drawn_in);
         // Half wide, half thin: the wide half stays to the bit, the thin one comes back, at 1.5 times the band by half.
         let share = |i: usize| [0.0, 1.0, 0.5][i * 3 / drawn_in.len()];
-        let mixed: Arc<[f32]> = (0..drawn_in.len()).map(|i| band * (1.0 + share(i))).collect();
-        let restored = RestoreTask::new(&kept, drawn_in.clone(), &SETTINGS, &mixed).ok().unwrap().finish();
+        let mixed: Vec<f32> = (0..drawn_in.len()).map(|i| band * (1.0 + share(i))).collect();
+        let restored = restored_by(&kept, &drawn_in, &mixed);
         let third = drawn_in.len() / 3;
         assert!(restored[..third] == drawn_in[..third]);
         for (i, expected) in [(third + third / 2, 1.0), (2 * third + third / 2, 0.99)] {
@@ -311,8 +228,7 @@ mod tests {
         let kept = surface(mesh);
         assert!(kept.loops.is_none());
         let smoothed: Vec<Vec3> = kept.mesh.positions.iter().map(|p| *p * 0.98).collect();
-        let unchanged = RestoreTask::new(&kept, smoothed.clone(), &SETTINGS, &thin(&kept)).err();
-        assert!(unchanged.is_some_and(|positions| positions == smoothed));
+        assert!(restored(&kept, &smoothed) == smoothed);
     }
 
     #[test]
@@ -337,10 +253,12 @@ mod tests {
         let kept = surface(tube(400, 400, 30.0, |z| 2.0 + (z * 3.0).sin()));
         let smoothed: Vec<Vec3> = kept.mesh.positions.iter().map(|p| *p * (0.98 + 0.01 * p.z.sin())).collect();
         let whole = restored(&kept, &smoothed);
-        let mut task = RestoreTask::new(&kept, smoothed.clone(), &SETTINGS, &thin(&kept)).ok().unwrap();
+        let (surface, positions, bands) = (&kept, smoothed.clone(), thin(&kept));
+        let mut running =
+            Running::new(|yielder| async move { restore(surface, positions, &SETTINGS, &bands, &yielder).await });
         let mut last = 0.0;
         let sliced = loop {
-            match parallel::with_threads(1, || task.advance(Budget::new(Duration::ZERO))) {
+            match parallel::with_threads(1, || running.advance(Budget::new(Duration::ZERO))) {
                 Progress::Working(fraction) => {
                     assert!((last..1.0).contains(&fraction), "{fraction} after {last}");
                     last = fraction;

@@ -1,19 +1,17 @@
 //! Which vertices pull on which.
 
-use std::ops::Deref;
-
 use glam::Vec3;
 
 use crate::settings::Boundary;
 use lumen_mesh::Topology;
 
-/// The neighbours that each vertex is averaged over, in compressed rows; `T` is any pointer to the topology.
+/// The neighbours that each vertex is averaged over, in compressed rows.
 ///
 /// An inner vertex has all of its neighbours, a boundary vertex the two along its loop. A vertex that stays is its own
 /// only neighbour: then `mean(x) = x`, and the recurrence keeps it where it is for those that it pulls on. Those on
 /// non-manifold edges stay, those where several loops meet, and those without neighbours.
-pub(super) struct Stencil<T> {
-    topology: T,
+pub(super) struct Stencil<'a> {
+    pub(super) topology: &'a Topology,
     kinds: Vec<Kind>,
 }
 
@@ -25,9 +23,9 @@ enum Kind {
     Stays,
 }
 
-impl<T: Deref<Target = Topology>> Stencil<T> {
-    pub(super) fn new(positions: &[Vec3], topology: T, boundary: Boundary) -> Self {
-        let kind = |v| Kind::of(v, positions, &topology, boundary);
+impl<'a> Stencil<'a> {
+    pub(super) fn new(positions: &[Vec3], topology: &'a Topology, boundary: Boundary) -> Self {
+        let kind = |v| Kind::of(v, positions, topology, boundary);
         Self { kinds: (0..topology.vertex_count() as u32).map(kind).collect(), topology }
     }
 
@@ -48,7 +46,7 @@ impl<T: Deref<Target = Topology>> Stencil<T> {
     pub(super) fn for_each(&self, v: u32, each: impl FnMut(u32)) {
         match self.kinds[v as usize] {
             Kind::Inner => self.topology.neighbours(v).iter().copied().for_each(each),
-            Kind::Boundary => boundary_neighbours(&self.topology, v).for_each(each),
+            Kind::Boundary => boundary_neighbours(self.topology, v).for_each(each),
             Kind::Stays => std::iter::once(v).for_each(each),
         }
     }

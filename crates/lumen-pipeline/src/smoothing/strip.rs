@@ -5,15 +5,14 @@
 //! a halo, copies of the next strip's chunks, as deep as there are passes in a wave; it is computed twice and shrinks
 //! by a chunk a pass. What a vertex comes to depends on none of this.
 
-use std::ops::{Deref, Range};
+use std::ops::Range;
 
 use glam::Vec4;
 
 use super::gains::{Gain, Gains, Mix, Mixed, Term};
 use super::layout::Layout;
 use super::order::Order;
-use crate::task::Budget;
-use lumen_mesh::Topology;
+use crate::task::Yielder;
 
 /// Vertices of a chunk that have rows of one length, and all the setting's own coefficients or none of them.
 struct Run {
@@ -82,12 +81,9 @@ impl Strip {
         }
     }
 
-    /// Lays out chunk after chunk; `places` says where each vertex is in the order, and the sum begins with `c0 x_0`.
-    /// Returns whether all are.
-    pub(super) fn lay_out<T>(&mut self, layout: &Layout<T>, places: &[u32], gains: &Gains, budget: Budget) -> bool
-    where
-        T: Deref<Target = Topology>,
-    {
+    /// Lays out chunk after chunk until the slice is spent; `places` says where each vertex is in the order, and the sum
+    /// begins with `c0 x_0`. Returns whether all are.
+    pub(super) fn lay_out(&mut self, layout: &Layout, places: &[u32], gains: &Gains, yielder: &Yielder) -> bool {
         let Layout { order, values, centre, mixes, .. } = layout;
         for chunk in self.all.start + self.chunks.len()..self.all.end {
             let own = order.chunks[chunk] as usize..order.chunks[chunk + 1] as usize;
@@ -103,7 +99,7 @@ impl Strip {
                 }
             }
             self.add_chunk(layout, places, own);
-            if chunk % 4 == 0 && chunk + 1 < self.all.end && budget.is_spent() {
+            if chunk % 4 == 0 && chunk + 1 < self.all.end && yielder.budget().is_spent() {
                 return false;
             }
         }
@@ -111,10 +107,7 @@ impl Strip {
         true
     }
 
-    fn add_chunk<T>(&mut self, layout: &Layout<T>, all_places: &[u32], places: Range<usize>)
-    where
-        T: Deref<Target = Topology>,
-    {
+    fn add_chunk(&mut self, layout: &Layout, all_places: &[u32], places: Range<usize>) {
         let Layout { order, stencil, .. } = layout;
         let first_run = self.runs.len();
         let base = self.places.start;
@@ -146,8 +139,8 @@ impl Strip {
         &self.sum[self.own.start - self.places.start..self.own.end - self.places.start]
     }
 
-    /// Goes on with a wave; whether it is done.
-    pub(super) fn advance(&mut self, wave: Wave, gains: &Gains, budget: Budget) -> bool {
+    /// Goes on with a wave until the slice is spent; whether it is done.
+    pub(super) fn advance(&mut self, wave: Wave, gains: &Gains, yielder: &Yielder) -> bool {
         let steps = self.chunks.len() + wave.count - 1;
         while self.step < steps {
             for pass in 0..wave.count.min(self.step + 1) {
@@ -160,7 +153,7 @@ impl Strip {
                 }
             }
             self.step += 1;
-            if self.step.is_multiple_of(4) && self.step < steps && budget.is_spent() {
+            if self.step.is_multiple_of(4) && self.step < steps && yielder.budget().is_spent() {
                 return false;
             }
         }

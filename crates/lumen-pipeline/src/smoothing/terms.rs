@@ -42,7 +42,7 @@ impl Terms {
         self.with_gains(&Gains::of(filter), &[], filter.dc_gain())
     }
 
-    /// The smoothed positions with a pass band of its own at each vertex, as [`super::SmoothingTask::varying`] has it.
+    /// The smoothed positions with a pass band of its own at each vertex, as [`super::smooth_varying`] has it.
     ///
     /// # Panics
     /// When the settings ask for more terms than there are.

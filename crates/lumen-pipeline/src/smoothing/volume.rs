@@ -17,19 +17,17 @@
 //! made it.
 //! Vertices that smoothing fixes stay to the bit; those of a boundary loop move in the loop's plane.
 
-use std::sync::Arc;
-
 use glam::{DVec3, Vec3};
 
-use super::{SmoothingTask, Stencil};
+use super::{Coefficients, Stencil, filtered};
 use crate::filter::Filter;
 use crate::normals::{Weighting, vertex_normals};
 use crate::settings::Boundary;
-use crate::task::{Budget, Progress, Task};
+use crate::task::Yielder;
 use lumen_mesh::{Topology, TriMesh, measures_within, volume_of};
 
 /// How near to the volume asked for counts as held, as a part of it.
-pub const TOLERANCE: f64 = 1e-4;
+pub(crate) const TOLERANCE: f64 = 1e-4;
 
 /// The largest `|m|`.
 const MOST: f64 = 1.0;
@@ -39,64 +37,52 @@ const MOST: f64 = 1.0;
 const TORN: f64 = 0.01;
 
 /// The surface before smoothing.
-pub struct Before<'a> {
+pub(crate) struct Before<'a> {
     /// The surface.
     pub mesh: &'a TriMesh,
-    /// Its topology.
-    pub topology: &'a Arc<Topology>,
+    pub topology: &'a Topology,
     /// Its boundary, each loop in the direction of its triangles.
     pub loops: &'a [Vec<u32>],
     /// Its volume in mm3.
     pub volume: f64,
 }
 
-/// Puts lost volume back, in slices.
-pub struct VolumeTask {
+/// Puts lost volume back into `smoothed`, the result of `filter` on the surface `before`. Gives the positions, and whether
+/// they hold the volume: where they cannot, they are the smoothed ones.
+pub(crate) async fn hold_volume(
+    before: &Before<'_>,
     smoothed: Vec<Vec3>,
     boundary: Boundary,
-    filter: Filter,
-    attempt: Attempt,
+    filter: &Filter,
+    yielder: &Yielder,
+) -> (Vec<Vec3>, bool) {
+    let normals = vertex_normals(&smoothed, &before.mesh.triangles, Weighting::Area);
+    if let Some(positions) = along(before, &smoothed, normals, boundary, filter, &yielder.part(0.0..0.5)).await {
+        return (positions, true);
+    }
+    yielder.rest(0.5).await;
+    let normals = blurred_normals(before);
+    match along(before, &smoothed, normals, boundary, filter, &yielder.part(0.5..1.0)).await {
+        Some(positions) => (positions, true),
+        None => (smoothed, false),
+    }
 }
 
-/// One choice of the normals along which vertices move.
-struct Attempt {
+/// The positions that hold the volume by moving along these normals, if there are any.
+async fn along(
+    before: &Before<'_>,
+    smoothed: &[Vec3],
     normals: Vec<Vec3>,
-    /// Filters (loss, length of the way, 0) at each vertex.
-    field: SmoothingTask<Arc<Topology>>,
-    is_last: bool,
-}
-
-impl VolumeTask {
-    /// Starts from `smoothed`, the result of `filter` on the surface `before`.
-    pub fn new(before: &Before, smoothed: Vec<Vec3>, boundary: Boundary, filter: &Filter) -> Self {
-        let normals = vertex_normals(&smoothed, &before.mesh.triangles, Weighting::Area);
-        let attempt = Attempt::new(before, &smoothed, normals, boundary, filter);
-        Self { smoothed, boundary, filter: filter.clone(), attempt }
-    }
-
-    /// The smoothed positions, as they came.
-    pub(crate) fn into_smoothed(self) -> Vec<Vec3> {
-        self.smoothed
-    }
-
-    /// Works until `budget` is spent or the volume is held. Gives the positions, and whether they hold it: where they
-    /// cannot, they are the smoothed ones.
-    pub fn advance(&mut self, before: &Before, budget: Budget) -> Progress<(Vec<Vec3>, bool)> {
-        let field = match self.attempt.field.advance(budget) {
-            Progress::Working(fraction) => return Progress::Working((self.attempt.begun() + fraction) / 2.0),
-            Progress::Done(field) => field,
-        };
-        if let Some(positions) = self.attempt.place(before, &self.smoothed, &field) {
-            return Progress::Done((positions, true));
-        }
-        if self.attempt.is_last {
-            return Progress::Done((std::mem::take(&mut self.smoothed), false));
-        }
-        let normals = blurred_normals(before);
-        self.attempt = Attempt::new(before, &self.smoothed, normals, self.boundary, &self.filter);
-        self.attempt.is_last = true;
-        Progress::Working(0.5)
-    }
+    boundary: Boundary,
+    filter: &Filter,
+    yielder: &Yielder,
+) -> Option<Vec<Vec3>> {
+    let ways = before.mesh.positions.iter().zip(smoothed).map(|(&x, &s)| x - s);
+    // Loss, length of the way, 0.
+    let field: Vec<Vec3> = ways.zip(&normals).map(|(way, n)| Vec3::new(way.dot(*n), way.length(), 0.0)).collect();
+    let stencil = Stencil::new(&before.mesh.positions, before.topology, boundary);
+    let (field, _) = filtered(field, stencil, Coefficients::of(filter), 0, yielder).await;
+    place(before, smoothed, &normals, &field)
 }
 
 /// The normals of the surface before smoothing, each the mean of its neighbours' and itself time and again: without
@@ -115,51 +101,36 @@ fn blurred_normals(before: &Before) -> Vec<Vec3> {
     normals.into_iter().map(Vec3::normalize_or_zero).collect()
 }
 
-impl Attempt {
-    fn new(before: &Before, smoothed: &[Vec3], normals: Vec<Vec3>, boundary: Boundary, filter: &Filter) -> Self {
-        let ways = before.mesh.positions.iter().zip(smoothed).map(|(&x, &s)| x - s);
-        let field: Vec<Vec3> = ways.zip(&normals).map(|(way, n)| Vec3::new(way.dot(*n), way.length(), 0.0)).collect();
-        let stencil = Stencil::new(&before.mesh.positions, before.topology.clone(), boundary);
-        let field = SmoothingTask::of_field(field, before.topology, stencil, filter);
-        Self { normals, field, is_last: false }
-    }
-
-    /// The attempts before this one.
-    fn begun(&self) -> f32 {
-        if self.is_last { 1.0 } else { 0.0 }
-    }
-
-    /// The positions that hold the volume, if there are any.
-    fn place(&self, before: &Before, smoothed: &[Vec3], field: &[Vec3]) -> Option<Vec<Vec3>> {
-        let directions = directions(smoothed, &self.normals, before.loops);
-        let origin = before.mesh.bounds().centre().as_dvec3();
-        let way = |v: usize| f64::from(field[v].y.max(0.0));
-        let squares = (0..field.len()).map(|v| way(v) * way(v)).sum::<f64>();
-        let typical = libm::sqrt(squares / field.len().max(1) as f64);
-        let at = |v: usize, m: f64| {
-            // Evenly, but for where smoothing moved next to nothing.
-            let share = if way(v) > 0.0 { way(v) / (way(v) + typical) } else { 0.0 };
-            smoothed[v].as_dvec3() + directions[v] * (f64::from(field[v].x) + m * typical * share)
-        };
-        let volume_at = |m: f64| volume_of(&before.mesh.triangles, before.loops, |v| at(v as usize, m) - origin);
-        let volumes = [-1.0, 0.0, 1.0, 2.0].map(volume_at);
-        // What does not move keeps its bits.
-        let moves = |v: usize| directions[v] != DVec3::ZERO && field[v] != Vec3::ZERO;
-        let placed = |v: usize, m: f64| if moves(v) { at(v, m).as_vec3() } else { smoothed[v] };
-        let mut target = before.volume;
-        // Where the boundary is no closed curve the volume depends a little on the origin: then it takes a second look.
-        for _ in 0..3 {
-            let m = nearest_root(volumes.map(|volume| volume - target)).filter(|m| m.abs() <= MOST)?;
-            let positions = (0..smoothed.len()).map(|v| placed(v, m)).collect();
-            let mesh = TriMesh { positions, triangles: before.mesh.triangles.clone() };
-            let missing = before.volume - measures_within(&mesh, Some(before.loops)).volume_mm3?;
-            if missing.abs() <= TOLERANCE / 2.0 * before.volume.abs() {
-                return (turned(before.mesh, &mesh) <= TORN).then_some(mesh.positions);
-            }
-            target += missing;
+/// The positions that hold the volume with the filtered `field` of losses and ways, if there are any.
+fn place(before: &Before, smoothed: &[Vec3], normals: &[Vec3], field: &[Vec3]) -> Option<Vec<Vec3>> {
+    let directions = directions(smoothed, normals, before.loops);
+    let origin = before.mesh.bounds().centre().as_dvec3();
+    let way = |v: usize| f64::from(field[v].y.max(0.0));
+    let squares = (0..field.len()).map(|v| way(v) * way(v)).sum::<f64>();
+    let typical = libm::sqrt(squares / field.len().max(1) as f64);
+    let at = |v: usize, m: f64| {
+        // Evenly, but for where smoothing moved next to nothing.
+        let share = if way(v) > 0.0 { way(v) / (way(v) + typical) } else { 0.0 };
+        smoothed[v].as_dvec3() + directions[v] * (f64::from(field[v].x) + m * typical * share)
+    };
+    let volume_at = |m: f64| volume_of(&before.mesh.triangles, before.loops, |v| at(v as usize, m) - origin);
+    let volumes = [-1.0, 0.0, 1.0, 2.0].map(volume_at);
+    // What does not move keeps its bits.
+    let moves = |v: usize| directions[v] != DVec3::ZERO && field[v] != Vec3::ZERO;
+    let placed = |v: usize, m: f64| if moves(v) { at(v, m).as_vec3() } else { smoothed[v] };
+    let mut target = before.volume;
+    // Where the boundary is no closed curve the volume depends a little on the origin: then it takes a second look.
+    for _ in 0..3 {
+        let m = nearest_root(volumes.map(|volume| volume - target)).filter(|m| m.abs() <= MOST)?;
+        let positions = (0..smoothed.len()).map(|v| placed(v, m)).collect();
+        let mesh = TriMesh { positions, triangles: before.mesh.triangles.clone() };
+        let missing = before.volume - measures_within(&mesh, Some(before.loops)).volume_mm3?;
+        if missing.abs() <= TOLERANCE / 2.0 * before.volume.abs() {
+            return (turned(before.mesh, &mesh) <= TORN).then_some(mesh.positions);
         }
-        None
+        target += missing;
     }
+    None
 }
 
 /// The part of the area of `before` whose triangles look the other way in `after`.

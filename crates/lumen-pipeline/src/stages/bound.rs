@@ -1,34 +1,37 @@
 //! The search for the level within a bound on the deviation, as a stage.
 
-use super::running::Run;
-use crate::bound::BoundTask;
-use crate::settings::SettingsError;
+use super::{Row, Run};
+use crate::bound::bound_in_slices;
+use crate::stage::Stage;
 use crate::store::Store;
-use crate::task::{Budget, Progress, Task as _};
+use lumen_language::say;
+use lumen_mesh::SurfaceIndex;
 
-pub(super) struct Bounding(BoundTask);
+pub(super) const ROW: Row = Row {
+    label: || say!("panel-stage-bound"),
+    needs: &[Stage::Decimation],
+    is_decided_anew: |old, new| old.target != new.target,
+    is_wanted: |settings, _| settings.target.deviation_mm().is_some(),
+    is_background: false,
+    has: |now| now.bound.is_some(),
+    clear: |now| {
+        now.bound = None;
+        now.times.begin(Stage::Bound);
+    },
+    time: |times| &mut times.bound,
+    start,
+};
 
-impl Bounding {
-    pub(super) fn start(store: &Store) -> Option<Self> {
-        let levels = store.now.levels.as_ref()?;
-        let bound = store.now.settings.target.deviation_mm()?;
-        let task = BoundTask::new(levels.progressive.clone(), levels.finest.clone(), bound);
-        Some(Self(match &store.now.indices.finest {
-            Some(index) => task.with_index(index.clone()),
-            None => task,
-        }))
-    }
-}
-
-impl Run for Bounding {
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        Ok(match self.0.advance(budget) {
-            Progress::Working(fraction) => Progress::Working(fraction),
-            Progress::Done(bound) => {
-                store.now.indices.finest = self.0.index().cloned();
-                store.now.bound = Some(bound);
-                Progress::Done(())
-            }
-        })
-    }
+fn start(store: &Store) -> Option<Run> {
+    let levels = store.now.levels.clone()?;
+    let bound_mm = store.now.settings.target.deviation_mm()?;
+    let index = store.now.indices.finest.clone();
+    Some(Run::new(move |yielder, outbox| async move {
+        let index = SurfaceIndex::known_or_built(index, &levels.finest, &yielder.part(0.0..0.0)).await;
+        let bound = bound_in_slices(&levels.progressive, &levels.finest, &index, bound_mm, &yielder).await;
+        outbox.leave(move |store| {
+            store.now.indices.finest = Some(index);
+            store.now.bound = Some(bound);
+        });
+    }))
 }

@@ -2,79 +2,58 @@
 
 use std::sync::Arc;
 
-use super::running::Run;
-use crate::carry::{CarryTask, Entered};
-use crate::settings::SettingsError;
+use super::{Row, Run};
+use crate::carry::{Entered, carry};
+use crate::stage::{Stage, Wanted};
 use crate::store::Store;
-use crate::task::{Budget, Progress, Task as _};
+use lumen_language::say;
 use lumen_mesh::arrays::gathered;
-use lumen_mesh::{Array, SurfaceIndex, TriMesh};
+use lumen_mesh::{Array, SurfaceIndex};
 
-pub(super) enum Carrying {
-    /// The surface has none.
-    Nothing,
-    /// Those of what was kept come first.
-    Begin,
-    Level(Box<CarryTask>),
-}
+pub(super) const ROW: Row = Row {
+    label: || say!("panel-stage-arrays"),
+    needs: &[Stage::Level],
+    is_decided_anew: |_, _| false,
+    is_wanted: |_, wanted| wanted >= Wanted::Measures,
+    is_background: false,
+    has: |now| now.arrays.is_some(),
+    clear: |now| now.arrays = None,
+    time: |times| &mut times.arrays,
+    start,
+};
 
-impl Carrying {
-    pub(super) fn start(store: &Store) -> Option<Self> {
-        store.now.reduced.as_ref()?;
-        Some(if store.now.mended.as_ref()?.arrays.is_empty() { Self::Nothing } else { Self::Begin })
-    }
-}
-
-impl Run for Carrying {
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        match self {
-            Self::Nothing => store.now.arrays = Some(Arc::default()),
-            Self::Begin => match begin(store) {
-                Some(task) => {
-                    *self = Self::Level(Box::new(task));
-                    return Ok(Progress::Working(0.1));
-                }
-                None => store.now.arrays = Some(Arc::default()),
-            },
-            Self::Level(task) => match task.advance(budget) {
-                Progress::Working(fraction) => return Ok(Progress::Working(0.1 + 0.9 * fraction)),
-                Progress::Done(arrays) => store.now.arrays = Some(Arc::new(arrays)),
-            },
-        }
-        Ok(Progress::Done(()))
-    }
-}
-
-/// Everything is there once there is a level.
-fn begin(store: &mut Store) -> Option<CarryTask> {
-    let arrays = kept(store)?;
+fn start(store: &Store) -> Option<Run> {
     let now = &store.now;
-    let (levels, reduced) = (now.levels.as_ref()?, now.reduced.as_ref()?);
-    // The deviation has built both, but where one of the surfaces has no area.
-    let index_of = |mesh: &TriMesh, built: &Option<Arc<SurfaceIndex>>| match built {
-        Some(index) => index.clone(),
-        None => Arc::new(SurfaceIndex::new(&mesh.positions, &mesh.triangles)),
-    };
-    let from = Entered {
-        arrays,
-        mesh: now.smoothed.as_ref()?.mesh.clone(),
-        topology: now.kept.as_ref()?.topology.clone(),
-        finest: levels.finest.clone(),
-        index: index_of(&levels.finest, &now.indices.finest),
-        vertex_of_node: levels.vertex_of_node.clone(),
-    };
-    let index = index_of(&reduced.mesh, &now.indices.level);
-    Some(CarryTask::new(from, &reduced.level.triangles, reduced.mesh.clone(), index))
+    let (kept, smoothed) = (now.kept.clone()?, now.smoothed.clone()?);
+    let (levels, reduced) = (now.levels.clone()?, now.reduced.clone()?);
+    if now.mended.as_ref()?.arrays.is_empty() {
+        return Some(Run::new(
+            |_, outbox| async move { outbox.leave(|store| store.now.arrays = Some(Arc::default())) },
+        ));
+    }
+    let arrays = kept_arrays(store)?;
+    let (of_finest, of_level) = (now.indices.finest.clone(), now.indices.level.clone());
+    Some(Run::new(|yielder, outbox| async move {
+        let left = (kept.clone(), arrays.clone());
+        outbox.leave(|store| store.kept_arrays = Some(left));
+        // The deviation has built both, but where one of the surfaces has no area.
+        let of_finest = SurfaceIndex::known_or_built(of_finest, &levels.finest, &yielder.part(0.0..0.05)).await;
+        let of_level = SurfaceIndex::known_or_built(of_level, &reduced.mesh, &yielder.part(0.05..0.1)).await;
+        let from = Entered {
+            arrays,
+            mesh: smoothed.mesh.clone(),
+            topology: kept.topology.clone(),
+            finest: levels.finest,
+            index: of_finest,
+            vertex_of_node: levels.vertex_of_node,
+        };
+        let (triangles, part) = (&reduced.level.triangles, yielder.part(0.1..1.0));
+        let arrays = Arc::new(carry(&from, triangles, &reduced.mesh, &of_level, &part).await);
+        outbox.leave(|store| store.now.arrays = Some(arrays));
+    }))
 }
 
 /// The arrays of what connectivity kept.
-fn kept(store: &mut Store) -> Option<Arc<Vec<Array>>> {
-    let (kept, arrays) = (store.now.kept.clone()?, kept_arrays(store)?);
-    store.kept_arrays = Some((kept, arrays.clone()));
-    Some(arrays)
-}
-
-/// The same, which nothing keeps.
 pub(super) fn kept_arrays(store: &Store) -> Option<Arc<Vec<Array>>> {
     let kept = store.now.kept.as_ref()?;
     if let Some((of, arrays)) = &store.kept_arrays

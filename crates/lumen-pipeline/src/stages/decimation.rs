@@ -3,92 +3,59 @@
 use std::sync::Arc;
 
 use super::carry::kept_arrays;
-use super::running::Run;
-use crate::decimation::{DecimationTask, labels_of};
-use crate::results::{Levels, Smoothed, Surface};
-use crate::settings::SettingsError;
+use super::{Row, Run};
+use crate::decimation::{Decimated, Holds, decimate_in_slices, labels_of};
+use crate::results::Levels;
+use crate::stage::Stage;
 use crate::store::Store;
-use crate::task::{Budget, Progress, Task as _};
-use crate::widths::WidthTask;
-use lumen_mesh::{Topology, TriMesh};
+use crate::widths::widths;
+use lumen_language::say;
 
-pub(super) struct Decimating {
-    kept: Arc<Surface>,
-    smoothed: Arc<Smoothed>,
-    step: Step,
-    /// The part of the work that is done when the collapses begin.
-    before: f32,
-}
-
-enum Step {
-    /// How wide the vessels are, where smoothing has not found it.
-    Widths(Box<WidthTask<Arc<TriMesh>, Arc<Topology>>>),
-    Collapses(Box<DecimationTask<Arc<TriMesh>, Arc<Topology>>>),
-}
+pub(super) const ROW: Row = Row {
+    label: || say!("panel-stage-decimation"),
+    needs: &[Stage::Smoothing],
+    is_decided_anew: |old, new| !old.decimation.gives_same(&new.decimation),
+    is_wanted: |_, _| true,
+    is_background: false,
+    has: |now| now.levels.is_some(),
+    clear: |now| (now.levels, now.indices.finest) = (None, None),
+    time: |times| &mut times.decimation,
+    start,
+};
 
 /// The part of the work that it is to find the widths.
 const WIDTHS: f32 = 0.5;
 
-impl Decimating {
-    pub(super) fn start(store: &Store) -> Option<Self> {
-        let (kept, smoothed) = (store.now.kept.clone()?, store.now.smoothed.clone()?);
-        let settings = store.now.settings.decimation;
-        // The widths are those of the kept surface, whoever finds them: the levels are the same.
-        let step = match store.known_widths() {
-            None if settings.spare_thin => {
-                let task = WidthTask::new(kept.mesh.clone(), kept.topology.clone());
-                Step::Widths(Box::new(task.with_index(store.now.indices.kept.clone())))
-            }
-            known => {
-                let widths = known.filter(|_| settings.spare_thin).cloned();
-                collapses(store, &kept, &smoothed, widths)
-            }
-        };
-        let before = if matches!(step, Step::Widths(_)) { WIDTHS } else { 0.0 };
-        Some(Self { kept, smoothed, step, before })
-    }
-}
-
-fn collapses(store: &Store, kept: &Surface, smoothed: &Smoothed, widths: Option<Arc<[f32]>>) -> Step {
-    let settings = &store.now.settings.decimation;
-    let task = DecimationTask::new(smoothed.mesh.clone(), kept.topology.clone(), settings);
+fn start(store: &Store) -> Option<Run> {
+    let (kept, smoothed) = (store.now.kept.clone()?, store.now.smoothed.clone()?);
+    let settings = store.now.settings.decimation;
+    let (index, known_widths) = (store.now.indices.kept.clone(), store.known_widths().cloned());
     let arrays = if settings.keep_labels { kept_arrays(store) } else { None };
-    let task = match arrays.and_then(|arrays| labels_of(&kept.mesh, &arrays)) {
-        Some(labels) => task.with_labels(labels.into()),
-        None => task,
-    };
-    Step::Collapses(Box::new(match widths {
-        Some(widths) => task.with_widths(widths),
-        None => task,
-    }))
-}
-
-impl Run for Decimating {
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        loop {
-            match &mut self.step {
-                Step::Widths(task) => match task.advance(budget) {
-                    Progress::Working(fraction) => return Ok(Progress::Working(self.before * fraction)),
-                    Progress::Done(widths) => {
-                        store.now.indices.kept = task.index().cloned();
-                        let widths: Arc<[f32]> = widths.into();
-                        store.widths = Some((self.kept.clone(), widths.clone()));
-                        self.step = collapses(store, &self.kept, &self.smoothed, Some(widths));
-                    }
-                },
-                Step::Collapses(task) => match task.advance(budget) {
-                    Progress::Working(fraction) => {
-                        return Ok(Progress::Working(self.before + (1.0 - self.before) * fraction));
-                    }
-                    Progress::Done(progressive) => {
-                        let finest = Arc::new(progressive.finest());
-                        let needs_vertices = !store.arrays.is_empty();
-                        let vertex_of_node = if needs_vertices { task.vertices_of_nodes() } else { Vec::new() }.into();
-                        store.now.levels = Some(Levels { progressive: Arc::new(progressive), finest, vertex_of_node });
-                        return Ok(Progress::Done(()));
-                    }
-                },
+    let labels = arrays.and_then(|arrays| labels_of(&kept.mesh, &arrays));
+    let needs_vertices = !store.arrays.is_empty();
+    Some(Run::new(move |yielder, outbox| async move {
+        // The widths are those of the kept surface, whoever finds them: the levels are the same.
+        let (known, begun) = match known_widths {
+            None if settings.spare_thin => {
+                let part = yielder.part(0.0..WIDTHS);
+                let (found, index) = widths(&kept.mesh, &kept.topology, index, &part).await;
+                let (of, found) = (kept.clone(), Arc::<[f32]>::from(found));
+                let left = found.clone();
+                outbox.leave(|store| {
+                    store.now.indices.kept = Some(index);
+                    store.widths = Some((of, left));
+                });
+                (Some(found), WIDTHS)
             }
-        }
-    }
+            known => (known.filter(|_| settings.spare_thin), 0.0),
+        };
+        let holds = Holds { widths: known.as_deref(), labels: labels.as_deref() };
+        let part = yielder.part(begun..1.0);
+        let Decimated { progressive, vertex_of_node } =
+            decimate_in_slices(&smoothed.mesh, &kept.topology, &settings, holds, &part).await;
+        let finest = Arc::new(progressive.finest());
+        let vertex_of_node = if needs_vertices { vertex_of_node } else { Vec::new() }.into();
+        let levels = Levels { progressive: Arc::new(progressive), finest, vertex_of_node };
+        outbox.leave(|store| store.now.levels = Some(levels));
+    }))
 }

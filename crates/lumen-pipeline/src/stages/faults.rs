@@ -2,67 +2,40 @@
 
 use std::sync::Arc;
 
-use super::running::Run;
-use crate::settings::SettingsError;
+use super::{Row, Run};
+use crate::stage::Wanted;
 use crate::store::Store;
-use crate::task::{Budget, Progress};
-use lumen_mesh::mending::wall::WallTask;
-use lumen_mesh::mending::{FaultSearch, Faults};
-use lumen_mesh::{Topology, TriMesh};
+use lumen_language::say;
+use lumen_mesh::Topology;
+use lumen_mesh::mending::Faults;
+use lumen_mesh::mending::wall::find_in_slices;
 
-/// The surface, and how far the search is.
-pub(super) struct Looking {
-    mesh: Arc<TriMesh>,
-    part: Part,
-}
+pub(super) const ROW: Row = Row {
+    label: || say!("panel-stage-faults"),
+    needs: &[],
+    is_decided_anew: |_, _| false,
+    is_wanted: |_, wanted| wanted >= Wanted::Certificate,
+    is_background: true,
+    has: |now| now.faults.is_some(),
+    clear: |now| now.faults = None,
+    time: |times| &mut times.faults,
+    start,
+};
 
-enum Part {
-    /// One slice.
-    Adjacency,
-    List(Arc<Topology>, FaultSearch),
-    /// With what was listed.
-    Wall(Faults, Box<WallTask>),
-}
-
-impl Looking {
-    pub(super) fn start(store: &Store) -> Self {
-        Self { mesh: store.opened.clone(), part: Part::Adjacency }
-    }
-}
-
-impl Run for Looking {
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        let mesh = &self.mesh;
-        // What is kept is often the whole surface, and its adjacency and its boxes are known.
-        let kept = store.now.kept.as_ref().filter(|kept| Arc::ptr_eq(&kept.mesh, mesh));
-        match &mut self.part {
-            Part::Adjacency => {
-                let build = || Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
-                let topology = kept.map_or_else(build, |kept| kept.topology.clone());
-                self.part = Part::List(topology, FaultSearch::default());
-                Ok(Progress::Working(0.1))
-            }
-            Part::List(topology, search) => {
-                let faults = match search.advance(mesh, topology, budget) {
-                    Progress::Working(fraction) => return Ok(Progress::Working(0.1 + 0.3 * fraction)),
-                    Progress::Done(faults) => faults,
-                };
-                if !topology.is_consistent() {
-                    store.now.faults = Some(Arc::new(faults));
-                    return Ok(Progress::Done(()));
-                }
-                let index = kept.and(store.now.indices.kept.clone());
-                self.part = Part::Wall(faults, Box::new(WallTask::new(mesh, false).with_index(index)));
-                Ok(Progress::Working(0.4))
-            }
-            Part::Wall(faults, task) => match task.advance(mesh, budget) {
-                Progress::Working(fraction) => Ok(Progress::Working(0.4 + 0.6 * fraction)),
-                Progress::Done(found) => {
-                    let faults = Faults { wall: found.wall, ..std::mem::take(faults) };
-                    store.now.faults = Some(Arc::new(faults));
-                    Ok(Progress::Done(()))
-                }
-            },
+fn start(store: &Store) -> Option<Run> {
+    let mesh = store.opened.clone();
+    // What is kept is often the whole surface, and its adjacency and its boxes are known.
+    let kept = store.now.kept.as_ref().filter(|kept| Arc::ptr_eq(&kept.mesh, &mesh));
+    let topology = kept.map(|kept| kept.topology.clone());
+    let index = kept.and(store.now.indices.kept.clone());
+    Some(Run::new(move |yielder, outbox| async move {
+        let build = || Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
+        let topology = topology.unwrap_or_else(build);
+        yielder.rest(0.1).await;
+        let mut faults = Faults::of_in_slices(&mesh, &topology, &yielder.part(0.1..0.4)).await;
+        if topology.is_consistent() {
+            faults.wall = find_in_slices(&mesh, index, false, &yielder.part(0.4..1.0)).await.wall;
         }
-    }
+        outbox.leave(|store| store.now.faults = Some(Arc::new(faults)));
+    }))
 }

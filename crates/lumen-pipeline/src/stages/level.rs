@@ -4,41 +4,46 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::running::Run;
+use super::{Row, Run};
 use crate::normals::{Weighting, vertex_normals};
 use crate::results::{Levels, Reduced, fingerprint};
-use crate::settings::SettingsError;
+use crate::stage::Stage;
 use crate::store::Store;
-use crate::task::{Budget, Progress};
 use crate::times::Part;
+use lumen_language::say;
 use lumen_mesh::{Topology, measures};
 
-pub(super) struct Taking(Levels);
+pub(super) const ROW: Row = Row {
+    label: || say!("panel-stage-level"),
+    needs: &[Stage::Decimation, Stage::Bound],
+    is_decided_anew: |old, new| old.target != new.target,
+    is_wanted: |_, _| true,
+    is_background: false,
+    has: |now| now.reduced.is_some(),
+    clear: |now| (now.reduced, now.indices.level) = (None, None),
+    time: |times| &mut times.level,
+    start,
+};
 
-impl Taking {
-    pub(super) fn start(store: &Store) -> Option<Self> {
-        store.now.levels.clone().map(Self)
-    }
-}
-
-impl Run for Taking {
-    /// One piece.
-    fn advance(&mut self, store: &mut Store, _: Budget) -> Result<Progress<()>, SettingsError> {
-        let Self(Levels { progressive, .. }) = self;
-        let level = match &store.now.bound {
+/// One piece.
+fn start(store: &Store) -> Option<Run> {
+    let Levels { progressive, .. } = store.now.levels.clone()?;
+    let (bound, target) = (store.now.bound, store.now.settings.target);
+    Some(Run::new(move |_, outbox| async move {
+        let level = match bound {
             Some(bound) => progressive.level_after(bound.steps),
-            None => progressive.level(store.now.settings.target),
+            None => progressive.level(target),
         };
         let mesh = Arc::new(progressive.extract(&level.triangles));
-        let start = Instant::now();
+        let begun = Instant::now();
         let normals = vertex_normals(&mesh.positions, &mesh.triangles, Weighting::Area);
-        store.now.times.tell_apart(Part::Normals, start);
-        let start = Instant::now();
+        outbox.tell_apart(Part::Normals, begun);
+        let begun = Instant::now();
         let topology = Arc::new(Topology::new(mesh.positions.len(), &mesh.triangles));
         let measures = measures(&mesh, &topology);
         let fingerprint = fingerprint(&mesh);
-        store.now.times.tell_apart(Part::LevelAreas, start);
-        store.now.reduced = Some(Arc::new(Reduced { level, mesh, topology, normals, measures, fingerprint }));
-        Ok(Progress::Done(()))
-    }
+        outbox.tell_apart(Part::LevelAreas, begun);
+        let reduced = Reduced { level, mesh, topology, normals, measures, fingerprint };
+        outbox.leave(|store| store.now.reduced = Some(Arc::new(reduced)));
+    }))
 }

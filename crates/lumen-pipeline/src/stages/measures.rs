@@ -5,155 +5,79 @@
 
 use std::sync::Arc;
 
-use super::running::Run;
-use crate::lumen::{Sample, Sampling, narrowing};
-use crate::pinch::PinchTask;
-use crate::progressive::ProgressiveMesh;
+use super::{Row, Run};
+use crate::lumen::{Sample, narrowing, samples_in_slices};
+use crate::pinch::first_pinch_of;
 use crate::results::{LevelMeasures, SmoothedMeasures};
-use crate::settings::SettingsError;
-use crate::shape::{Measured, Shape, ShapeTask};
+use crate::shape::{Known, shape_in_slices};
+use crate::stage::{Stage, Wanted};
 use crate::store::Store;
-use crate::task::{Budget, Progress, Task as _};
-use lumen_mesh::{InnerRadii, SurfaceIndex, Topology, TriMesh};
-
-/// Samples between two looks at the clock, and inner balls that may become some.
-const SAMPLES: usize = 256;
-const BALLS: usize = 4096;
+use lumen_language::say;
 
 /// The part of the work that the smoothed surface is, where it is to be measured.
 const SMOOTHED: f32 = 0.9;
 
-/// A surface, its adjacency and, if there is one, an index of it in the numbering of a mesh of its own.
-#[derive(Clone, Debug)]
-struct Subject {
-    mesh: Arc<TriMesh>,
-    topology: Arc<Topology>,
-    /// The index, and the mesh that it is of.
-    index: Option<(Arc<TriMesh>, Arc<SurfaceIndex>)>,
+pub(super) const OF_SMOOTHED: Row = Row {
+    label: || say!("panel-stage-measures"),
+    needs: &[Stage::Decimation],
+    is_decided_anew: |_, _| false,
+    is_wanted: |_, wanted| wanted >= Wanted::Measures,
+    is_background: false,
+    has: |now| now.smoothed_measures.is_some(),
+    clear: |now| now.smoothed_measures = None,
+    time: |times| &mut times.measures,
+    start: start_smoothed,
+};
+
+fn start_smoothed(store: &Store) -> Option<Run> {
+    let now = &store.now;
+    let (kept, smoothed, levels) = (now.kept.clone()?, now.smoothed.clone()?, now.levels.clone()?);
+    let index = now.indices.finest.clone().map(|index| (levels.finest.clone(), index));
+    let known = Known { index, crosses_nothing: smoothed.crosses_nothing };
+    Some(Run::new(|yielder, outbox| async move {
+        let yielder = yielder.part(0.0..SMOOTHED);
+        let (mesh, topology) = (&smoothed.mesh, &kept.topology);
+        let measured = shape_in_slices(mesh, topology, known, &yielder.part(0.0..0.4)).await;
+        let part = yielder.part(0.4..0.5);
+        let samples = samples_in_slices(mesh, topology, &measured.balls, &measured.index, &part).await;
+        let pinch = first_pinch_of(&levels.progressive, &samples, &yielder.part(0.5..1.0)).await;
+        let found = SmoothedMeasures { shape: measured.shape, samples: samples.into(), pinch };
+        outbox.leave(|store| store.now.smoothed_measures = Some(Arc::new(found)));
+    }))
 }
 
-impl Subject {
-    fn task(&self) -> ShapeTask<Arc<TriMesh>, Arc<Topology>> {
-        let task = ShapeTask::new(self.mesh.clone(), self.topology.clone());
-        match &self.index {
-            Some((indexed, index)) => task.with_index(indexed.clone(), index.clone()),
-            None => task,
-        }
-    }
-}
+pub(super) const OF_LEVEL: Row = Row {
+    label: || say!("panel-stage-measures"),
+    needs: &[Stage::Level, Stage::SmoothedMeasures],
+    is_decided_anew: |_, _| false,
+    is_wanted: |_, wanted| wanted >= Wanted::Measures,
+    is_background: false,
+    has: |now| now.level_measures.is_some(),
+    clear: |now| {
+        now.level_measures = None;
+        // Both times are told as one: that of the smoothed surface counts where it was spent for this level.
+        now.times.begin(Stage::SmoothedMeasures);
+        now.times.begin(Stage::Measures);
+    },
+    time: |times| &mut times.measures,
+    start: start_level,
+};
 
-/// The measuring of the smoothed surface, in slices.
-pub(super) struct OfSmoothed {
-    subject: Subject,
-    progressive: Arc<ProgressiveMesh>,
-    shape: ShapeTask<Arc<TriMesh>, Arc<Topology>>,
-    step: Step,
-}
-
-/// How far it is, and what was found before.
-enum Step {
-    Shape,
-    /// Which of the inner balls may be samples.
-    Balls(Shape, InnerRadii, Sampling),
-    Samples(Shape, Sampling),
-    /// The search for the first pinch.
-    Pinch(Shape, Arc<[Sample]>, Box<PinchTask<Arc<ProgressiveMesh>>>),
-}
-
-impl OfSmoothed {
-    pub(super) fn start(store: &Store) -> Option<Self> {
-        let now = &store.now;
-        let (kept, smoothed, levels) = (now.kept.as_ref()?, now.smoothed.as_ref()?, now.levels.as_ref()?);
-        let index = now.indices.finest.clone().map(|index| (levels.finest.clone(), index));
-        let subject = Subject { mesh: smoothed.mesh.clone(), topology: kept.topology.clone(), index };
-        let shape = if smoothed.crosses_nothing { subject.task().without_crossings() } else { subject.task() };
-        Some(Self { subject, progressive: levels.progressive.clone(), shape, step: Step::Shape })
-    }
-
-    fn search(&self, shape: Shape, samples: Vec<Sample>) -> Step {
-        let samples: Arc<[Sample]> = samples.into();
-        let pinch = PinchTask::new(self.progressive.clone(), samples.clone());
-        Step::Pinch(shape, samples, Box::new(pinch))
-    }
-}
-
-impl Run for OfSmoothed {
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        let (step, fraction) = match std::mem::replace(&mut self.step, Step::Shape) {
-            Step::Shape => match self.shape.advance(budget) {
-                Progress::Working(fraction) => (Step::Shape, 0.4 * fraction),
-                Progress::Done(Measured { shape, balls, .. }) => {
-                    (Step::Balls(shape, balls, Sampling::new(&self.subject.mesh)), 0.4)
-                }
-            },
-            Step::Balls(shape, balls, mut sampling) => {
-                let Subject { mesh, topology, .. } = &self.subject;
-                let mut is_done = sampling.choose(mesh, topology, &balls, BALLS);
-                while !is_done && !budget.is_spent() {
-                    is_done = sampling.choose(mesh, topology, &balls, BALLS);
-                }
-                (if is_done { Step::Samples(shape, sampling) } else { Step::Balls(shape, balls, sampling) }, 0.4)
-            }
-            Step::Samples(shape, mut sampling) => match self.shape.index() {
-                Some(index) => {
-                    let mut is_done = sampling.advance(index, SAMPLES);
-                    while !is_done && !budget.is_spent() {
-                        is_done = sampling.advance(index, SAMPLES);
-                    }
-                    let fraction = 0.4 + 0.1 * sampling.fraction();
-                    let next =
-                        if is_done { self.search(shape, sampling.finish()) } else { Step::Samples(shape, sampling) };
-                    (next, fraction)
-                }
-                None => (self.search(shape, Vec::new()), 0.5),
-            },
-            Step::Pinch(shape, samples, mut task) => match task.advance(budget) {
-                Progress::Working(fraction) => (Step::Pinch(shape, samples, task), 0.5 + fraction / 2.0),
-                Progress::Done(pinch) => {
-                    store.now.smoothed_measures = Some(Arc::new(SmoothedMeasures { shape, samples, pinch }));
-                    return Ok(Progress::Done(()));
-                }
-            },
-        };
-        self.step = step;
-        Ok(Progress::Working(SMOOTHED * fraction))
-    }
-}
-
-/// The measuring of a level, in slices.
-pub(super) struct OfLevel {
-    subject: Subject,
-    /// Of the smoothed surface.
-    samples: Arc<[Sample]>,
-    shape: ShapeTask<Arc<TriMesh>, Arc<Topology>>,
-}
-
-impl OfLevel {
-    pub(super) fn start(store: &Store) -> Option<Self> {
-        let now = &store.now;
-        let (reduced, of_smoothed) = (now.reduced.as_ref()?, now.smoothed_measures.as_ref()?);
-        let mesh = reduced.mesh.clone();
-        let index = now.indices.level.clone().map(|index| (mesh.clone(), index));
-        let subject = Subject { mesh, topology: reduced.topology.clone(), index };
-        let shape = subject.task();
-        Some(Self { subject, samples: of_smoothed.samples.clone(), shape })
-    }
-}
-
-impl Run for OfLevel {
-    /// The samples are measured in one piece, of up to 2 microseconds each.
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        Ok(match self.shape.advance(budget) {
-            Progress::Working(fraction) => Progress::Working(SMOOTHED + (1.0 - SMOOTHED) * fraction),
-            Progress::Done(measured) => {
-                let Subject { mesh, topology, .. } = &self.subject;
-                let index = self.shape.index();
-                let narrowing = index.and_then(|index| narrowing(&self.samples, mesh, topology, index));
-                store.now.level_measures = Some(Arc::new(LevelMeasures { shape: measured.shape, narrowing }));
-                let finest = store.now.levels.as_ref().map_or(0, |levels| levels.finest.triangles.len());
-                store.now.indices.let_go(finest);
-                Progress::Done(())
-            }
-        })
-    }
+/// The samples are measured in one piece, of up to 2 microseconds each.
+fn start_level(store: &Store) -> Option<Run> {
+    let now = &store.now;
+    let (reduced, levels) = (now.reduced.clone()?, now.levels.clone()?);
+    let samples: Arc<[Sample]> = now.smoothed_measures.as_ref()?.samples.clone();
+    let index = now.indices.level.clone().map(|index| (reduced.mesh.clone(), index));
+    Some(Run::new(move |yielder, outbox| async move {
+        let (mesh, topology) = (&reduced.mesh, &reduced.topology);
+        let known = Known { index, crosses_nothing: false };
+        let measured = shape_in_slices(mesh, topology, known, &yielder.part(SMOOTHED..1.0)).await;
+        let narrowing = narrowing(&samples, mesh, topology, &measured.index);
+        let found = LevelMeasures { shape: measured.shape, narrowing };
+        outbox.leave(move |store| {
+            store.now.level_measures = Some(Arc::new(found));
+            store.now.indices.let_go(levels.finest.triangles.len());
+        });
+    }))
 }

@@ -2,45 +2,41 @@
 
 use std::sync::Arc;
 
-use super::running::Run;
+use super::{Row, Run};
 use crate::results::Entering;
-use crate::settings::SettingsError;
 use crate::store::Store;
-use crate::task::{Budget, Progress, Task as _};
-use lumen_mesh::mending::{MendTask, Mended};
+use lumen_language::say;
+use lumen_mesh::mending::{Mended, mend};
 
-pub(super) enum Mending {
-    /// Nothing was asked for.
-    Nothing,
-    Task(Box<MendTask>),
-}
+pub(super) const ROW: Row = Row {
+    label: || say!("panel-stage-mending"),
+    needs: &[],
+    is_decided_anew: |old, new| old.mending != new.mending,
+    is_wanted: |_, _| true,
+    is_background: false,
+    has: |now| now.mended.is_some(),
+    clear: |now| (now.mended, now.connectivity) = (None, None),
+    time: |times| &mut times.mending,
+    start,
+};
 
-impl Mending {
-    pub(super) fn start(store: &Store) -> Self {
-        let asked = store.now.settings.mending;
-        if asked.is_off() {
-            return Self::Nothing;
-        }
-        let (mesh, arrays) = ((*store.opened).clone(), (*store.arrays).clone());
-        Self::Task(Box::new(MendTask::new(mesh, arrays, asked)))
-    }
-}
-
-impl Run for Mending {
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        store.now.settings.check()?;
-        let unchanged = |report| Entering { mesh: store.opened.clone(), arrays: store.arrays.clone(), report };
-        let entering = match self {
-            Self::Nothing => unchanged(None),
-            Self::Task(task) => match task.advance(budget) {
-                Progress::Working(fraction) => return Ok(Progress::Working(fraction)),
-                Progress::Done(Mended { mesh, report, .. }) if mesh == *store.opened => unchanged(Some(report)),
-                Progress::Done(Mended { mesh, arrays, report }) => {
-                    Entering { mesh: Arc::new(mesh), arrays: Arc::new(arrays), report: Some(report) }
-                }
-            },
+fn start(store: &Store) -> Option<Run> {
+    let (opened, all, settings) = (store.opened.clone(), store.arrays.clone(), store.now.settings.clone());
+    Some(Run::fallible(|yielder, outbox| async move {
+        settings.check()?;
+        let unchanged = |report| Entering { mesh: opened.clone(), arrays: all.clone(), report };
+        let entering = if settings.mending.is_off() {
+            unchanged(None)
+        } else {
+            let (mesh, arrays) = ((*opened).clone(), (*all).clone());
+            let Mended { mesh, arrays, report } = mend(mesh, arrays, settings.mending, &yielder).await;
+            if mesh == *opened {
+                unchanged(Some(report))
+            } else {
+                Entering { mesh: Arc::new(mesh), arrays: Arc::new(arrays), report: Some(report) }
+            }
         };
-        store.now.mended = Some(Arc::new(entering));
-        Ok(Progress::Done(()))
-    }
+        outbox.leave(|store| store.now.mended = Some(Arc::new(entering)));
+        Ok(())
+    }))
 }

@@ -1,4 +1,4 @@
-//! What each stage does, a file each: from the slots that it rests on to its own.
+//! What each stage is and does, a file each: its [`Row`] says what it needs, what decides it and what it leaves.
 
 mod bound;
 mod calibre;
@@ -14,26 +14,51 @@ mod running;
 mod safe;
 mod smoothing;
 
-use super::stage::Stage;
+use super::results::Results;
+use super::settings::Settings;
+use super::stage::{Stage, Wanted};
 use super::store::Store;
-pub(super) use running::Run;
+use super::times::StageTimes;
+pub(super) use running::{Outbox, Run};
 
-/// Starts a stage on what it rests on; `None` while that is not there.
-pub(super) fn start(stage: Stage, store: &Store) -> Option<Box<dyn Run>> {
-    Some(match stage {
-        Stage::Mending => Box::new(mending::Mending::start(store)),
-        Stage::Connectivity => Box::new(connectivity::Connecting::start(store)?),
-        Stage::Smoothing => Box::new(smoothing::Filtering::start(store)?),
-        Stage::Decimation => Box::new(decimation::Decimating::start(store)?),
-        Stage::Bound => Box::new(bound::Bounding::start(store)?),
-        Stage::Level => Box::new(level::Taking::start(store)?),
-        Stage::Deviation => Box::new(deviation::Deviating::start(store)?),
-        Stage::Arrays => Box::new(carry::Carrying::start(store)?),
-        Stage::SmoothedMeasures => Box::new(measures::OfSmoothed::start(store)?),
-        Stage::Measures => Box::new(measures::OfLevel::start(store)?),
-        Stage::Faults => Box::new(faults::Looking::start(store)),
-        Stage::Vessels => Box::new(calibre::Finding::start(store)?),
-        Stage::Certificate => Box::new(calibre::Certifying::start(store)?),
-        Stage::Safe => Box::new(safe::Searching::start(store)?),
-    })
+/// All that is known of a stage.
+pub(super) struct Row {
+    /// What the stage is called while it runs, in the language that is spoken.
+    pub(super) label: fn() -> String,
+    /// The stages whose results it takes.
+    pub(super) needs: &'static [Stage],
+    /// Whether it depends on a setting that differs between the old and the new ones.
+    pub(super) is_decided_anew: fn(&Settings, &Settings) -> bool,
+    /// Whether it is made at all.
+    pub(super) is_wanted: fn(&Settings, Wanted) -> bool,
+    /// Whether it runs while the user works with the level, and nothing waits for it.
+    pub(super) is_background: bool,
+    /// Whether its result is there.
+    pub(super) has: fn(&Results) -> bool,
+    /// Drops its result.
+    pub(super) clear: fn(&mut Results),
+    /// The time in a report that its own is part of.
+    pub(super) time: fn(&mut StageTimes) -> &mut f64,
+    /// Starts it on what it needs; `None` while that is not there.
+    pub(super) start: fn(&Store) -> Option<Run>,
+}
+
+/// The row of a stage.
+pub(super) fn row(stage: Stage) -> &'static Row {
+    match stage {
+        Stage::Mending => &mending::ROW,
+        Stage::Connectivity => &connectivity::ROW,
+        Stage::Smoothing => &smoothing::ROW,
+        Stage::Decimation => &decimation::ROW,
+        Stage::Bound => &bound::ROW,
+        Stage::Level => &level::ROW,
+        Stage::Deviation => &deviation::ROW,
+        Stage::Arrays => &carry::ROW,
+        Stage::SmoothedMeasures => &measures::OF_SMOOTHED,
+        Stage::Measures => &measures::OF_LEVEL,
+        Stage::Faults => &faults::ROW,
+        Stage::Vessels => &calibre::VESSELS,
+        Stage::Certificate => &calibre::CERTIFICATE,
+        Stage::Safe => &safe::ROW,
+    }
 }

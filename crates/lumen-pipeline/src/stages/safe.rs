@@ -2,42 +2,35 @@
 
 use std::sync::Arc;
 
-use super::running::Run;
-use crate::safe::{Safe, SafeTask};
-use crate::settings::SettingsError;
+use super::{Row, Run};
+use crate::safe::{Safe, safe_in_slices};
+use crate::stage::{Stage, Wanted};
 use crate::store::Store;
-use crate::task::{Budget, Progress, Task as _};
+use lumen_language::say;
 
-pub(super) enum Searching {
-    Search(Box<SafeTask>),
-    /// There are no vessels.
-    Refused(Safe),
-}
+pub(super) const ROW: Row = Row {
+    label: || say!("panel-stage-safe"),
+    needs: &[Stage::SmoothedMeasures, Stage::Vessels],
+    is_decided_anew: |old, new| old.tolerance_percent != new.tolerance_percent,
+    is_wanted: |_, wanted| wanted >= Wanted::Safe,
+    is_background: true,
+    has: |now| now.safe.is_some(),
+    clear: |now| now.safe = None,
+    time: |times| &mut times.safe,
+    start,
+};
 
-impl Searching {
-    pub(super) fn start(store: &Store) -> Option<Self> {
-        let now = &store.now;
-        let (vessels, levels) = (now.vessels.as_ref()?, now.levels.as_ref()?);
-        let tolerance = now.settings.tolerance_percent;
-        let basis = match vessels {
-            Ok(basis) => basis.clone(),
-            Err(error) => return Some(Self::Refused(Safe::refused(tolerance, error))),
+fn start(store: &Store) -> Option<Run> {
+    let now = &store.now;
+    let (vessels, levels) = (now.vessels.clone()?, now.levels.clone()?);
+    let tolerance = now.settings.tolerance_percent;
+    let pinch = now.smoothed_measures.as_ref().and_then(|found| found.pinch);
+    Some(Run::new(move |yielder, outbox| async move {
+        let safe = match vessels {
+            Ok(basis) => safe_in_slices(&basis, &levels.progressive, pinch, tolerance, &yielder).await,
+            // There are no vessels.
+            Err(error) => Safe::refused(tolerance, &error),
         };
-        let pinch = now.smoothed_measures.as_ref().and_then(|found| found.pinch);
-        Some(Self::Search(Box::new(SafeTask::new(basis, levels.progressive.clone(), pinch, tolerance))))
-    }
-}
-
-impl Run for Searching {
-    fn advance(&mut self, store: &mut Store, budget: Budget) -> Result<Progress<()>, SettingsError> {
-        let safe = match self {
-            Self::Search(task) => match task.advance(budget) {
-                Progress::Working(fraction) => return Ok(Progress::Working(fraction)),
-                Progress::Done(safe) => safe,
-            },
-            Self::Refused(safe) => safe.clone(),
-        };
-        store.now.safe = Some(Arc::new(safe));
-        Ok(Progress::Done(()))
-    }
+        outbox.leave(|store| store.now.safe = Some(Arc::new(safe)));
+    }))
 }

@@ -12,7 +12,7 @@ use glam::Vec3;
 use self::cells::{Grid, Wall};
 use super::space::{Ball, Space};
 use lumen_mesh::disjoint_sets::{root, union};
-use lumen_mesh::task::Budget;
+use lumen_mesh::task::Yielder;
 use lumen_mesh::{Nearest, TriMesh};
 
 /// Two balls closer than this part of the smaller radius are the same.
@@ -84,12 +84,8 @@ struct Surface<'a> {
 }
 
 /// Balls while they are being found.
-pub(super) struct Filling {
+struct Filling {
     normals: Vec<Vec3>,
-    /// The next vertex behind which is looked for the largest radius.
-    probed: usize,
-    /// The next vertex to begin at.
-    vertex: usize,
     grid: Grid,
     wall: Wall,
     found: Balls,
@@ -127,9 +123,40 @@ fn vertex_normals(mesh: &TriMesh) -> Vec<Vec3> {
     normals
 }
 
+/// Fills the inside of `mesh`, which bounds `space`, with balls.
+pub(super) async fn fill(mesh: &TriMesh, space: &Space, yielder: &Yielder) -> Balls {
+    let mut filling = Filling::new(mesh);
+    yielder.rest(0.0).await;
+    let on = Surface { space, positions: &mesh.positions };
+    let count = filling.normals.len();
+    for v in (0..count).step_by((count / PROBES).max(1)) {
+        filling.probe(on, v);
+        yielder.rest(0.0).await;
+    }
+    let mut vertex = 0;
+    for step in 1.. {
+        if let Some(from) = filling.pending.pop() {
+            filling.look_around(on, from);
+            filling.found.count();
+        } else {
+            let Some((v, normal)) = filling.next_start(vertex) else { break };
+            vertex = v + 1;
+            filling.begin(on, on.positions[v], normal);
+        }
+        if filling.found.is_sheet {
+            break;
+        }
+        if step % STEPS == 0 {
+            yielder.rest(vertex as f32 / count as f32).await;
+        }
+    }
+    yielder.rest(1.0).await;
+    filling.finished()
+}
+
 impl Filling {
     /// Nothing yet of the inside of `mesh`.
-    pub(super) fn new(mesh: &TriMesh) -> Self {
+    fn new(mesh: &TriMesh) -> Self {
         let normals = vertex_normals(mesh);
         let grid = Grid::new(&mesh.bounds());
         let wall = Wall::new(&grid, &mesh.positions);
@@ -137,53 +164,22 @@ impl Filling {
         let least = LEAST * mean_edge(mesh);
         let (feet, next, pending) = (Vec::new(), Vec::new(), Vec::new());
         let found = Balls::default();
-        Self { normals, probed: 0, vertex: 0, grid, wall, found, feet, first, next, pending, least, floor: 0.0 }
+        Self { normals, grid, wall, found, feet, first, next, pending, least, floor: 0.0 }
     }
 
-    /// Goes on until `budget` is spent; whether all is filled. `mesh` and `space` are always the same.
-    pub(super) fn advance(&mut self, mesh: &TriMesh, space: &Space, budget: Budget) -> bool {
-        let on = Surface { space, positions: &mesh.positions };
-        while self.probed < self.normals.len() {
-            self.probe(on);
-            if budget.is_spent() {
-                return false;
-            }
-        }
-        for step in 1.. {
-            if let Some(from) = self.pending.pop() {
-                self.look_around(on, from);
-                self.found.count();
-            } else {
-                let rest = self.vertex..self.normals.len();
-                let is_new = |v: &usize| !self.wall.is_explained[*v];
-                let normal = |v: usize| Some((v, self.normals[v].try_normalize()?));
-                let Some((v, normal)) = rest.filter(is_new).find_map(normal) else { break };
-                self.vertex = v + 1;
-                self.begin(on, on.positions[v], normal);
-            }
-            if self.found.is_sheet {
-                break;
-            }
-            if step % STEPS == 0 && budget.is_spent() {
-                return false;
-            }
-        }
-        true
+    /// The next vertex to begin at, and its normal, from `first` on.
+    fn next_start(&self, first: usize) -> Option<(usize, Vec3)> {
+        let is_new = |v: &usize| !self.wall.is_explained[*v];
+        let normal = |v: usize| Some((v, self.normals[v].try_normalize()?));
+        (first..self.normals.len()).filter(is_new).find_map(normal)
     }
 
     /// Looks for the largest radius behind one of a few hundred places of the wall.
-    fn probe(&mut self, on: Surface<'_>) {
-        let v = self.probed;
-        self.probed += (self.normals.len() / PROBES).max(1);
+    fn probe(&mut self, on: Surface<'_>, v: usize) {
         let normal = self.normals[v].try_normalize();
         if let Some((ball, _)) = normal.and_then(|normal| on.space.behind_wall(on.positions[v], normal)) {
             self.least = self.least.max(THINNEST * ball.radius);
         }
-    }
-
-    /// The part of the wall that is done, 0 to 1.
-    pub(super) fn fraction(&self) -> f32 {
-        self.vertex as f32 / self.normals.len().max(1) as f32
     }
 
     /// Begins in the middle behind a point of the wall, and goes on from there as far as it goes.
@@ -378,7 +374,7 @@ impl Filling {
         pairs.into_iter().for_each(|(a, b)| self.link(a, b));
     }
 
-    pub(super) fn finished(mut self) -> Balls {
+    fn finished(mut self) -> Balls {
         if !self.found.is_sheet {
             self.link_overlapping();
         }

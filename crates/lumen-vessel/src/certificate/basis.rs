@@ -1,74 +1,110 @@
 //! What reduced surfaces are judged by: where the opened surface is measured, and what it and the smoothed one have there.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::BranchCalibre;
 use super::branch::branch_calibre;
-use crate::calibre::{Calibre, Indexing, Known, Measuring, Subject};
-use crate::centrelines::Centrelines;
+use super::unit::{CalibreError, checked};
+use super::{BranchCalibre, Certificate};
+use crate::balls::mean_edge;
+use crate::calibre::{Calibre, Known, Subject, circle, measure};
+use crate::centrelines::{Centrelines, settled};
 use crate::locating::Located;
-use crate::space::Space;
-use crate::stations::Stations;
+use crate::stations::{Station, Stations};
 use crate::tree::{Branch, Tree};
 use crate::zones::Zone;
-use lumen_mesh::task::Budget;
+use lumen_mesh::SurfaceIndex;
+use lumen_mesh::task::Yielder;
 
 /// What more reduced surfaces are judged by: where the opened surface is measured, and what it and the smoothed one have
 /// there.
 pub struct Basis {
-    pub(super) measure: Box<Measure>,
-    pub(super) smoothed: Subject,
-    pub(super) edge_mm: f64,
+    tree: Tree,
+    stations: Stations,
+    /// Of each station.
+    zones: Vec<Zone>,
+    /// What the opened and the smoothed surface have at each station.
+    calibres: [Vec<Calibre>; 2],
+    /// What the vessel has at each station of the opened surface, in mm.
+    radii: Vec<f64>,
+    smoothed: Subject,
+    /// Mean length of an edge of the opened surface.
+    edge_mm: f64,
 }
 
-/// A reduced surface that is measured where a [`Basis`] is.
-pub struct Candidate {
-    subject: Subject,
-    indexing: Indexing,
-    measuring: Option<Measuring>,
-}
-
-impl Candidate {
-    /// Begins to measure `subject`.
-    pub fn new(subject: Subject) -> Self {
-        Self { indexing: Indexing::new(&subject), measuring: None, subject }
-    }
-
-    /// Measures until `budget` is spent; then the calibre of each branch, if all is measured.
-    pub fn advance(&mut self, basis: &Basis, tolerance_percent: f64, budget: Budget) -> Option<Vec<BranchCalibre>> {
-        let Subject { mesh, topology, .. } = &self.subject;
-        if self.measuring.is_none() {
-            let index = self.indexing.advance(mesh, budget)?;
-            self.measuring = Some(Measuring::new(&self.subject, Space::new(mesh, topology, index)));
-        }
-        let measuring = self.measuring.as_mut()?;
-        let Measure { stations, radii, done, .. } = &*basis.measure;
-        let known = Known { radii, before: &basis.smoothed, calibres: &done[1] };
-        measuring.advance(&stations.all, Some(known), budget).then(|| basis.judged(&measuring.found, tolerance_percent))
+impl Certificate {
+    /// Of the surface as it was opened, smoothed and reduced; `tolerance_percent` is the change that is allowed.
+    ///
+    /// # Errors
+    /// [`CalibreError`] where there are no vessels in the opened surface.
+    pub async fn of(
+        [opened, smoothed, reduced]: [Subject; 3],
+        tolerance_percent: f64,
+        yielder: &Yielder,
+    ) -> Result<Self, CalibreError> {
+        let is_reduced = !Arc::ptr_eq(&smoothed.mesh, &reduced.mesh);
+        let basis = Basis::find(opened, smoothed, &yielder.part(0.0..0.8)).await?;
+        let branches = if is_reduced {
+            basis.measured(&reduced, tolerance_percent, &yielder.part(0.8..1.0)).await
+        } else {
+            basis.of_smoothed(tolerance_percent)
+        };
+        Ok(Self::new(branches, tolerance_percent))
     }
 }
 
 impl Basis {
+    /// Finds the vessels of the surface as it was opened, and measures them there and on the smoothed one.
+    ///
+    /// # Errors
+    /// [`CalibreError`] where there are none.
+    pub async fn find(opened: Subject, smoothed: Subject, yielder: &Yielder) -> Result<Self, CalibreError> {
+        let Subject { mesh, topology, index } = &opened;
+        let index = SurfaceIndex::known_or_built(index.clone(), mesh, &yielder.part(0.0..0.05)).await;
+        let part = yielder.part(0.05..0.5);
+        let tree = checked(Tree::with_topology_in_slices(mesh, topology, index, &part).await)?;
+        let (stations, zones, of_opened) = settled(&opened, &tree, &yielder.part(0.5..0.8)).await;
+        let radius = |(station, found): (&Station, &Calibre)| {
+            found.area_mm2.map_or(station.radius_mm, circle).max(station.radius_mm)
+        };
+        let radii: Vec<f64> = stations.all.iter().zip(&of_opened).map(radius).collect();
+
+        let space = smoothed.space(&yielder.part(0.8..0.85)).await;
+        let known = Known { radii: &radii, before: &opened, calibres: &of_opened };
+        let of_smoothed = measure(&smoothed, &space, &stations.all, Some(known), &yielder.part(0.85..1.0)).await;
+        let edge_mm = f64::from(mean_edge(mesh));
+        Ok(Self { tree, stations, zones, calibres: [of_opened, of_smoothed], radii, smoothed, edge_mm })
+    }
+
+    /// The calibre of each branch on a surface that was made from the smoothed one.
+    pub async fn measured(&self, subject: &Subject, tolerance_percent: f64, yielder: &Yielder) -> Vec<BranchCalibre> {
+        let space = subject.space(&yielder.part(0.0..0.3)).await;
+        let known = Known { radii: &self.radii, before: &self.smoothed, calibres: &self.calibres[1] };
+        let part = yielder.part(0.3..1.0);
+        let found = measure(subject, &space, &self.stations.all, Some(known), &part).await;
+        self.judged(&found, tolerance_percent)
+    }
+
     /// The calibre of each branch where nothing is reduced: the surface is the smoothed one.
     pub fn of_smoothed(&self, tolerance_percent: f64) -> Vec<BranchCalibre> {
-        self.judged(&self.measure.done[1], tolerance_percent)
+        self.judged(&self.calibres[1], tolerance_percent)
     }
 
     /// The centrelines of the opened surface, with its calibre.
     pub fn centrelines(&self) -> Centrelines {
-        let Measure { tree, stations, zones, done, .. } = &*self.measure;
         Centrelines {
-            branches: tree.branches().to_vec(),
-            stations: stations.clone(),
-            calibres: done[0].clone(),
-            zones: zones.clone().unwrap_or_default(),
+            branches: self.tree.branches().to_vec(),
+            stations: self.stations.clone(),
+            calibres: self.calibres[0].clone(),
+            zones: self.zones.clone(),
         }
     }
 
     /// The branch and the number of the station on it that `p` is beside, and how far `p` is from the centreline there,
     /// in radii of the vessel. `last` is what [`Tree::locate`] found for a point near by; it makes this faster.
     pub fn beside(&self, p: DVec3, last: &mut Option<Located>) -> Option<(usize, usize, f64)> {
-        let Measure { tree, stations, .. } = &*self.measure;
+        let Self { tree, stations, .. } = self;
         let found = tree.locate(p, last.as_ref())?;
         let branch = found.branch as usize;
         let own = &stations.all[stations.of.get(branch)?.clone()];
@@ -83,29 +119,14 @@ impl Basis {
     }
 
     /// The calibre of each branch, on a surface that has `reduced` at the stations.
-    pub(super) fn judged(&self, reduced: &[Calibre], tolerance_percent: f64) -> Vec<BranchCalibre> {
-        let Measure { tree, stations, zones, done, .. } = &*self.measure;
-        let zones = zones.as_deref().unwrap_or_default();
+    fn judged(&self, reduced: &[Calibre], tolerance_percent: f64) -> Vec<BranchCalibre> {
+        let Self { tree, stations, zones, calibres: [opened, smoothed], .. } = self;
         let of = |(branch, range): (&Branch, &std::ops::Range<usize>)| {
             let own = range.clone();
-            let calibres = [&done[0][own.clone()], &done[1][own.clone()], &reduced[own.clone()]];
+            let calibres = [&opened[own.clone()], &smoothed[own.clone()], &reduced[own.clone()]];
             let (stations, zones) = (&stations.all[own.clone()], &zones[own]);
             branch_calibre(branch, stations, zones, calibres, self.edge_mm, tolerance_percent)
         };
         tree.branches().iter().zip(&stations.of).map(of).collect()
     }
-}
-
-/// The surfaces along one set of stations.
-pub(super) struct Measure {
-    pub(super) tree: Tree,
-    pub(super) stations: Stations,
-    /// Of each station, once the opened surface was measured a first time.
-    pub(super) zones: Option<Vec<Zone>>,
-    pub(super) others: [Option<Space>; 2],
-    /// Of the surface that is being measured.
-    pub(super) measuring: Measuring,
-    pub(super) done: Vec<Vec<Calibre>>,
-    /// What the vessel has at each station of the opened surface, in mm.
-    pub(super) radii: Vec<f64>,
 }

@@ -24,7 +24,6 @@ mod basis;
 mod branch;
 mod on_surface;
 mod stretch;
-mod task;
 mod unit;
 
 use std::fmt::Write as _;
@@ -32,9 +31,7 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 pub use basis::Basis;
-pub use basis::Candidate;
 pub use on_surface::{Change, OnSurface, Spread, Standing};
-pub use task::CertificateTask;
 pub use unit::CalibreError;
 pub(super) use unit::checked;
 

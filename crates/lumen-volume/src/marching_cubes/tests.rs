@@ -6,6 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use lumen_mesh::shapes::vertices_are_manifold;
+use lumen_mesh::task::{Budget, Progress, Running, at_once};
 use lumen_mesh::{Topology, boundary_loops, components, surface_area, volume};
 
 /// A mask from a function of the point in mm.
@@ -35,8 +36,12 @@ impl<F: Fn(DVec3) -> bool> Mask for Of<F> {
     }
 }
 
+fn whole<M: Mask>(cubes: MarchingCubes<M>) -> TriMesh {
+    at_once(cubes.surface(usize::MAX, &Yielder::never())).unwrap()
+}
+
 fn surface_of(grid: Geometry, inside: impl Fn(DVec3) -> bool) -> TriMesh {
-    MarchingCubes::new(&grid, Of { grid, k: 0, inside }).finish()
+    whole(MarchingCubes::new(&grid, Of { grid, k: 0, inside }))
 }
 
 fn euler(mesh: &TriMesh, topology: &Topology) -> i64 {
@@ -110,7 +115,7 @@ fn a_cut_tube_has_two_loops_and_the_area_of_a_voxel_tube() {
     }
     let grid = Geometry::around(DVec3::new(-5.11, -5.17, -18.0), DVec3::new(5.0, 5.0, 18.0), DVec3::splat(0.5));
     let inside: fn(DVec3) -> bool = |p| p.truncate().length_squared() < 25.0 && p.z.abs() < 17.0;
-    let mesh = MarchingCubes::new(&grid, Tube { of: Of { grid, k: 0, inside } }).finish();
+    let mesh = whole(MarchingCubes::new(&grid, Tube { of: Of { grid, k: 0, inside } }));
     let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
     assert_eq!(boundary_loops(&topology).len(), 2);
     assert_eq!(euler(&mesh, &topology), 0);
@@ -124,10 +129,11 @@ fn a_cut_tube_has_two_loops_and_the_area_of_a_voxel_tube() {
 fn a_slice_of_work_is_a_layer_and_the_surface_the_same() {
     let grid = Geometry::around(DVec3::splat(-2.0), DVec3::splat(2.0), DVec3::ONE);
     let inside = |p: DVec3| p.length() < 2.0;
-    let mut work = MarchingCubes::new(&grid, Of { grid, k: 0, inside });
+    let cubes = MarchingCubes::new(&grid, Of { grid, k: 0, inside });
+    let mut running = Running::new(|yielder| async move { cubes.surface(usize::MAX, &yielder).await.unwrap() });
     let mut fractions = Vec::new();
     let mesh = loop {
-        match work.advance(Budget::new(std::time::Duration::ZERO)) {
+        match running.advance(Budget::new(std::time::Duration::ZERO)) {
             Progress::Working(fraction) => fractions.push(fraction),
             Progress::Done(mesh) => break mesh,
         }

@@ -20,12 +20,10 @@ mod search;
 use std::sync::Arc;
 
 use self::looks::Looks;
-use self::search::FoundIn;
 pub use self::search::{SPREAD, Wall};
-use super::BUILD;
 use crate::parallel;
-use crate::task::{Budget, Progress};
-use crate::{Blend, Components, IndexBuild, SurfaceIndex, TriMesh, components};
+use crate::task::{Yielder, at_once, blocks};
+use crate::{Blend, SurfaceIndex, TriMesh, components};
 
 /// Triangles between two looks at the clock, and of one thread.
 const SLICE: usize = 8_192;
@@ -46,19 +44,7 @@ pub struct Lumen {
     pub wall: Wall,
 }
 
-/// Looks for a wall, and takes its lumen where that is asked for, in slices.
-#[derive(Debug)]
-pub struct WallTask {
-    takes_lumen: bool,
-    pieces: Components,
-    build: IndexBuild,
-    index: Option<Arc<SurfaceIndex>>,
-    found: Option<Vec<FoundIn>>,
-    /// For each triangle of a piece that is a wall by itself, whether the other side is behind it.
-    is_walled: Vec<bool>,
-}
-
-/// What a [`WallTask`] ends in.
+/// What there is of a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallFound {
     /// The wall, if there is one: of several the first.
@@ -67,66 +53,40 @@ pub struct WallFound {
     pub lumen: Option<Lumen>,
 }
 
-impl WallTask {
-    /// In `mesh`, whose windings agree and face outwards.
-    pub fn new(mesh: &TriMesh, takes_lumen: bool) -> Self {
-        let pieces = components(mesh.positions.len(), &mesh.triangles);
-        let (build, index, found) = (IndexBuild::new(), None, None);
-        Self { takes_lumen, pieces, build, index, found, is_walled: Vec::new() }
-    }
-
-    /// With an index of that surface, where there is one.
-    #[must_use]
-    pub fn with_index(mut self, index: Option<Arc<SurfaceIndex>>) -> Self {
-        self.index = index;
-        self
-    }
-
-    /// Works on `mesh`, which it was made for.
-    pub fn advance(&mut self, mesh: &TriMesh, budget: Budget) -> Progress<WallFound> {
-        while self.index.is_none() {
-            if let std::task::Poll::Ready(index) = self.build.advance(&mesh.positions, &mesh.triangles, BUILD) {
-                self.index = Some(Arc::new(index));
-            }
-            if budget.is_spent() {
-                return Progress::Working(0.4 * self.build.fraction());
-            }
-        }
-        let Some(index) = &self.index else { return Progress::Working(0.4) };
-        let looks = Looks { mesh, index, pieces: &self.pieces };
-        let Some(found) = &self.found else {
-            self.found = Some(looks.walls());
-            return Progress::Working(0.5);
-        };
-        let wall = found.first().map(|found| found.wall);
-        if !self.takes_lumen || found.is_empty() {
-            return Progress::Done(WallFound { wall, lumen: None });
-        }
-        if found.iter().any(|found| !found.wall.is_two_pieces) {
-            while self.is_walled.len() < mesh.triangles.len() {
-                let from = self.is_walled.len();
-                let to = mesh.triangles.len().min(from + SLICE);
-                let flags = parallel::map_ranges(to - from, CHUNK, |range| {
-                    range.map(|t| looks.is_walled((from + t) as u32, found)).collect::<Vec<_>>()
-                });
-                self.is_walled.extend(flags.into_iter().flatten());
-                if budget.is_spent() {
-                    return Progress::Working(0.5 + 0.5 * to as f32 / mesh.triangles.len() as f32);
-                }
-            }
-        }
-        Progress::Done(WallFound { wall, lumen: looks.lumen(found, &self.is_walled) })
-    }
+/// Looks for a wall in `mesh`, whose windings agree and face outwards, and takes its lumen if `takes_lumen`.
+pub fn find(mesh: &TriMesh, takes_lumen: bool) -> WallFound {
+    at_once(find_in_slices(mesh, None, takes_lumen, &Yielder::never()))
 }
 
-/// Looks for a wall in `mesh`, and takes its lumen if `takes_lumen`.
-pub fn find(mesh: &TriMesh, takes_lumen: bool) -> WallFound {
-    let mut task = WallTask::new(mesh, takes_lumen);
-    loop {
-        if let Progress::Done(found) = task.advance(mesh, Budget::UNLIMITED) {
-            return found;
+/// As [`find`], with an index of that surface, where there is one.
+pub async fn find_in_slices(
+    mesh: &TriMesh,
+    index: Option<Arc<SurfaceIndex>>,
+    takes_lumen: bool,
+    yielder: &Yielder,
+) -> WallFound {
+    let pieces = components(mesh.positions.len(), &mesh.triangles);
+    let index = SurfaceIndex::known_or_built(index, mesh, &yielder.part(0.0..0.4)).await;
+    let looks = Looks { mesh, index: &index, pieces: &pieces };
+    let found = looks.walls();
+    yielder.rest(0.5).await;
+    let wall = found.first().map(|found| found.wall);
+    if !takes_lumen || found.is_empty() {
+        return WallFound { wall, lumen: None };
+    }
+    // For each triangle of a piece that is a wall by itself, whether the other side is behind it.
+    let mut is_walled = Vec::new();
+    if found.iter().any(|found| !found.wall.is_two_pieces) {
+        for block in blocks(mesh.triangles.len(), SLICE) {
+            let from = block.start;
+            let flags = parallel::map_ranges(block.len(), CHUNK, |range| {
+                range.map(|t| looks.is_walled((from + t) as u32, &found)).collect::<Vec<_>>()
+            });
+            is_walled.extend(flags.into_iter().flatten());
+            yielder.rest(0.5 + 0.5 * block.end as f32 / mesh.triangles.len() as f32).await;
         }
     }
+    WallFound { wall, lumen: looks.lumen(&found, &is_walled) }
 }
 
 #[cfg(test)]
