@@ -22,8 +22,7 @@ use crate::pipeline::task::{Budget, Progress, Task as _};
 pub struct Mend {
     /// A surface file, or sample:aorta, sample:coronary
     file: String,
-    /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", help = places::where_to_write())]
     output: PathBuf,
     #[command(flatten)]
     mending: MendingOptions,

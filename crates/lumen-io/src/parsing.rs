@@ -9,12 +9,13 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::axes::{self, Axes};
-use super::detect::{self, Content};
+use super::detect::detect;
 use super::error::ReadError;
+use super::formats::FileKind;
 use super::pace::Paced;
 use super::raw::RawSurface;
 use super::room::Room;
-use super::{ImportOptions, Unit, far, gltf, obj, ply, stl, vtk};
+use super::{ImportOptions, Unit, far};
 use lumen_mesh::task::{Budget, Progress};
 
 /// The polygons in a file, the unit of its numbers and its axes.
@@ -38,78 +39,41 @@ impl Deref for Bytes<'_> {
     }
 }
 
+/// A parser of one kind of file, in slices.
+pub(super) trait Parse {
+    /// Parses on. `bytes` are the whole file, the same each time.
+    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>>;
+}
+
+impl Parse for Paced<'_> {
+    fn advance(&mut self, _: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+        self.advance(budget)
+    }
+}
+
 /// A file that is being parsed.
 pub(super) struct Parsing<'a> {
     bytes: Bytes<'a>,
-    content: Content,
+    kind: &'static FileKind,
     unit: Unit,
-    parser: Parser<'a>,
+    parser: Box<dyn Parse + 'a>,
     /// Whether it is read once more, relative to a place within the surface (`far`).
     is_again: bool,
     /// The largest fraction so far: what is read again is not undone.
     told: f32,
 }
 
-/// What parses.
-enum Parser<'a> {
-    Stl(stl::Parsing),
-    Ply(Box<ply::Parsing>),
-    Obj(Box<obj::Parsing>),
-    /// VTP, VTK, GLB or glTF.
-    Paced(Paced<'a>),
-}
-
-impl<'a> Parser<'a> {
-    /// Of positions relative to an origin.
-    fn new(content: Content, bytes: &Bytes<'a>, unit: Unit, origin: DVec3) -> Result<Self, ReadError> {
-        let (own, file) = (bytes.clone(), bytes.len());
-        Ok(match content {
-            Content::Stl => Self::Stl(stl::Parsing::new(bytes, origin)?),
-            Content::Ply => Self::Ply(Box::new(ply::Parsing::new(bytes, origin)?)),
-            Content::Obj => Self::Obj(Box::new(obj::Parsing::new(bytes, origin)?)),
-            Content::Vtp => {
-                Self::Paced(Paced::new(file, move |pace| async move { vtk::read_xml(&own, origin, &pace).await }))
-            }
-            Content::Vtk => {
-                Self::Paced(Paced::new(file, move |pace| async move { vtk::read_legacy(&own, origin, &pace).await }))
-            }
-            Content::Glb => {
-                Self::Paced(Paced::new(
-                    file,
-                    move |pace| async move { gltf::read_binary(&own, unit, origin, &pace).await },
-                ))
-            }
-            Content::Gltf => {
-                Self::Paced(Paced::new(
-                    file,
-                    move |pace| async move { gltf::read_text(&own, unit, origin, &pace).await },
-                ))
-            }
-        })
-    }
-}
-
 impl<'a> Parsing<'a> {
     pub(super) fn new(bytes: Bytes<'a>, name: &str, options: &ImportOptions) -> Result<Self, ReadError> {
-        let content = detect::detect(&bytes, name)?;
-        let unit = options.unit.unwrap_or(match content {
-            Content::Glb | Content::Gltf => Unit::Metre,
-            _ => Unit::Millimetre,
-        });
-        let parser = Parser::new(content, &bytes, unit, DVec3::ZERO)?;
-        Ok(Self { bytes, content, unit, parser, is_again: false, told: 0.0 })
+        let kind = detect(&bytes, name)?;
+        let unit = options.unit.unwrap_or(kind.unit);
+        let parser = (kind.parse)(&bytes, unit, DVec3::ZERO)?;
+        Ok(Self { bytes, kind, unit, parser, is_again: false, told: 0.0 })
     }
 
     /// Parses on; the fraction never falls.
     pub(super) fn advance(&mut self, budget: Budget) -> Progress<Result<Parsed, ReadError>> {
-        let bytes = &self.bytes;
-        let progress = match &mut self.parser {
-            Parser::Stl(parsing) => parsing.advance(bytes, budget),
-            Parser::Ply(parsing) => parsing.advance(bytes, budget),
-            Parser::Obj(parsing) => parsing.advance(bytes, budget),
-            Parser::Paced(reader) => reader.advance(budget),
-        };
-        match progress {
+        match self.parser.advance(&self.bytes, budget) {
             Progress::Working(fraction) => self.told = self.told.max(fraction),
             Progress::Done(Err(error)) => return Progress::Done(Err(error)),
             Progress::Done(Ok(raw)) => {
@@ -118,7 +82,7 @@ impl<'a> Parsing<'a> {
                 // Never both at once.
                 drop(raw);
                 self.is_again = true;
-                match Parser::new(self.content, &self.bytes, self.unit, origin) {
+                match (self.kind.parse)(&self.bytes, self.unit, origin) {
                     Ok(parser) => self.parser = parser,
                     Err(error) => return Progress::Done(Err(error)),
                 }
@@ -130,10 +94,7 @@ impl<'a> Parsing<'a> {
     fn parsed(&self, raw: RawSurface) -> Result<Parsed, ReadError> {
         let bytes = &self.bytes;
         Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
-        let axes = match self.content {
-            Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
-            Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,
-        };
+        let axes = if self.kind.axes_in_head { axes::stated(bytes) } else { raw.axes };
         Ok((raw, self.unit, axes))
     }
 }

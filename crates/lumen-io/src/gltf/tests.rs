@@ -9,7 +9,8 @@ use super::super::output::Output;
 use super::super::pace::{Pace, at_once};
 use super::super::raw::RawSurface;
 use super::super::text::BASE64;
-use super::{read_binary, read_text, write};
+use super::container::{read_binary, read_text};
+use super::write::write;
 use lumen_mesh::{TriMesh, Vec3};
 
 /// A glTF text of four vertices of a unit square, drawn by `primitive` under `nodes`.

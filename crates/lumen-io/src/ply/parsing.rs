@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::super::error::ReadError;
 use super::super::numbers::{BinaryNumbers, TextNumbers};
+use super::super::parsing::Parse;
 use super::super::raw::RawSurface;
 use super::super::text::{self, Words};
 use super::body::Body;
@@ -15,7 +16,7 @@ use lumen_mesh::task::{Budget, Progress};
 ///
 /// White space is white space to a body of text; but where its numbers do not come out even, a header has left out some that
 /// stand at the ends of lines (MeshLab once wrote colours so), and taking every row to be a line gets over them.
-pub(crate) struct Parsing {
+pub(super) struct Parsing {
     header: Header,
     /// Where the file begins, behind a mark and white space.
     start: usize,
@@ -27,14 +28,16 @@ pub(crate) struct Parsing {
 
 impl Parsing {
     /// Of `bytes`, which are handed over again with each slice.
-    pub(crate) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
+    pub(super) fn new(bytes: &[u8], origin: DVec3) -> Result<Self, ReadError> {
         let file = text::without_mark(bytes).trim_ascii_start();
         let header = header(file)?;
         let body = Body::new(&header, file.len(), origin);
         Ok(Self { start: bytes.len() - file.len(), header, origin, body, uneven: None })
     }
+}
 
-    pub(crate) fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
+impl Parse for Parsing {
+    fn advance(&mut self, bytes: &[u8], budget: Budget) -> Progress<Result<RawSurface, ReadError>> {
         let Self { header, body, .. } = self;
         let file = &bytes[self.start..];
         let length = file.len() - header.body;
@@ -61,7 +64,9 @@ impl Parsing {
             done => done,
         }
     }
+}
 
+impl Parsing {
     /// What comes of a text that was read, or the beginning of another reading of it.
     fn judged(
         &mut self,

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::super::error::ReadError;
+use super::super::parsing::Parse as _;
 use super::super::raw::RawSurface;
-use super::Parsing;
+use super::parsing::Parsing;
 use lumen_mesh::Vec3;
 use lumen_mesh::task::{Budget, Progress};
 
