@@ -181,7 +181,7 @@ fn root() -> PathBuf {
 
 /// The folder of the whole workspace, whose programs say the messages.
 fn workspace() -> PathBuf {
-    root().join("../..")
+    root().ancestors().nth(2).unwrap().to_path_buf()
 }
 
 #[test]
