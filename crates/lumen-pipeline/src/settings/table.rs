@@ -299,9 +299,9 @@ mod tests {
         all
     }
 
-    /// Settings of which every field is written.
+    /// Settings of which every field is written: those of mending are where something is mended.
     fn told() -> Settings {
-        Settings { mending: Mending { split: true, ..Mending::default() }, ..Settings::default() }
+        Settings { mending: Mending { weld_mm: Some(1.0), ..Mending::default() }, ..Settings::default() }
     }
 
     /// A value that is not the default, as text.
