@@ -3,13 +3,16 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, Key, Modifiers, ProgressBar, Role, Slider, Ui};
+use egui::{ComboBox, DragValue, Key, Modifiers, ProgressBar, Role, Slider, Ui};
 
 use super::assist::{describe, name};
 use super::icon::{self, Icon};
+use super::row::row;
 use super::swipe::Way;
 use super::theme;
-use crate::language::{inner, parse};
+use crate::language::{inner, parse, text};
+use crate::pipeline::settings::Settings;
+use crate::pipeline::settings::table::{self, Kind, Value};
 use crate::say;
 
 /// Height of a row where a mouse points, in points.
@@ -141,6 +144,70 @@ impl Setting<'_> {
     fn rounded(&self, value: f64) -> f64 {
         let scale = libm::pow(10.0, self.decimals as f64);
         ((value * scale).round() / scale).clamp(*self.range.start(), *self.range.end())
+    }
+}
+
+/// Shows a setting of the table: a slider, a box to tick or a list. What has no control of this kind (a limit, pieces, a
+/// target) shows nothing, nor does a setting without a name in the panel.
+pub(super) fn setting(ui: &mut Ui, setting: &table::Setting, settings: &mut Settings) {
+    if setting.messages.label.is_empty() {
+        return;
+    }
+    let (words, help) = (text(setting.messages.label), text(setting.messages.help));
+    match setting.kind {
+        Kind::Switch { at } => {
+            ui.checkbox(at(settings), words).on_hover_text(help);
+        }
+        Kind::Number { at, ref range } => {
+            number(setting, range, &words, &help).show(ui, at(settings));
+        }
+        Kind::Count { at, ref range } => {
+            let mut count = f64::from(*at(settings));
+            if number(setting, range, &words, &help).show(ui, &mut count) {
+                *at(settings) = count as u32;
+            }
+        }
+        Kind::Choice { names, index, choose } => row(ui, &words, &help, |ui| {
+            let before = index(settings);
+            let mut chosen = before;
+            let list = ComboBox::from_id_salt(setting.key).selected_text(names[before]);
+            let response = list.show_ui(ui, |ui| {
+                for (i, choice) in names.iter().enumerate() {
+                    ui.selectable_value(&mut chosen, i, *choice);
+                }
+            });
+            name(&response.response, Role::ComboBox, &words);
+            if chosen != before {
+                choose(settings, chosen);
+            }
+        }),
+        Kind::Limit { .. } | Kind::Pieces { .. } | Kind::Target { .. } => {}
+    }
+}
+
+/// The rows of a number of the table.
+pub(super) fn number<'a>(setting: &table::Setting, range: &table::Range, name: &'a str, help: &'a str) -> Setting<'a> {
+    let default = match setting.default() {
+        Some(Value::Number(number)) => number,
+        _ => *range.bounds.start(),
+    };
+    Setting {
+        name,
+        help,
+        unit: suffix(range),
+        range: range.bounds.clone(),
+        default,
+        decimals: range.decimals,
+        logarithmic: range.logarithmic,
+    }
+}
+
+/// The unit of a number as it stands behind it.
+pub(super) fn suffix(range: &table::Range) -> &'static str {
+    match range.unit {
+        "mm" => " mm",
+        "%" => " %",
+        unit => unit,
     }
 }
 

@@ -4,13 +4,14 @@ use egui::{Color32, DragValue, Rect, Role, Shape, Stroke, Ui, pos2};
 
 use super::action::Action;
 use super::assist::name;
-use super::control::reads_comma;
+use super::control::{self, reads_comma, suffix};
 use super::document::Document;
 use super::row::{number, remark, row};
 use super::state::State;
 use super::views::{FaultShown, ViewOptions, Views, seen};
-use crate::language::{Key, decimal, grouped, inner};
+use crate::language::{Key, decimal, grouped, inner, text};
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
+use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Keep, Settings};
 use crate::render::Camera;
 use crate::say;
@@ -18,9 +19,8 @@ use crate::say;
 /// Height of what is seen around a fault, in times its size, and in mm at least.
 const AROUND: f32 = 6.0;
 const LEAST_MM: f32 = 5.0;
-/// What is proposed where nothing is known: holes up to 5 mm, open edges within a hundredth of a mm.
-const FILL_MM: f64 = 5.0;
-const WELD_MM: f64 = 0.01;
+/// What can be mended, from top to bottom.
+const ORDER: [&str; 4] = ["fill-holes", "weld", "split", "lumen"];
 
 /// Shows the section: folded where there is nothing to mend and nothing is mended.
 pub(super) fn section(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
@@ -35,7 +35,7 @@ pub(super) fn section(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec
             None => remark(ui, &say!("panel-faults-sought")),
         }
         let mut settings = state.settings.clone();
-        choices(ui, &mut settings.mending, counts.as_ref());
+        choices(ui, &mut settings, counts.as_ref());
         if settings != state.settings {
             asked.push(set(settings));
         }
@@ -138,65 +138,46 @@ fn label(place: &FaultPlace) -> String {
 }
 
 /// What is to be mended.
-fn choices(ui: &mut Ui, mending: &mut Mending, counts: Option<&FaultCounts>) {
+fn choices(ui: &mut Ui, settings: &mut Settings, counts: Option<&FaultCounts>) {
     let whole = counts.and_then(|counts| counts.largest_hole_mm).map(Mending::filling);
-    let fill = Length {
-        words: &say!("panel-fill"),
-        help: &say!("panel-fill-help"),
-        range: Mending::FILL_MM,
-        proposed: whole.unwrap_or(FILL_MM),
-        digits: 1,
-    };
-    fill.show(ui, &mut mending.fill_mm);
-    let weld = Length {
-        words: &say!("panel-weld"),
-        help: &say!("panel-weld-help"),
-        range: Mending::WELD_MM,
-        proposed: WELD_MM,
-        digits: 4,
-    };
-    weld.show(ui, &mut mending.weld_mm);
+    let mut rows: Vec<_> = table::of("mending").collect();
+    rows.sort_by_key(|setting| ORDER.iter().position(|key| *key == setting.key).unwrap_or(ORDER.len()));
+    for setting in &rows {
+        if let Kind::Limit { at, ref range, proposed } = setting.kind {
+            let proposed = whole.filter(|_| setting.key == "fill-holes").unwrap_or(proposed);
+            limit(ui, setting, range, proposed, at(settings));
+        }
+    }
     ui.horizontal_wrapped(|ui| {
-        let split = ui.checkbox(&mut mending.split, say!("panel-split"));
-        split.on_hover_text(say!("panel-split-help"));
-        let lumen = ui.checkbox(&mut mending.lumen, say!("panel-lumen"));
-        lumen.on_hover_text(say!("panel-lumen-help"));
+        for setting in rows {
+            control::setting(ui, setting, settings);
+        }
     });
 }
 
-/// A length that is on or off.
-struct Length<'a> {
-    words: &'a str,
-    help: &'a str,
-    range: std::ops::RangeInclusive<f64>,
-    /// When it is switched on.
-    proposed: f64,
-    digits: usize,
-}
-
-impl Length<'_> {
-    fn show(&self, ui: &mut Ui, value: &mut Option<f64>) {
-        ui.horizontal(|ui| {
-            let mut is_on = value.is_some();
-            if ui.checkbox(&mut is_on, self.words).on_hover_text(self.help.to_owned()).changed() {
-                *value = is_on.then_some(self.proposed);
+/// A length that is on or off; `proposed` when it is switched on.
+fn limit(ui: &mut Ui, setting: &table::Setting, range: &table::Range, proposed: f64, value: &mut Option<f64>) {
+    let (words, help) = (text(setting.messages.label), text(setting.messages.help));
+    ui.horizontal(|ui| {
+        let mut is_on = value.is_some();
+        if ui.checkbox(&mut is_on, &words).on_hover_text(help).changed() {
+            *value = is_on.then_some(proposed);
+        }
+        let mut shown = value.unwrap_or(proposed);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let field = reads_comma(DragValue::new(&mut shown), range.decimals == 0)
+                .range(range.bounds.clone())
+                .speed(proposed / 50.0)
+                .max_decimals(range.decimals)
+                .suffix(suffix(range))
+                .update_while_editing(false);
+            let response = ui.add_enabled(is_on, field).on_hover_text(say!("panel-type"));
+            name(&response, Role::SpinButton, &say!("panel-value", name = &words));
+            if response.changed() && is_on {
+                *value = Some(shown);
             }
-            let mut shown = value.unwrap_or(self.proposed);
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let field = reads_comma(DragValue::new(&mut shown), self.digits == 0)
-                    .range(self.range.clone())
-                    .speed(self.proposed / 50.0)
-                    .max_decimals(self.digits)
-                    .suffix(" mm")
-                    .update_while_editing(false);
-                let response = ui.add_enabled(is_on, field).on_hover_text(say!("panel-type"));
-                name(&response, Role::SpinButton, &say!("panel-value", name = self.words));
-                if response.changed() && is_on {
-                    *value = Some(shown);
-                }
-            });
         });
-    }
+    });
 }
 
 /// What was mended under the settings in force.

@@ -36,8 +36,7 @@ const SUMMARY: &str = "summary.csv";
 /// Options for many files.
 #[derive(Debug, Args)]
 pub(super) struct BatchOptions {
-    /// The format of the surfaces where OUT is a folder: stl, ply, obj, vtp, vtk or glb [default: stl]
-    #[arg(long, value_name = "NAME", value_parser = format)]
+    #[arg(long, value_name = "NAME", value_parser = format, help = which_format())]
     pub(super) format: Option<Format>,
     /// How many surfaces are worked on at once, 1 to 64, where OUT is a folder; each takes its own memory [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
@@ -45,7 +44,11 @@ pub(super) struct BatchOptions {
 }
 
 fn format(name: &str) -> Result<Format, String> {
-    Format::from_extension(name).ok_or_else(|| "it is none of stl, ply, obj, vtp, vtk and glb".to_owned())
+    Format::from_extension(name).ok_or_else(|| format!("it is none of {}", places::endings("", "and")))
+}
+
+fn which_format() -> String {
+    format!("The format of the surfaces where OUT is a folder: {} [default: stl]", places::endings("", "or"))
 }
 
 /// Whether a name stands for a folder: one is there, or it ends as folders' names do.
@@ -106,12 +109,13 @@ fn surfaces_in(folder: &str) -> Result<Vec<String>> {
     for entry in std::fs::read_dir(folder).with_context(|| format!("cannot read the folder {folder}"))? {
         let path = entry.with_context(|| format!("cannot read the folder {folder}"))?.path();
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        if path.is_file() && extension.is_some_and(|extension| Format::OPENED.contains(&&*extension)) {
+        if path.is_file() && extension.is_some_and(|extension| Format::opened().any(|opened| opened == extension)) {
             found.push(path.to_string_lossy().into_owned());
         }
     }
     if found.is_empty() {
-        bail!("there are no surfaces in {folder}: Lumen opens {}{FOLDER_HINT}", Format::OPENED.join(", "));
+        let opened: Vec<&str> = Format::opened().collect();
+        bail!("there are no surfaces in {folder}: Lumen opens {}{FOLDER_HINT}", opened.join(", "));
     }
     found.sort();
     Ok(found)

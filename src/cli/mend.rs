@@ -7,14 +7,14 @@ use clap::Args;
 use serde::Serialize;
 
 use super::misuse::misuse;
+use super::options::MendingOptions;
 use super::places::{output_format, write_whole};
 use super::rows::row;
-use super::settings::MendingOptions;
 use super::source::{self, UnitOption};
 use super::{interrupt, places};
 use crate::io::{self, Imported, Output};
 use crate::mesh::mending::{FaultCounts, Faults, MendReport, Mended, mend};
-use crate::pipeline::settings::{Mending, Settings};
+use crate::pipeline::settings::Settings;
 use crate::pipeline::task::{Budget, Progress, Running};
 
 /// Mends what is wrong with a surface, and writes it: neither smoothed nor reduced.
@@ -22,8 +22,7 @@ use crate::pipeline::task::{Budget, Progress, Running};
 pub struct Mend {
     /// A surface file, or sample:aorta, sample:coronary
     file: String,
-    /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", help = places::where_to_write())]
     output: PathBuf,
     #[command(flatten)]
     mending: MendingOptions,
@@ -47,7 +46,7 @@ struct Told {
 impl Mend {
     /// Mends the surface and writes it.
     pub(super) fn run(&self) -> Result<()> {
-        let asked = self.mending.asked(Mending::default());
+        let asked = self.mending.asked();
         if asked.is_off() {
             return Err(misuse("nothing is asked for: say --weld, --split, --fill-holes or --lumen"));
         }

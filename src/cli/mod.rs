@@ -14,6 +14,7 @@ mod manual;
 mod mend;
 mod misuse;
 mod optimise;
+mod options;
 mod outputs;
 mod phantom;
 #[cfg(feature = "gui")]

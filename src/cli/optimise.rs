@@ -34,8 +34,7 @@ pub struct Optimise {
     files: Vec<String>,
     #[command(flatten)]
     scan: ScanOptions,
-    /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb; a folder where there are more files than one
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", help = where_to_write())]
     output: PathBuf,
     #[command(flatten)]
     settings: SettingsOptions,
@@ -55,6 +54,10 @@ pub struct Optimise {
     /// Write the calibre along each branch to this file, a row a place
     #[arg(long, value_name = "FILE.csv")]
     branches_csv: Option<PathBuf>,
+}
+
+fn where_to_write() -> String {
+    format!("{}; a folder where there are more files than one", places::where_to_write())
 }
 
 impl Optimise {

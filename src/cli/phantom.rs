@@ -19,8 +19,7 @@ pub struct Phantom {
     /// Triangles of the largest piece, to within 1 %; 2,000 to 5,000,000
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(MIN_TRIANGLES as i64..=MAX_TRIANGLES as i64))]
     triangles: Option<u32>,
-    /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help = places::where_to_write())]
     output: PathBuf,
 }
 

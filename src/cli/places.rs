@@ -21,7 +21,18 @@ pub(super) fn check<'a>(
 /// The format that the name of an output file asks for.
 pub(super) fn output_format(path: &Path) -> Result<Format> {
     let format = Format::from_name(&path.to_string_lossy());
-    format.ok_or_else(|| misuse(format!("{} does not end in .stl, .ply, .obj, .vtp, .vtk or .glb", path.display())))
+    format.ok_or_else(|| misuse(format!("{} does not end in {}", path.display(), endings(".", "or"))))
+}
+
+/// Where a surface can be written, for the help.
+pub(super) fn where_to_write() -> String {
+    format!("Where to write: {}", endings(".", "or"))
+}
+
+/// The extensions of the formats that are written, each behind `before`, the last behind `word`.
+pub(super) fn endings(before: &str, word: &str) -> String {
+    let [others @ .., last] = Format::ALL.map(|format| format!("{before}{}", format.extension()));
+    format!("{} {word} {last}", others.join(", "))
 }
 
 /// Writes `bytes` to `path` whole or not at all: what was there before stays if the disk is full.

@@ -16,8 +16,7 @@ pub struct Surface {
     /// NIfTI, NRRD, MetaImage or VTI; a header and its data; the files of a DICOM series, or their folder
     #[arg(required = true, value_name = "SCAN")]
     files: Vec<String>,
-    /// Where to write: .stl, .ply, .obj, .vtp, .vtk or .glb
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", help = places::where_to_write())]
     output: PathBuf,
     #[command(flatten)]
     scan: ScanOptions,

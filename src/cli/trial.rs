@@ -7,10 +7,10 @@ use anyhow::{Context, Result, anyhow};
 use clap::Args;
 
 use super::misuse::misuse;
+use super::options::percent;
 use super::places::write_whole;
 use super::rows::row;
 use super::running::advance;
-use super::settings::percent;
 use super::{places, source};
 use crate::io::Unit;
 use crate::mesh::TriMesh;

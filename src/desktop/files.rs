@@ -19,7 +19,7 @@ use crate::say;
 pub(super) fn choose(disk: Disk, events: Sender<PlatformEvent>, waker: Waker) {
     thread::spawn(move || {
         speech::follow();
-        let extensions: Vec<&str> = Format::OPENED.into_iter().chain(scans::ENDINGS).chain(OTHER_ENDINGS).collect();
+        let extensions: Vec<&str> = Format::opened().chain(scans::ENDINGS).chain(OTHER_ENDINGS).collect();
         let dialog = FileDialog::new()
             .add_filter(say!("app-dialog-opened"), &extensions)
             .add_filter(say!("app-dialog-all"), &["*"]);

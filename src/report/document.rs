@@ -4,10 +4,11 @@ use std::cmp::Reverse;
 
 use super::picture::Picture;
 use super::plot::{Plot, radius, response};
+use super::words::{others, said};
 use crate::io::{Axes, ImportReport};
 use crate::language::{decimal, exact, grouped, inner, signed};
 use crate::pipeline::report::Report;
-use crate::pipeline::settings::{Keep, Mending, Method, Preset, Settings, Smoothing, Target};
+use crate::pipeline::settings::{Keep, Preset, Settings, Target};
 use crate::pipeline::verdict::Verdict;
 use crate::say;
 use crate::sharing::Digest;
@@ -158,20 +159,17 @@ fn file(subject: &Subject<'_>) -> Vec<Row> {
 }
 
 /// What was mended, on request.
-fn mending(asked: Mending) -> String {
-    let Mending { weld_mm, split, fill_mm, lumen } = asked;
-    let parts = [
-        lumen.then(|| say!("report-lumen-taken")),
-        weld_mm.map(|mm| say!("report-welded", most = exact(mm))),
-        split.then(|| say!("report-split")),
-        fill_mm.map(|mm| say!("report-filled", most = exact(mm))),
-    ];
-    let parts: Vec<String> = parts.into_iter().flatten().collect();
+fn mending(settings: &Settings) -> String {
+    const KNOWN: [&str; 4] = ["lumen", "weld", "split", "fill-holes"];
+    let known = KNOWN.iter().filter_map(|key| said(key, settings));
+    let parts: Vec<String> = known.chain(others("mending", &KNOWN, settings)).collect();
     if parts.is_empty() { say!("report-no-mending") } else { parts.join(", ") }
 }
 
 /// What was smoothed with.
-fn filter(smoothing: &Smoothing) -> String {
+fn filter(settings: &Settings) -> String {
+    const KNOWN: [&str; 6] = ["pass-band", "iterations", "window", "adapt", "guard", "preserve-volume"];
+    let smoothing = &settings.smoothing;
     if smoothing.iterations == 0 {
         return say!("report-no-smoothing");
     }
@@ -182,40 +180,41 @@ fn filter(smoothing: &Smoothing) -> String {
         smoothing.guard.then(|| say!("report-no-crossings")),
         smoothing.preserve_volume.then(|| say!("report-volume-held")),
     ];
-    let filter = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    let parts = parts.into_iter().flatten().chain(others("smoothing", &KNOWN, settings));
+    let filter = parts.collect::<Vec<_>>().join(", ");
     match Preset::of(smoothing) {
         Some(preset) => say!("report-preset", preset = inner(&preset.label()), filter = filter),
         None => filter,
     }
 }
 
+/// What was reduced with.
+fn method(settings: &Settings) -> String {
+    const KNOWN: [&str; 4] = ["method", "feature-angle", "spare-thin", "keep-labels"];
+    let parts = [settings.decimation.method.name().to_owned()].into_iter();
+    let parts = parts.chain(KNOWN[1..].iter().filter_map(|key| said(key, settings)));
+    parts.chain(others("decimation", &KNOWN, settings)).collect::<Vec<_>>().join(", ")
+}
+
 fn settings(settings: &Settings) -> Vec<Row> {
-    let Settings { keep, mending, smoothing, decimation, target, tolerance_percent } = settings;
-    let keep = match keep {
+    let keep = match settings.keep {
         Keep::Largest => say!("report-keep-largest"),
         Keep::Component(number) => say!("report-keep-piece", number = number.to_string()),
         Keep::All => say!("report-keep-all"),
     };
+    let target = settings.target;
     let target = match target {
         Target::Reduction(_) => say!("report-target-reduction", percent = decimal(target.percent(1), 1)),
         Target::Triangles(count) => say!("report-target-triangles", count = count),
         Target::Deviation(_) => say!("report-target-deviation", most = exact(target.deviation_mm().unwrap_or(0.0))),
     };
-    let angle = (decimation.method == Method::Schroeder)
-        .then(|| say!("compare-feature-angle", degrees = decimation.feature_angle));
-    let method = [
-        Some(decimation.method.name().to_owned()),
-        angle,
-        decimation.spare_thin.then(|| say!("compare-thin-spared")),
-        decimation.keep_labels.then(|| say!("compare-labels-kept")),
-    ];
     vec![
         (say!("report-keep"), keep),
-        (say!("report-mending"), self::mending(*mending)),
-        (say!("report-smoothing"), filter(smoothing)),
+        (say!("report-mending"), mending(settings)),
+        (say!("report-smoothing"), filter(settings)),
         (say!("report-reduction"), target),
-        (say!("report-method"), method.into_iter().flatten().collect::<Vec<_>>().join(", ")),
-        (say!("report-allowed"), format!("{} %", exact(*tolerance_percent))),
+        (say!("report-method"), method(settings)),
+        (say!("report-allowed"), format!("{} %", exact(settings.tolerance_percent))),
     ]
 }
 

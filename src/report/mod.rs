@@ -9,6 +9,7 @@ mod letters;
 mod pdf;
 mod picture;
 mod plot;
+pub mod words;
 
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! The settings in a link: the part of an address after `#`, which a browser sends to no server.
 //!
 //! `v=1&file=ba7816bf8f01cfea&keep=largest&window=hamming&pass-band=0.01&...`: each pair is called as the option of
-//! `lumen optimise` is, in any order, each once, and none may be missing. Numbers are written with the fewest digits that
+//! `lumen optimise` is ([`table`]), in any order, each once, and none that a link always has may be missing. Numbers are written with the fewest digits that
 //! read back as the same number. No value needs an escape.
 
 use std::str::FromStr;
@@ -11,9 +11,8 @@ use thiserror::Error;
 use super::{SharedSettings, ShortDigest};
 use crate::io::Unit;
 use crate::phantom::Sample;
-use crate::pipeline::settings::{
-    Boundary, Decimation, Keep, Mending, Method, Settings, SettingsError, Smoothing, Target, Window,
-};
+use crate::pipeline::settings::table::{self, InLink, Setting, Value};
+use crate::pipeline::settings::{Settings, SettingsError};
 use crate::say;
 
 /// The version that is written and read.
@@ -76,11 +75,6 @@ pub enum LinkError {
 impl Link {
     /// The link's fragment, without `#`.
     pub fn fragment(&self) -> String {
-        // All by name: a setting that is new has to find its pair here and in `parse`.
-        let Settings { mending, keep, smoothing, decimation, target, tolerance_percent } = &self.shared.settings;
-        let Smoothing { window, pass_band, iterations, boundary, preserve_volume, adapt, guard } = smoothing;
-        let Decimation { method, feature_angle, spare_thin, keep_labels } = decimation;
-        let Mending { weld_mm, split, fill_mm, lumen } = mending;
         let mut pairs = vec![("v", VERSION.to_string())];
         pairs.push(match self.surface {
             SharedSurface::File(digest) => ("file", digest.to_string()),
@@ -89,31 +83,15 @@ impl Link {
         if let Some(unit) = self.shared.unit {
             pairs.push(("unit", unit.to_string()));
         }
-        // Only where they are asked for: a link without them is as it was before there was mending.
-        pairs.extend(weld_mm.map(|mm| ("weld", mm.to_string())));
-        pairs.extend(split.then(|| ("split", switch_word(true))));
-        pairs.extend(fill_mm.map(|mm| ("fill-holes", mm.to_string())));
-        pairs.extend(lumen.then(|| ("lumen", switch_word(true))));
-        pairs.extend(keep_labels.then(|| ("keep-labels", switch_word(true))));
-        pairs.extend([
-            ("keep", keep_word(*keep)),
-            ("window", window.name().to_lowercase()),
-            ("pass-band", pass_band.to_string()),
-            ("iterations", iterations.to_string()),
-            ("boundary", boundary_word(*boundary).to_owned()),
-            ("preserve-volume", switch_word(*preserve_volume)),
-            ("adapt", switch_word(*adapt)),
-            ("guard", switch_word(*guard)),
-            ("method", method.name().to_lowercase()),
-            ("feature-angle", feature_angle.to_string()),
-            ("spare-thin", switch_word(*spare_thin)),
-            match *target {
-                Target::Reduction(per_mille) => ("reduction", (f64::from(per_mille) / 10.0).to_string()),
-                Target::Triangles(count) => ("triangles", count.to_string()),
-                Target::Deviation(micrometres) => ("max-deviation", (f64::from(micrometres) / 1e3).to_string()),
-            },
-            ("tolerance", tolerance_percent.to_string()),
-        ]);
+        let settings = &self.shared.settings;
+        let mut add = |in_link, is_told: fn(&Setting, Value) -> bool| {
+            let rows = table::all().filter(|setting| setting.in_link == in_link);
+            let values = rows.filter_map(|setting| Some((setting, setting.value(settings)?)));
+            let told = values.filter(|&(setting, value)| is_told(setting, value));
+            pairs.extend(told.map(|(setting, value)| (setting.key, value.to_string())));
+        };
+        add(InLink::Changed, |setting, value| setting.default() != Some(value));
+        add(InLink::Always, |_, _| true);
         let pairs: Vec<String> = pairs.into_iter().map(|(key, value)| format!("{key}={value}")).collect();
         pairs.join("&")
     }
@@ -127,7 +105,7 @@ impl Link {
         if fragment.len() > LONGEST {
             return Err(LinkError::Long(fragment.len()));
         }
-        let mut pairs = Pairs(fragment.split('&').map(|pair| pair.split_once('=').unwrap_or((pair, ""))).collect());
+        let mut pairs = Pairs::new(fragment.split('&').map(|pair| pair.split_once('=').unwrap_or((pair, ""))));
         let version: u32 = pairs.read("v")?;
         if version > VERSION {
             return Err(LinkError::Newer { found: version });
@@ -135,52 +113,14 @@ impl Link {
         if version == 0 {
             return Err(LinkError::Value { key: "v", value: version.to_string() });
         }
-        let link = Self {
-            surface: match pairs.find("sample") {
-                Some(value) => SharedSurface::Sample(read("sample", value)?),
-                None => SharedSurface::File(pairs.read("file")?),
-            },
-            shared: SharedSettings {
-                unit: pairs.find("unit").map(|value| read::<Unit>("unit", value)).transpose()?,
-                settings: Settings {
-                    mending: Mending {
-                        weld_mm: pairs.find("weld").map(|value| read("weld", value)).transpose()?,
-                        split: pairs.optional_switch("split")?,
-                        fill_mm: pairs.find("fill-holes").map(|value| read("fill-holes", value)).transpose()?,
-                        lumen: pairs.optional_switch("lumen")?,
-                    },
-                    keep: pairs.with("keep", read_keep)?,
-                    smoothing: Smoothing {
-                        window: pairs.with("window", |value| named(&Window::ALL, Window::name, value))?,
-                        pass_band: pairs.read("pass-band")?,
-                        iterations: pairs.read("iterations")?,
-                        boundary: pairs.with("boundary", |value| {
-                            [Boundary::Loop, Boundary::Vtk15].into_iter().find(|&it| boundary_word(it) == value)
-                        })?,
-                        preserve_volume: pairs.switch("preserve-volume")?,
-                        adapt: pairs.switch("adapt")?,
-                        guard: pairs.switch("guard")?,
-                    },
-                    decimation: Decimation {
-                        method: pairs.with("method", |value| named(&Method::ALL, Method::name, value))?,
-                        feature_angle: pairs.read("feature-angle")?,
-                        spare_thin: pairs.switch("spare-thin")?,
-                        keep_labels: pairs.optional_switch("keep-labels")?,
-                    },
-                    target: pairs.target()?,
-                    tolerance_percent: pairs.read("tolerance")?,
-                },
-            },
+        let surface = match pairs.find("sample") {
+            Some(value) => SharedSurface::Sample(read("sample", value)?),
+            None => SharedSurface::File(pairs.read("file")?),
         };
-        if let Some((key, _)) = pairs.0.first() {
-            // What has been read once is gone: what is left of its name came a second time.
-            let known = link.fragment();
-            let is_known = known.split('&').any(|pair| pair.split_once('=').is_some_and(|(known, _)| known == *key));
-            let key = shown(key);
-            return Err(if is_known { LinkError::Twice(key) } else { LinkError::Unknown(key) });
-        }
-        link.shared.settings.check()?;
-        Ok(link)
+        let unit = pairs.find("unit").map(|value| read::<Unit>("unit", value)).transpose()?;
+        let mut settings = Settings::default();
+        pairs.read_settings(&mut settings, true)?;
+        Ok(Self { surface, shared: SharedSettings { unit, settings } })
     }
 }
 
@@ -189,104 +129,62 @@ impl Link {
 /// # Errors
 /// The first of them that is unknown, or a value that it cannot have.
 pub fn changed_settings(settings: &Settings, changes: &[(&str, &str)]) -> Result<Settings, LinkError> {
-    const TARGETS: [&str; 3] = ["reduction", "triangles", "max-deviation"];
-    let surface = SharedSurface::Sample(Sample::Aorta);
-    let whole = Link { surface, shared: SharedSettings { unit: None, settings: settings.clone() } }.fragment();
-    let has_target = changes.iter().any(|(key, _)| TARGETS.contains(key));
-    let is_kept = |pair: &&str| {
-        let key = pair.split_once('=').map_or(*pair, |(key, _)| key);
-        let is_changed = changes.iter().any(|(changed, _)| *changed == key) && !["v", "sample"].contains(&key);
-        !(is_changed || has_target && TARGETS.contains(&key))
-    };
-    let kept = whole.split('&').filter(is_kept).map(str::to_owned);
-    let changed = changes.iter().map(|(key, value)| format!("{key}={value}"));
-    Ok(Link::parse(&kept.chain(changed).collect::<Vec<_>>().join("&"))?.shared.settings)
+    let mut changed = settings.clone();
+    Pairs::new(changes.iter().copied()).read_settings(&mut changed, false)?;
+    Ok(changed)
 }
 
-/// The pairs that have not been read yet.
-struct Pairs<'a>(Vec<(&'a str, &'a str)>);
+/// The pairs of a link.
+struct Pairs<'a> {
+    /// Those that have not been read yet.
+    left: Vec<(&'a str, &'a str)>,
+    /// The names of those that have.
+    read: Vec<&'static str>,
+}
 
 impl<'a> Pairs<'a> {
-    fn find(&mut self, key: &str) -> Option<&'a str> {
-        let at = self.0.iter().position(|(found, _)| *found == key)?;
-        Some(self.0.remove(at).1)
+    fn new(pairs: impl Iterator<Item = (&'a str, &'a str)>) -> Self {
+        Self { left: pairs.collect(), read: Vec::new() }
     }
 
-    fn with<T>(&mut self, key: &'static str, read: impl FnOnce(&str) -> Option<T>) -> Result<T, LinkError> {
-        let value = self.find(key).ok_or(LinkError::Missing(key))?;
-        read(value).ok_or_else(|| LinkError::Value { key, value: shown(value) })
+    fn find(&mut self, key: &'static str) -> Option<&'a str> {
+        let at = self.left.iter().position(|(found, _)| *found == key)?;
+        self.read.push(key);
+        Some(self.left.remove(at).1)
     }
 
     fn read<T: FromStr>(&mut self, key: &'static str) -> Result<T, LinkError> {
-        self.with(key, |value| value.parse().ok())
+        read(key, self.find(key).ok_or(LinkError::Missing(key))?)
     }
 
-    fn switch(&mut self, key: &'static str) -> Result<bool, LinkError> {
-        self.with(key, |value| [true, false].into_iter().find(|&is_on| switch_word(is_on) == value))
-    }
-
-    /// Off where it is not there.
-    fn optional_switch(&mut self, key: &'static str) -> Result<bool, LinkError> {
-        if self.0.iter().any(|(found, _)| *found == key) { self.switch(key) } else { Ok(false) }
-    }
-
-    fn target(&mut self) -> Result<Target, LinkError> {
-        if let Some(value) = self.find("triangles") {
-            return read("triangles", value).map(Target::Triangles);
+    /// Reads all that is left into `settings`. A whole link names every setting but those that have to be named only where
+    /// they are not the default.
+    fn read_settings(mut self, settings: &mut Settings, is_whole: bool) -> Result<(), LinkError> {
+        let ways: Vec<&Setting> = table::of("target").collect();
+        let is_said = |way: &&&Setting| self.left.iter().any(|(key, _)| *key == way.key);
+        // Another way to say the target beside this one is left over.
+        let way = ways.iter().rev().find(is_said).unwrap_or(&ways[0]).key;
+        for setting in table::all().filter(|setting| setting.field != "target" || setting.key == way) {
+            let key = setting.key;
+            match self.find(key) {
+                Some(value) => {
+                    setting.read(settings, value).map_err(|_| LinkError::Value { key, value: shown(value) })?;
+                }
+                None if is_whole && setting.in_link == InLink::Always => return Err(LinkError::Missing(key)),
+                None => {}
+            }
         }
-        if let Some(value) = self.find("max-deviation") {
-            return steps("max-deviation", value, 1e3).map(Target::Deviation);
+        if let Some((key, _)) = self.left.first() {
+            // What has been read once is gone: what is left of its name came a second time.
+            let is_twice = self.read.contains(key);
+            return Err(if is_twice { LinkError::Twice(shown(key)) } else { LinkError::Unknown(shown(key)) });
         }
-        let value = self.find("reduction").ok_or(LinkError::Missing("reduction"))?;
-        steps("reduction", value, 10.0).map(Target::Reduction)
+        Ok(settings.check()?)
     }
-}
-
-/// A number as a count of steps, of which there are so many in one; a number between two is refused. What is none (NaN,
-/// negative, huge) becomes one that `Settings::check` refuses.
-fn steps(key: &'static str, value: &str, in_one: f64) -> Result<u32, LinkError> {
-    let number = read::<f64>(key, value)? * in_one;
-    if !(0.0..=f64::from(u32::MAX)).contains(&number) {
-        return Ok(u32::MAX);
-    }
-    // A tenth is no binary fraction.
-    let is_step = (number - number.round()).abs() < 1e-6;
-    if is_step { Ok(number.round() as u32) } else { Err(LinkError::Value { key, value: shown(value) }) }
 }
 
 fn read<T: FromStr>(key: &'static str, value: &str) -> Result<T, LinkError> {
     value.parse().map_err(|_| LinkError::Value { key, value: shown(value) })
-}
-
-fn named<T: Copy>(all: &[T], name: fn(T) -> &'static str, value: &str) -> Option<T> {
-    all.iter().copied().find(|&it| name(it).to_lowercase() == value)
-}
-
-fn switch_word(is_on: bool) -> String {
-    if is_on { "yes" } else { "no" }.to_owned()
-}
-
-fn boundary_word(boundary: Boundary) -> &'static str {
-    match boundary {
-        Boundary::Loop => "loop",
-        Boundary::Vtk15 => "vtk15",
-    }
-}
-
-fn keep_word(keep: Keep) -> String {
-    match keep {
-        Keep::Largest => "largest".to_owned(),
-        Keep::All => "all".to_owned(),
-        Keep::Component(number) => number.to_string(),
-    }
-}
-
-fn read_keep(value: &str) -> Option<Keep> {
-    match value {
-        "largest" => Some(Keep::Largest),
-        "all" => Some(Keep::All),
-        number => number.parse().ok().map(Keep::Component),
-    }
 }
 
 /// As much of a stranger's text as is worth showing.
@@ -300,57 +198,63 @@ mod tests {
 
     use super::super::Digest;
     use super::*;
+    use crate::pipeline::settings::Keep;
+    use crate::pipeline::settings::table::Kind;
 
     fn example() -> Link {
         Link { surface: SharedSurface::File(Digest::of(b"abc").short()), shared: SharedSettings::default() }
     }
 
+    /// A value of a setting as a link has it; `None` where it has none.
+    fn values(setting: &'static Setting) -> BoxedStrategy<Option<String>> {
+        match &setting.kind {
+            Kind::Switch { .. } => any::<bool>().prop_map(|is_on| Some(Value::Switch(is_on).to_string())).boxed(),
+            Kind::Number { range, .. } => range.bounds.clone().prop_map(|number| Some(number.to_string())).boxed(),
+            Kind::Count { range, .. } => {
+                (0..=*range.bounds.end() as u32).prop_map(|count| Some(count.to_string())).boxed()
+            }
+            Kind::Limit { range, .. } => {
+                prop::option::of(range.bounds.clone()).prop_map(|limit| Some(limit?.to_string())).boxed()
+            }
+            Kind::Choice { names, .. } => {
+                prop::sample::select(names.to_vec()).prop_map(|name| Some(Value::Name(name).to_string())).boxed()
+            }
+            Kind::Pieces { .. } => {
+                prop_oneof![Just(Keep::Largest), Just(Keep::All), any::<u32>().prop_map(Keep::Component)]
+                    .prop_map(|keep| Some(Value::Pieces(keep).to_string()))
+                    .boxed()
+            }
+            Kind::Target { steps, range, .. } => {
+                let [least, most] =
+                    [range.bounds.start(), range.bounds.end()].map(|end| (end * f64::from(*steps)).round() as u32);
+                (least..=most).prop_map(|count| Some((f64::from(count) / f64::from(*steps)).to_string())).boxed()
+            }
+        }
+    }
+
+    /// Settings with any value of every row of the table.
+    fn any_settings() -> impl Strategy<Value = Settings> {
+        let values: Vec<_> = table::all().map(values).collect();
+        (values, 0..table::of("target").count()).prop_map(|(values, way)| {
+            let way = table::of("target").nth(way).unwrap().key;
+            let mut settings = Settings::default();
+            for (setting, value) in table::all().zip(values) {
+                if let Some(value) = value.filter(|_| setting.field != "target" || setting.key == way) {
+                    setting.read(&mut settings, &value).unwrap();
+                }
+            }
+            settings
+        })
+    }
+
     fn links() -> impl Strategy<Value = Link> {
-        let keep = prop_oneof![Just(Keep::Largest), Just(Keep::All), any::<u32>().prop_map(Keep::Component)];
-        let target = prop_oneof![
-            (0..=Target::MAX_PER_MILLE).prop_map(Target::Reduction),
-            any::<u32>().prop_map(Target::Triangles),
-            Target::DEVIATION.prop_map(Target::Deviation)
-        ];
-        let smoothing = (
-            prop::sample::select(Window::ALL.to_vec()),
-            Smoothing::PASS_BAND,
-            0..=Smoothing::MAX_ITERATIONS,
-            any::<[bool; 4]>(),
-        )
-            .prop_map(|(window, pass_band, iterations, [vtk, preserve_volume, adapt, guard])| Smoothing {
-                window,
-                pass_band,
-                iterations,
-                boundary: if vtk { Boundary::Vtk15 } else { Boundary::Loop },
-                preserve_volume,
-                adapt,
-                guard,
-            });
-        let decimation = (prop::sample::select(Method::ALL.to_vec()), 0.0..=180.0, any::<bool>(), any::<bool>())
-            .prop_map(|(method, feature_angle, spare_thin, keep_labels)| Decimation {
-                method,
-                feature_angle,
-                spare_thin,
-                keep_labels,
-            });
         let unit = prop::option::of(prop::sample::select(Unit::ALL.to_vec()));
         let surface = prop_oneof![
             any::<[u8; 4]>().prop_map(|bytes| SharedSurface::File(Digest::of(&bytes).short())),
             prop::sample::select(Sample::ALL.to_vec()).prop_map(SharedSurface::Sample)
         ];
-        let mending =
-            (prop::option::of(Mending::WELD_MM), any::<bool>(), prop::option::of(Mending::FILL_MM), any::<bool>())
-                .prop_map(|(weld_mm, split, fill_mm, lumen)| Mending { weld_mm, split, fill_mm, lumen });
-        (surface, unit, mending, keep, smoothing, decimation, target, 0.0..=100.0).prop_map(
-            |(surface, unit, mending, keep, smoothing, decimation, target, tolerance_percent)| Link {
-                surface,
-                shared: SharedSettings {
-                    unit,
-                    settings: Settings { mending, keep, smoothing, decimation, target, tolerance_percent },
-                },
-            },
-        )
+        (surface, unit, any_settings())
+            .prop_map(|(surface, unit, settings)| Link { surface, shared: SharedSettings { unit, settings } })
     }
 
     proptest! {

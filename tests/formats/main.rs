@@ -9,6 +9,7 @@ mod memory;
 mod robustness;
 mod samples;
 mod slices;
+mod table;
 mod vtk;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};

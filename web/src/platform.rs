@@ -272,7 +272,7 @@ impl Platform for Browser {
     }
 
     fn choose_file(&mut self, _: &egui::Context) {
-        let endings = Format::OPENED.into_iter().chain(scans::ENDINGS).chain(OTHER_ENDINGS);
+        let endings = Format::opened().chain(scans::ENDINGS).chain(OTHER_ENDINGS);
         let accept: Vec<String> = endings.map(|ending| format!(".{ending}")).collect();
         let (inbox, waker) = (Rc::clone(&self.inbox), self.waker.clone());
         let take = move |files| take(&inbox, &waker, async move { Ok(Gathered { files, is_folder: false }) });

@@ -1,21 +1,8 @@
 //! What a file is: by its content first, by its extension where the content does not say.
 
 use super::error::ReadError;
-use super::{obj, stl, text, vtk};
-
-/// A kind of file that can be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Content {
-    Stl,
-    Ply,
-    Obj,
-    /// VTK's XML.
-    Vtp,
-    /// VTK's legacy format.
-    Vtk,
-    Glb,
-    Gltf,
-}
+use super::formats::{FileKind, KINDS, Sign};
+use super::{text, vtk};
 
 /// A kind of file that holds a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,33 +32,49 @@ impl Volume {
 pub(super) const GZIP: &[u8] = b"\x1f\x8b";
 
 /// Finds the kind of file, or says in a sentence why it is none that can be opened.
-pub(super) fn detect(bytes: &[u8], name: &str) -> Result<Content, ReadError> {
+pub(super) fn detect(bytes: &[u8], name: &str) -> Result<&'static FileKind, ReadError> {
     if bytes.is_empty() {
         return Err(ReadError::Empty);
     }
-    // A binary STL may begin with anything at all, "solid" and "ply" included; its length gives it away.
-    if stl::has_binary_length(bytes) {
-        return Ok(Content::Stl);
+    let by_sign = |wanted: Sign| {
+        KINDS.into_iter().find(|kind| kind.signs.iter().any(|&(sign, stands)| sign == wanted && stands(bytes)))
+    };
+    if let Some(kind) = by_sign(Sign::Sure) {
+        return Ok(kind);
     }
-    if let Some(content) = by_magic(bytes, name)? {
-        return Ok(content);
+    refuse(bytes, name)?;
+    if let Some(kind) = by_sign(Sign::Begins) {
+        return Ok(kind);
     }
     let extension = name.rsplit_once('.').map_or(String::new(), |(_, extension)| extension.to_ascii_lowercase());
+    if let Some(kind) = KINDS.into_iter().find(|kind| kind.extensions.contains(&extension.as_str())) {
+        return Ok(kind);
+    }
     match extension.as_str() {
-        "stl" => Ok(Content::Stl),
-        "ply" => Ok(Content::Ply),
-        "obj" => Ok(Content::Obj),
-        "glb" => Ok(Content::Glb),
-        "gltf" => Ok(Content::Gltf),
-        "vtp" | "vtu" => Ok(Content::Vtp),
-        "vtk" => Ok(Content::Vtk),
         "vti" => Err(Volume::Vti.refused()),
         "nii" | "hdr" | "img" => Err(Volume::Nifti.refused()),
         "mha" | "mhd" => Err(Volume::MetaImage.refused()),
         "nrrd" | "nhdr" => Err(Volume::Nrrd.refused()),
         "dcm" | "dicom" | "ima" => Err(Volume::Dicom.refused()),
-        _ if obj::looks_like(bytes) => Ok(Content::Obj),
-        _ => Err(ReadError::Unknown { name: name.to_owned() }),
+        _ => by_sign(Sign::Resembles).ok_or_else(|| ReadError::Unknown { name: name.to_owned() }),
+    }
+}
+
+/// Refuses what begins as an archive or a volume.
+fn refuse(bytes: &[u8], name: &str) -> Result<(), ReadError> {
+    if bytes.starts_with(GZIP) {
+        if name.to_ascii_lowercase().ends_with(".nii.gz") {
+            return Err(Volume::Nifti.refused());
+        }
+        return Err(ReadError::Compressed { format: "gzip" });
+    }
+    if bytes.starts_with(b"PK\x03\x04") {
+        return Err(ReadError::Compressed { format: "zip" });
+    }
+    // VTK's begin as its surfaces do, whose reader knows them apart.
+    match volume(bytes).filter(|&found| found != Volume::Vti) {
+        Some(found) => Err(found.refused()),
+        None => Ok(()),
     }
 }
 
@@ -93,7 +96,7 @@ pub(super) fn volume(bytes: &[u8]) -> Option<Volume> {
     if stands(b"DICM", 128) {
         return Some(Volume::Dicom);
     }
-    let head = text::without_mark(bytes).trim_ascii_start();
+    let head = text::beginning(bytes);
     let head = &head[..head.len().min(4096)];
     let contains = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
     if vtk::is_xml(head) {
@@ -103,57 +106,19 @@ pub(super) fn volume(bytes: &[u8]) -> Option<Volume> {
     (begins && contains(b"DimSize")).then_some(Volume::MetaImage)
 }
 
-/// What the first bytes say, or `None` where they say nothing.
-fn by_magic(bytes: &[u8], name: &str) -> Result<Option<Content>, ReadError> {
-    if bytes.starts_with(b"glTF") {
-        return Ok(Some(Content::Glb));
-    }
-    if bytes.starts_with(GZIP) {
-        if name.to_ascii_lowercase().ends_with(".nii.gz") {
-            return Err(Volume::Nifti.refused());
-        }
-        return Err(ReadError::Compressed { format: "gzip" });
-    }
-    if bytes.starts_with(b"PK\x03\x04") {
-        return Err(ReadError::Compressed { format: "zip" });
-    }
-    // VTK's begin as its surfaces do, whose reader knows them apart.
-    if let Some(found) = volume(bytes).filter(|&found| found != Volume::Vti) {
-        return Err(found.refused());
-    }
-    let text = text::without_mark(bytes).trim_ascii_start();
-    let begins_with = |word: &[u8]| text.len() >= word.len() && text[..word.len()].eq_ignore_ascii_case(word);
-    let contains = |word: &[u8]| text[..text.len().min(1024)].windows(word.len()).any(|part| part == word);
-    if begins_with(b"ply\n") || begins_with(b"ply\r") {
-        return Ok(Some(Content::Ply));
-    }
-    if vtk::is_legacy(text) {
-        return Ok(Some(Content::Vtk));
-    }
-    if vtk::is_xml(text) {
-        return Ok(Some(Content::Vtp));
-    }
-    if begins_with(b"solid") && text::is_text(text) {
-        return Ok(Some(Content::Stl));
-    }
-    if begins_with(b"{") && contains(b"\"") {
-        return Ok(Some(Content::Gltf));
-    }
-    Ok(None)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn content_wins_over_the_extension() {
-        assert_eq!(detect(b"ply\nformat ascii 1.0\n", "a.stl"), Ok(Content::Ply));
-        assert_eq!(detect(b"\xef\xbb\xbfSOLID x\n facet", "a.obj"), Ok(Content::Stl));
-        assert_eq!(detect(b"{\"asset\":{}}", "a"), Ok(Content::Gltf));
-        assert_eq!(detect(b"# a cube\nv 1 2 3\n", "cube"), Ok(Content::Obj));
-        assert_eq!(detect(b"# vtk DataFile Version 3.0\n", "a.obj"), Ok(Content::Vtk));
-        assert_eq!(detect(b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "a"), Ok(Content::Vtp));
+        let kind = |bytes: &[u8], name: &str| detect(bytes, name).unwrap().label;
+        assert_eq!(kind(b"ply\nformat ascii 1.0\n", "a.stl"), "PLY");
+        assert_eq!(kind(b"\xef\xbb\xbfSOLID x\n facet", "a.obj"), "STL");
+        assert_eq!(kind(b"{\"asset\":{}}", "a"), "glTF");
+        assert_eq!(kind(b"# a cube\nv 1 2 3\n", "cube"), "OBJ");
+        assert_eq!(kind(b"# vtk DataFile Version 3.0\n", "a.obj"), "VTK");
+        assert_eq!(kind(b"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "a"), "VTP");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! What can go wrong with a file, each in one sentence that needs no programmer to understand.
 
+use super::formats::KINDS;
 use lumen_language::exact;
 use lumen_language::say;
 use thiserror::Error;
@@ -11,7 +12,7 @@ pub enum ReadError {
     #[error("{}", say!("errors-file-empty"))]
     Empty,
     /// Neither the content nor the extension is one that Lumen knows.
-    #[error("{}", say!("errors-file-unknown", name = .name))]
+    #[error("{}", unknown(.name))]
     Unknown {
         /// The file's name.
         name: String,
@@ -213,4 +214,10 @@ pub enum WriteError {
         /// Bytes that it would take.
         bytes: u64,
     },
+}
+
+/// That a file is none of those that can be opened, in the language that is spoken.
+fn unknown(name: &str) -> String {
+    let [formats @ .., last] = KINDS.map(|kind| kind.label);
+    say!("errors-file-unknown", name = name, formats = formats.join(", "), last = last)
 }

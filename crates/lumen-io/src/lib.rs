@@ -1,5 +1,7 @@
 //! Bytes to mesh and back, one file a format, with a report of what was found and what was mended.
 //!
+//! What a format is called, how it is told and who reads and writes it stands in one table ([`formats`]).
+//!
 //! Reading is two steps. A format's file (`stl`, `obj`) or folder (`ply`, `gltf`, `vtk`) turns bytes into the polygons that stand in
 //! them and judges nothing but its own syntax; the import stage (`import`) then welds, triangulates, cleans and
 //! orients, the same for every format and for generated surfaces ([`import_mesh`]). Which file reads is decided by
@@ -27,7 +29,7 @@ mod detect;
 mod error;
 mod estimate;
 mod far;
-mod format;
+pub mod formats;
 mod gltf;
 mod import;
 mod numbers;
@@ -45,6 +47,7 @@ mod room;
 mod size;
 mod stl;
 mod text;
+mod unit;
 #[cfg(feature = "scans")]
 pub mod volume;
 mod vtk;
@@ -55,13 +58,14 @@ pub use axes::{Axes, UnknownAxes};
 pub use detect::may_be_volume;
 pub use error::{ReadError, WriteError};
 pub use estimate::{Estimate, estimate};
-pub use format::{Format, Unit, UnknownUnit};
+pub use formats::Format;
 pub use import::{import_made, import_mesh};
 pub use output::Output;
 pub use places::left_out;
 pub use reading::{read, read_in_slices};
 pub use report::{ImportReport, Imported, Skipped};
 pub use size::UnusualSize;
+pub use unit::{Unit, UnknownUnit};
 pub use warnings::NO_INSIDE;
 
 use serde::{Deserialize, Serialize};
@@ -92,12 +96,5 @@ pub fn write(mesh: &TriMesh, normals: Option<&[Vec3]>, format: Format) -> Result
 /// [`WriteError`] as there, and when an array has another length than the surface.
 pub fn write_output(output: &Output, format: Format) -> Result<Vec<u8>, WriteError> {
     output.check()?;
-    match format {
-        Format::Stl => stl::write(output),
-        Format::Ply => Ok(ply::write(output)),
-        Format::Obj => Ok(obj::write(output)),
-        Format::Vtp => Ok(vtk::write_xml(output)),
-        Format::Vtk => vtk::write_legacy(output),
-        Format::Glb => gltf::write(output),
-    }
+    (format.written().write)(output)
 }

@@ -13,12 +13,14 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::error::ReadError;
+use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::output::Output;
 use super::pace::Pace;
 use super::polygons::Faces;
 use super::raw::RawSurface;
 use super::room::Room;
 use super::text;
+use super::unit::Unit;
 use lumen_language::say;
 use lumen_mesh::arrays::{On, Scalar, Values};
 use lumen_mesh::{Array, Vec3};
@@ -26,8 +28,24 @@ use lumen_mesh::{Array, Vec3};
 /// Lines between two looks at the clock.
 const BLOCK: usize = 1 << 14;
 
+/// OBJ in the table of formats.
+pub(super) static KIND: FileKind = FileKind {
+    label: "OBJ",
+    extensions: &["obj"],
+    media_types: &[MediaType { name: "model/obj", comment: "Wavefront OBJ surface", extension: "obj", magic: None }],
+    unit: Unit::Millimetre,
+    axes_in_head: true,
+    signs: &[(Sign::Resembles, looks_like)],
+    parse: |bytes, _, origin, pace| Box::pin(read(bytes, origin, pace)),
+    // Half a vertex and a face in words.
+    triangles: |bytes| bytes.len() as u64 / 35,
+};
+
+/// OBJ as it is written.
+pub(super) static WRITTEN: Written = Written { write: |output| Ok(write(output)), arrays: Arrays::Colour(colour_of) };
+
 /// Whether a text without a telling name has vertices as OBJ writes them among its first lines.
-pub(super) fn looks_like(bytes: &[u8]) -> bool {
+fn looks_like(bytes: &[u8]) -> bool {
     let mut lines = bytes[..bytes.len().min(4096)].split(|&byte| byte == b'\n');
     text::is_text(bytes)
         && lines.any(|line| {
@@ -213,7 +231,7 @@ impl<'a> Lines<'a> {
 }
 
 /// The one array that is written, a colour behind the coordinates: the first that can be one.
-pub(super) fn colour_of(arrays: &[Array]) -> Option<&Array> {
+fn colour_of(arrays: &[Array]) -> Option<&Array> {
     let is_named = |array: &Array| array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
     let has_shape = |array: &Array| array.on == On::Point && matches!(array.components, 3 | 4);
     arrays.iter().find(|array| is_named(array) && has_shape(array))
@@ -230,7 +248,7 @@ fn colour(array: &Array, vertex: usize) -> [f32; 3] {
 }
 
 /// Text with the shortest numbers that read back to the same bits.
-pub(super) fn write(output: &Output) -> Vec<u8> {
+fn write(output: &Output) -> Vec<u8> {
     let Output { mesh, normals, axes, .. } = *output;
     let colours = colour_of(output.arrays);
     let mut out = String::with_capacity(mesh.positions.len() * 36 + mesh.triangles.len() * 24);

@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::axes::{self, Axes};
-use super::detect::{self, Content};
+use super::detect::detect;
 use super::error::ReadError;
 use super::pace::Pace;
 use super::raw::RawSurface;
 use super::room::Room;
-use super::{ImportOptions, Unit, far, gltf, obj, ply, stl, vtk};
+use super::{ImportOptions, Unit, far};
 use lumen_mesh::task::Yielder;
 
 /// The polygons in a file, the unit of its numbers and its axes.
@@ -21,45 +21,20 @@ pub(super) async fn parse(
     options: &ImportOptions,
     yielder: &Yielder,
 ) -> Result<Parsed, ReadError> {
-    let content = detect::detect(bytes, name)?;
-    let unit = options.unit.unwrap_or(match content {
-        Content::Glb | Content::Gltf => Unit::Metre,
-        _ => Unit::Millimetre,
-    });
+    let kind = detect(bytes, name)?;
+    let unit = options.unit.unwrap_or(kind.unit);
     let pace = Pace::new(yielder, bytes.len());
-    let mut raw = polygons(content, bytes, unit, DVec3::ZERO, &pace).await?;
+    let mut raw = (kind.parse)(bytes, unit, DVec3::ZERO, &pace).await?;
     if let Some(origin) = far::origin_for(&raw, unit) {
         // Once more, relative to a place within the surface; never both at once.
         drop(raw);
         pace.begin_again();
         pace.rest(0.0).await;
-        raw = polygons(content, bytes, unit, origin, &pace).await?;
+        raw = (kind.parse)(bytes, unit, origin, &pace).await?;
     }
     Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
-    let axes = match content {
-        Content::Stl | Content::Ply | Content::Obj => axes::stated(bytes),
-        Content::Vtp | Content::Vtk | Content::Glb | Content::Gltf => raw.axes,
-    };
+    let axes = if kind.axes_in_head { axes::stated(bytes) } else { raw.axes };
     Ok((raw, unit, axes))
-}
-
-/// The polygons in a file, with positions relative to an origin.
-async fn polygons(
-    content: Content,
-    bytes: &[u8],
-    unit: Unit,
-    origin: DVec3,
-    pace: &Pace,
-) -> Result<RawSurface, ReadError> {
-    match content {
-        Content::Stl => stl::read(bytes, origin, pace).await,
-        Content::Ply => ply::read(bytes, origin, pace).await,
-        Content::Obj => obj::read(bytes, origin, pace).await,
-        Content::Vtp => vtk::read_xml(bytes, origin, pace).await,
-        Content::Vtk => vtk::read_legacy(bytes, origin, pace).await,
-        Content::Glb => gltf::read_binary(bytes, unit, origin, pace).await,
-        Content::Gltf => gltf::read_text(bytes, unit, origin, pace).await,
-    }
 }
 
 #[cfg(test)]

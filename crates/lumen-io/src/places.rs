@@ -1,19 +1,21 @@
 //! Which format has a place for which array.
 
-use super::{Format, gltf, obj};
+use super::Format;
+use super::formats::Arrays;
 use lumen_language::say;
 use lumen_mesh::Array;
 use lumen_mesh::arrays::On;
 
 /// Each array, and whether `format` has a place for it.
 fn places(arrays: &[Array], format: Format) -> impl Iterator<Item = (&Array, bool)> {
-    let colour = obj::colour_of(arrays);
+    let places = &format.written().arrays;
+    let colour = if let Arrays::Colour(of) = places { of(arrays) } else { None };
     arrays.iter().map(move |array| {
-        let has_place = match format {
-            Format::Vtp | Format::Vtk | Format::Ply => true,
-            Format::Glb => gltf::has_place(array),
-            Format::Obj => colour.is_some_and(|colour| std::ptr::eq(colour, array)),
-            Format::Stl => false,
+        let has_place = match places {
+            Arrays::All => true,
+            Arrays::None => false,
+            Arrays::Colour(_) => colour.is_some_and(|colour| std::ptr::eq(colour, array)),
+            Arrays::Vertices(has_place) => has_place(array),
         };
         (array, has_place)
     })
@@ -28,12 +30,12 @@ pub fn left_out(arrays: &[Array], format: Format) -> Option<String> {
     }
     let of_triangles = homeless().all(|array| array.on == On::Triangle);
     let (label, count, names) = (format.label(), names.len(), names.join(", "));
-    Some(match format {
-        Format::Glb if of_triangles => {
+    Some(match format.written().arrays {
+        Arrays::Vertices(_) if of_triangles => {
             say!("errors-no-place-triangles", format = label, count = count, names = names)
         }
-        Format::Obj => say!("errors-no-place-colour", format = label, count = count, names = names),
-        Format::Stl => say!("errors-no-place-arrays", format = label, count = count, names = names),
+        Arrays::Colour(_) => say!("errors-no-place-colour", format = label, count = count, names = names),
+        Arrays::None => say!("errors-no-place-arrays", format = label, count = count, names = names),
         _ => say!("errors-no-place-such", format = label, count = count, names = names),
     })
 }

@@ -7,11 +7,13 @@
 use glam::DVec3;
 
 use super::error::{ReadError, WriteError};
+use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::output::Output;
 use super::pace::Pace;
 use super::polygons::Faces;
 use super::raw::{RawSurface, check_size};
 use super::text::{self, Words};
+use super::unit::Unit;
 use lumen_language::say;
 use lumen_mesh::Vec3;
 
@@ -22,8 +24,28 @@ const FACET: usize = 50;
 const BINARY: &str = "STL binary";
 const ASCII: &str = "STL ascii";
 
+/// STL in the table of formats.
+pub(super) static KIND: FileKind = FileKind {
+    label: "STL",
+    extensions: &["stl"],
+    media_types: &[MediaType { name: "model/stl", comment: "STL surface", extension: "stl", magic: None }],
+    unit: Unit::Millimetre,
+    axes_in_head: true,
+    // A binary file may begin with anything at all, "solid" and "ply" included; its length gives it away.
+    signs: &[
+        (Sign::Sure, has_binary_length),
+        (Sign::Begins, |bytes| text::begins_with(bytes, b"solid") && text::is_text(text::beginning(bytes))),
+    ],
+    parse: |bytes, _, origin, pace| Box::pin(read(bytes, origin, pace)),
+    // Seven lines of text take 250 bytes.
+    triangles: |bytes| bytes.len() as u64 / if has_binary_length(bytes) { FACET as u64 } else { 250 },
+};
+
+/// STL as it is written.
+pub(super) static WRITTEN: Written = Written { write, arrays: Arrays::None };
+
 /// Whether `bytes` are exactly as long as the binary file that their header announces.
-pub(super) fn has_binary_length(bytes: &[u8]) -> bool {
+fn has_binary_length(bytes: &[u8]) -> bool {
     announced(bytes).is_some_and(|facets| binary_length(facets) == bytes.len() as u64)
 }
 
@@ -172,7 +194,7 @@ fn vertex(words: &mut Words, origin: DVec3) -> Result<Vec3, ReadError> {
 }
 
 /// The binary form, with each facet's own normal (zero where it has no area).
-pub(super) fn write(&Output { mesh, axes, .. }: &Output) -> Result<Vec<u8>, WriteError> {
+fn write(&Output { mesh, axes, .. }: &Output) -> Result<Vec<u8>, WriteError> {
     let bytes = (HEADER + 4) as u64 + FACET as u64 * mesh.triangles.len() as u64;
     let facets = u32::try_from(mesh.triangles.len()).map_err(|_| WriteError::TooLarge { format: "STL", bytes })?;
     let mut out = Vec::with_capacity(bytes as usize);

@@ -79,6 +79,17 @@ pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
+/// A file from its first letter on: behind a byte-order mark and white space.
+pub(super) fn beginning(bytes: &[u8]) -> &[u8] {
+    without_mark(bytes).trim_ascii_start()
+}
+
+/// Whether a file begins with a word, in any case, behind a byte-order mark and white space.
+pub(super) fn begins_with(bytes: &[u8], word: &[u8]) -> bool {
+    let text = beginning(bytes);
+    text.len() >= word.len() && text[..word.len()].eq_ignore_ascii_case(word)
+}
+
 /// Whether the beginning of `bytes` looks like text: no control characters but white space.
 pub(super) fn is_text(bytes: &[u8]) -> bool {
     bytes.iter().take(512).all(|&byte| byte >= 0x20 || byte.is_ascii_whitespace() || byte == 0x0b)

@@ -112,7 +112,7 @@ fn found(tag: &str) -> BTreeMap<(String, String), Found> {
 /// The messages that the source says, each with what it puts in: `None` for those that a table names.
 fn said() -> Vec<(String, Option<BTreeSet<String>>, String)> {
     let mut all = Vec::new();
-    let mut folders = vec![root().join("src"), root().join("web")];
+    let mut folders = ["src", "web", "crates"].map(|folder| workspace().join(folder)).to_vec();
     while let Some(folder) = folders.pop() {
         for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             if path.is_dir() {
@@ -124,7 +124,7 @@ fn said() -> Vec<(String, Option<BTreeSet<String>>, String)> {
                 continue;
             }
             let text = std::fs::read_to_string(&path).unwrap();
-            let place = path.strip_prefix(root()).unwrap().display().to_string();
+            let place = path.strip_prefix(workspace()).unwrap().display().to_string();
             for (opening, takes) in [("say!(", true), ("Key(", false)] {
                 for (_, rest) in text.match_indices(opening).map(|(at, _)| text[at..].split_at(opening.len())) {
                     let Some(rest) = rest.trim_start().strip_prefix('"') else { continue };
@@ -132,6 +132,20 @@ fn said() -> Vec<(String, Option<BTreeSet<String>>, String)> {
                     all.push((name.to_owned(), takes.then(|| given(rest)), place.clone()));
                 }
             }
+        }
+    }
+    all
+}
+
+/// The messages that the rows of the table of settings name.
+fn of_settings() -> Vec<String> {
+    let mut all = Vec::new();
+    for file in std::fs::read_dir(workspace().join("crates/lumen-pipeline/src/settings")).unwrap() {
+        let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
+        for field in ["label: \"", "help: \"", "said: \"", "refused: \""] {
+            let names = text.split(field).skip(1).filter_map(|rest| rest.split('"').next());
+            // The help of the command line is a sentence.
+            all.extend(names.filter(|name| !name.is_empty() && !name.contains(' ')).map(str::to_owned));
         }
     }
     all
@@ -163,6 +177,11 @@ fn given(rest: &str) -> BTreeSet<String> {
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The folder of the whole workspace, whose programs say the messages.
+fn workspace() -> PathBuf {
+    root().ancestors().nth(2).unwrap().to_path_buf()
 }
 
 #[test]
@@ -217,7 +236,13 @@ fn every_message_that_is_said_is_there_and_every_one_that_is_there_is_said() {
         assert!(there.is_some(), "{file}: there is no {name}");
         assert_eq!(there, places.as_ref().or(Some(&BTreeSet::new())), "{file}: what is put into {name}");
     }
-    let names: BTreeSet<&String> = said.iter().map(|(name, ..)| name).collect();
+    let of_settings = of_settings();
+    assert!(of_settings.len() > 40, "{of_settings:?}");
+    for name in &of_settings {
+        let places = english.get(name);
+        assert!(places.is_some_and(|places| places.iter().all(|place| place == "value")), "{name}: {places:?}");
+    }
+    let names: BTreeSet<&String> = said.iter().map(|(name, ..)| name).chain(&of_settings).collect();
     let unsaid: Vec<&String> = english.keys().filter(|name| !names.contains(name)).collect();
     assert_eq!(unsaid, Vec::<&String>::new(), "nobody says these");
 }

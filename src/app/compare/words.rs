@@ -4,24 +4,22 @@ use super::difference::Difference;
 use crate::language::{Key, decimal, exact, grouped, signed};
 use crate::pipeline::paper;
 use crate::pipeline::report::Report;
-use crate::pipeline::settings::{Method, Settings, Target};
+use crate::pipeline::settings::{Settings, Target};
+use crate::report::words::{others, said};
 use crate::say;
 
-/// Parts of a setting.
+/// Parts of a setting: what each of them says stands in `parts`.
 const PARTS: usize = 8;
+/// The settings that have a place there; others are said where they are not as by default.
+const SMOOTHING: [&str; 6] = ["pass-band", "iterations", "window", "preserve-volume", "adapt", "guard"];
+const REDUCTION: [&str; 4] = ["method", "feature-angle", "spare-thin", "keep-labels"];
 
 /// A setting, part by part; a part that does not apply is empty.
 fn parts(settings: &Settings) -> [String; PARTS] {
     let smoothing = &settings.smoothing;
-    let [band, iterations, window] = if smoothing.iterations == 0 {
-        [say!("compare-not-smoothed"), String::new(), String::new()]
-    } else {
-        [
-            say!("compare-pass-band", value = smoothing.pass_band),
-            say!("compare-iterations", count = smoothing.iterations),
-            say!("compare-window", name = smoothing.window.name()),
-        ]
-    };
+    let said = |keys: &[&str]| keys.iter().filter_map(|key| said(key, settings)).collect::<Vec<_>>();
+    let one = |key: &str| said(&[key]).concat();
+    let band = if smoothing.iterations == 0 { say!("compare-not-smoothed") } else { one("pass-band") };
     let target = match settings.target {
         Target::Reduction(0) => say!("compare-not-reduced"),
         Target::Reduction(per_mille) => say!("compare-reduction", percent = f64::from(per_mille) / 10.0),
@@ -30,30 +28,17 @@ fn parts(settings: &Settings) -> [String; PARTS] {
             say!("compare-deviation-up-to", most = exact(f64::from(micrometres) / 1000.0))
         }
     };
-    let holds_volume = smoothing.preserve_volume && smoothing.iterations > 0;
-    let suits = match (smoothing.adapt, smoothing.guard) {
-        _ if smoothing.iterations == 0 => None,
-        (true, true) => Some(say!("compare-suits")),
-        (true, false) => Some(say!("compare-adapted")),
-        (false, true) => Some(say!("compare-no-crossing")),
-        (false, false) => None,
-    };
-    let volume = holds_volume.then(|| say!("compare-volume-preserved"));
-    let volume = volume.into_iter().chain(suits).collect::<Vec<_>>().join(", ");
-    let decimation = &settings.decimation;
-    let method = say!("compare-method", name = decimation.method.name());
-    // The method of least error has no use for it.
-    let angle = match decimation.method {
-        Method::Schroeder => say!("compare-feature-angle", degrees = decimation.feature_angle),
-        Method::Quadric => String::new(),
-    };
-    let spared = match (decimation.spare_thin, decimation.keep_labels) {
-        (true, true) => say!("compare-thin-spared-labels-kept"),
-        (true, false) => say!("compare-thin-spared"),
-        (false, true) => say!("compare-labels-kept"),
-        (false, false) => String::new(),
-    };
-    [band, iterations, window, volume, method, angle, spared, target]
+    let mut how = said(&["preserve-volume"]);
+    if smoothing.iterations > 0 && smoothing.adapt && smoothing.guard {
+        how.push(say!("compare-suits"));
+    } else {
+        how.extend(said(&["adapt", "guard"]));
+    }
+    how.extend(others("smoothing", &SMOOTHING, settings));
+    let mut spared = said(&["spare-thin", "keep-labels"]);
+    spared.extend(others("decimation", &REDUCTION, settings));
+    let [iterations, window, method, angle] = ["iterations", "window", "method", "feature-angle"].map(one);
+    [band, iterations, window, how.join(", "), method, angle, spared.join(", "), target]
 }
 
 /// What all settings share, and for each what sets it apart: its title. Where nothing does, the title says the most.

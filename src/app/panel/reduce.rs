@@ -5,15 +5,16 @@ use egui::{ComboBox, Role, Ui};
 use super::{measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::control::{Setting, reads_comma};
+use crate::app::control::{self, Setting, reads_comma};
 use crate::app::error_plot;
 use crate::app::row::{number, remark, row, step};
 use crate::app::state::State;
 use crate::app::swipe::Way;
 use crate::app::views::Views;
-use crate::language::decimal;
+use crate::language::{decimal, text};
 use crate::pipeline::safe::Safe;
-use crate::pipeline::settings::{Decimation, Method, Settings, Target, reduction_percent};
+use crate::pipeline::settings::table::{self, Kind};
+use crate::pipeline::settings::{Settings, Target, reduction_percent};
 use crate::pipeline::verdict;
 use crate::say;
 
@@ -33,36 +34,14 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
     } else {
         rate_or_count(ui, state, settings);
     }
-    let decimation = &mut settings.decimation;
-    row(ui, &say!("panel-method"), &say!("panel-method-help"), |ui| {
-        let list = ComboBox::from_id_salt("method").selected_text(decimation.method.name());
-        let response = list.show_ui(ui, |ui| {
-            for method in Method::ALL {
-                ui.selectable_value(&mut decimation.method, method, method.name());
-            }
-        });
-        name(&response.response, Role::ComboBox, &say!("panel-method"));
-    });
-    if decimation.method == Method::Schroeder {
-        let angle = Setting {
-            name: &say!("panel-feature-angle"),
-            help: &say!("panel-feature-angle-help"),
-            unit: "°",
-            range: 0.0..=180.0,
-            default: Decimation::default().feature_angle,
-            decimals: 0,
-            logarithmic: false,
-        };
-        angle.show(ui, &mut decimation.feature_angle);
-    }
-    let spare = ui.checkbox(&mut decimation.spare_thin, say!("panel-spare-thin"));
-    spare.on_hover_text(say!("panel-spare-thin-help"));
     // Where it is on, it can be turned off.
     let has_labels =
         state.document.as_ref().is_some_and(|document| document.import.arrays.iter().any(|info| info.labels.len() > 1));
-    if has_labels || decimation.keep_labels {
-        let keep = ui.checkbox(&mut decimation.keep_labels, say!("panel-keep-labels"));
-        keep.on_hover_text(say!("panel-keep-labels-help"));
+    let keeps_labels = has_labels || settings.decimation.keep_labels;
+    for setting in table::of("decimation").filter(|setting| setting.key != "keep-labels" || keeps_labels) {
+        if (setting.matters)(settings) {
+            control::setting(ui, setting, settings);
+        }
     }
     error_plot::section(ui, state, &mut settings.target);
     let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
@@ -117,21 +96,30 @@ const DEFAULT_BOUND: Target = Target::Deviation(100);
 /// The largest bound of the slider, in thousandths of a mm.
 const LARGEST_BOUND: u32 = 10_000;
 
+/// The slider of a target that is said in the way `key` of the table, where it stands at `value`.
+fn target_row(
+    ui: &mut Ui,
+    key: &str,
+    value: f64,
+    target: &mut Target,
+    show: impl FnOnce(Setting<'_>, &mut Ui, &mut f64) -> bool,
+) {
+    let Some(setting) = table::find(key) else { return };
+    let Kind::Target { steps, make, ref range, .. } = setting.kind else { return };
+    let (words, help) = (text(setting.messages.label), text(setting.messages.help));
+    let mut value = value;
+    if show(control::number(setting, range, &words, &help), ui, &mut value) {
+        *target = make((value * f64::from(steps)).round() as u32);
+    }
+}
+
 /// The slider of the largest deviation.
 fn bound(ui: &mut Ui, target: &mut Target) {
-    let mut bound = target.deviation_mm().unwrap_or_default();
-    let setting = Setting {
-        name: &say!("panel-bound"),
-        help: &say!("panel-bound-help"),
-        unit: " mm",
-        range: 0.001..=f64::from(LARGEST_BOUND) / 1000.0,
-        default: DEFAULT_BOUND.deviation_mm().unwrap_or_default(),
-        decimals: 3,
-        logarithmic: true,
-    };
-    if setting.show(ui, &mut bound) {
-        *target = Target::Deviation((bound * 1000.0).round() as u32);
-    }
+    let largest = f64::from(LARGEST_BOUND) / 1000.0;
+    let default = DEFAULT_BOUND.deviation_mm().unwrap_or_default();
+    target_row(ui, "max-deviation", target.deviation_mm().unwrap_or_default(), target, |row, ui, bound| {
+        Setting { range: *row.range.start()..=largest, default, ..row }.show(ui, bound)
+    });
 }
 
 fn largest_deviation(ui: &mut Ui, state: &State, settings: &mut Settings) {
@@ -185,19 +173,9 @@ fn entering(state: &State) -> Option<usize> {
 
 /// The slider of the rate.
 fn rate(ui: &mut Ui, state: &State, target: &mut Target) {
-    let mut rate = target.percent(entering(state).unwrap_or(0));
-    let reduction = Setting {
-        name: &say!("panel-reduction"),
-        help: &say!("panel-reduction-help"),
-        unit: " %",
-        range: 0.0..=f64::from(Target::MAX_PER_MILLE) / 10.0,
-        default: Target::default().percent(0),
-        decimals: 1,
-        logarithmic: false,
-    };
-    if reduction.show_with_mark(ui, &mut rate, state.safe().and_then(|safe| safe.percent)) {
-        *target = Target::Reduction((rate * 10.0).round() as u32);
-    }
+    let percent = target.percent(entering(state).unwrap_or(0));
+    let safe = state.safe().and_then(|safe| safe.percent);
+    target_row(ui, "reduction", percent, target, |row, ui, percent| row.show_with_mark(ui, percent, safe));
 }
 
 fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {

@@ -5,21 +5,23 @@ use egui::{Button, ComboBox, Role, Ui};
 use super::{measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::control::Setting;
 use crate::app::row::{remark, row, step};
 use crate::app::state::State;
 use crate::app::views::Views;
-use crate::app::{response, theme};
-use crate::pipeline::settings::{Preset, Smoothing, Window};
+use crate::app::{control, response, theme};
+use crate::pipeline::settings::table::{self, Kind};
+use crate::pipeline::settings::{Preset, Settings, Smoothing};
 use crate::say;
 
 /// Height of what is seen at a place that is gone to, in edges.
 const AROUND: f32 = 60.0;
+/// The settings from top to bottom; one that is not among them comes last.
+const ORDER: [&str; 6] = ["pass-band", "iterations", "window", "adapt", "guard", "preserve-volume"];
 
 /// Shows the step.
 pub(super) fn show(ui: &mut Ui, state: &State, _: &Views, asked: &mut Vec<Action>) {
     let mut settings = state.settings.clone();
-    smoothing(ui, &mut settings.smoothing, state, asked);
+    smoothing(ui, &mut settings, state, asked);
     set(settings, state, asked);
 }
 
@@ -42,51 +44,23 @@ fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
     });
 }
 
-fn smoothing(ui: &mut Ui, smoothing: &mut Smoothing, state: &State, asked: &mut Vec<Action>) {
+fn smoothing(ui: &mut Ui, settings: &mut Settings, state: &State, asked: &mut Vec<Action>) {
     let report = measured(state.document.as_ref());
     step(ui, 2, &say!("panel-smooth"), &say!("panel-smooth-does"));
-    preset_list(ui, smoothing);
-    let default = Smoothing::default();
-    let pass_band = Setting {
-        name: &say!("panel-pass-band"),
-        help: &say!("panel-pass-band-help"),
-        unit: "",
-        range: Smoothing::PASS_BAND,
-        default: default.pass_band,
-        decimals: 4,
-        logarithmic: true,
-    };
-    pass_band.show(ui, &mut smoothing.pass_band);
-    let iterations = Setting {
-        name: &say!("panel-iterations"),
-        help: &say!("panel-iterations-help"),
-        unit: "",
-        range: 0.0..=f64::from(Smoothing::MAX_ITERATIONS),
-        default: f64::from(default.iterations),
-        decimals: 0,
-        logarithmic: false,
-    };
-    let mut count = f64::from(smoothing.iterations);
-    if iterations.show(ui, &mut count) {
-        smoothing.iterations = count as u32;
+    preset_list(ui, &mut settings.smoothing);
+    let mut rows: Vec<_> = table::of("smoothing").collect();
+    rows.sort_by_key(|setting| ORDER.iter().position(|key| *key == setting.key).unwrap_or(ORDER.len()));
+    let (switches, others): (Vec<_>, Vec<_>) =
+        rows.into_iter().partition(|row| matches!(row.kind, Kind::Switch { .. }));
+    for setting in others {
+        control::setting(ui, setting, settings);
     }
-    row(ui, &say!("panel-window"), &say!("panel-window-help"), |ui| {
-        let list = ComboBox::from_id_salt("window").selected_text(smoothing.window.name());
-        let response = list.show_ui(ui, |ui| {
-            for window in Window::ALL {
-                ui.selectable_value(&mut smoothing.window, window, window.name());
-            }
-        });
-        name(&response.response, Role::ComboBox, &say!("panel-window"));
-    });
     ui.horizontal_wrapped(|ui| {
-        let adapt = ui.checkbox(&mut smoothing.adapt, say!("panel-adapt"));
-        adapt.on_hover_text(say!("panel-adapt-help"));
-        let guard = ui.checkbox(&mut smoothing.guard, say!("panel-guard"));
-        guard.on_hover_text(say!("panel-guard-help"));
-        let hold = ui.checkbox(&mut smoothing.preserve_volume, say!("panel-volume-held"));
-        hold.on_hover_text(say!("panel-volume-held-help"));
+        for setting in switches {
+            control::setting(ui, setting, settings);
+        }
     });
+    let smoothing = &settings.smoothing;
     let edge_length = report.and_then(|report| report.smoothing_response).map(|response| response.edge_length_mm);
     let lumen = report.and_then(|report| report.smoothed_shape.as_ref()?.smallest_lumen);
     let thinnest = lumen.map(|lumen| lumen.diameter_mm);

@@ -18,7 +18,7 @@ use lumen_mesh::arrays::{Kind, On, Scalar, Values};
 const EXACT: f64 = 16_777_216.0;
 
 /// Whether an array can be an attribute.
-pub(crate) fn has_place(array: &Array) -> bool {
+pub(super) fn has_place(array: &Array) -> bool {
     Attribute::of(array).is_some()
 }
 

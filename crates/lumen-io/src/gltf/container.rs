@@ -15,7 +15,7 @@ pub(super) const JSON_CHUNK: u32 = 0x4e4f_534a;
 pub(super) const BIN_CHUNK: u32 = 0x004e_4942;
 
 /// Reads a GLB file; its positions come in mm, relative to `origin`.
-pub(crate) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+pub(super) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
     let word = |at: usize| bytes.get(at..).and_then(|rest| rest.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let cut_short = |announced: usize| ReadError::CutShort {
         format: "GLB",
@@ -53,6 +53,6 @@ pub(crate) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &
 }
 
 /// Reads a glTF text that carries its own data; its positions come in mm, relative to `origin`.
-pub(crate) async fn read_text(bytes: &[u8], unit: Unit, origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+pub(super) async fn read_text(bytes: &[u8], unit: Unit, origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
     read_scene("glTF", text::without_mark(bytes), None, unit, bytes.len(), origin, pace).await
 }

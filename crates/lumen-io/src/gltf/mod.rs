@@ -22,10 +22,49 @@ mod scene;
 mod write;
 
 use super::error::ReadError;
+use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
+use super::text;
+use super::unit::Unit;
 
-pub(super) use arrays::has_place;
-pub(super) use container::{read_binary, read_text};
-pub(super) use write::write;
+/// GLB in the table of formats.
+pub(super) static BINARY: FileKind = FileKind {
+    label: "GLB",
+    extensions: &["glb"],
+    media_types: &[MediaType {
+        name: "model/gltf-binary",
+        comment: "Binary glTF model",
+        extension: "glb",
+        magic: None,
+    }],
+    unit: Unit::Metre,
+    axes_in_head: false,
+    signs: &[(Sign::Sure, |bytes| bytes.starts_with(b"glTF"))],
+    parse: |bytes, unit, origin, pace| Box::pin(container::read_binary(bytes, unit, origin, pace)),
+    triangles,
+};
+
+/// GLB as it is written.
+pub(super) static WRITTEN: Written = Written { write: write::write, arrays: Arrays::Vertices(arrays::has_place) };
+
+/// glTF as text in the table of formats: it is read only.
+pub(super) static TEXT: FileKind = FileKind {
+    label: "glTF",
+    extensions: &["gltf"],
+    media_types: &[MediaType { name: "model/gltf+json", comment: "glTF model", extension: "gltf", magic: None }],
+    unit: Unit::Metre,
+    axes_in_head: false,
+    signs: &[(Sign::Begins, |bytes| {
+        let text = text::beginning(bytes);
+        text.starts_with(b"{") && text[..text.len().min(1024)].contains(&b'"')
+    })],
+    parse: |bytes, unit, origin, pace| Box::pin(container::read_text(bytes, unit, origin, pace)),
+    triangles,
+};
+
+/// Half a vertex of three f32 and three numbers of 32 bits take 18 bytes.
+fn triangles(bytes: &[u8]) -> u64 {
+    bytes.len() as u64 / 18
+}
 
 const FORMAT: &str = "glTF";
 

@@ -9,7 +9,8 @@ use super::super::output::Output;
 use super::super::pace::Pace;
 use super::super::raw::RawSurface;
 use super::super::text::BASE64;
-use super::{read_binary, read_text, write};
+use super::container::{read_binary, read_text};
+use super::write::write;
 use lumen_mesh::task::at_once;
 use lumen_mesh::{TriMesh, Vec3};
 

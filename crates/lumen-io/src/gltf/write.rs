@@ -8,7 +8,7 @@ use super::arrays::Attribute;
 use super::container::{BIN_CHUNK, JSON_CHUNK};
 
 /// A GLB file of one mesh, with y up, in mm under a node scale of 0.001.
-pub(crate) fn write(output: &Output) -> Result<Vec<u8>, WriteError> {
+pub(super) fn write(output: &Output) -> Result<Vec<u8>, WriteError> {
     let Output { mesh, normals, .. } = *output;
     let (vertices, corners) = (mesh.positions.len(), 3 * mesh.triangles.len());
     let (vector_bytes, index_bytes) = (12 * vertices as u64, 4 * corners as u64);

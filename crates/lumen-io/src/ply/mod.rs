@@ -12,9 +12,32 @@ mod parsing;
 mod write;
 
 use super::error::ReadError;
+use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
+use super::text;
+use super::unit::Unit;
 
-pub(super) use parsing::read;
-pub(super) use write::write;
+/// PLY in the table of formats.
+pub(super) static KIND: FileKind = FileKind {
+    label: "PLY",
+    extensions: &["ply"],
+    media_types: &[MediaType { name: "model/x-ply", comment: "PLY surface", extension: "ply", magic: Some("ply\\n") }],
+    unit: Unit::Millimetre,
+    axes_in_head: true,
+    signs: &[(Sign::Begins, |bytes| text::begins_with(bytes, b"ply\n") || text::begins_with(bytes, b"ply\r"))],
+    parse: |bytes, _, origin, pace| Box::pin(parsing::read(bytes, origin, pace)),
+    triangles: |bytes| announced_faces(bytes).unwrap_or(bytes.len() as u64 / 20),
+};
+
+/// PLY as it is written.
+pub(super) static WRITTEN: Written = Written { write: |output| Ok(write::write(output)), arrays: Arrays::All };
+
+/// The faces that the header of a PLY announces; no more than there are bytes for.
+fn announced_faces(bytes: &[u8]) -> Option<u64> {
+    let head = &bytes[..bytes.len().min(4096)];
+    let line = head.split(|&byte| byte == b'\n').find_map(|line| line.strip_prefix(b"element face "))?;
+    let faces: u64 = std::str::from_utf8(line).ok()?.trim().parse().ok()?;
+    Some(faces.min(bytes.len() as u64 / 4))
+}
 
 fn malformed(problem: String) -> ReadError {
     ReadError::Malformed { format: "PLY", problem }

@@ -9,7 +9,7 @@ use lumen_mesh::Vec3;
 use lumen_mesh::task::at_once;
 
 fn read(bytes: &[u8]) -> Result<RawSurface, ReadError> {
-    at_once(super::read(bytes, DVec3::ZERO, &Pace::never()))
+    at_once(super::parsing::read(bytes, DVec3::ZERO, &Pace::never()))
 }
 
 const SQUARE: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement camera 1\nproperty list uchar float view\n\

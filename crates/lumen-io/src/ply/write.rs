@@ -5,7 +5,7 @@ use super::arrays::Written;
 use lumen_mesh::arrays::On;
 
 /// The little-endian binary form.
-pub(crate) fn write(output: &Output) -> Vec<u8> {
+pub(super) fn write(output: &Output) -> Vec<u8> {
     let Output { mesh, normals, axes, .. } = *output;
     let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
     let [on_vertices, on_triangles] = [On::Point, On::Triangle].map(|on| Written::on(on, output.arrays));

@@ -22,7 +22,7 @@ use lumen_language::say;
 const MAGIC: &[u8] = b"# vtk DataFile";
 
 /// Whether a text begins as legacy VTK files do.
-pub(crate) fn is_legacy(text: &[u8]) -> bool {
+pub(super) fn is_legacy(text: &[u8]) -> bool {
     text.len() >= MAGIC.len() && text[..MAGIC.len()].eq_ignore_ascii_case(MAGIC)
 }
 
@@ -36,7 +36,7 @@ struct Parts<'a> {
 }
 
 /// Reads a file, with positions relative to `origin`.
-pub(crate) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
     let mut cursor = Cursor::new(text::without_mark(bytes).trim_ascii_start(), pace);
     cursor.rest_of_line();
     let title = cursor.rest_of_line();

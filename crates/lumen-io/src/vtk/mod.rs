@@ -22,11 +22,52 @@ mod xml_structure;
 
 #[cfg(feature = "scans")]
 pub(super) use image::{Image, Values, read as read_image};
-pub(super) use legacy::{is_legacy, read as read_legacy};
-pub(super) use write::{legacy as write_legacy, xml as write_xml};
-pub(super) use xml::{is_xml, read as read_xml};
+pub(super) use xml::is_xml;
 
 use super::error::ReadError;
+use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
+use super::text;
+use super::unit::Unit;
+
+/// The XML kind in the table of formats.
+pub(super) static XML: FileKind = FileKind {
+    label: "VTP",
+    extensions: &["vtp", "vtu"],
+    media_types: &[
+        MediaType { name: "model/x-vtp", comment: "VTK polygonal data", extension: "vtp", magic: None },
+        MediaType { name: "model/x-vtu", comment: "VTK unstructured grid", extension: "vtu", magic: None },
+    ],
+    unit: Unit::Millimetre,
+    axes_in_head: false,
+    signs: &[(Sign::Begins, |bytes| is_xml(text::beginning(bytes)))],
+    parse: |bytes, _, origin, pace| Box::pin(xml::read(bytes, origin, pace)),
+    // As the legacy kind, packed to a third of that.
+    triangles: |bytes| bytes.len() as u64 / 7,
+};
+
+/// The XML kind as it is written.
+pub(super) static XML_WRITTEN: Written = Written { write: |output| Ok(write::xml(output)), arrays: Arrays::All };
+
+/// The legacy kind in the table of formats.
+pub(super) static LEGACY: FileKind = FileKind {
+    label: "VTK",
+    extensions: &["vtk"],
+    media_types: &[MediaType {
+        name: "model/x-vtk",
+        comment: "VTK legacy data",
+        extension: "vtk",
+        magic: Some("# vtk DataFile Version"),
+    }],
+    unit: Unit::Millimetre,
+    axes_in_head: false,
+    signs: &[(Sign::Begins, |bytes| legacy::is_legacy(text::beginning(bytes)))],
+    parse: |bytes, _, origin, pace| Box::pin(legacy::read(bytes, origin, pace)),
+    // Half a vertex of three f32, three numbers of 32 bits and how many there are.
+    triangles: |bytes| bytes.len() as u64 / 22,
+};
+
+/// The legacy kind as it is written.
+pub(super) static LEGACY_WRITTEN: Written = Written { write: write::legacy, arrays: Arrays::All };
 
 /// Refuses a kind of data that is no surface, by the name that VTK has for it.
 fn no_surface(kind: &str) -> ReadError {

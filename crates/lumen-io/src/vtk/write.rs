@@ -18,7 +18,7 @@ const BLOCK: usize = 1 << 15;
 const LEVEL: u8 = 6;
 
 /// The XML file (.vtp), with normals as the point data that VTK takes them for.
-pub(crate) fn xml(output: &Output) -> Vec<u8> {
+pub(super) fn xml(output: &Output) -> Vec<u8> {
     let Output { mesh, normals, arrays, axes } = *output;
     let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
     let mut data = Appended::default();
@@ -138,7 +138,7 @@ impl Appended {
 ///
 /// # Errors
 /// [`WriteError::TooLarge`] where its 32-bit numbers do not hold the mesh.
-pub(crate) fn legacy(output: &Output) -> Result<Vec<u8>, WriteError> {
+pub(super) fn legacy(output: &Output) -> Result<Vec<u8>, WriteError> {
     let Output { mesh, normals, arrays, axes } = *output;
     let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
     let size = 4 * triangles as u64;

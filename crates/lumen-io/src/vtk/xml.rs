@@ -22,7 +22,7 @@ pub(crate) fn is_xml(text: &[u8]) -> bool {
 }
 
 /// Reads a file, with positions relative to `origin`.
-pub(crate) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
+pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
     let file = Structure::parse(bytes, pace).await?;
     let mut arrays = Arrays::new(&file, bytes, Room::of(bytes.len()).unfolded(), pace);
     let mut surface = Surface::new(file.format, bytes.len(), origin);

@@ -70,20 +70,20 @@ compare-no-device = Es gibt kein Grafikgerät, mit dem gezeichnet werden könnte
 
 compare-not-smoothed = nicht geglättet
 compare-pass-band = Durchlassband { $value }
-compare-iterations = { $count ->
+compare-iterations = { $value ->
     [one] 1 Iteration
-   *[other] { $count } Iterationen
+   *[other] { $value } Iterationen
 }
-compare-window = { $name }-Fenster
+compare-window = { $value }-Fenster
+compare-boundary = Regel { $value } an offenen Enden
 compare-volume-preserved = Volumen erhalten
 compare-suits = zur Oberfläche passend
 compare-adapted = dem Kaliber angepasst
 compare-no-crossing = ohne Schnitte
-compare-method = Verfahren { $name }
-compare-feature-angle = Kantenwinkel { $degrees }°
+compare-method = Verfahren { $value }
+compare-feature-angle = Kantenwinkel { $value }°
 compare-thin-spared = dünne Gefäße geschont
 compare-labels-kept = Labelgrenzen gehalten
-compare-thin-spared-labels-kept = dünne Gefäße geschont, Labelgrenzen gehalten
 compare-not-reduced = nicht reduziert
 compare-reduction = Reduktion { $percent } %
 compare-triangles-wanted = { $count ->

@@ -4,7 +4,7 @@
 ## Dateien, die nicht geöffnet werden
 
 errors-file-empty = Die Datei ist leer.
-errors-file-unknown = „{ $name }“ ist keine Oberfläche, die Lumen kennt: Es öffnet Dateien in STL, PLY, OBJ, VTP, VTK, GLB und glTF.
+errors-file-unknown = „{ $name }“ ist keine Oberfläche, die Lumen kennt: Es öffnet Dateien in { $formats } und { $last }.
 errors-vtk-kind = Dies sind VTK-Daten anderer Art ({ $kind }), Lumen öffnet aber Oberflächen: die Oberfläche extrahieren und diese speichern.
 errors-vtk-index = Diese VTK-Datei ({ $kind }) nennt nur andere, die die Daten enthalten: eine von diesen öffnen.
 errors-image-volume = Dies ist keine Oberfläche, sondern ein Bildvolumen ({ $format }), das beschädigt ist oder von einer Art, die Lumen nicht liest: segmentieren und die Oberfläche speichern.

@@ -73,19 +73,20 @@ compare-no-device = There is no graphics device to draw with.
 
 compare-not-smoothed = not smoothed
 compare-pass-band = pass band { $value }
-compare-iterations = { $count } iterations
+compare-iterations = { $value } iterations
 # The name of a window function: Hamming window.
-compare-window = { $name } window
+compare-window = { $value } window
+# $value is the name of the rule.
+compare-boundary = rule { $value } at open ends
 compare-volume-preserved = volume preserved
 compare-suits = suits this surface
 compare-adapted = adapted to calibre
 compare-no-crossing = no crossing
 # The name of a method of decimation: Schroeder method.
-compare-method = { $name } method
-compare-feature-angle = feature angle { $degrees }°
+compare-method = { $value } method
+compare-feature-angle = feature angle { $value }°
 compare-thin-spared = thin vessels spared
 compare-labels-kept = label borders kept
-compare-thin-spared-labels-kept = thin vessels spared, label borders kept
 compare-not-reduced = not reduced
 compare-reduction = reduction { $percent } %
 compare-triangles-wanted = { $count } triangles wanted

@@ -4,7 +4,7 @@
 ## Files that are not opened
 
 errors-file-empty = The file is empty.
-errors-file-unknown = "{ $name }" is not a surface that Lumen knows: it opens STL, PLY, OBJ, VTP, VTK, GLB and glTF files.
+errors-file-unknown = "{ $name }" is not a surface that Lumen knows: it opens { $formats } and { $last } files.
 errors-vtk-kind = This is VTK data of another kind ({ $kind }), and Lumen opens surfaces: extract its surface and save that.
 errors-vtk-index = This VTK file ({ $kind }) only names others that hold the data: open one of those.
 errors-image-volume = This is no surface but an image volume ({ $format }) that is broken or of a kind that Lumen does not read: segment it and save the surface.

@@ -39,10 +39,10 @@ report-keep-all = all pieces
 report-mending = Mending
 report-no-mending = none
 report-lumen-taken = the lumen of a wall taken
-report-welded = welded to { $most } mm
+report-welded = welded to { $value } mm
 # Sheets of triangles that meet in one edge or vertex.
 report-split = sheets split
-report-filled = holes up to { $most } mm filled
+report-filled = holes up to { $value } mm filled
 report-smoothing = Smoothing
 report-no-smoothing = none
 report-filter = pass band { $band }, { $count } iterations, { $window }

@@ -70,20 +70,20 @@ compare-no-device = Il n'y a pas de périphérique graphique pour dessiner.
 
 compare-not-smoothed = non lissé
 compare-pass-band = bande passante { $value }
-compare-iterations = { $count ->
-    [one] { $count } itération
-   *[other] { $count } itérations
+compare-iterations = { $value ->
+    [one] { $value } itération
+   *[other] { $value } itérations
 }
-compare-window = fenêtre de { $name }
+compare-window = fenêtre de { $value }
+compare-boundary = règle { $value } aux extrémités ouvertes
 compare-volume-preserved = volume préservé
 compare-suits = adapté à la surface
 compare-adapted = adapté au calibre
 compare-no-crossing = sans croisement
-compare-method = méthode { $name }
-compare-feature-angle = angle d'arête { $degrees }°
+compare-method = méthode { $value }
+compare-feature-angle = angle d'arête { $value }°
 compare-thin-spared = vaisseaux fins ménagés
 compare-labels-kept = limites des étiquettes gardées
-compare-thin-spared-labels-kept = vaisseaux fins ménagés, limites des étiquettes gardées
 compare-not-reduced = non réduit
 compare-reduction = réduction { $percent } %
 compare-triangles-wanted = { $count ->

@@ -4,7 +4,7 @@
 ## Fichiers qui ne sont pas ouverts
 
 errors-file-empty = Le fichier est vide.
-errors-file-unknown = « { $name } » n'est pas une surface que Lumen connaît : il ouvre les fichiers STL, PLY, OBJ, VTP, VTK, GLB et glTF.
+errors-file-unknown = « { $name } » n'est pas une surface que Lumen connaît : il ouvre les fichiers { $formats } et { $last }.
 errors-vtk-kind = Ce sont des données VTK d'un autre type ({ $kind }), et Lumen ouvre des surfaces : extraire la surface et l'enregistrer.
 errors-vtk-index = Ce fichier VTK ({ $kind }) ne fait que nommer ceux qui contiennent les données : ouvrir l'un d'eux.
 errors-image-volume = Ce n'est pas une surface mais un volume d'images ({ $format }), endommagé ou d'un type que Lumen ne lit pas : le segmenter et enregistrer la surface.

@@ -1,0 +1,212 @@
+//! What a user can set: the whole of it, small and serialisable. A result is a function of (file, settings).
+//!
+//! Each stage's settings are a struct in a file, with their rows in the [`table`] that everything else about settings is made
+//! from.
+
+mod decimation;
+mod mending;
+mod smoothing;
+pub mod table;
+mod target;
+
+use serde::{Deserialize, Serialize};
+
+pub use self::decimation::{Decimation, Method};
+pub use self::smoothing::{Boundary, Preset, Smoothing, Window};
+use self::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
+pub use self::target::{Target, reduction_percent};
+use lumen_language::{Message, exact, say};
+pub use lumen_mesh::mending::Mending;
+use lumen_vessel::certificate::TOLERANCE_PERCENT;
+
+/// Settings of all stages, in the order of the method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settings {
+    /// What of the surface is mended; by default nothing.
+    #[serde(default, skip_serializing_if = "Mending::is_off")]
+    pub mending: Mending,
+    /// Which connected pieces go on.
+    pub keep: Keep,
+    /// The windowed-sinc filter.
+    pub smoothing: Smoothing,
+    /// How the reduction is made.
+    pub decimation: Decimation,
+    /// How far it goes.
+    pub target: Target,
+    /// The change of its calibre in percent that a vessel is allowed, 0 to 100. It changes no surface: it is what they are
+    /// judged by.
+    #[serde(default = "default_tolerance")]
+    pub tolerance_percent: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            mending: Mending::default(),
+            keep: Keep::default(),
+            smoothing: Smoothing::default(),
+            decimation: Decimation::default(),
+            target: Target::default(),
+            tolerance_percent: TOLERANCE_PERCENT,
+        }
+    }
+}
+
+fn default_tolerance() -> f64 {
+    TOLERANCE_PERCENT
+}
+
+/// Which connected pieces of the surface are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Keep {
+    /// The piece with the most triangles.
+    #[default]
+    Largest,
+    /// The piece with this number (pieces are numbered by their first triangle).
+    Component(u32),
+    /// Every piece.
+    All,
+}
+
+/// The row of [`Settings::keep`].
+static KEEP: [Setting; 1] = [Setting {
+    key: "keep",
+    field: "keep",
+    kind: Kind::Pieces { at: |settings| &mut settings.keep },
+    in_link: InLink::Always,
+    matters: |_| true,
+    option: CommandOption {
+        value: "PIECES",
+        help: "The connected pieces to keep: largest, all, or the number of one, from 0 [default: largest]",
+    },
+    messages: Messages { label: "", help: "", said: "", refused: "" },
+}];
+
+/// The row of [`Settings::tolerance_percent`].
+static TOLERANCE: [Setting; 1] = [Setting {
+    key: "tolerance",
+    field: "tolerance_percent",
+    kind: Kind::Number {
+        at: |settings| &mut settings.tolerance_percent,
+        range: Range { bounds: 0.0..=100.0, unit: "%", decimals: 1, logarithmic: false },
+    },
+    in_link: InLink::Always,
+    matters: |_| true,
+    option: CommandOption {
+        value: "PERCENT",
+        help: "The change of calibre that a branch is allowed, in percent, 0 to 100 (2 or 2%) [default: 2]",
+    },
+    messages: Messages {
+        label: "vessels-allowed",
+        help: "vessels-allowed-help",
+        said: "",
+        refused: "errors-tolerance",
+    },
+}];
+
+/// A setting that no stage can work with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SettingsError {
+    /// A number is none, or out of its range.
+    #[error("{}", refused(key, *value))]
+    Range {
+        /// The name of the setting in the [`table`].
+        key: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// There is no such component.
+    #[error("{}", say!("errors-no-component", wanted = .wanted.to_string(), number = .count.to_string()))]
+    Component {
+        /// The number asked for, from 0.
+        wanted: u32,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+/// That a number is out of its range, in the language that is spoken.
+fn refused(key: &str, value: f64) -> String {
+    let mut message = Message::new(table::find(key).map_or("", |setting| setting.messages.refused));
+    message.put("value", exact(value).into());
+    message.say()
+}
+
+impl Settings {
+    /// Whether these make the same level.
+    pub fn gives_same(&self, other: &Self) -> bool {
+        self.mending == other.mending
+            && self.keep == other.keep
+            && self.target == other.target
+            && self.smoothing.gives_same(&other.smoothing)
+            && self.decimation.gives_same(&other.decimation)
+    }
+
+    /// Checks every range; NaN is refused.
+    ///
+    /// # Errors
+    /// The first setting that is out of range.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        let out = table::all().find_map(|setting| Some((setting.key, setting.out_of_range(self)?)));
+        out.map_or(Ok(()), |(key, value)| Err(SettingsError::Range { key, value }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_two_of_the_paper() {
+        // The paper prints 37,153 for 50 %: 74,307 / 2 = 37,153.5.
+        let rates = [(100, 66_875), (500, 37_153), (750, 18_576), (900, 7_430), (990, 743)];
+        for (rate, printed) in rates {
+            let target = Target::Reduction(rate).triangles(74_307);
+            assert!(target.abs_diff(printed) <= 1, "{rate}: {target} beside the paper's {printed}");
+        }
+    }
+
+    #[test]
+    fn settings_from_before_a_field_was_there_say_what_they_said() {
+        let mut told = serde_json::to_value(Settings::default()).unwrap();
+        told["decimation"].as_object_mut().unwrap().remove("spare_thin");
+        let read: Settings = serde_json::from_value(told).unwrap();
+        assert!(!read.decimation.spare_thin);
+        let spared = Decimation { spare_thin: true, method: Method::Quadric, ..Decimation::default() };
+        assert!(!spared.gives_same(&Decimation { spare_thin: false, ..spared }));
+        assert!(spared.gives_same(&Decimation { feature_angle: 10.0, ..spared }));
+    }
+
+    #[test]
+    fn mending_is_told_only_where_something_is_mended() {
+        let plain = serde_json::to_value(Settings::default()).unwrap();
+        assert!(plain.get("mending").is_none());
+        let mending = Mending { fill_mm: Some(2.0), split: true, ..Mending::default() };
+        let settings = Settings { mending, ..Settings::default() };
+        let told = serde_json::to_value(&settings).unwrap();
+        assert_eq!(serde_json::from_value::<Settings>(told).unwrap(), settings);
+        for fill_mm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let mending = Mending { fill_mm: Some(fill_mm), ..mending };
+            assert!(matches!(
+                Settings { mending, ..Settings::default() }.check(),
+                Err(SettingsError::Range { key: "fill-holes", .. })
+            ));
+        }
+    }
+
+    #[test]
+    fn settings_that_are_no_numbers_are_refused() {
+        let mut settings = Settings::default();
+        assert_eq!(settings.check(), Ok(()));
+        settings.smoothing.pass_band = f64::NAN;
+        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "pass-band", .. })));
+        settings = Settings { target: Target::Reduction(1000), ..Settings::default() };
+        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "reduction", .. })));
+        settings = Settings { target: Target::Deviation(0), ..Settings::default() };
+        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "max-deviation", .. })));
+        settings =
+            Settings { decimation: Decimation { feature_angle: -1.0, ..Decimation::default() }, ..Settings::default() };
+        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "feature-angle", .. })));
+    }
+}
