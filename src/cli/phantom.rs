@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use super::places::{output_format, write_whole};
+use super::places::{self, output_format, write_whole};
 use super::rows::row;
 use crate::io;
 use crate::mesh::components;

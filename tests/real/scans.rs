@@ -51,13 +51,13 @@ fn facts_of(data: &Path) -> Result<(), Failed> {
     assert_eq!((geometry.size, geometry.spacing.to_array()), ([157, 393, 34], [0.878906, 0.878906, 1.50009]));
     assert_eq!(geometry.origin.to_array(), [-156.445, -24.6094, 0.0]);
     assert_eq!(geometry.direction.to_cols_array(), [-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0]);
-    let survey = survey(&aorta);
-    assert_eq!((survey.range, survey.is_mask()), ([0.0, 2570.204833984375], false));
+    let found = survey(&aorta);
+    assert_eq!((found.range, found.is_mask()), ([0.0, 2570.204833984375], false));
     let lungs = open(&data.join(LUNGS))?;
     let geometry = lungs.geometry();
     assert_eq!((geometry.size, geometry.spacing.to_array()), ([512, 512, 295], [0.64453125, 0.64453125, 1.0]));
-    let survey = survey(&lungs);
-    assert_eq!((survey.range, &survey.labels[..]), ([0.0, 1.0], &[Label { value: 1, points: 264_804 }][..]));
+    let found = survey(&lungs);
+    assert_eq!((found.range, &found.labels[..]), ([0.0, 1.0], &[Label { value: 1, points: 264_804 }][..]));
     Ok(())
 }
 

@@ -15,7 +15,7 @@ use lumen::pipeline::filter::Filter;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::settings::{Boundary, Settings, Smoothing, Window};
 use lumen::pipeline::smoothing::{smooth, smooth_keeping_terms};
-use lumen::pipeline::task::{Yielder, at_once};
+use lumen::pipeline::task::{Budget, Yielder, at_once};
 use lumen_test_support::data::VESSELS;
 
 /// Surfaces with open ends cut by a plane, and their voxels in mm.
