@@ -86,7 +86,8 @@ pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
 pub use self::platform::{
-    Devices, FOLLOW_S, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, SHAKE_MS, Store, Tone, Waker,
+    Devices, Engines, FOLLOW_S, Files, Gamepad, Hands, Languages, Listing, OTHER_ENDINGS, Offer, Platform,
+    PlatformEvent, SHAKE_MS, Screen, Sharing, Sound, Storage, Store, Tone, Waker,
 };
 #[cfg(not(target_arch = "wasm32"))]
 pub use self::portrait::report_pictures;

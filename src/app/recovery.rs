@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::document::Document;
 use super::history::History;
-use super::platform::{Platform, Store};
+use super::platform::{Platform, Storage, Store};
 use super::state::{State, Step};
 use super::trial::Trial;
 use crate::engine::{Link, Source};
@@ -238,7 +238,7 @@ impl Recovery {
     }
 
     /// Hears that a surface was opened.
-    pub(super) fn opened(&mut self, state: &mut State, platform: &mut dyn Platform) {
+    pub(super) fn opened(&mut self, state: &mut State, platform: &mut dyn Storage) {
         self.is_forgotten = false;
         self.keep_surface(state, platform);
         if let Some(document) = state.document.as_mut().filter(|document| !document.states_axes)
@@ -293,12 +293,12 @@ impl Recovery {
     }
 
     /// Whether surfaces are kept; `None` where the platform keeps nothing.
-    pub(super) fn keeps(&self, platform: &mut dyn Platform) -> Option<bool> {
+    pub(super) fn keeps(&self, platform: &mut dyn Storage) -> Option<bool> {
         platform.store().map(|_| self.keeps_surface)
     }
 
     /// Does what is asked for.
-    pub(super) fn act(&mut self, action: Action, state: &mut State, trial: &mut Trial, platform: &mut dyn Platform) {
+    pub(super) fn act(&mut self, action: Action, state: &mut State, trial: &mut Trial, platform: &mut dyn Storage) {
         match action {
             Action::KeepSurface(keeps) => {
                 self.keeps_surface = keeps;
@@ -330,7 +330,7 @@ impl Recovery {
         }
     }
 
-    fn keep_surface(&self, state: &State, platform: &mut dyn Platform) {
+    fn keep_surface(&self, state: &State, platform: &mut dyn Storage) {
         let Some(store) = platform.store().filter(|_| self.keeps_surface) else { return };
         match state.document.as_ref().map(|document| &document.source) {
             Some(Source::File { name, bytes, .. }) => store.keep_surface(name, bytes),
@@ -340,7 +340,7 @@ impl Recovery {
     }
 
     /// To be called each frame: writes what has changed, not more than once a second.
-    pub(super) fn follow(&mut self, now: Now<'_>, platform: &mut dyn Platform, ctx: &Context) {
+    pub(super) fn follow(&mut self, now: Now<'_>, platform: &mut dyn Storage, ctx: &Context) {
         let Some(store) = platform.store() else { return };
         let (key, state) = (self.key(now), now.state);
         if self.is_forgotten || state.document.is_none() || self.written.as_ref() == Some(&key) {
@@ -384,7 +384,7 @@ impl Recovery {
 }
 
 /// The language that was chosen before, if one was: it is spoken before anything is brought back.
-pub(super) fn language(platform: &mut dyn Platform) -> Option<Language> {
+pub(super) fn language(platform: &mut dyn Storage) -> Option<Language> {
     Language::of_tag(&Session::read(&platform.store()?.text()?)?.language?)
 }
 

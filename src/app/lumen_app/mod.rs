@@ -170,7 +170,7 @@ impl LumenApp {
         }
     }
 
-    /// Whether the hand on the keys can be followed: see [`Platform::has_attention`].
+    /// Whether the hand on the keys can be followed: see [`Screen::has_attention`](super::platform::Screen::has_attention).
     pub fn has_attention(&self) -> bool {
         self.platform.has_attention()
     }
