@@ -4,6 +4,8 @@
 //! - [`LumenApp`]: the app, frame by frame; [`Action`]: all that can be asked of it. [`LastingApp`]: it outlives the
 //!   graphics device (`paint_guard`: and paints nothing with one that is gone).
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
+//! - `mode`: what has the window, one at a time, and what a panel is; `Panels` lists them. `filling`: modes that have views of
+//!   their own.
 //! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`,
 //!   `error_plot`, `icon` what they are made of, `assist` what assistive tools are told of them, `theme` the look.
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
@@ -38,6 +40,7 @@ mod deviation;
 pub mod document;
 mod drawer;
 mod error_plot;
+mod filling;
 mod flight;
 mod graphics_error;
 mod halo;
@@ -52,10 +55,13 @@ mod lumen_app;
 pub mod measure;
 mod mending;
 mod menus;
+mod mode;
 mod numbers;
+mod options;
 mod overlay;
 mod paint_guard;
 mod panel;
+mod places;
 mod platform;
 mod portrait;
 mod presenter;
@@ -69,6 +75,7 @@ mod scene;
 mod sharing;
 mod sheets;
 mod shortcuts;
+mod sides;
 mod speech;
 mod spoken;
 mod state;
@@ -85,6 +92,7 @@ mod window_texture;
 pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
+pub use self::options::{Colours, FaultShown, ViewOptions};
 pub use self::platform::{
     Devices, Engines, FOLLOW_S, Files, Gamepad, Hands, Languages, Listing, OTHER_ENDINGS, Offer, Platform,
     PlatformEvent, SHAKE_MS, Screen, Sharing, Sound, Storage, Store, Tone, Waker,
@@ -94,4 +102,60 @@ pub use self::portrait::report_pictures;
 pub use self::reveal::Reveal;
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State, Step};
-pub use self::views::{Colours, FaultShown, ViewOptions, Views};
+pub use self::views::Views;
+
+use self::filling::Filling;
+use self::mode::{Beside, Mode, Panel};
+
+/// The modes and panels, each in a folder of its own: `all` is the list that bar, keys, Escape and layout go through.
+#[derive(Default)]
+struct Panels {
+    lesson: lesson::Lessons,
+    collapses: collapses::Collapses,
+    vessels: vessels::Vessels,
+    measure: measure::Measuring,
+    compare: compare::CompareView,
+    trial: trial::TrialPanel,
+    scan: scan::ScanPanel,
+}
+
+impl Panels {
+    /// All of them. Each lies over those before it: Escape takes the last off first.
+    fn all(&self) -> [&dyn Panel; 7] {
+        let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
+        [lesson, collapses, vessels, measure, compare, trial, scan]
+    }
+
+    /// The same, to be changed.
+    fn all_mut(&mut self) -> [&mut dyn Panel; 7] {
+        let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
+        [lesson, collapses, vessels, measure, compare, trial, scan]
+    }
+
+    /// Those that have views of their own.
+    fn filling_mut(&mut self) -> [&mut dyn Filling; 3] {
+        let Self { compare, trial, scan, .. } = self;
+        [compare, trial, scan]
+    }
+
+    /// What fills the window in this mode; `None` for the views of the method.
+    fn filling_of_mut(&mut self, mode: Mode) -> Option<&mut dyn Filling> {
+        match mode {
+            Mode::Method => None,
+            Mode::Compare => Some(&mut self.compare),
+            Mode::Trial => Some(&mut self.trial),
+            Mode::Scan => Some(&mut self.scan),
+        }
+    }
+
+    /// The mode that has the window.
+    fn mode(&self, state: &State) -> Mode {
+        let there = self.all().into_iter().filter(|panel| panel.is_there(state, Beside::Nothing));
+        there.filter_map(|panel| panel.mode()).max().unwrap_or(Mode::Method)
+    }
+
+    /// The panel that is this mode.
+    fn of_mut(&mut self, mode: Mode) -> Option<&mut dyn Panel> {
+        self.all_mut().into_iter().find(|panel| panel.mode() == Some(mode))
+    }
+}

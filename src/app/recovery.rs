@@ -19,15 +19,6 @@ use crate::pipeline::settings::Settings;
 use crate::render::Camera;
 use crate::say;
 
-/// Something of what is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
-    /// Keep the surfaces that are opened for the next start, or do so no longer.
-    KeepSurface(bool),
-    /// Forget everything that is kept.
-    Forget,
-}
-
 /// The version of what is kept; another is not read.
 const VERSION: u32 = 1;
 /// Steps to undo that are kept.
@@ -297,37 +288,35 @@ impl Recovery {
         platform.store().map(|_| self.keeps_surface)
     }
 
-    /// Does what is asked for.
-    pub(super) fn act(&mut self, action: Action, state: &mut State, trial: &mut Trial, platform: &mut dyn Storage) {
-        match action {
-            Action::KeepSurface(keeps) => {
-                self.keeps_surface = keeps;
-                self.is_forgotten &= !keeps;
-                if keeps {
-                    self.keep_surface(state, platform);
-                    let text = match surface(state) {
-                        Some(Surface::File { name, .. }) => say!("app-surfaces-kept-and-this", name = name),
-                        Some(Surface::Sample(_)) | None => say!("app-surfaces-kept"),
-                    };
-                    state.tell(&text);
-                } else if let Some(store) = platform.store() {
-                    store.forget_surface();
-                    state.tell(&say!("app-surfaces-not-kept"));
-                }
-            }
-            Action::Forget => {
-                self.keeps_surface = false;
-                self.returning = None;
-                self.axes.clear();
-                trial.set_known_mappings(KnownMappings::default());
-                if let Some(store) = platform.store() {
-                    store.forget();
-                }
-                self.is_forgotten = true;
-                self.written = None;
-                state.tell(&say!("app-forgotten"));
-            }
+    /// Keeps the surfaces that are opened from now on, or does so no longer.
+    pub(super) fn keep_surfaces(&mut self, keeps: bool, state: &mut State, platform: &mut dyn Storage) {
+        self.keeps_surface = keeps;
+        self.is_forgotten &= !keeps;
+        if keeps {
+            self.keep_surface(state, platform);
+            let text = match surface(state) {
+                Some(Surface::File { name, .. }) => say!("app-surfaces-kept-and-this", name = name),
+                Some(Surface::Sample(_)) | None => say!("app-surfaces-kept"),
+            };
+            state.tell(&text);
+        } else if let Some(store) = platform.store() {
+            store.forget_surface();
+            state.tell(&say!("app-surfaces-not-kept"));
         }
+    }
+
+    /// Forgets everything that is kept.
+    pub(super) fn forget(&mut self, state: &mut State, trial: &mut Trial, platform: &mut dyn Storage) {
+        self.keeps_surface = false;
+        self.returning = None;
+        self.axes.clear();
+        trial.set_known_mappings(KnownMappings::default());
+        if let Some(store) = platform.store() {
+            store.forget();
+        }
+        self.is_forgotten = true;
+        self.written = None;
+        state.tell(&say!("app-forgotten"));
     }
 
     fn keep_surface(&self, state: &State, platform: &mut dyn Storage) {
