@@ -1,11 +1,24 @@
 //! The window's content, the same on the desktop and in the browser. It knows no platform: [`Platform`] gives it
 //! files and the line to the engine.
 //!
+//! Layers, the lowest first. A module uses only the layers below its own, so that no two know each other:
+//!
+//! 1. look and input: `theme`, `icon`, `row`, `control`, `assist`, `halo`, `keys`, `places`, `sides`;
+//! 2. what is known: [`document`], [`history`], `options`, `platform`;
+//! 3. actions: the `action.rs` of each panel and the data that it names (`compare/comparison.rs`, `scan/slices.rs`,
+//!    `measure/{clip,subject,tool}.rs`), then `action`;
+//! 4. `state`, `mode`;
+//! 5. drawing: `arrays`, `overlay`, `scene`, `deviation`, `mending`, `verdict`;
+//! 6. panels beside the views: [`collapses`], [`measure`], [`vessels`]; then `views`;
+//! 7. modes with views of their own: `filling`, [`compare`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
+//! 8. the window: `Panels` below, `bar`, `shortcuts`, `lumen_app`, `lasting`.
+//!
+//! One more panel is its folder, its variant in `action` and its lines in `Panels` below.
+//!
 //! - [`LumenApp`]: the app, frame by frame; [`Action`]: all that can be asked of it. [`LastingApp`]: it outlives the
 //!   graphics device (`paint_guard`: and paints nothing with one that is gone).
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
-//! - `mode`: what has the window, one at a time, and what a panel is; `Panels` lists them. `filling`: modes that have views of
-//!   their own.
+//! - `mode`: the modes, one at a time, and the trait of modes and panels; `filling`: modes with views of their own.
 //! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`,
 //!   `error_plot`, `icon` what they are made of, `assist` what assistive tools are told of them, `theme` the look.
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
@@ -107,7 +120,7 @@ pub use self::views::Views;
 use self::filling::Filling;
 use self::mode::{Beside, Mode, Panel};
 
-/// The modes and panels, each in a folder of its own: `all` is the list that bar, keys, Escape and layout go through.
+/// The modes and panels, each in its own folder. Bar, keys, Escape and layout go through `all`.
 #[derive(Default)]
 struct Panels {
     lesson: lesson::Lessons,
@@ -120,13 +133,13 @@ struct Panels {
 }
 
 impl Panels {
-    /// All of them. Each lies over those before it: Escape takes the last off first.
+    /// All of them, the lowest first: Escape takes off the last.
     fn all(&self) -> [&dyn Panel; 7] {
         let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
         [lesson, collapses, vessels, measure, compare, trial, scan]
     }
 
-    /// The same, to be changed.
+    /// All of them, in the same order.
     fn all_mut(&mut self) -> [&mut dyn Panel; 7] {
         let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
         [lesson, collapses, vessels, measure, compare, trial, scan]

@@ -1,11 +1,11 @@
-//! The modes of the window and the panels in it.
+//! The modes of the window, and the trait that each mode and panel implements.
 //!
-//! One [`Mode`] at a time has the window. Whatever lies below it goes on, and is seen again once the mode is left: a scan
-//! covers a trial, a trial the comparison, both the method. Beside the views of the method stands [`Beside`], which is one
-//! thing at a time too. Collapses and a lesson stand with any of these.
+//! One [`Mode`] at a time has the window. A scan covers a trial, a trial covers the comparison, and each of them covers the
+//! method; what is covered keeps its state and is shown again when the mode above it is left. Beside the views of the method
+//! stands at most one of [`Beside`]. Collapses and a lesson combine with all of these.
 //!
-//! Every mode and every panel is a [`Panel`] in a folder of its own. Bar, keys, Escape and layout ask the panels, and know
-//! none of them by name.
+//! Each mode and panel is a [`Panel`] in its own folder, with its state and its actions. Bar, keys, Escape and layout go
+//! through the list of panels (`Panels::all`) and name none of them.
 
 use std::ops::RangeInclusive;
 
@@ -18,7 +18,7 @@ use super::state::State;
 use crate::language::Key;
 use crate::render::Camera;
 
-/// What has the window. Each covers those before it.
+/// What has the window. A later mode covers the earlier ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Mode {
     /// The method's steps, and the two views of the surface.
@@ -31,7 +31,7 @@ pub(super) enum Mode {
     Scan,
 }
 
-/// What stands beside the views of the method. It stays while another mode covers them.
+/// What stands beside the views of the method. It stays open while another mode covers the views.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Beside {
     /// Nothing.
@@ -43,44 +43,44 @@ pub(super) enum Beside {
     Measure,
 }
 
-/// What Escape takes off, the first first.
+/// What one press of Escape takes off: the first layer that is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layer {
-    /// A window over all else, or what the next click is for.
+    /// A window over all else, a tool, or a pick.
     Held,
-    /// A file that is on its way in.
+    /// A file that is being opened.
     Awaited,
     /// Work on what is shown.
     Underway,
-    /// What is open.
+    /// The mode or panel itself.
     Open,
 }
 
-/// Where a panel that is no mode stands.
+/// Where a panel stands that is not a mode.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Place {
     /// In place of the method's steps.
     Panel,
-    /// At the right of the views: its width, and the widths that it may be drawn to, in points.
+    /// Right of the views: width and range of widths, in points.
     Right(f32, RangeInclusive<f32>),
-    /// Below the views: its height, and the heights that it may be drawn to, in points.
+    /// Below the views: height and, where the user may change it, the range of heights, in points.
     Below(f32, Option<RangeInclusive<f32>>),
-    /// Below everything, in every mode: its height, in points.
+    /// Below everything, in every mode: height in points.
     Foot(f32),
 }
 
-/// Where the bar has an entry.
+/// Where an entry of the bar stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Group {
     /// With the modes.
     Modes,
     /// With what stands beside the views.
     Beside,
-    /// In the menu of what there is to learn.
+    /// In the menu *Learn*.
     Learn,
 }
 
-/// An entry in the bar, and the key that does the same.
+/// An entry of the bar, and the key with the same action.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) group: Group,
@@ -92,7 +92,7 @@ pub(super) struct Entry {
     pub(super) is_enabled: bool,
 }
 
-/// What a panel may look at.
+/// What a panel can read.
 #[derive(Clone, Copy)]
 pub(super) struct Now<'a> {
     pub(super) state: &'a State,
@@ -112,13 +112,13 @@ impl Now<'_> {
         self.state.document.as_ref().is_some_and(|document| document.shown.is_some())
     }
 
-    /// Whether this stands beside the views, and the views are shown.
+    /// Whether the views are shown, with this beside them.
     pub(super) fn shows(&self, beside: Beside) -> bool {
         self.mode == Mode::Method && self.beside == beside
     }
 }
 
-/// What a panel may change besides itself.
+/// What a panel can change besides itself.
 pub(super) struct Acting<'a> {
     pub(super) ctx: &'a Context,
     pub(super) state: &'a mut State,
@@ -127,39 +127,39 @@ pub(super) struct Acting<'a> {
     /// Whether a trial is open, though a scan may cover it.
     pub(super) in_trial: bool,
     pub(super) beside: &'a mut Beside,
-    /// What is to be done next.
+    /// Actions to be done next.
     pub(super) then: Vec<Action>,
 }
 
-/// A mode, or what stands beside the views: its state, its actions and how it is shown.
+/// A mode, or a panel beside the views.
 pub(super) trait Panel {
-    /// By what egui knows it, from frame to frame.
+    /// The name under which egui keeps its size from frame to frame.
     fn id(&self) -> &'static str;
 
-    /// Whether it is open, though another may cover it.
+    /// Whether it is open. A mode above may cover it.
     fn is_there(&self, state: &State, beside: Beside) -> bool;
 
-    /// The mode that it is; `None` for what stands beside the views.
+    /// The mode that it is; `None` for a panel beside the views.
     fn mode(&self) -> Option<Mode> {
         None
     }
 
-    /// Where it stands, if it is no mode.
+    /// Where it stands, if it is not a mode.
     fn place(&self, _ui: &Ui, _now: Now<'_>) -> Place {
         Place::Panel
     }
 
-    /// Whether its controls take the place of the method's steps while it has the window.
+    /// Whether its controls replace the steps of the method while it has the window.
     fn replaces_method(&self) -> bool {
         false
     }
 
-    /// Whether the short cuts of the views hold while it has the window.
+    /// Whether the shortcuts of the views work while it has the window.
     fn leaves_short_cuts(&self) -> bool {
         true
     }
 
-    /// Whether it keeps this from being asked for by a key while it has the window.
+    /// Whether it blocks this action of a key while it has the window.
     fn blocks(&self, _action: &Action) -> bool {
         false
     }
@@ -169,50 +169,50 @@ pub(super) trait Panel {
         None
     }
 
-    /// Takes its keys, to be called each frame; `are_its` says whether it has them: it is shown, and nothing lies over it.
+    /// Takes its keys. Called each frame; `are_its` is set where it is shown and nothing lies over it.
     fn take_keys(&mut self, _ui: &Ui, _are_its: bool, _asked: &mut Vec<Action>) {}
 
-    /// Its lines in the sheet of keys.
+    /// Its lines in the list of keys.
     fn key_help(&self) -> &'static [(Key, Key)] {
         &[]
     }
 
-    /// The sheet of keys while it has the window, where that is one of its own.
+    /// The whole list of keys while it has the window, where it has its own.
     fn key_sheet(&self) -> Option<&'static [(Key, Key)]> {
         None
     }
 
-    /// What takes off its topmost thing of a layer.
+    /// What Escape does in this layer; `None` where it has nothing there.
     fn escape(&self, _now: Now<'_>, _layer: Layer) -> Option<Action> {
         None
     }
 
-    /// Shows it where it stands; as a mode, its controls.
+    /// Shows the panel in its place; for a mode, its controls.
     fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Action>);
 
-    /// Shows in the status bar what it is at; whether there is anything.
+    /// Shows its work in the status bar. Returns whether there is any.
     fn show_status(&self, _ui: &mut Ui, _now: Now<'_>, _asked: &mut Vec<Action>) -> bool {
         false
     }
 
-    /// The height in points of what a thumb needs below all else on a phone while it has the window, if it needs anything.
+    /// The height in points of its controls for thumbs, which stand lowest on a phone while it has the window.
     fn thumb_height(&self) -> Option<f32> {
         None
     }
 
-    /// Shows that.
+    /// Shows the controls for thumbs.
     fn show_thumbs(&mut self, _ui: &mut Ui) {}
 
-    /// Shows what of it lies over everything, whether it is open or not.
+    /// Shows what lies over everything, whether the panel is open or not.
     fn show_over(&mut self, _ui: &Ui, _asked: &mut Vec<Action>) {}
 
-    /// Does what is asked for, if it is one of its own actions; others are given back.
+    /// Does one of its own actions. Returns any other.
     fn act(&mut self, action: Action, acting: &mut Acting<'_>) -> Option<Action>;
 
-    /// Another surface was opened: what belongs to the one before is no more.
+    /// Drops what belongs to the previous surface, after another was opened.
     fn leave_surface(&mut self, _acting: &mut Acting<'_>) {}
 
-    /// Whether frames have to go on by themselves.
+    /// Whether it needs frames without input.
     fn goes_on(&self, _platform: &dyn Platform) -> bool {
         false
     }
