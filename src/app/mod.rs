@@ -164,7 +164,7 @@ impl Panels {
     /// The mode that has the window.
     fn mode(&self, state: &State) -> Mode {
         let there = self.all().into_iter().filter(|panel| panel.is_there(state, Beside::Nothing));
-        there.filter_map(|panel| panel.mode()).max().unwrap_or(Mode::Method)
+        there.filter_map(Panel::mode).max().unwrap_or(Mode::Method)
     }
 
     /// The panel that is this mode.
