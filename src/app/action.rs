@@ -1,8 +1,8 @@
 //! What the user asks for. Every control and key says it in these words, and [`LumenApp`](super::LumenApp) does it in one
-//! place.
+//! place. Of the panels it knows their actions alone, each of which stands in a file that knows no panel.
 
-use super::views::ViewOptions;
-use super::{collapses, compare, lesson, measure, record, recovery, scan, sharing, trial, vessels};
+use super::options::ViewOptions;
+use super::{collapses, compare, lesson, measure, record, scan, trial, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::Language;
 use crate::phantom::Sample;
@@ -54,6 +54,8 @@ pub enum Action {
         /// What is to be seen there, in mm.
         height_mm: f32,
     },
+    /// Take the ring off that marks a place.
+    Unmark,
     /// Show other things in the views.
     Show(ViewOptions),
     /// Show the surface as it was opened beside the level in one picture, or no longer.
@@ -65,27 +67,31 @@ pub enum Action {
     /// Show or leave the compare view.
     Compare,
     /// Something of the comparison.
-    Comparison(compare::Action),
+    Comparison(compare::action::Action),
     /// Start a trial or leave it.
     ToggleTrial,
     /// Something of the trial.
-    Trial(trial::Action),
+    Trial(trial::action::Action),
     /// Something of the vessels and their calibre.
-    Vessels(vessels::Action),
+    Vessels(vessels::action::Action),
     /// Something of what is measured.
-    Measure(measure::Action),
+    Measure(measure::action::Action),
     /// Something of the collapses, one by one.
-    Collapses(collapses::Action),
+    Collapses(collapses::action::Action),
     /// Something of the lessons.
-    Lesson(lesson::Action),
-    /// Something of what is shared.
-    Share(sharing::Action),
+    Lesson(lesson::action::Action),
+    /// Save the settings as a file.
+    SaveSettings,
+    /// Copy a link with the settings and the file's digits.
+    CopyLink,
     /// Something of reports and pictures.
-    Record(record::Action),
-    /// Something of what is kept on this device.
-    Recovery(recovery::Action),
+    Record(record::action::Action),
+    /// Keep the surfaces that are opened for the next start, or do so no longer.
+    KeepSurface(bool),
+    /// Forget everything that is kept on this device.
+    Forget,
     /// Something of a scan.
-    Scan(scan::Action),
+    Scan(scan::action::Action),
     /// Present, or no longer.
     Present,
     /// Speak a language; `None` for that of the system.
@@ -96,9 +102,4 @@ pub enum Action {
     Help,
     /// Show or hide what Lumen is.
     About,
-}
-
-/// The actions of a trial among all others.
-pub(super) fn of_trial(asked: Vec<trial::Action>) -> impl Iterator<Item = Action> {
-    asked.into_iter().map(Action::Trial)
 }

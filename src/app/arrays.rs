@@ -4,7 +4,7 @@ use egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
 
 use super::document::Document;
 use super::halo;
-use super::views::Colours;
+use super::options::Colours;
 use crate::language::decimal;
 use crate::mesh::{ArrayInfo, used_vertices};
 use crate::render::{Colour, ColourMap, label_colour};

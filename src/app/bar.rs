@@ -11,9 +11,12 @@ use super::axes;
 use super::control::progress;
 use super::icon::{self, Icon};
 use super::menus::{long_menu, menu};
+use super::mode::{Entry, Group, Mode};
+use super::options::{Colours, ViewOptions};
+use super::sides::side_label;
 use super::state::State;
-use super::views::{Colours, ViewOptions, Views, side_label};
-use super::{collapses, deviation, lesson, measure, record, recovery, sharing, spoken, theme, verdict, vessels};
+use super::views::Views;
+use super::{deviation, lesson, record, spoken, theme, verdict, vessels};
 use crate::io::{Axes, Format, Unit};
 use crate::language::{self, Key, Language};
 use crate::phantom::Sample;
@@ -33,19 +36,15 @@ fn widths(ctx: &Context) -> [f32; 3] {
 
 /// What else is shown.
 #[derive(Clone, Copy)]
-pub(super) struct Shown {
-    /// A trial.
-    pub(super) in_trial: bool,
-    /// A scan, before there is a surface of it.
-    pub(super) in_scan: bool,
+pub(super) struct Shown<'a> {
+    /// What has the window.
+    pub(super) mode: Mode,
+    /// What modes and panels have in the bar.
+    pub(super) entries: &'a [Entry],
     /// The window is that of a phone, where only what is needed most has a button of its own.
     pub(super) is_narrow: bool,
-    /// The vessels' calibre.
-    pub(super) are_vessels_open: bool,
     /// Someone presents.
     pub(super) is_presenting: bool,
-    /// The measures.
-    pub(super) is_measuring: bool,
     /// Whether surfaces are kept on this device, where they can be.
     pub(super) keeps_surface: Option<bool>,
     /// Links can be made here.
@@ -56,15 +55,15 @@ pub(super) struct Shown {
     pub(super) record: record::Chosen,
 }
 
-impl Shown {
-    /// Whether the two views are shown.
-    fn are_views(&self, state: &State) -> bool {
-        !(self.in_trial || self.in_scan || state.comparison.is_open())
+impl Shown<'_> {
+    /// The entries of a group.
+    fn of(&self, group: Group) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().filter(move |entry| entry.group == group)
     }
 }
 
 /// The bar above.
-pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown, asked: &mut Vec<Action>) {
+pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, asked: &mut Vec<Action>) {
     let mut ask = |wanted: bool, what: Action| {
         if wanted {
             asked.push(what);
@@ -121,11 +120,11 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown, asked
                 ui.separator();
                 let help = say!("app-save-settings-help");
                 let save = ui.button(say!("app-save-settings")).on_hover_text(help).clicked();
-                ask(save, Action::Share(sharing::Action::SaveSettings));
+                ask(save, Action::SaveSettings);
                 if shown.has_links {
                     let help = say!("app-copy-link-help");
                     let copy = ui.button(say!("app-copy-link")).on_hover_text(help).clicked();
-                    ask(copy, Action::Share(sharing::Action::CopyLink));
+                    ask(copy, Action::CopyLink);
                 }
                 if let Some(mut keeps) = shown.keeps_surface {
                     ui.separator();
@@ -143,15 +142,15 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown, asked
             let (redo, help) = (say!("app-redo"), say!("app-redo-help"));
             ask(icon::button(ui, Icon::Redo, can_redo, &redo, &help).clicked(), Action::Redo);
             ui.separator();
-            ui.add_enabled_ui(shown.are_views(state), |ui| {
+            ui.add_enabled_ui(shown.mode == Mode::Method, |ui| {
                 let is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
                 let split = ui.add(Button::new(say!("app-split")).selected(is_split));
                 ask(split.on_hover_text(say!("app-split-help")).clicked(), Action::Reveal);
                 before_button(ui, views, &mut ask);
             });
-            ask(compare(ui, state, shown).on_hover_text(say!("app-compare-help")).clicked(), Action::Compare);
-            let help = say!("app-trial-help");
-            ask(trial(ui, state, shown).on_hover_text(help).clicked(), Action::ToggleTrial);
+            for entry in shown.of(Group::Modes) {
+                ask(button(ui, entry).on_hover_text(entry.help.say()).clicked(), entry.action.clone());
+            }
         }
         if is_short {
             let menu = icon::button(ui, Icon::Menu, true, &say!("app-menu"), &say!("app-menu-help"));
@@ -162,18 +161,11 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown, asked
                 more(ui, state, views, shown, &mut ask);
             });
         } else {
-            let help = say!("app-vessels-help");
-            ask(
-                vessels_button(ui, state, shown).on_hover_text(help).clicked(),
-                Action::Vessels(vessels::Action::Toggle),
-            );
-            let help = say!("app-measure-help");
-            ask(
-                measure_button(ui, state, shown).on_hover_text(help).clicked(),
-                Action::Measure(measure::Action::Toggle),
-            );
+            for entry in shown.of(Group::Beside) {
+                ask(button(ui, entry).on_hover_text(entry.help.say()).clicked(), entry.action.clone());
+            }
             menu(ui, &say!("app-view"), &mut |ui| view_menu(ui, state, views.options, shown, &mut ask));
-            menu(ui, &say!("app-learn"), &mut |ui| learn(ui, state, views, shown, &mut ask));
+            menu(ui, &say!("app-learn"), &mut |ui| learn(ui, shown, &mut ask));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ask(ui.button(say!("app-about")).clicked(), Action::About);
                 ask(ui.button(say!("app-help")).on_hover_text(say!("app-help-help")).clicked(), Action::Help);
@@ -199,33 +191,14 @@ fn open_in(ui: &mut Ui, ask: &mut impl FnMut(bool, Action)) {
 fn kept_here(ui: &mut Ui, keeps: &mut bool, ask: &mut impl FnMut(bool, Action)) {
     let help = say!("app-keep-surface-help");
     let chosen = ui.checkbox(keeps, say!("app-keep-surface")).on_hover_text(help).changed();
-    ask(chosen, Action::Recovery(recovery::Action::KeepSurface(*keeps)));
+    ask(chosen, Action::KeepSurface(*keeps));
     let forget = ui.button(say!("app-forget")).on_hover_text(say!("app-forget-help")).clicked();
-    ask(forget, Action::Recovery(recovery::Action::Forget));
+    ask(forget, Action::Forget);
 }
 
-fn compare(ui: &mut Ui, state: &State, shown: Shown) -> Response {
-    ui.add_enabled(
-        !(shown.in_trial || shown.in_scan),
-        Button::new(say!("app-compare")).selected(state.comparison.is_open()),
-    )
-}
-
-fn trial(ui: &mut Ui, state: &State, Shown { in_trial, in_scan, .. }: Shown) -> Response {
-    let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
-    ui.add_enabled(has_level && !in_scan || in_trial, Button::new(say!("app-trial")).selected(in_trial))
-}
-
-fn vessels_button(ui: &mut Ui, state: &State, shown: Shown) -> Response {
-    let is_open = shown.are_vessels_open;
-    let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
-    ui.add_enabled(has_level && shown.are_views(state) || is_open, Button::new(say!("app-vessels")).selected(is_open))
-}
-
-fn measure_button(ui: &mut Ui, state: &State, shown: Shown) -> Response {
-    let is_open = shown.is_measuring;
-    let has_level = state.document.as_ref().is_some_and(|document| document.shown.is_some());
-    ui.add_enabled(has_level && shown.are_views(state) || is_open, Button::new(say!("app-measure")).selected(is_open))
+/// The button of a mode or a panel.
+fn button(ui: &mut Ui, entry: &Entry) -> Response {
+    ui.add_enabled(entry.is_enabled, Button::new(entry.label.say()).selected(entry.is_open))
 }
 
 /// Shows the surface as it was opened for as long as it is held.
@@ -237,7 +210,7 @@ fn before_button(ui: &mut Ui, views: &Views, ask: &mut impl FnMut(bool, Action))
     ask(is_held != views.before_is_held, Action::HoldBefore(is_held));
 }
 
-fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, shown: Shown, ask: &mut impl FnMut(bool, Action)) {
+fn view_menu(ui: &mut Ui, state: &State, options: ViewOptions, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
     ask(ui.button(say!("app-fit")).clicked(), Action::Fit);
     ui.separator();
     // Where the patient's sides are not known they are sides of the surface alone.
@@ -288,7 +261,7 @@ fn languages(ui: &mut Ui, chosen: Option<Language>, ask: &mut impl FnMut(bool, A
 }
 
 /// Lessons, the steps of decimation, and the words that are used.
-fn learn(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl FnMut(bool, Action)) {
+fn learn(ui: &mut Ui, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
     for (name, title, _) in lesson::LESSONS {
         let begin = ui.button(title.say()).on_hover_text(say!("app-lesson-help"));
         ask(begin.clicked(), Action::Lesson(lesson::Action::Open(name)));
@@ -296,16 +269,17 @@ fn learn(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl
     let own = ui.button(say!("app-open-lesson")).on_hover_text(say!("app-open-lesson-help"));
     ask(own.clicked(), Action::Lesson(lesson::Action::Choose));
     ui.separator();
-    let mut is_open = views.collapses.is_open();
-    let box_of = egui::Checkbox::new(&mut is_open, say!("app-collapses"));
-    let help = say!("app-collapses-help");
-    let toggled = ui.add_enabled(shown.are_views(state), box_of).on_hover_text(help).changed();
-    ask(toggled, Action::Collapses(collapses::Action::Toggle));
+    for entry in shown.of(Group::Learn) {
+        let mut is_open = entry.is_open;
+        let box_of = egui::Checkbox::new(&mut is_open, entry.label.say());
+        let toggled = ui.add_enabled(entry.is_enabled, box_of).on_hover_text(entry.help.say()).changed();
+        ask(toggled, entry.action.clone());
+    }
     let words = ui.button(say!("app-glossary")).on_hover_text(say!("app-glossary-help"));
     ask(words.clicked(), Action::Lesson(lesson::Action::Glossary));
 }
 
-fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl FnMut(bool, Action)) {
+fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &mut impl FnMut(bool, Action)) {
     ask(ui.add_enabled(state.history.can_undo(), Button::new(say!("app-undo"))).clicked(), Action::Undo);
     ask(ui.add_enabled(state.history.can_redo(), Button::new(say!("app-redo"))).clicked(), Action::Redo);
     let mut chosen = views.options;
@@ -313,13 +287,11 @@ fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown, ask: &mut impl 
     ask(chosen != views.options, Action::Show(chosen));
     let mut is_split = state.document.as_ref().is_some_and(|document| views.reveals(document));
     ask(ui.checkbox(&mut is_split, say!("app-split-view")).clicked(), Action::Reveal);
-    ask(compare(ui, state, shown).clicked(), Action::Compare);
-    ask(trial(ui, state, shown).clicked(), Action::ToggleTrial);
-    let toggle = Action::Vessels(vessels::Action::Toggle);
-    ask(vessels_button(ui, state, shown).clicked(), toggle);
-    ask(measure_button(ui, state, shown).clicked(), Action::Measure(measure::Action::Toggle));
+    for entry in [Group::Modes, Group::Beside].into_iter().flat_map(|group| shown.of(group)) {
+        ask(button(ui, entry).clicked(), entry.action.clone());
+    }
     long_menu(ui, &say!("app-view"), &mut |ui| view_menu(ui, state, views.options, shown, ask));
-    long_menu(ui, &say!("app-learn"), &mut |ui| learn(ui, state, views, shown, ask));
+    long_menu(ui, &say!("app-learn"), &mut |ui| learn(ui, shown, ask));
     ask(ui.button(say!("app-theme")).clicked(), Action::Theme);
     ask(ui.button(say!("app-help")).clicked(), Action::Help);
     ask(ui.button(say!("app-about")).clicked(), Action::About);

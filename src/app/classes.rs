@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::assist::name;
 use super::document::Document;
 use super::halo;
-use super::views::seen;
+use super::places::seen;
 use crate::language::inner;
 use crate::pipeline::classes::{Class, Lines};
 use crate::render::{Camera, Colour, ColourMap, label_colour};

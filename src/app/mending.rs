@@ -6,10 +6,16 @@ use super::action::Action;
 use super::assist::name;
 use super::control::{self, reads_comma, suffix};
 use super::document::Document;
+use super::options::{FaultShown, ViewOptions};
+use super::places::seen;
 use super::row::{number, remark, row};
 use super::state::State;
+<<<<<<< HEAD
 use super::views::{FaultShown, ViewOptions, Views, seen};
 use crate::language::{Key, decimal, grouped, inner, text};
+=======
+use crate::language::{Key, decimal, grouped, inner};
+>>>>>>> h-app
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Keep, Settings};
@@ -23,7 +29,7 @@ const LEAST_MM: f32 = 5.0;
 const ORDER: [&str; 4] = ["fill-holes", "weld", "split", "lumen"];
 
 /// Shows the section: folded where there is nothing to mend and nothing is mended.
-pub(super) fn section(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Action>) {
+pub(super) fn section(ui: &mut Ui, state: &State, options: ViewOptions, asked: &mut Vec<Action>) {
     let Some(document) = &state.document else { return };
     let counts = document.faults.as_ref().map(|found| found.counts);
     let is_open = counts.is_some_and(|counts| is_faulty(&counts)) || !state.settings.mending.is_off();
@@ -31,7 +37,7 @@ pub(super) fn section(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec
     // Another surface, or news of this one, folds or unfolds it anew.
     header.id_salt(("mending", document.revision.document, is_open)).show(ui, |ui| {
         match &counts {
-            Some(counts) => faults(ui, document, counts, views, asked),
+            Some(counts) => faults(ui, document, counts, options, asked),
             None => remark(ui, &say!("panel-faults-sought")),
         }
         let mut settings = state.settings.clone();
@@ -57,7 +63,7 @@ fn set(mut settings: Settings) -> Action {
 }
 
 /// What is wrong, with a way to each place.
-fn faults(ui: &mut Ui, document: &Document, counts: &FaultCounts, views: &Views, asked: &mut Vec<Action>) {
+fn faults(ui: &mut Ui, document: &Document, counts: &FaultCounts, options: ViewOptions, asked: &mut Vec<Action>) {
     if !is_faulty(counts) {
         remark(ui, &say!("panel-faults-none"));
     }
@@ -73,7 +79,7 @@ fn faults(ui: &mut Ui, document: &Document, counts: &FaultCounts, views: &Views,
             None => grouped(count),
         };
         row(ui, &what, &help, |ui| {
-            let shown = show_button(ui, document, kind, &what, views, asked);
+            let shown = show_button(ui, document, kind, &what, options, asked);
             ui.label(shown.unwrap_or(counted));
         });
     }
@@ -100,11 +106,11 @@ fn show_button(
     document: &Document,
     kind: FaultKind,
     what: &str,
-    views: &Views,
+    options: ViewOptions,
     asked: &mut Vec<Action>,
 ) -> Option<String> {
     let places: Vec<&FaultPlace> = of_kind(document, kind).collect();
-    let shown = views.options.fault.filter(|shown| shown.kind == kind).map(|shown| usize::from(shown.index));
+    let shown = options.fault.filter(|shown| shown.kind == kind).map(|shown| usize::from(shown.index));
     let next = shown.map_or(0, |index| (index + 1) % places.len().max(1));
     let position = shown.map(|index| say!("panel-of", count = index + 1, all = places.len()));
     let (words, spoken) = match shown {
@@ -117,7 +123,7 @@ fn show_button(
         && let Some(place) = places.get(next)
     {
         let fault = Some(FaultShown { kind, index: next as u16 });
-        asked.push(Action::Show(ViewOptions { fault, ..views.options }));
+        asked.push(Action::Show(ViewOptions { fault, ..options }));
         let height_mm = (AROUND * place.size_mm).max(LEAST_MM);
         asked.push(Action::GoTo { at_mm: place.at_mm, height_mm, label: label(place) });
     }

@@ -1,9 +1,24 @@
 //! The window's content, the same on the desktop and in the browser. It knows no platform: [`Platform`] gives it
 //! files and the line to the engine.
 //!
+//! Layers, the lowest first. A module uses only the layers below its own, so that no two know each other:
+//!
+//! 1. look and input: `theme`, `icon`, `row`, `control`, `assist`, `halo`, `keys`, `places`, `sides`;
+//! 2. what is known: [`document`], [`history`], `options`, `platform`;
+//! 3. actions: the `action.rs` of each panel and the data that it names (`compare/comparison.rs`, `scan/slices.rs`,
+//!    `measure/{clip,subject,tool}.rs`), then `action`;
+//! 4. `state`, `mode`;
+//! 5. drawing: `arrays`, `overlay`, `scene`, `deviation`, `mending`, `verdict`;
+//! 6. panels beside the views: [`collapses`], [`measure`], [`vessels`]; then `views`;
+//! 7. modes with views of their own: `filling`, [`compare`], [`trial`], [`scan`]; [`lesson`], [`record`], `recovery`;
+//! 8. the window: `Panels` below, `bar`, `shortcuts`, `lumen_app`, `lasting`.
+//!
+//! One more panel is its folder, its variant in `action` and its lines in `Panels` below.
+//!
 //! - [`LumenApp`]: the app, frame by frame; [`Action`]: all that can be asked of it. [`LastingApp`]: it outlives the
 //!   graphics device (`paint_guard`: and paints nothing with one that is gone).
 //! - [`State`]: what the app knows and how it changes; [`document`] the surface that is open, [`history`] undo.
+//! - `mode`: the modes, one at a time, and the trait of modes and panels; `filling`: modes with views of their own.
 //! - `panel`, `numbers`, `bar`, `sheets`, `keys`, `shortcuts`: the controls; `row`, `control`, `swipe`, `response`,
 //!   `error_plot`, `icon` what they are made of, `assist` what assistive tools are told of them, `theme` the look.
 //! - `drawer`: the panel of a phone; `tabs`: one large view there.
@@ -38,6 +53,7 @@ mod deviation;
 pub mod document;
 mod drawer;
 mod error_plot;
+mod filling;
 mod flight;
 mod graphics_error;
 mod halo;
@@ -52,10 +68,13 @@ mod lumen_app;
 pub mod measure;
 mod mending;
 mod menus;
+mod mode;
 mod numbers;
+mod options;
 mod overlay;
 mod paint_guard;
 mod panel;
+mod places;
 mod platform;
 mod portrait;
 mod presenter;
@@ -69,6 +88,7 @@ mod scene;
 mod sharing;
 mod sheets;
 mod shortcuts;
+mod sides;
 mod speech;
 mod spoken;
 mod state;
@@ -85,12 +105,70 @@ mod window_texture;
 pub use self::action::Action;
 pub use self::lasting::{LastingApp, OnEnd, Restarts};
 pub use self::lumen_app::LumenApp;
+pub use self::options::{Colours, FaultShown, ViewOptions};
 pub use self::platform::{
-    Devices, FOLLOW_S, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, SHAKE_MS, Store, Tone, Waker,
+    Devices, Engines, FOLLOW_S, Files, Gamepad, Hands, Languages, Listing, OTHER_ENDINGS, Offer, Platform,
+    PlatformEvent, SHAKE_MS, Screen, Sharing, Sound, Storage, Store, Tone, Waker,
 };
 #[cfg(not(target_arch = "wasm32"))]
 pub use self::portrait::report_pictures;
 pub use self::reveal::Reveal;
 pub use self::sheets::Sheet;
 pub use self::state::{Effect, Notice, State, Step};
-pub use self::views::{Colours, FaultShown, ViewOptions, Views};
+pub use self::views::Views;
+
+use self::filling::Filling;
+use self::mode::{Beside, Mode, Panel};
+
+/// The modes and panels, each in its own folder. Bar, keys, Escape and layout go through `all`.
+#[derive(Default)]
+struct Panels {
+    lesson: lesson::Lessons,
+    collapses: collapses::Collapses,
+    vessels: vessels::Vessels,
+    measure: measure::Measuring,
+    compare: compare::CompareView,
+    trial: trial::TrialPanel,
+    scan: scan::ScanPanel,
+}
+
+impl Panels {
+    /// All of them, the lowest first: Escape takes off the last.
+    fn all(&self) -> [&dyn Panel; 7] {
+        let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
+        [lesson, collapses, vessels, measure, compare, trial, scan]
+    }
+
+    /// All of them, in the same order.
+    fn all_mut(&mut self) -> [&mut dyn Panel; 7] {
+        let Self { lesson, collapses, vessels, measure, compare, trial, scan } = self;
+        [lesson, collapses, vessels, measure, compare, trial, scan]
+    }
+
+    /// Those that have views of their own.
+    fn filling_mut(&mut self) -> [&mut dyn Filling; 3] {
+        let Self { compare, trial, scan, .. } = self;
+        [compare, trial, scan]
+    }
+
+    /// What fills the window in this mode; `None` for the views of the method.
+    fn filling_of_mut(&mut self, mode: Mode) -> Option<&mut dyn Filling> {
+        match mode {
+            Mode::Method => None,
+            Mode::Compare => Some(&mut self.compare),
+            Mode::Trial => Some(&mut self.trial),
+            Mode::Scan => Some(&mut self.scan),
+        }
+    }
+
+    /// The mode that has the window.
+    fn mode(&self, state: &State) -> Mode {
+        let there = self.all().into_iter().filter(|panel| panel.is_there(state, Beside::Nothing));
+        there.filter_map(Panel::mode).max().unwrap_or(Mode::Method)
+    }
+
+    /// The panel that is this mode.
+    fn of_mut(&mut self, mode: Mode) -> Option<&mut dyn Panel> {
+        self.all_mut().into_iter().find(|panel| panel.mode() == Some(mode))
+    }
+}

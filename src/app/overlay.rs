@@ -3,7 +3,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
-use super::views::seen;
+use super::places::seen;
 use super::{arrays, halo};
 use crate::io::Axes;
 use crate::language::{Key, decimal, grouped};

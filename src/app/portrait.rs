@@ -9,7 +9,7 @@ use crate::render::{
 use super::lettering::Lettering;
 use super::overlay::{self, Writing};
 use super::scene::upload;
-use super::views::{first_view, stand};
+use super::sides::{first_view, stand};
 use crate::io::Axes;
 use crate::language::{decimal, signed};
 use crate::mesh::ArrayInfo;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::document::Document;
 use super::history::History;
-use super::platform::{Platform, Store};
+use super::platform::{Platform, Storage, Store};
 use super::state::{State, Step};
 use super::trial::Trial;
 use crate::engine::{Link, Source};
@@ -18,15 +18,6 @@ use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
 use crate::render::Camera;
 use crate::say;
-
-/// Something of what is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
-    /// Keep the surfaces that are opened for the next start, or do so no longer.
-    KeepSurface(bool),
-    /// Forget everything that is kept.
-    Forget,
-}
 
 /// The version of what is kept; another is not read.
 const VERSION: u32 = 1;
@@ -238,7 +229,7 @@ impl Recovery {
     }
 
     /// Hears that a surface was opened.
-    pub(super) fn opened(&mut self, state: &mut State, platform: &mut dyn Platform) {
+    pub(super) fn opened(&mut self, state: &mut State, platform: &mut dyn Storage) {
         self.is_forgotten = false;
         self.keep_surface(state, platform);
         if let Some(document) = state.document.as_mut().filter(|document| !document.states_axes)
@@ -293,44 +284,42 @@ impl Recovery {
     }
 
     /// Whether surfaces are kept; `None` where the platform keeps nothing.
-    pub(super) fn keeps(&self, platform: &mut dyn Platform) -> Option<bool> {
+    pub(super) fn keeps(&self, platform: &mut dyn Storage) -> Option<bool> {
         platform.store().map(|_| self.keeps_surface)
     }
 
-    /// Does what is asked for.
-    pub(super) fn act(&mut self, action: Action, state: &mut State, trial: &mut Trial, platform: &mut dyn Platform) {
-        match action {
-            Action::KeepSurface(keeps) => {
-                self.keeps_surface = keeps;
-                self.is_forgotten &= !keeps;
-                if keeps {
-                    self.keep_surface(state, platform);
-                    let text = match surface(state) {
-                        Some(Surface::File { name, .. }) => say!("app-surfaces-kept-and-this", name = name),
-                        Some(Surface::Sample(_)) | None => say!("app-surfaces-kept"),
-                    };
-                    state.tell(&text);
-                } else if let Some(store) = platform.store() {
-                    store.forget_surface();
-                    state.tell(&say!("app-surfaces-not-kept"));
-                }
-            }
-            Action::Forget => {
-                self.keeps_surface = false;
-                self.returning = None;
-                self.axes.clear();
-                trial.set_known_mappings(KnownMappings::default());
-                if let Some(store) = platform.store() {
-                    store.forget();
-                }
-                self.is_forgotten = true;
-                self.written = None;
-                state.tell(&say!("app-forgotten"));
-            }
+    /// Keeps the surfaces that are opened from now on, or does so no longer.
+    pub(super) fn keep_surfaces(&mut self, keeps: bool, state: &mut State, platform: &mut dyn Storage) {
+        self.keeps_surface = keeps;
+        self.is_forgotten &= !keeps;
+        if keeps {
+            self.keep_surface(state, platform);
+            let text = match surface(state) {
+                Some(Surface::File { name, .. }) => say!("app-surfaces-kept-and-this", name = name),
+                Some(Surface::Sample(_)) | None => say!("app-surfaces-kept"),
+            };
+            state.tell(&text);
+        } else if let Some(store) = platform.store() {
+            store.forget_surface();
+            state.tell(&say!("app-surfaces-not-kept"));
         }
     }
 
-    fn keep_surface(&self, state: &State, platform: &mut dyn Platform) {
+    /// Forgets everything that is kept.
+    pub(super) fn forget(&mut self, state: &mut State, trial: &mut Trial, platform: &mut dyn Storage) {
+        self.keeps_surface = false;
+        self.returning = None;
+        self.axes.clear();
+        trial.set_known_mappings(KnownMappings::default());
+        if let Some(store) = platform.store() {
+            store.forget();
+        }
+        self.is_forgotten = true;
+        self.written = None;
+        state.tell(&say!("app-forgotten"));
+    }
+
+    fn keep_surface(&self, state: &State, platform: &mut dyn Storage) {
         let Some(store) = platform.store().filter(|_| self.keeps_surface) else { return };
         match state.document.as_ref().map(|document| &document.source) {
             Some(Source::File { name, bytes, .. }) => store.keep_surface(name, bytes),
@@ -340,7 +329,7 @@ impl Recovery {
     }
 
     /// To be called each frame: writes what has changed, not more than once a second.
-    pub(super) fn follow(&mut self, now: Now<'_>, platform: &mut dyn Platform, ctx: &Context) {
+    pub(super) fn follow(&mut self, now: Now<'_>, platform: &mut dyn Storage, ctx: &Context) {
         let Some(store) = platform.store() else { return };
         let (key, state) = (self.key(now), now.state);
         if self.is_forgotten || state.document.is_none() || self.written.as_ref() == Some(&key) {
@@ -384,7 +373,7 @@ impl Recovery {
 }
 
 /// The language that was chosen before, if one was: it is spoken before anything is brought back.
-pub(super) fn language(platform: &mut dyn Platform) -> Option<Language> {
+pub(super) fn language(platform: &mut dyn Storage) -> Option<Language> {
     Language::of_tag(&Session::read(&platform.store()?.text()?)?.language?)
 }
 

@@ -1,9 +1,20 @@
 //! The rows of the panel: the head of a step, a control with its label, a number, a remark.
 
-use egui::{Align, Label, Layout, RichText, Ui};
+use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
 
 use super::assist::heading;
 use super::theme;
+
+/// A column that scrolls.
+pub(super) fn scrolled<R>(ui: &mut Ui, show: impl FnOnce(&mut Ui) -> R) -> R {
+    let column = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // Room for the scroll bar beside what stands at the right.
+        ui.set_max_width(ui.available_width() - 8.0);
+        ui.spacing_mut().item_spacing.y = 3.0;
+        show(ui)
+    });
+    column.inner
+}
 
 /// The head of a step of the method: its number and name, and what it does.
 pub(super) fn step(ui: &mut Ui, number: u32, title: &str, what: &str) {

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use egui::TextureId;
 
 use super::document::{Document, Revision};
-use super::scan::SlicePicture;
-use super::views::Colours;
+use super::options::Colours;
+use super::scan::slices::SlicePicture;
 use super::window_texture::WindowTarget;
 use super::{arrays, classes};
 use crate::mesh::{TriMesh, Vec3};

@@ -2,7 +2,7 @@
 //! open is that file.
 
 use super::document::Document;
-use super::platform::Platform;
+use super::platform::{Files, Sharing as PageSharing};
 use super::state::State;
 use crate::engine::{Link as EngineLink, Source};
 use crate::io::Unit;
@@ -11,15 +11,6 @@ use crate::say;
 use crate::sharing::{
     Link, Measured, SharedSettings, SharedSurface, ShortDigest, read_settings_and, write_settings_and,
 };
-
-/// Something of what is shared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
-    /// Save the settings as a file.
-    SaveSettings,
-    /// Copy a link with the settings and the file's digits.
-    CopyLink,
-}
 
 /// What a settings file ends in.
 const ENDING: &str = ".json";
@@ -36,32 +27,32 @@ pub(super) struct Sharing {
 }
 
 impl Sharing {
-    /// Does what is asked for.
-    pub(super) fn act(action: Action, state: &mut State, platform: &mut dyn Platform, ctx: &egui::Context) {
-        match action {
-            Action::SaveSettings => {
-                let stem = state.document.as_ref().map_or("lumen".to_owned(), Document::stem);
-                let name = format!("{stem}-settings{ENDING}");
-                let of = surface(state).filter(|_| !state.measures.is_empty()).map(known_by);
-                if of.is_none() && !state.measures.is_empty() {
-                    state.leave_out(&say!("app-measures-not-saved"));
-                }
-                let measured = of.map(|of| Measured { of, measures: state.measures.to_vec() });
-                platform.offer_file(&name, write_settings_and(&shared(state), measured).into_bytes(), ctx);
+    /// Saves the settings as a file.
+    pub(super) fn save(state: &mut State, files: &mut dyn Files, ctx: &egui::Context) {
+        let stem = state.document.as_ref().map_or("lumen".to_owned(), Document::stem);
+        let name = format!("{stem}-settings{ENDING}");
+        let of = surface(state).filter(|_| !state.measures.is_empty()).map(known_by);
+        if of.is_none() && !state.measures.is_empty() {
+            state.leave_out(&say!("app-measures-not-saved"));
+        }
+        let measured = of.map(|of| Measured { of, measures: state.measures.to_vec() });
+        files.offer_file(&name, write_settings_and(&shared(state), measured).into_bytes(), ctx);
+    }
+
+    /// Copies a link with the settings and the file's digits.
+    pub(super) fn copy_link(state: &mut State, page: &dyn PageSharing, ctx: &egui::Context) {
+        match (page.address(), surface(state)) {
+            (Some(address), Some(surface)) => {
+                let link = Link { surface, shared: shared(state) };
+                ctx.copy_text(format!("{address}#{}", link.fragment()));
+                let text = match surface {
+                    SharedSurface::File(_) => say!("app-link-copied-file"),
+                    SharedSurface::Sample(_) => say!("app-link-copied-sample"),
+                };
+                state.tell(&text);
             }
-            Action::CopyLink => match (platform.address(), surface(state)) {
-                (Some(address), Some(surface)) => {
-                    let link = Link { surface, shared: shared(state) };
-                    ctx.copy_text(format!("{address}#{}", link.fragment()));
-                    let text = match surface {
-                        SharedSurface::File(_) => say!("app-link-copied-file"),
-                        SharedSurface::Sample(_) => say!("app-link-copied-sample"),
-                    };
-                    state.tell(&text);
-                }
-                _ if has_fewer(state) => state.tell(&say!("app-link-fewer")),
-                _ => state.tell(&say!("app-link-nothing")),
-            },
+            _ if has_fewer(state) => state.tell(&say!("app-link-fewer")),
+            _ => state.tell(&say!("app-link-nothing")),
         }
     }
 

@@ -19,7 +19,8 @@ pub enum Sheet {
     Glossary,
 }
 
-const KEYS: [(Key, Key); 24] = [
+/// What keys and gestures do in the views. Those of the panels come after them.
+const IN_VIEWS: [(Key, Key); 11] = [
     (Key("app-key-drag"), Key("app-key-drag-does")),
     (Key("app-key-move"), Key("app-key-move-does")),
     (Key("app-key-zoom"), Key("app-key-zoom-does")),
@@ -31,10 +32,10 @@ const KEYS: [(Key, Key); 24] = [
     (Key("app-key-left-out"), Key("app-key-left-out-does")),
     (Key("app-key-deviation"), Key("app-key-deviation-does")),
     (Key("app-key-raking"), Key("app-key-raking-does")),
-    (Key("app-key-vessels"), Key("app-key-vessels-does")),
-    (Key("app-key-measure"), Key("app-key-measure-does")),
-    (Key("app-key-compare"), Key("app-key-compare-does")),
-    (Key("app-key-compare-first"), Key("app-key-compare-first-does")),
+];
+
+/// What the other keys do.
+const OTHERS: [(Key, Key); 9] = [
     (Key("app-key-present"), Key("app-key-present-does")),
     (Key("app-key-open"), Key("app-key-open-does")),
     (Key("app-key-save"), Key("app-key-save-does")),
@@ -46,36 +47,18 @@ const KEYS: [(Key, Key); 24] = [
     (Key("app-key-sheet"), Key("app-key-sheet-does")),
 ];
 
-/// What the keys do while a trial is shown.
-const TRIAL_KEYS: [(Key, Key); 18] = [
-    (Key("app-trial-key-feed"), Key("app-trial-key-feed-does")),
-    (Key("app-trial-key-roll"), Key("app-trial-key-roll-does")),
-    (Key("app-trial-key-faster"), Key("app-trial-key-faster-does")),
-    (Key("app-trial-key-gamepad"), Key("app-trial-key-gamepad-does")),
-    (Key("app-trial-key-autopilot"), Key("app-trial-key-autopilot-does")),
-    (Key("app-trial-key-fluoroscopy"), Key("app-trial-key-fluoroscopy-does")),
-    (Key("app-trial-key-enlarge"), Key("app-trial-key-enlarge-does")),
-    (Key("app-trial-key-contrast"), Key("app-trial-key-contrast-does")),
-    (Key("app-trial-key-arm"), Key("app-trial-key-arm-does")),
-    (Key("app-trial-key-turn-arm"), Key("app-trial-key-turn-arm-does")),
-    (Key("app-trial-key-magnify"), Key("app-trial-key-magnify-does")),
-    (Key("app-trial-key-restart"), Key("app-trial-key-restart-does")),
-    (Key("app-trial-key-pause"), Key("app-trial-key-pause-does")),
-    (Key("app-trial-key-back"), Key("app-trial-key-back-does")),
-    (Key("app-trial-key-slow"), Key("app-trial-key-slow-does")),
-    (Key("app-trial-key-escape"), Key("app-trial-key-escape-does")),
-    (Key("app-trial-key-view"), Key("app-trial-key-view-does")),
-    (Key("app-trial-key-sheet"), Key("app-trial-key-sheet-does")),
-];
+/// The lines of the sheet of keys: those that the mode has for itself, or else those of views and panels.
+pub(super) fn keys(of_mode: Option<&[(Key, Key)]>, of_panels: &[(Key, Key)]) -> Vec<(Key, Key)> {
+    of_mode.map_or_else(|| [&IN_VIEWS[..], of_panels, &OTHERS[..]].concat(), <[_]>::to_vec)
+}
 
-/// Shows a sheet; says whether it should be closed. `in_trial`: whether a trial is shown, which has keys of its own.
-pub(super) fn show(ui: &Ui, sheet: Sheet, in_trial: bool) -> bool {
+/// Shows a sheet; says whether it should be closed. `keys` are the lines of that of keys.
+pub(super) fn show(ui: &Ui, sheet: Sheet, keys: &[(Key, Key)]) -> bool {
     let frame = egui::Frame::popup(ui.style()).inner_margin(24.0);
     let response = Modal::new(Id::unique("sheet")).frame(frame).show(ui.ctx(), |ui| {
         ui.set_max_width(560.0_f32.min(ui.ctx().content_rect().width() - 80.0));
         match sheet {
-            Sheet::Help if in_trial => help(ui, &TRIAL_KEYS),
-            Sheet::Help => help(ui, &KEYS),
+            Sheet::Help => help(ui, keys),
             Sheet::About => about(ui),
             Sheet::Glossary => words(ui),
         }

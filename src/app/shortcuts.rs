@@ -4,8 +4,9 @@ use egui::{Key, KeyboardShortcut, Modifiers, Ui};
 
 use super::action::Action;
 use super::keys::{Keys, pressed};
-use super::views::{Colours, ViewOptions, Views};
-use super::{measure, vessels};
+use super::mode::Entry;
+use super::options::{Colours, ViewOptions};
+use super::views::Views;
 use crate::io::Format;
 use crate::render::StandardView;
 
@@ -33,7 +34,7 @@ pub(super) fn with_ctrl(ui: &Ui, keys: Keys) -> Option<Action> {
 }
 
 /// What the other keys ask for in this frame.
-pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
+pub(super) fn action(ui: &Ui, views: &mut Views, entries: &[Entry]) -> Option<Action> {
     let pressed = |key| pressed(ui, Modifiers::NONE, key);
     for (key, view) in VIEW_KEYS.into_iter().zip(StandardView::ALL) {
         if pressed(key) {
@@ -56,20 +57,14 @@ pub(super) fn action(ui: &Ui, views: &mut Views) -> Option<Action> {
     if pressed(Key::R) {
         return Some(Action::Reveal);
     }
-    if pressed(Key::V) {
-        return Some(Action::Vessels(vessels::Action::Toggle));
-    }
-    if pressed(Key::M) {
-        return Some(Action::Measure(measure::Action::Toggle));
+    if let Some(entry) = entries.iter().find(|entry| entry.key.is_some_and(pressed)) {
+        return Some(entry.action.clone());
     }
     if pressed(Key::F) {
         return Some(Action::Fit);
     }
     if pressed(Key::P) {
         return Some(Action::Present);
-    }
-    if pressed(Key::C) {
-        return Some(Action::Compare);
     }
     if pressed(Key::T) {
         return Some(Action::Theme);

@@ -1,7 +1,7 @@
 //! Which language the app speaks: the one that was chosen, or else the system's, or else English. Its messages stand in the
-//! program or, in a browser, are fetched ([`Platform::fetch_texts`]): what was spoken goes on until they are there.
+//! program or, in a browser, are fetched ([`Languages::fetch_texts`]): what was spoken goes on until they are there.
 
-use super::platform::Platform;
+use super::platform::Languages;
 use crate::language::{self, Language};
 use crate::say;
 
@@ -16,7 +16,7 @@ pub(super) struct Speech {
 
 impl Speech {
     /// Speaks the language that was chosen before, or the system's. Where neither is known, what is spoken goes on.
-    pub(super) fn begin(chosen: Option<Language>, platform: &mut dyn Platform) -> Self {
+    pub(super) fn begin(chosen: Option<Language>, platform: &mut dyn Languages) -> Self {
         let mut speech = Self { chosen, awaited: None };
         if let Some(language) = chosen.or_else(|| of_system(platform)) {
             speech.turn_to(language, platform);
@@ -30,7 +30,7 @@ impl Speech {
     }
 
     /// Speaks a language, or for `None` that of the system.
-    pub(super) fn choose(&mut self, chosen: Option<Language>, platform: &mut dyn Platform) {
+    pub(super) fn choose(&mut self, chosen: Option<Language>, platform: &mut dyn Languages) {
         self.chosen = chosen;
         let language = chosen.or_else(|| of_system(platform)).unwrap_or_default();
         self.turn_to(language, platform);
@@ -42,7 +42,7 @@ impl Speech {
         &mut self,
         language: Language,
         texts: Result<String, String>,
-        platform: &mut dyn Platform,
+        platform: &mut dyn Languages,
     ) -> Result<(), String> {
         if self.awaited != Some(language) {
             return Ok(());
@@ -53,7 +53,7 @@ impl Speech {
         Ok(())
     }
 
-    fn turn_to(&mut self, language: Language, platform: &mut dyn Platform) {
+    fn turn_to(&mut self, language: Language, platform: &mut dyn Languages) {
         self.awaited = None;
         if language == language::spoken() {
             return;
@@ -69,12 +69,12 @@ impl Speech {
 }
 
 /// The language of the system, where Lumen has it.
-fn of_system(platform: &dyn Platform) -> Option<Language> {
+fn of_system(platform: &dyn Languages) -> Option<Language> {
     Language::of_tag(&platform.locale()?)
 }
 
 /// Speaks a language, here and in the engines.
-fn speak(language: Language, texts: &[&str], platform: &mut dyn Platform) {
+fn speak(language: Language, texts: &[&str], platform: &mut dyn Languages) {
     language::speak(language, texts);
     // English is in every engine.
     let texts = if language == Language::English { String::new() } else { texts.join("\n") };

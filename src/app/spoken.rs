@@ -81,7 +81,7 @@ pub(super) fn announce(ui: &Ui, state: &State) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::views::stand;
+    use crate::app::sides::stand;
     use crate::render::StandardView;
 
     #[test]

@@ -11,7 +11,7 @@ mod tests;
 
 use std::sync::Arc;
 
-use super::compare::Comparison;
+use super::compare::comparison::Comparison;
 use super::document::{Document, Revision};
 use super::history::History;
 use crate::engine::{Calibre, Command, Link, Source, Work};

@@ -19,7 +19,10 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use self::thread::ThreadLink;
 pub use self::window::{run, run_on};
-use crate::app::{Devices, Offer, Platform, PlatformEvent, Tone, Waker};
+use crate::app::{
+    self, Devices, Engines, Files, Hands, Languages, Offer, Platform, PlatformEvent, Screen, Sharing, Storage, Tone,
+    Waker,
+};
 use crate::engine::scan::ScanLink;
 use crate::engine::trial::{Exchange, TrialLink};
 use crate::engine::{Engine, Link, TrialEngine};
@@ -53,6 +56,16 @@ impl Desktop {
 }
 
 impl Platform for Desktop {
+    fn enter(&mut self, ctx: &egui::Context) {
+        self.waker.enter(ctx);
+    }
+
+    fn poll(&mut self) -> Option<PlatformEvent> {
+        self.events.try_recv().ok()
+    }
+}
+
+impl Engines for Desktop {
     fn link(&mut self) -> &mut dyn Link {
         &mut self.link
     }
@@ -64,32 +77,9 @@ impl Platform for Desktop {
     fn scans(&mut self) -> Option<&mut ScanLink> {
         self.scans.link()
     }
+}
 
-    fn devices(&mut self) -> Option<&mut dyn Devices> {
-        Some(&mut self.devices)
-    }
-
-    fn has_sound(&self) -> bool {
-        self.sound.is_there()
-    }
-
-    fn sound(&mut self, tone: Tone) {
-        self.sound.play(tone);
-    }
-
-    fn locale(&self) -> Option<String> {
-        sys_locale::get_locale()
-    }
-
-    fn speak(&mut self, language: Language, _: &str) {
-        speech::set(language);
-        self.devices.speak();
-    }
-
-    fn enter(&mut self, ctx: &egui::Context) {
-        self.waker.enter(ctx);
-    }
-
+impl Files for Desktop {
     fn choose_file(&mut self, _: &egui::Context) {
         files::choose(self.scans.disk(), self.sender.clone(), self.waker.clone());
     }
@@ -106,8 +96,37 @@ impl Platform for Desktop {
     fn offer_pair(&mut self, pair: [Offer; 2], _: &egui::Context) {
         files::save_pair(pair, self.sender.clone(), self.waker.clone());
     }
+}
 
-    fn poll(&mut self) -> Option<PlatformEvent> {
-        self.events.try_recv().ok()
+impl Storage for Desktop {}
+
+impl Screen for Desktop {}
+
+impl Sharing for Desktop {}
+
+impl Languages for Desktop {
+    fn locale(&self) -> Option<String> {
+        sys_locale::get_locale()
+    }
+
+    fn speak(&mut self, language: Language, _: &str) {
+        speech::set(language);
+        self.devices.speak();
+    }
+}
+
+impl Hands for Desktop {
+    fn devices(&mut self) -> Option<&mut dyn Devices> {
+        Some(&mut self.devices)
+    }
+}
+
+impl app::Sound for Desktop {
+    fn has_sound(&self) -> bool {
+        self.sound.is_there()
+    }
+
+    fn sound(&mut self, tone: Tone) {
+        self.sound.play(tone);
     }
 }

@@ -6,7 +6,8 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 use lumen::app::{
-    Devices as AppDevices, Gamepad, Listing, OTHER_ENDINGS, Offer, Platform, PlatformEvent, Store, Tone, Waker,
+    Devices as AppDevices, Engines, Files, Gamepad, Hands, Languages, Listing, OTHER_ENDINGS, Offer, Platform,
+    PlatformEvent, Screen, Sharing, Sound, Storage, Store, Tone, Waker,
 };
 use lumen::engine::Link;
 use lumen::engine::scan::ScanLink;
@@ -174,54 +175,23 @@ fn matches_media(query: &str) -> bool {
 }
 
 impl Platform for Browser {
-    fn memory_limit(&self) -> Option<u64> {
-        // Of a program with addresses of 32 bits.
-        Some(1 << 32)
+    fn enter(&mut self, ctx: &egui::Context) {
+        self.waker.enter(ctx);
     }
 
-    /// `?samples=10000` at the end of the page's address.
-    fn sample_triangles(&self) -> Option<u32> {
-        address::asked("samples")?.parse().ok()
+    fn poll(&mut self) -> Option<PlatformEvent> {
+        if self.scans.has_picture() && !std::mem::replace(&mut self.has_asked_for_texts, true) {
+            self.texts.fetch_all();
+        }
+        let news = self.inbox.borrow_mut().pop_front()?;
+        Some(match news {
+            News::Event(event) => event,
+            News::Scan(files) => PlatformEvent::Scan { files: self.scans.hand_over(&files) },
+        })
     }
+}
 
-    fn prefers_less_motion(&self) -> bool {
-        matches_media("(prefers-reduced-motion: reduce)")
-    }
-
-    fn locale(&self) -> Option<String> {
-        web_sys::window()?.navigator().language()
-    }
-
-    fn fetch_texts(&mut self, language: Language) {
-        let tell = self.news();
-        self.texts.want(language, Box::new(move |texts| tell(PlatformEvent::Texts { language, texts })));
-    }
-
-    fn speak(&mut self, language: Language, texts: &str) {
-        // Each line keeps one for the Workers to come.
-        self.link.speak(speech::value(language, texts));
-        self.trial.speak(speech::value(language, texts));
-        self.scans.speak(speech::value(language, texts));
-        self.devices.change();
-    }
-
-    fn show_language(&mut self, tag: &'static str) {
-        let Some(document) = web_sys::window().and_then(|window| window.document()) else { return };
-        // Without a page there is nobody to read its language, and without graphics there is no field yet.
-        let _ = document.document_element().map(|page| page.set_attribute("lang", tag));
-        let _ = document.get_element_by_id(TYPED).map(|field| field.set_attribute("aria-label", &say!("scan-typed")));
-    }
-
-    fn has_finger(&self) -> bool {
-        matches_media("(pointer: coarse)")
-    }
-
-    fn has_attention(&self) -> bool {
-        let document = web_sys::window().and_then(|window| window.document());
-        // Where it cannot be told, eframe's own word counts.
-        document.is_none_or(|document| document.has_focus().unwrap_or(true))
-    }
-
+impl Engines for Browser {
     fn link(&mut self) -> &mut dyn Link {
         &mut self.link
     }
@@ -234,43 +204,13 @@ impl Platform for Browser {
         Some(&mut self.scans)
     }
 
-    fn enter(&mut self, ctx: &egui::Context) {
-        self.waker.enter(ctx);
+    fn memory_limit(&self) -> Option<u64> {
+        // Of a program with addresses of 32 bits.
+        Some(1 << 32)
     }
+}
 
-    fn gamepad(&self) -> Option<Gamepad> {
-        crate::gamepad::read()
-    }
-
-    fn was_left(&self) -> bool {
-        self.devices.was_left()
-    }
-
-    fn rumble(&mut self, strength: f64) {
-        crate::gamepad::shake(strength);
-    }
-
-    fn has_sound(&self) -> bool {
-        crate::sound::is_there()
-    }
-
-    fn sound(&mut self, tone: Tone) {
-        crate::sound::play(tone);
-    }
-
-    fn devices(&mut self) -> Option<&mut dyn AppDevices> {
-        Some(self)
-    }
-
-    fn store(&mut self) -> Option<&mut dyn Store> {
-        Some(self)
-    }
-
-    fn address(&self) -> Option<String> {
-        let address = web_sys::window()?.location().href().ok()?;
-        address.split(['?', '#']).next().map(str::to_owned)
-    }
-
+impl Files for Browser {
     fn choose_file(&mut self, _: &egui::Context) {
         let endings = Format::opened().chain(scans::ENDINGS).chain(OTHER_ENDINGS);
         let accept: Vec<String> = endings.map(|ending| format!(".{ending}")).collect();
@@ -309,16 +249,93 @@ impl Platform for Browser {
         };
         self.news()(event);
     }
+}
 
-    fn poll(&mut self) -> Option<PlatformEvent> {
-        if self.scans.has_picture() && !std::mem::replace(&mut self.has_asked_for_texts, true) {
-            self.texts.fetch_all();
-        }
-        let news = self.inbox.borrow_mut().pop_front()?;
-        Some(match news {
-            News::Event(event) => event,
-            News::Scan(files) => PlatformEvent::Scan { files: self.scans.hand_over(&files) },
-        })
+impl Storage for Browser {
+    fn store(&mut self) -> Option<&mut dyn Store> {
+        Some(self)
+    }
+}
+
+impl Screen for Browser {
+    fn has_attention(&self) -> bool {
+        let document = web_sys::window().and_then(|window| window.document());
+        // Where it cannot be told, eframe's own word counts.
+        document.is_none_or(|document| document.has_focus().unwrap_or(true))
+    }
+
+    fn was_left(&self) -> bool {
+        self.devices.was_left()
+    }
+
+    fn prefers_less_motion(&self) -> bool {
+        matches_media("(prefers-reduced-motion: reduce)")
+    }
+
+    fn has_finger(&self) -> bool {
+        matches_media("(pointer: coarse)")
+    }
+}
+
+impl Sharing for Browser {
+    fn address(&self) -> Option<String> {
+        let address = web_sys::window()?.location().href().ok()?;
+        address.split(['?', '#']).next().map(str::to_owned)
+    }
+
+    /// `?samples=10000` at the end of the page's address.
+    fn sample_triangles(&self) -> Option<u32> {
+        address::asked("samples")?.parse().ok()
+    }
+}
+
+impl Languages for Browser {
+    fn locale(&self) -> Option<String> {
+        web_sys::window()?.navigator().language()
+    }
+
+    fn fetch_texts(&mut self, language: Language) {
+        let tell = self.news();
+        self.texts.want(language, Box::new(move |texts| tell(PlatformEvent::Texts { language, texts })));
+    }
+
+    fn speak(&mut self, language: Language, texts: &str) {
+        // Each line keeps one for the Workers to come.
+        self.link.speak(speech::value(language, texts));
+        self.trial.speak(speech::value(language, texts));
+        self.scans.speak(speech::value(language, texts));
+        self.devices.change();
+    }
+
+    fn show_language(&mut self, tag: &'static str) {
+        let Some(document) = web_sys::window().and_then(|window| window.document()) else { return };
+        // Without a page there is nobody to read its language, and without graphics there is no field yet.
+        let _ = document.document_element().map(|page| page.set_attribute("lang", tag));
+        let _ = document.get_element_by_id(TYPED).map(|field| field.set_attribute("aria-label", &say!("scan-typed")));
+    }
+}
+
+impl Hands for Browser {
+    fn gamepad(&self) -> Option<Gamepad> {
+        crate::gamepad::read()
+    }
+
+    fn rumble(&mut self, strength: f64) {
+        crate::gamepad::shake(strength);
+    }
+
+    fn devices(&mut self) -> Option<&mut dyn AppDevices> {
+        Some(self)
+    }
+}
+
+impl Sound for Browser {
+    fn has_sound(&self) -> bool {
+        crate::sound::is_there()
+    }
+
+    fn sound(&mut self, tone: Tone) {
+        crate::sound::play(tone);
     }
 }
 

@@ -3,7 +3,7 @@
 //!
 //! A step is another number of triangles in the settings, as if it had been typed: what is shown is the level in force.
 
-mod action;
+pub(super) mod action;
 
 use egui::{Button, Color32, Label, Rect, ScrollArea, Shape, Stroke, Ui};
 use glam::Vec3;
@@ -11,9 +11,12 @@ use glam::Vec3;
 pub use self::action::Action;
 use crate::app::action::Action as Ask;
 use crate::app::document::Document;
+use crate::app::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel, Place};
+use crate::app::places::seen;
+use crate::app::platform::Platform;
 use crate::app::state::State;
-use crate::app::views::seen;
-use crate::language::{decimal, inner};
+use crate::app::theme;
+use crate::language::{Key, decimal, inner};
 use crate::pipeline::classes::Class;
 use crate::pipeline::decimation::{Fate, Ways};
 use crate::pipeline::one_collapse::OneCollapse;
@@ -27,10 +30,14 @@ const PERIOD_S: f64 = 1.2;
 /// Height of what is seen at a collapse, in times the size of its hole.
 const AROUND: f32 = 5.0;
 
+/// The collapses; nothing is known of them while they are not shown.
+#[derive(Default)]
+pub struct Collapses(Option<Open>);
+
 /// What is shown of the collapses.
 #[derive(Default)]
-pub struct Collapses {
-    is_open: bool,
+struct Open {
+    /// Whether the camera stays where it is.
     stays: bool,
     /// Since when the present level is shown, by the window's clock, while they are played.
     playing_s: Option<f64>,
@@ -49,76 +56,81 @@ struct Shown {
 impl Collapses {
     /// Whether they are shown.
     pub fn is_open(&self) -> bool {
-        self.is_open
+        self.0.is_some()
     }
 
     /// Whether they follow one another.
     pub fn is_playing(&self) -> bool {
-        self.playing_s.is_some()
+        self.0.as_ref().is_some_and(|open| open.playing_s.is_some())
+    }
+
+    /// What is known of the level that is shown.
+    fn shown(&self) -> Option<&Shown> {
+        self.0.as_ref()?.shown.as_ref()
     }
 
     /// The next collapse of the level that is shown, while they are shown.
     pub fn next(&self) -> Option<&OneCollapse> {
-        self.shown.as_ref()?.next.as_ref()
+        self.shown()?.next.as_ref()
     }
 
     /// Where the vertex that was asked for may go.
     pub fn ways(&self) -> Option<&Ways> {
-        self.shown.as_ref()?.asked.as_ref().map(|(_, ways)| ways)
+        self.shown()?.asked.as_ref().map(|(_, ways)| ways)
     }
 
     /// Does what is asked for; `now_s` is the window's clock.
-    pub(super) fn act(&mut self, action: Action, state: &mut State, now_s: f64) {
+    fn act_on(&mut self, action: Action, state: &mut State, now_s: f64) {
+        if action == Action::Toggle {
+            self.0 = if self.is_open() { None } else { Some(Open::default()) };
+        }
+        if let Action::Step(on) = action {
+            step(state, on);
+        }
+        let Some(open) = &mut self.0 else { return };
         match action {
-            Action::Toggle => *self = Self { is_open: !self.is_open, ..Self::default() },
-            Action::Step(on) => {
-                step(state, on);
-                self.playing_s = self.playing_s.map(|_| now_s);
-            }
-            Action::Play => self.playing_s = if self.is_playing() { None } else { Some(now_s) },
-            Action::Follow(follows) => self.stays = !follows,
+            Action::Toggle => {}
+            Action::Step(_) => open.playing_s = open.playing_s.map(|_| now_s),
+            Action::Play => open.playing_s = if open.playing_s.is_some() { None } else { Some(now_s) },
+            Action::Follow(follows) => open.stays = !follows,
             Action::Why(node) => {
                 let document = state.document.as_ref();
-                if let (Some(shown), Some(document)) = (&mut self.shown, document) {
+                if let (Some(shown), Some(document)) = (&mut open.shown, document) {
                     shown.asked = ways(document, node, method(state)).map(|ways| (node, ways));
                 }
             }
         }
     }
 
-    /// Another surface was opened: nothing is played in it yet.
-    pub(super) fn stop(&mut self) {
-        self.playing_s = None;
-    }
-
     /// Brings them up to the level that is shown, and the camera to where the next is; asks for the next while they are
     /// played.
     pub(super) fn follow(&mut self, document: Option<&Document>, camera: &mut Camera, now_s: f64) -> Option<Ask> {
+        let open = self.0.as_mut()?;
         let level = document
             .and_then(|document| Some((document, &document.levels.as_ref()?.1, &document.shown.as_ref()?.level)));
-        let Some((document, levels, level)) = level.filter(|_| self.is_open) else {
-            self.shown = None;
+        let Some((document, levels, level)) = level else {
+            open.shown = None;
             return None;
         };
         let revision = document.revision;
         let of = [revision.document, revision.levels, revision.shown];
-        if self.shown.as_ref().is_none_or(|shown| shown.of != of) {
+        if open.shown.as_ref().is_none_or(|shown| shown.of != of) {
             let next = levels.collapse_at(level.steps, &level.triangles);
-            if let Some(next) = next.as_ref().filter(|_| !self.stays) {
+            if let Some(next) = next.as_ref().filter(|_| !open.stays) {
                 look_at(camera, next, &levels.positions);
             }
-            self.shown = Some(Shown { of, next, asked: None });
+            open.shown = Some(Shown { of, next, asked: None });
         }
-        let since_s = now_s - self.playing_s?;
-        if self.next().is_none() {
-            self.playing_s = None;
+        let since_s = now_s - open.playing_s?;
+        if open.shown.as_ref().is_none_or(|shown| shown.next.is_none()) {
+            open.playing_s = None;
             return None;
         }
         (since_s >= PERIOD_S).then_some(Ask::Collapses(Action::Step(true)))
     }
 
     /// Shows the controls, and in words what goes next and what was asked for.
-    pub(super) fn show(&self, ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
+    fn controls(&self, ui: &mut Ui, state: &State, asked: &mut Vec<Ask>) {
         let mut ask = |wanted: bool, action: Action| {
             if wanted {
                 asked.push(Ask::Collapses(action));
@@ -134,7 +146,7 @@ impl Collapses {
             let play =
                 ui.add_enabled(self.next().is_some(), Button::new(say!("views-play")).selected(self.is_playing()));
             ask(play.on_hover_text(say!("views-play-help")).clicked(), Action::Play);
-            let mut follows = !self.stays;
+            let mut follows = self.0.as_ref().is_none_or(|open| !open.stays);
             let follow = ui.checkbox(&mut follows, say!("views-follow"));
             ask(follow.on_hover_text(say!("views-follow-help")).changed(), Action::Follow(follows));
             ask(ui.button(say!("views-close")).on_hover_text(say!("views-close-help")).clicked(), Action::Toggle);
@@ -149,7 +161,7 @@ impl Collapses {
     /// What there is to say.
     fn words(&self, state: &State) -> Vec<String> {
         let mut said = Vec::new();
-        let Some((shown, document)) = self.shown.as_ref().zip(state.document.as_ref()) else { return said };
+        let Some((shown, document)) = self.shown().zip(state.document.as_ref()) else { return said };
         let Some((levels, level)) = document.levels.as_ref().zip(document.shown.as_ref()) else { return said };
         let (levels, steps, method) = (&levels.1, level.level.steps, method(state));
         match &shown.next {
@@ -184,7 +196,7 @@ impl Collapses {
     /// Draws the next collapse, and what was asked for, over the view in `rect`. Where they are played the hole comes first,
     /// then what fills it.
     pub(super) fn marks(&self, ui: &Ui, rect: Rect, camera: &Camera, document: &Document) {
-        let (Some(shown), Some((_, levels))) = (&self.shown, &document.levels) else { return };
+        let (Some(shown), Some((_, levels))) = (self.shown(), &document.levels) else { return };
         let painter = ui.painter_at(rect);
         let at = |node: u32| seen(levels.positions[node as usize], camera, rect);
         let (accent, ink) = (ui.visuals().hyperlink_color, ui.visuals().text_color());
@@ -194,7 +206,8 @@ impl Collapses {
             }
         };
         if let Some(next) = &shown.next {
-            let since_s = self.playing_s.map(|since_s| ui.input(|input| input.time) - since_s);
+            let playing_s = self.0.as_ref().and_then(|open| open.playing_s);
+            let since_s = playing_s.map(|since_s| ui.input(|input| input.time) - since_s);
             if since_s.is_none_or(|since_s| since_s > PERIOD_S / 2.0) {
                 for corners in &next.patch {
                     let places: Option<Vec<egui::Pos2>> = corners.iter().map(|&node| at(node)).collect();
@@ -215,6 +228,63 @@ impl Collapses {
                 painter.circle_stroke(place, 8.0, Stroke::new(2.0, ink));
             }
         }
+    }
+}
+
+const TOGGLE: Ask = Ask::Collapses(Action::Toggle);
+
+impl Panel for Collapses {
+    fn id(&self) -> &'static str {
+        "collapses"
+    }
+
+    fn is_there(&self, _: &State, _: Beside) -> bool {
+        self.is_open()
+    }
+
+    fn place(&self, ui: &Ui, now: Now<'_>) -> Place {
+        // On a phone the buttons take two rows.
+        let (height, rows) = if now.is_narrow { (120.0, 2.0) } else { (104.0, 1.0) };
+        let taller = theme::row(ui.ctx(), 28.0) - 28.0;
+        Place::Below(height + rows * taller, None)
+    }
+
+    fn entry(&self, now: Now<'_>) -> Option<Entry> {
+        Some(Entry {
+            group: Group::Learn,
+            label: Key("app-collapses"),
+            help: Key("app-collapses-help"),
+            key: None,
+            action: TOGGLE,
+            is_open: self.is_open(),
+            is_enabled: now.mode == Mode::Method,
+        })
+    }
+
+    fn escape(&self, _: Now<'_>, layer: Layer) -> Option<Ask> {
+        (layer == Layer::Open && self.is_open()).then_some(TOGGLE)
+    }
+
+    fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Ask>) {
+        self.controls(ui, now.state, asked);
+    }
+
+    fn act(&mut self, action: Ask, acting: &mut Acting<'_>) -> Option<Ask> {
+        let Ask::Collapses(action) = action else { return Some(action) };
+        let now_s = acting.ctx.input(|input| input.time);
+        self.act_on(action, acting.state, now_s);
+        None
+    }
+
+    fn leave_surface(&mut self, _: &mut Acting<'_>) {
+        // Nothing is played in the new one yet.
+        if let Some(open) = &mut self.0 {
+            open.playing_s = None;
+        }
+    }
+
+    fn goes_on(&self, _: &dyn Platform) -> bool {
+        self.is_playing()
     }
 }
 

@@ -10,7 +10,7 @@ use super::words::{self, Number};
 use crate::app::assist::name;
 use crate::app::halo;
 use crate::app::overlay;
-use crate::app::views::pixels;
+use crate::app::places::pixels;
 use crate::io::Axes;
 use crate::language::Key;
 use crate::render::{Camera, Style, SurfaceError};

@@ -224,7 +224,7 @@ impl Plan {
             bounds = bounds.joined(&made.mesh.bounds());
         }
         let mut camera = Camera::default();
-        crate::app::views::stand(&mut camera, crate::app::views::first_view(bounds.size()), figure.axes);
+        crate::app::sides::stand(&mut camera, crate::app::sides::first_view(bounds.size()), figure.axes);
         let width = (WIDTH - 2.0 * MARGIN - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32;
         // As high as the surface is beside its width, within what a page has room for.
         let axes = camera.axes();

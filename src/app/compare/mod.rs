@@ -4,16 +4,17 @@
 //! - `difference`: how far the others are from the first.
 //! - `words`: a setting in words, a result in numbers; `cell`: one setting drawn, as `arrangement` says; `scene`: what
 //!   stands in GPU memory.
-//! - `view`: the grid in the window, `bar` what stands around it; `figure`: the same cells off screen, as the paper's figures.
+//! - `mode`: it as a mode of the window; `view`: the grid there, `bar` what stands around it; `figure`: the same cells off screen, as the paper's figures.
 
-mod action;
+pub(super) mod action;
 mod arrangement;
 mod bar;
 mod cell;
-mod comparison;
+pub(super) mod comparison;
 mod difference;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod figure;
+mod mode;
 mod scene;
 mod view;
 mod words;

@@ -25,6 +25,7 @@ use crate::say;
 /// A picture is at least this high, in points; a grid that does not fit scrolls.
 const LEAST_PICTURE: f32 = 132.0;
 /// The view: what of it stands in GPU memory.
+#[derive(Default)]
 pub(in crate::app) struct CompareView {
     device: Option<egui_wgpu::RenderState>,
     /// Made when the view is first shown.
@@ -67,14 +68,14 @@ impl Look {
 
 impl CompareView {
     /// A view on the window's device; without one (in some tests) it says so.
-    pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
+    pub(super) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
         let look = Look::default();
         Self { device: device.cloned(), scene: None, is_refused: false, over_picture: false, shows_first: false, look }
     }
 
     /// Lets go of GPU memory, for while the view is not shown; and of the camera, which looks from where it did before it
     /// went somewhere by itself.
-    pub(in crate::app) fn let_go(&mut self, views: &mut Views) {
+    pub(super) fn leave(&mut self, views: &mut Views) {
         (self.scene, self.is_refused) = (None, false);
         if let Some([before, at]) = std::mem::take(&mut self.look).went
             && views.camera == at
@@ -84,12 +85,12 @@ impl CompareView {
     }
 
     /// Gives up what stands on the device, whose memory is full, until the view is shown anew.
-    pub(in crate::app) fn refuse(&mut self) {
+    pub(super) fn give_up(&mut self) {
         self.is_refused |= self.scene.take().is_some();
     }
 
     /// Shows the comparison in what is left of `ui`; `settings` are those in force.
-    pub(in crate::app) fn show(
+    pub(super) fn show_cells(
         &mut self,
         ui: &mut Ui,
         comparison: &Comparison,

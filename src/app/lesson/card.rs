@@ -18,7 +18,7 @@ const ROOMY: f32 = 480.0;
 const NARROWEST: f32 = 260.0;
 
 /// Shows the card of the step that is given.
-pub(in crate::app) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<Ask>) {
+pub(super) fn show(ui: &mut Ui, given: &Given, has_links: bool, asked: &mut Vec<Ask>) {
     let mut ask = |wanted: bool, action: Action| {
         if wanted {
             asked.push(Ask::Lesson(action));

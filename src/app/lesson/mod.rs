@@ -1,12 +1,14 @@
 //! Lessons: short ones that come with Lumen, and those that a teacher writes. A step of a lesson says something, sets the
 //! app as a hand would, by [`Action`](super::Action)s, and may ask a question before it answers it.
 
-mod action;
-pub(super) mod card;
+pub(super) mod action;
+mod card;
 mod format;
 mod glossary;
 
 use std::collections::VecDeque;
+
+use egui::Ui;
 
 pub use self::action::Action;
 pub use self::format::{Lesson, LessonError, Show, Step, Trial};
@@ -14,9 +16,10 @@ pub(super) use self::glossary::glossary;
 use super::action::Action as Ask;
 use super::collapses;
 use super::deviating::Deviating;
+use super::mode::{Acting, Beside, Layer, Now, Panel, Place};
+use super::options::{Colours, ViewOptions};
 use super::reveal::Reveal;
 use super::state::State;
-use super::views::{Colours, ViewOptions};
 use super::{trial, vessels};
 use crate::engine::Source;
 use crate::language::Key;
@@ -59,7 +62,7 @@ pub struct Given {
 
 /// What of the app a step has to know before it sets it.
 #[derive(Clone, Copy)]
-pub(super) struct Now<'a> {
+pub(super) struct Before<'a> {
     pub(super) state: &'a State,
     pub(super) options: ViewOptions,
     pub(super) in_trial: bool,
@@ -114,7 +117,7 @@ impl Lessons {
     }
 
     /// Goes to a step, and says what is to be done for it at once; the rest waits.
-    pub(super) fn go(&mut self, step: usize, now: Now<'_>) -> Vec<Ask> {
+    pub(super) fn go(&mut self, step: usize, now: Before<'_>) -> Vec<Ask> {
         let Some(given) = &mut self.open else { return Vec::new() };
         given.step = step.min(given.lesson.steps.len() - 1);
         given.is_answered = false;
@@ -137,10 +140,10 @@ impl Lessons {
         asked.extend(sample.filter(|&sample| !is_open(sample)).map(Ask::Sample));
         asked.push(Ask::Show(options(now.options, show)));
         if now.are_vessels_open != shows(Show::Vessels) {
-            asked.push(Ask::Vessels(vessels::Action::Toggle));
+            asked.push(Ask::Vessels(vessels::action::Action::Toggle));
         }
         if now.are_collapses_open != shows(Show::Collapses) {
-            asked.push(Ask::Collapses(collapses::Action::Toggle));
+            asked.push(Ask::Collapses(collapses::action::Action::Toggle));
         }
         self.waiting.clear();
         self.waiting.extend(view.map(Ask::View));
@@ -166,6 +169,35 @@ impl Lessons {
             Ask::Trial(_) => self.waiting.pop_front_if(|_| trial.is_on()),
             _ => self.waiting.pop_front_if(|_| has_level),
         }
+    }
+}
+
+impl Panel for Lessons {
+    fn id(&self) -> &'static str {
+        "lesson"
+    }
+
+    fn is_there(&self, _: &State, _: Beside) -> bool {
+        self.open.is_some()
+    }
+
+    fn place(&self, ui: &Ui, _: Now<'_>) -> Place {
+        Place::Foot((ui.available_height() * 0.28).clamp(120.0, 210.0))
+    }
+
+    fn escape(&self, _: Now<'_>, layer: Layer) -> Option<Ask> {
+        (layer == Layer::Open && self.open.is_some()).then_some(Ask::Lesson(Action::Close))
+    }
+
+    fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Ask>) {
+        if let Some(given) = &self.open {
+            card::show(ui, given, now.has_links, asked);
+        }
+    }
+
+    /// A step asks for what other panels do: the app does it.
+    fn act(&mut self, action: Ask, _: &mut Acting<'_>) -> Option<Ask> {
+        Some(action)
     }
 }
 
@@ -239,7 +271,7 @@ mod tests {
         let (state, options) = (State::default(), ViewOptions::default());
         let mut turns = |step: usize, in_trial: bool, has_autopilot: bool| {
             let (are_vessels_open, are_collapses_open) = (false, false);
-            let now = Now { state: &state, options, in_trial, has_autopilot, are_vessels_open, are_collapses_open };
+            let now = Before { state: &state, options, in_trial, has_autopilot, are_vessels_open, are_collapses_open };
             lessons.go(step, now);
             lessons.waiting.iter().filter(|ask| matches!(ask, Ask::Trial(trial::Action::Autopilot))).count()
         };

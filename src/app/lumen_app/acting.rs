@@ -1,42 +1,41 @@
 //! What the app does of what controls and keys ask for.
 
-use egui::{Key, Modifiers, Ui};
+use egui::{Context, Key, Modifiers, Ui};
 
 use super::LumenApp;
-use crate::app::action::{Action, of_trial};
+use crate::app::action::Action;
 use crate::app::keys::{self, Keys};
+use crate::app::mode::{Acting, Beside, Entry, Layer, Mode, Panel};
 use crate::app::sharing::Sharing;
-use crate::app::sheets::Sheet;
-use crate::app::shortcuts;
+use crate::app::sheets::{self, Sheet};
 use crate::app::views::Spot;
-use crate::app::{collapses, lesson, measure, record, recovery, scan, theme, trial, vessels};
+use crate::app::{lesson, record, shortcuts, theme};
 use crate::say;
 
 impl LumenApp {
     /// Does what the keys ask for.
     pub(super) fn take_keys(&mut self, ui: &Ui, keys: Keys) {
-        let are_views = keys == Keys::Views && self.shows_measuring();
-        self.measuring.take_keys(ui, are_views);
+        let (mode, mut asked) = (self.mode(), Vec::new());
+        for panel in self.panels.all_mut() {
+            let is_shown = match panel.mode() {
+                Some(of) => of == mode,
+                None => mode == Mode::Method && panel.is_there(&self.state, self.beside),
+            };
+            panel.take_keys(ui, keys == Keys::Views && is_shown, &mut asked);
+        }
         if matches!(keys, Keys::Sheet | Keys::List) {
             return;
         }
         let ctx = ui.ctx();
+        let of_mode = self.panels.of_mut(mode);
+        let leaves_short_cuts = of_mode.as_ref().is_none_or(|panel| panel.leaves_short_cuts());
         let mut action = shortcuts::with_ctrl(ui, keys);
-        if self.scans.is_open() {
-            // What lies below the scan is not to be seen.
-            action = action.filter(|action| matches!(action, Action::Open | Action::Help));
-            if keys == Keys::Views && keys::pressed(ui, Modifiers::NONE, Key::Escape) {
-                action = self.on_top();
-            }
-            return self.act_on_all(action, ctx);
-        }
+        action.take_if(|action| of_mode.is_some_and(|panel| panel.blocks(action)));
         if keys == Keys::Views {
-            if self.trial.is_open() {
-                let mut asked = Vec::new();
-                trial::keys(ui, &self.trial, &mut asked);
-                self.act_on_all(of_trial(asked), ctx);
-            } else {
-                action = action.or_else(|| shortcuts::action(ui, &mut self.views));
+            self.act_on_all(asked, ctx);
+            if leaves_short_cuts {
+                let entries = self.entries(mode);
+                action = action.or_else(|| shortcuts::action(ui, &mut self.views, &entries));
             }
             if keys::pressed(ui, Modifiers::NONE, Key::Escape) {
                 self.act_on_all(self.on_top(), ctx);
@@ -45,45 +44,66 @@ impl LumenApp {
         self.act_on_all(action, ctx);
     }
 
-    /// What takes off one thing, the one that lies on top: the tables, picking, a tool, what is waited for, the large
-    /// fluoroscopy, the trial, the comparison, the vessels, presenting, the numbers that are still to come.
-    /// Sheets, lists and fields take themselves off.
-    pub(super) fn on_top(&self) -> Option<Action> {
-        if self.trial.tables.is_open {
-            Some(Action::Trial(trial::Action::CloseTables))
-        } else if self.trial.pick.is_some() {
-            Some(Action::Trial(trial::Action::Pick(None)))
-        } else if let Some(action) = self.measuring.on_top().filter(|_| self.shows_measuring()) {
-            Some(Action::Measure(action))
-        } else if self.record.progress().is_some() {
-            Some(Action::Record(record::Action::Cancel))
-        } else if self.scans.opening().is_some() {
-            Some(Action::Scan(scan::Action::Cancel))
-        } else if self.state.awaits() {
-            Some(Action::Cancel)
-        } else if self.trial.is_comparing() {
-            Some(Action::Trial(trial::Action::CancelComparison))
-        } else if let Some(scan) = self.scans.shown() {
-            let cancel = if scan.is_making() { scan::Action::Cancel } else { scan::Action::Close };
-            Some(Action::Scan(cancel))
-        } else if self.trial.carm.is_large {
-            Some(Action::Trial(trial::Action::Arm(trial::Arm::Enlarge)))
-        } else if self.trial.is_open() {
-            Some(Action::Trial(trial::Action::Close))
-        } else if self.state.comparison.is_open() {
-            Some(Action::Compare)
-        } else if self.shows_measuring() {
-            Some(Action::Measure(measure::Action::Toggle))
-        } else {
-            let asked = [
-                (self.vessels.is_open, Action::Vessels(vessels::Action::Toggle)),
-                (self.views.collapses.is_open(), Action::Collapses(collapses::Action::Toggle)),
-                (self.lessons.given().is_some(), Action::Lesson(lesson::Action::Close)),
-                (self.presenter.is_on(), Action::Present),
-                (self.state.is_busy(), Action::Cancel),
-            ];
-            asked.into_iter().find(|(is_open, _)| *is_open).map(|(_, action)| action)
+    /// What modes and panels have in the bar.
+    pub(super) fn entries(&self, mode: Mode) -> Vec<Entry> {
+        self.panels.all().into_iter().filter_map(|panel| panel.entry(self.now(mode))).collect()
+    }
+
+    /// The lines of the sheet of keys.
+    pub(super) fn key_lines(&self) -> Vec<(crate::language::Key, crate::language::Key)> {
+        let (mode, panels) = (self.mode(), self.panels.all());
+        let of_mode = panels.iter().find(|panel| panel.mode() == Some(mode)).and_then(|panel| panel.key_sheet());
+        let of_panels: Vec<_> = panels.iter().flat_map(|panel| panel.key_help()).copied().collect();
+        sheets::keys(of_mode, &of_panels)
+    }
+
+    /// What takes off one thing, the one that lies on top. Sheets, lists and fields take themselves off; presenting ends, and
+    /// the numbers that are still to come are given up, once nothing else is open.
+    fn on_top(&self) -> Option<Action> {
+        let now = self.now(self.mode());
+        let of_panels = |layer| self.panels.all().into_iter().rev().find_map(|panel| panel.escape(now, layer));
+        let recording = self.record.progress().map(|_| Action::Record(record::Action::Cancel));
+        of_panels(Layer::Held)
+            .or(recording)
+            .or_else(|| of_panels(Layer::Awaited))
+            .or_else(|| self.state.awaits().then_some(Action::Cancel))
+            .or_else(|| of_panels(Layer::Underway))
+            .or_else(|| of_panels(Layer::Open))
+            .or_else(|| self.presenter.is_on().then_some(Action::Present))
+            .or_else(|| self.state.is_busy().then_some(Action::Cancel))
+    }
+
+    /// Lets the panel whose action it is do it; gives back what is none of theirs.
+    fn act_on_panels(&mut self, action: Action, ctx: &Context) -> Option<Action> {
+        let mut left = Some(action);
+        let then = self.change_panels(ctx, |panel, acting| {
+            left = left.take().and_then(|action| panel.act(action, acting));
+        });
+        self.act_on_all(then, ctx);
+        left
+    }
+
+    /// Another surface was opened: the panels forget the one before.
+    pub(super) fn leave_surface(&mut self, ctx: &Context) {
+        let then = self.change_panels(ctx, |panel, acting| panel.leave_surface(acting));
+        self.act_on_all(then, ctx);
+    }
+
+    /// Lets each panel change with what it may change besides itself; says what is to be done next.
+    fn change_panels(&mut self, ctx: &Context, mut change: impl FnMut(&mut dyn Panel, &mut Acting<'_>)) -> Vec<Action> {
+        let mut acting = Acting {
+            ctx,
+            mode: self.panels.mode(&self.state),
+            in_trial: self.panels.trial.trial.is_open(),
+            state: &mut self.state,
+            platform: &mut *self.platform,
+            beside: &mut self.beside,
+            then: Vec::new(),
+        };
+        for panel in self.panels.all_mut() {
+            change(panel, &mut acting);
         }
+        acting.then
     }
 
     pub(super) fn act_on_all(&mut self, actions: impl IntoIterator<Item = Action>, ctx: &egui::Context) {
@@ -95,6 +115,7 @@ impl LumenApp {
     pub(super) fn act(&mut self, action: Action, ctx: &egui::Context) {
         // What was shown of it before is not the last.
         ctx.request_repaint();
+        let Some(action) = self.act_on_panels(action, ctx) else { return };
         let keep = self.state.settings.keep;
         let state = &mut self.state;
         match action {
@@ -126,6 +147,7 @@ impl LumenApp {
                 self.views.spot = None;
                 self.views.fly(at_mm.into(), height_mm);
             }
+            Action::Unmark => self.views.spot = None,
             Action::Show(options) => self.views.options = options,
             Action::Reveal => self.views.toggle_reveal(state.document.as_ref()),
             Action::Average(is_shown) => {
@@ -136,35 +158,17 @@ impl LumenApp {
                 }
             }
             Action::HoldBefore(is_held) => self.views.before_is_held = is_held,
-            Action::Compare => state.toggle_comparison(),
-            Action::Comparison(action) => state.comparison.act(action, &state.settings),
-            Action::ToggleTrial => {
-                let toggle = if self.trial.is_open() { trial::Action::Close } else { trial::Action::Start };
-                self.act_on_trial(toggle, ctx);
-            }
-            Action::Trial(action) => self.act_on_trial(action, ctx),
-            Action::Vessels(action) => self.act_on_vessels(action, ctx),
-            Action::Measure(action) => self.act_on_measures(action),
-            Action::Collapses(action) => {
-                let now_s = ctx.input(|input| input.time);
-                self.views.collapses.act(action, state, now_s);
-            }
             Action::Lesson(action) => self.act_on_lesson(action, ctx),
-            Action::Share(action) => Sharing::act(action, state, &mut *self.platform, ctx),
+            Action::SaveSettings => Sharing::save(state, &mut *self.platform, ctx),
+            Action::CopyLink => Sharing::copy_link(state, &*self.platform, ctx),
             Action::Record(action) => {
                 self.record.act(action, state, &self.views, theme::style(&ctx.global_style().visuals));
             }
-            Action::Recovery(action) => {
-                self.recovery.act(action, state, &mut self.trial, &mut *self.platform);
-                if action == recovery::Action::Forget {
-                    self.speech.choose(None, &mut *self.platform);
-                    self.lessons.speak();
-                }
-            }
-            Action::Scan(action) => {
-                if let Some(link) = self.platform.scans() {
-                    self.scans.act(action, link);
-                }
+            Action::KeepSurface(keeps) => self.recovery.keep_surfaces(keeps, state, &mut *self.platform),
+            Action::Forget => {
+                self.recovery.forget(state, &mut self.panels.trial.trial, &mut *self.platform);
+                self.speech.choose(None, &mut *self.platform);
+                self.panels.lesson.speak();
             }
             Action::Present => {
                 self.presenter.toggle(ctx);
@@ -174,7 +178,7 @@ impl LumenApp {
             }
             Action::Speak(language) => {
                 self.speech.choose(language, &mut *self.platform);
-                self.lessons.speak();
+                self.panels.lesson.speak();
             }
             Action::Theme => {
                 let other = if ctx.theme() == egui::Theme::Dark { egui::Theme::Light } else { egui::Theme::Dark };
@@ -182,32 +186,13 @@ impl LumenApp {
             }
             Action::Help => self.sheet = toggled(self.sheet, Sheet::Help),
             Action::About => self.sheet = toggled(self.sheet, Sheet::About),
+            of_panel => debug_assert!(false, "no panel takes {of_panel:?}"),
         }
-    }
-
-    pub(super) fn act_on_trial(&mut self, action: trial::Action, ctx: &egui::Context) {
-        match action {
-            trial::Action::OpenLog => self.platform.choose_file(ctx),
-            trial::Action::Device(trial::DeviceAsk::SaveLatency) => {
-                if let Some(table) = self.trial.latency_table() {
-                    self.platform.offer_file("lumen-haptic-latency.csv", table.into_bytes(), ctx);
-                }
-            }
-            trial::Action::Device(ask) => self.trial.act_on_device(ask, self.platform.devices()),
-            trial::Action::AdaptSmoothing => {
-                // One step to undo, whatever was changed before it.
-                self.state.record();
-                self.trial.adapt_smoothing(&mut self.state.settings.smoothing);
-            }
-            trial::Action::Start => self.state.comparison.set_open(false),
-            _ => {}
-        }
-        self.trial.act(action, self.state.document.as_ref(), self.platform.trial());
     }
 
     pub(super) fn act_on_lesson(&mut self, action: lesson::Action, ctx: &egui::Context) {
         match action {
-            lesson::Action::Open(name) => match self.lessons.open(name) {
+            lesson::Action::Open(name) => match self.panels.lesson.open(name) {
                 Ok(()) => self.act_on_lesson(lesson::Action::Go(0), ctx),
                 Err(sentence) => self.state.warn(&sentence),
             },
@@ -216,26 +201,26 @@ impl LumenApp {
                 self.leave_scan();
                 // What was set by hand is a step of its own to undo.
                 self.state.record();
-                let now = lesson::Now {
+                let now = lesson::Before {
                     state: &self.state,
                     options: self.views.options,
-                    in_trial: self.trial.is_open(),
-                    has_autopilot: self.trial.run().is_some_and(|run| run.autopilot),
-                    are_vessels_open: self.vessels.is_open,
-                    are_collapses_open: self.views.collapses.is_open(),
+                    in_trial: self.panels.trial.trial.is_open(),
+                    has_autopilot: self.panels.trial.trial.run().is_some_and(|run| run.autopilot),
+                    are_vessels_open: self.beside == Beside::Vessels,
+                    are_collapses_open: self.panels.collapses.is_open(),
                 };
-                let asked = self.lessons.go(step, now);
+                let asked = self.panels.lesson.go(step, now);
                 self.act_on_all(asked, ctx);
             }
-            lesson::Action::Answer => self.lessons.answer(),
+            lesson::Action::Answer => self.panels.lesson.answer(),
             lesson::Action::CopyLink => {
-                let given = self.lessons.given().and_then(|given| Some((given.name?, given.step)));
+                let given = self.panels.lesson.given().and_then(|given| Some((given.name?, given.step)));
                 if let (Some((name, step)), Some(address)) = (given, self.platform.address()) {
                     ctx.copy_text(format!("{address}#{}", lesson::fragment(name, step)));
                     self.state.tell(&say!("app-step-link-copied"));
                 }
             }
-            lesson::Action::Close => self.lessons.close(),
+            lesson::Action::Close => self.panels.lesson.close(),
             lesson::Action::Glossary => self.sheet = toggled(self.sheet, Sheet::Glossary),
         }
     }
@@ -243,42 +228,9 @@ impl LumenApp {
     /// Does what a step of a lesson has asked for, once the level is there and looked at.
     pub(super) fn follow_lesson(&mut self, ctx: &egui::Context) {
         let has_level = self.state.opening().is_none() && self.state.has_level() && !self.look_next;
-        while let Some(action) = self.lessons.next(has_level, &self.trial) {
+        while let Some(action) = self.panels.lesson.next(has_level, &self.panels.trial.trial) {
             self.act(action, ctx);
         }
-    }
-
-    pub(super) fn act_on_vessels(&mut self, action: vessels::Action, ctx: &egui::Context) {
-        match action {
-            vessels::Action::Toggle => {
-                self.vessels.is_open = !self.vessels.is_open && !self.trial.is_open();
-                if self.vessels.is_open {
-                    self.state.comparison.set_open(false);
-                    self.measuring.is_open = false;
-                } else {
-                    self.views.spot = None;
-                }
-            }
-            vessels::Action::Select(branch) => self.vessels.selected = Some(branch),
-            vessels::Action::SaveTable => match self.state.calibre_table() {
-                Some((name, bytes)) => self.platform.offer_file(&name, bytes, ctx),
-                None => self.state.tell(&say!("app-nothing-to-save")),
-            },
-            vessels::Action::SaveCentrelines(format) => self.state.save_centrelines(format, self.platform.link()),
-        }
-    }
-
-    pub(super) fn act_on_measures(&mut self, action: measure::Action) {
-        if action == measure::Action::Toggle && !self.shows_measuring() {
-            // They stand where the measures do.
-            self.state.comparison.set_open(false);
-            self.vessels.is_open = false;
-            self.measuring.is_open = false;
-            if self.trial.is_open() {
-                return;
-            }
-        }
-        self.measuring.act(action, &mut self.state);
     }
 }
 

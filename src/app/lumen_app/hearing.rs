@@ -15,13 +15,13 @@ impl LumenApp {
         while let Some(event) = self.platform.poll() {
             match event {
                 PlatformEvent::Chosen { name, bytes } if is_log(&name) => {
-                    self.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
+                    self.panels.trial.trial.replay(bytes, self.state.document.as_ref(), self.platform.trial());
                 }
                 PlatformEvent::Chosen { name, bytes } if sharing::is_settings(&name) => {
                     Sharing::take_file(&name, &bytes, &mut self.state, self.platform.link());
                 }
                 PlatformEvent::Chosen { name, bytes } if lesson::is_lesson(&name) => {
-                    match self.lessons.take(&bytes, None) {
+                    match self.panels.lesson.take(&bytes, None) {
                         Ok(()) => self.act(Action::Lesson(lesson::Action::Go(0)), ctx),
                         Err(error) => self.state.warn(&say!("app-open-failed", name = name, why = error.to_string())),
                     }
@@ -44,14 +44,14 @@ impl LumenApp {
                 }
                 PlatformEvent::Texts { language, texts } => {
                     match self.speech.take_texts(language, texts, &mut *self.platform) {
-                        Ok(()) => self.lessons.speak(),
+                        Ok(()) => self.panels.lesson.speak(),
                         Err(sentence) => self.state.warn(&sentence),
                     }
                     ctx.request_repaint();
                 }
                 PlatformEvent::Scan { files } => {
                     if let Some(link) = self.platform.scans() {
-                        self.scans.read(files, link);
+                        self.panels.scan.scans.read(files, link);
                     }
                 }
                 PlatformEvent::Saved { message } => self.tell_saved(&message),
@@ -62,17 +62,10 @@ impl LumenApp {
             match self.state.receive(event) {
                 Some(Effect::Opened) => {
                     self.look_next = true;
-                    if let Some(link) = self.platform.scans() {
-                        let source = self.state.document.as_ref().map(|document| &document.source);
-                        self.scans.surface_opened(source, link);
-                    }
+                    self.leave_surface(ctx);
                     self.recovery.opened(&mut self.state, &mut *self.platform);
                     self.sharing.opened(&mut self.state, self.platform.link());
-                    self.vessels.selected = None;
-                    self.measuring.leave_surface();
-                    self.views.collapses.stop();
                     self.views.options.leave_surface();
-                    self.trial.leave_surface(self.platform.trial());
                 }
                 Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
                 None => {}
@@ -82,12 +75,12 @@ impl LumenApp {
             self.state.engine_failed(&reason, self.platform.link());
         }
         while let Some(event) = self.platform.trial().poll() {
-            if let Some(log) = self.trial.receive(event, self.platform.trial()) {
+            if let Some(log) = self.panels.trial.trial.receive(event, self.platform.trial()) {
                 self.platform.offer_pair(log, ctx);
             }
         }
         if let Some(reason) = self.platform.trial().failure() {
-            let sentence = self.trial.engine_failed(&reason, self.platform.trial());
+            let sentence = self.panels.trial.trial.engine_failed(&reason, self.platform.trial());
             self.state.warn(&sentence);
         }
         self.listen_to_scans();
@@ -101,7 +94,7 @@ impl LumenApp {
         if !rest.is_empty() {
             self.sharing.follow(&rest, &mut self.state, self.platform.link());
         }
-        match self.lessons.open(&name) {
+        match self.panels.lesson.open(&name) {
             Ok(()) => self.act(Action::Lesson(lesson::Action::Go(step)), ctx),
             Err(sentence) => self.state.warn(&sentence),
         }
@@ -121,7 +114,7 @@ impl LumenApp {
         while let Some(link) = self.platform.scans()
             && let Some(event) = link.poll()
         {
-            match self.scans.receive(event, link) {
+            match self.panels.scan.scans.receive(event, link) {
                 Some(Told::Made(source)) => self.state.open(source, self.platform.link()),
                 Some(Told::Refused(sentence)) => self.state.warn(&sentence),
                 Some(Told::Stopped) => self.state.tell(&say!("app-scan-cancelled")),
@@ -132,7 +125,7 @@ impl LumenApp {
             && let Some(reason) = link.failure()
         {
             link.give_up();
-            let sentence = self.scans.engine_failed(&reason);
+            let sentence = self.panels.scan.scans.engine_failed(&reason);
             self.state.warn(&sentence);
         }
     }
@@ -140,45 +133,35 @@ impl LumenApp {
     /// Sends on what was done and heard.
     pub(super) fn follow(&mut self, ctx: &egui::Context) {
         // What is played is one step to undo.
-        let is_held = keys::moves_control(ctx) || self.views.collapses.is_playing();
+        let is_held = keys::moves_control(ctx) || self.panels.collapses.is_playing();
         self.state.follow(is_held, self.platform.link());
         self.record.follow(&mut self.state, self.platform.link());
         let now = recovery::Now {
             state: &self.state,
-            trial: &self.trial,
+            trial: &self.panels.trial.trial,
             camera: &self.views.camera,
             language: self.speech.chosen(),
         };
         self.recovery.follow(now, &mut *self.platform, ctx);
         let State { document, settings, .. } = &self.state;
         let has_level = self.state.has_level();
-        self.trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
-        self.trial.next_row(self.platform.trial());
+        let trial = &mut self.panels.trial.trial;
+        trial.follow_level(&settings.smoothing, has_level, document.as_ref(), self.platform.trial());
+        trial.next_row(self.platform.trial());
         if let Some(link) = self.platform.scans() {
-            self.scans.follow(link);
+            self.panels.scan.scans.follow(link);
         }
-        // A gamepad tells nothing by itself.
-        let has_gamepad = self.trial.is_in_hand() && self.platform.gamepad().is_some();
-        if has_gamepad
-            || self.trial.is_moving()
-            || self.trial.is_driven()
-            || self.trial.has_device().0
-            || self.state.is_busy()
-            || self.record.progress().is_some()
-            || self.views.collapses.is_playing()
-            || self.trial.is_busy()
-            || self.scans.opening().is_some()
-            || self.scans.is_open()
-            || self.scans.awaits_slice()
-        {
+        let goes_on = self.panels.all().into_iter().any(|panel| panel.goes_on(&*self.platform));
+        if goes_on || self.state.is_busy() || self.record.progress().is_some() {
             ctx.request_repaint_after(LISTEN);
         }
     }
 
     /// Closes the scan that is shown: a surface takes its place.
     pub(super) fn leave_scan(&mut self) {
-        if let Some(link) = self.platform.scans().filter(|_| self.scans.is_open()) {
-            self.scans.act(scan::Action::Close, link);
+        let scans = &mut self.panels.scan.scans;
+        if let Some(link) = self.platform.scans().filter(|_| scans.is_open()) {
+            scans.act(scan::Action::Close, link);
         }
     }
 }

@@ -9,24 +9,24 @@ use std::time::Duration;
 
 use egui::{Key, Modifiers, Ui};
 
+use super::action::Action;
 use super::drawer::Drawer;
+use super::filling::Filling;
 use super::keys::{self, Keys};
 use super::lesson::Lessons;
-use super::measure::Measuring;
+use super::mode::{Beside, Mode, Now};
 use super::paint_guard::PaintGuard;
 use super::platform::Platform;
 use super::presenter::Presenter;
 use super::record::{self, Record};
 use super::recovery::{self, Recovery};
-use super::scan::{ScanView, Scans};
 use super::sharing::Sharing;
 use super::sheets::{self, Sheet};
 use super::speech::Speech;
 use super::state::State;
-use super::trial::{self, Trial, TrialView};
-use super::vessels::Vessels;
+use super::trial::{self, Trial};
 use super::views::{NO_MEMORY, Views};
-use super::{collapses, compare, theme};
+use super::{Panels, collapses, theme};
 use crate::haptics::safety::Halt;
 use crate::haptics::service::DeviceCommand;
 use crate::render::{Camera, DeviceHealth, Fault};
@@ -46,18 +46,13 @@ pub struct LumenApp {
     health: DeviceHealth,
     state: State,
     views: Views,
-    compare: compare::CompareView,
-    trial: Trial,
-    trial_view: TrialView,
-    vessels: Vessels,
-    measuring: Measuring,
-    lessons: Lessons,
+    panels: Panels,
+    /// What stands beside the views.
+    beside: Beside,
     record: Record,
     recovery: Recovery,
     sharing: Sharing,
     speech: Speech,
-    scans: Scans,
-    scan_view: ScanView,
     platform: Box<dyn Platform>,
     sheet: Option<Sheet>,
     presenter: Presenter,
@@ -66,6 +61,10 @@ pub struct LumenApp {
     was_typing: bool,
     /// The views find a new surface when they are next shown: their shape is known by then.
     look_next: bool,
+    /// Whether the window is that of a phone, in this frame.
+    is_narrow: bool,
+    /// Whether links can be made here.
+    has_links: bool,
 }
 
 impl LumenApp {
@@ -77,33 +76,29 @@ impl LumenApp {
     ) -> Self {
         let mut state = State::default();
         state.sample_triangles = platform.sample_triangles();
-        let mut trial = Trial::new();
+        let mut panels = Panels::default();
         // Before anything is said.
         let speech = Speech::begin(recovery::language(&mut *platform), &mut *platform);
-        let recovery = Recovery::begin(&mut state, &mut trial, &mut *platform);
+        let recovery = Recovery::begin(&mut state, &mut panels.trial.trial, &mut *platform);
         let mut app = Self {
             ctx: ctx.clone(),
             health: DeviceHealth::default(),
             state,
             views: Views::new(None),
-            compare: compare::CompareView::new(None),
-            trial,
-            trial_view: TrialView::new(None),
-            vessels: Vessels::default(),
-            measuring: Measuring::default(),
-            lessons: Lessons::default(),
+            panels,
+            beside: Beside::default(),
             record: Record::default(),
             recovery,
             sharing: Sharing::default(),
             speech,
-            scans: Scans::default(),
-            scan_view: ScanView::default(),
             platform,
             sheet: None,
             presenter: Presenter::default(),
             drawer: Drawer::default(),
             was_typing: false,
             look_next: false,
+            is_narrow: false,
+            has_links: false,
         };
         if !app.platform.prefers_less_motion() {
             app.views.divider.sweep();
@@ -118,7 +113,7 @@ impl LumenApp {
         let memory = self.ctx.memory(Clone::clone);
         ctx.memory_mut(|now| *now = memory);
         self.platform.enter(ctx);
-        self.trial.restart_clock();
+        self.panels.trial.trial.restart_clock();
         self.enter(ctx, render_state);
         self.state.tell(&say!("app-graphics-restarted"));
     }
@@ -132,20 +127,18 @@ impl LumenApp {
             DeviceHealth::watch(&state.device, move || ctx.request_repaint())
         });
         ctx.add_plugin(PaintGuard(self.health.clone()));
+        self.set_device(render_state);
+    }
+
+    fn set_device(&mut self, render_state: Option<&egui_wgpu::RenderState>) {
         self.views.set_device(render_state);
-        self.compare = compare::CompareView::new(render_state);
-        self.trial_view.set_device(render_state);
+        self.panels.filling_mut().into_iter().for_each(|filling| filling.set_device(render_state));
         self.record.set_device(render_state);
-        self.scan_view.set_device(render_state);
     }
 
     /// Lets go of the device and of all that stands on it, before it is replaced.
     pub fn leave(&mut self) {
-        self.views.set_device(None);
-        self.compare = compare::CompareView::new(None);
-        self.trial_view.set_device(None);
-        self.record.set_device(None);
-        self.scan_view.set_device(None);
+        self.set_device(None);
     }
 
     /// Why the device has to be replaced, if it has to be.
@@ -162,15 +155,13 @@ impl LumenApp {
     fn heed_memory(&mut self) {
         if self.health.take_full() {
             self.views.refuse(self.state.document.as_ref().map(|document| document.revision));
-            self.compare.refuse();
-            self.trial_view.refuse();
+            self.panels.filling_mut().into_iter().for_each(Filling::refuse);
             self.record.act(record::Action::Cancel, &mut self.state, &self.views, crate::render::Style::LIGHT);
-            self.scan_view.refuse();
             self.state.warn(&NO_MEMORY.say());
         }
     }
 
-    /// Whether the hand on the keys can be followed: see [`Platform::has_attention`].
+    /// Whether the hand on the keys can be followed: see [`Screen::has_attention`](super::platform::Screen::has_attention).
     pub fn has_attention(&self) -> bool {
         self.platform.has_attention()
     }
@@ -182,17 +173,35 @@ impl LumenApp {
 
     /// What the app knows of the trial.
     pub fn trial(&self) -> &Trial {
-        &self.trial
+        &self.panels.trial.trial
     }
 
     /// The lesson that is given.
     pub fn lessons(&self) -> &Lessons {
-        &self.lessons
+        &self.panels.lesson
     }
 
     /// The collapses, one by one.
     pub fn collapses(&self) -> &collapses::Collapses {
-        &self.views.collapses
+        &self.panels.collapses
+    }
+
+    /// What has the window.
+    fn mode(&self) -> Mode {
+        self.panels.mode(&self.state)
+    }
+
+    /// What a panel may look at.
+    fn now(&self, mode: Mode) -> Now<'_> {
+        Now {
+            state: &self.state,
+            mode,
+            beside: self.beside,
+            options: self.views.options,
+            camera: &self.views.camera,
+            is_narrow: self.is_narrow,
+            has_links: self.has_links,
+        }
     }
 
     /// From where the surface is looked at.
@@ -202,12 +211,12 @@ impl LumenApp {
 
     /// How many pictures of the trial were drawn since its views were shown.
     pub fn trial_draws(&self) -> u64 {
-        self.trial_view.draws()
+        self.panels.trial.view.draws()
     }
 
     /// Whether the trial's views stand in the device's memory.
     pub fn trial_holds_memory(&self) -> bool {
-        self.trial_view.holds_memory()
+        self.panels.trial.view.holds_memory()
     }
 }
 
@@ -218,11 +227,12 @@ impl eframe::App for LumenApp {
         self.listen(ctx);
         let was_left = self.platform.was_left();
         let is_hidden = was_left || ctx.input(|input| !input.raw.focused || input.viewport().visible() == Some(false));
-        if self.trial.follow_device(self.platform.devices(), is_hidden) {
-            self.trial.act(trial::Action::Pause, None, self.platform.trial());
+        let trial = &mut self.panels.trial.trial;
+        if trial.follow_device(self.platform.devices(), is_hidden) {
+            trial.act(trial::Action::Pause, None, self.platform.trial());
         }
         let (now_ms, gamepad) = (1000.0 * ctx.input(|input| input.time), self.platform.gamepad());
-        let (shake, tone) = self.trial.follow_force(now_ms, gamepad, self.platform.has_sound(), is_hidden);
+        let (shake, tone) = trial.follow_force(now_ms, gamepad, self.platform.has_sound(), is_hidden);
         if let Some(strength) = shake {
             self.platform.rumble(strength);
         }
@@ -230,7 +240,7 @@ impl eframe::App for LumenApp {
             self.platform.sound(tone);
         }
         if ctx.input(|input| input.viewport().visible() == Some(false)) {
-            self.trial.follow_hand(ctx, Keys::Views, None, self.platform.trial());
+            self.panels.trial.trial.follow_hand(ctx, Keys::Views, None, self.platform.trial());
             self.follow(ctx);
         }
     }
@@ -246,9 +256,11 @@ impl eframe::App for LumenApp {
         self.heed_memory();
         self.views.follow_flight(&ctx, !self.platform.prefers_less_motion());
         // Before sheets, lists and fields: whoever presses it because a device pushes wants that to end.
-        if self.trial.has_device().1 && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+        if self.panels.trial.trial.has_device().1
+            && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
+        {
             let stop = DeviceCommand::Halt(Halt::Stopped);
-            self.act_on_trial(trial::Action::Device(trial::DeviceAsk::Command(stop)), &ctx);
+            self.act(Action::Trial(trial::Action::Device(trial::DeviceAsk::Command(stop))), &ctx);
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         if !dropped.is_empty() {
@@ -259,28 +271,30 @@ impl eframe::App for LumenApp {
         self.presenter.hear(&ctx);
         let keys = Keys::of(&ctx, self.sheet.is_some(), self.was_typing);
         // A control that has the focus is pressed by Space.
-        let has_space = !self.trial.is_open() && ctx.memory(|memory| memory.focused().is_none());
+        let has_space = self.mode() != Mode::Trial && ctx.memory(|memory| memory.focused().is_none());
         let by_key =
             keys == Keys::Views && ctx.input(|input| input.key_down(Key::B) || has_space && input.key_down(Key::Space));
         self.views.show_before = by_key || self.views.before_is_held || self.views.options.before;
-        let is_narrow = ui.available_width() < NARROW;
-        self.controls(ui, is_narrow);
+        self.is_narrow = ui.available_width() < NARROW;
+        self.has_links = self.platform.address().is_some();
+        self.controls(ui);
         self.take_keys(ui, keys);
         // Before the views: they are of this frame.
         self.state.show_level();
         self.follow_lesson(&ctx);
         let now_s = ctx.input(|input| input.time);
-        let played = self.views.collapses_follow(self.state.document.as_ref(), now_s);
+        let (document, collapses) = (self.state.document.as_ref(), &mut self.panels.collapses);
+        let played = self.views.led_by(|camera| collapses.follow(document, camera, now_s));
         if self.views.is_flying() {
             ctx.request_repaint();
         }
         self.act_on_all(played, &ctx);
         self.state.show_level();
-        self.centre(ui, is_narrow);
+        self.centre(ui);
         let gamepad = self.platform.gamepad();
-        self.trial.follow_hand(&ctx, keys, gamepad, self.platform.trial());
+        self.panels.trial.trial.follow_hand(&ctx, keys, gamepad, self.platform.trial());
         if let Some(sheet) = self.sheet {
-            let is_done = sheets::show(ui, sheet, self.trial.is_open());
+            let is_done = sheets::show(ui, sheet, &self.key_lines());
             if is_done || keys::pressed(ui, Modifiers::NONE, Key::F1) {
                 self.sheet = None;
             }

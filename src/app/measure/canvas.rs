@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
 use crate::app::halo;
-use crate::app::views::seen;
+use crate::app::places::seen;
 use crate::mesh::Vec3;
 use crate::render::Camera;
 

@@ -3,7 +3,7 @@
 //!
 //! The measures themselves are part of what undo goes back to ([`State`]); here is what a user is about to do.
 
-mod action;
+pub(super) mod action;
 mod canvas;
 mod cap;
 mod clip;
@@ -15,25 +15,25 @@ mod subject;
 mod take;
 mod tool;
 
-use egui::{Key, Modifiers, Pos2, Ui};
-
-use super::keys;
-use super::state::State;
-use crate::mesh::{InnerBall, Vec3};
-use crate::render::Camera;
+use egui::{Modifiers, Pos2, ScrollArea, Ui};
 
 pub use self::action::Action;
 pub use self::clip::{Across, Clip};
 pub(super) use self::over::Seen;
-pub(super) use self::panel::show;
 pub use self::subject::Picked;
 pub use self::tool::Tool;
+use super::action::Action as Ask;
+use super::keys;
+use super::mode::{Acting, Beside, Entry, Group, Layer, Mode, Now, Panel, Place};
+use super::state::State;
+use crate::language::Key;
+use crate::mesh::{InnerBall, Vec3};
+use crate::render::Camera;
 
-/// What a user is about to measure.
+/// What a user is about to measure. The clip plane and the marks of the measures stay in the views when the panel is
+/// closed; the tool is in hand only while it is open.
 pub struct Measuring {
-    /// Whether the panel is shown.
-    pub is_open: bool,
-    /// The tool in hand.
+    /// The tool that was taken up.
     tool: Option<Tool>,
     /// Whether Enter was pressed for the views in this frame: it measures at the middle of the first.
     enter: bool,
@@ -64,7 +64,6 @@ struct Under {
 impl Default for Measuring {
     fn default() -> Self {
         Self {
-            is_open: false,
             tool: None,
             enter: false,
             begun: Vec::new(),
@@ -81,36 +80,27 @@ impl Default for Measuring {
 
 impl Measuring {
     /// Forgets what belongs to the surface that was shown.
-    pub(super) fn leave_surface(&mut self) {
-        let Self { is_open, marks, .. } = *self;
-        *self = Self { is_open, marks, ..Self::default() };
+    fn forget_surface(&mut self) {
+        *self = Self { marks: self.marks, ..Self::default() };
     }
 
-    /// Whether clicks in the views are for a tool.
+    /// Whether clicks in the views are for a tool, while the panel is open.
     pub(super) fn has_tool(&self) -> bool {
-        self.is_open && self.tool.is_some()
-    }
-
-    /// Takes what the keys ask for in the views, where no control has them.
-    pub(super) fn take_keys(&mut self, ui: &Ui, are_for_views: bool) {
-        let is_free = are_for_views && self.has_tool() && ui.ctx().memory(|memory| memory.focused().is_none());
-        self.enter = is_free && keys::pressed(ui, Modifiers::NONE, Key::Enter);
-    }
-
-    /// What takes off one thing: the places of a tool, the tool.
-    pub(super) fn on_top(&self) -> Option<Action> {
-        let tool = self.tool.filter(|_| self.is_open)?;
-        Some(Action::Take((!self.begun.is_empty()).then_some(tool)))
+        self.tool.is_some()
     }
 
     /// Does what is asked for.
-    pub(super) fn act(&mut self, action: Action, state: &mut State) {
+    fn act_on(&mut self, action: Action, acting: &mut Acting<'_>) {
+        let state = &mut *acting.state;
         match action {
+            Action::Toggle if acting.mode == Mode::Method && *acting.beside == Beside::Measure => {
+                *acting.beside = Beside::Nothing;
+                self.take_up(None);
+            }
             Action::Toggle => {
-                self.is_open = !self.is_open;
-                if !self.is_open {
-                    self.take_up(None);
-                }
+                // They stand where the measures do.
+                state.comparison.set_open(false);
+                *acting.beside = if acting.in_trial { Beside::Nothing } else { Beside::Measure };
             }
             Action::Take(tool) => self.take_up(tool),
             Action::Place(picked) => self.place(picked, state),
@@ -161,5 +151,73 @@ impl Measuring {
             }
             Err(why) => self.why = Some(why),
         }
+    }
+}
+
+const TOGGLE: Ask = Ask::Measure(Action::Toggle);
+
+impl Panel for Measuring {
+    fn id(&self) -> &'static str {
+        "measure"
+    }
+
+    fn is_there(&self, _: &State, beside: Beside) -> bool {
+        beside == Beside::Measure
+    }
+
+    fn place(&self, _: &Ui, now: Now<'_>) -> Place {
+        if now.is_narrow { Place::Panel } else { Place::Right(264.0, 232.0..=400.0) }
+    }
+
+    fn entry(&self, now: Now<'_>) -> Option<Entry> {
+        let is_open = now.shows(Beside::Measure);
+        Some(Entry {
+            group: Group::Beside,
+            label: Key("app-measure"),
+            help: Key("app-measure-help"),
+            key: Some(egui::Key::M),
+            action: TOGGLE,
+            is_open,
+            is_enabled: now.has_level() && now.mode == Mode::Method || is_open,
+        })
+    }
+
+    fn take_keys(&mut self, ui: &Ui, are_its: bool, _: &mut Vec<Ask>) {
+        let is_free = are_its && self.has_tool() && ui.ctx().memory(|memory| memory.focused().is_none());
+        self.enter = is_free && keys::pressed(ui, Modifiers::NONE, egui::Key::Enter);
+    }
+
+    fn key_help(&self) -> &'static [(Key, Key)] {
+        &[(Key("app-key-measure"), Key("app-key-measure-does"))]
+    }
+
+    fn escape(&self, now: Now<'_>, layer: Layer) -> Option<Ask> {
+        match layer {
+            _ if !now.shows(Beside::Measure) => None,
+            // The places of a tool, the tool.
+            Layer::Held => {
+                let tool = self.tool?;
+                Some(Ask::Measure(Action::Take((!self.begun.is_empty()).then_some(tool))))
+            }
+            Layer::Open => Some(TOGGLE),
+            Layer::Awaited | Layer::Underway => None,
+        }
+    }
+
+    fn show(&mut self, ui: &mut Ui, now: Now<'_>, asked: &mut Vec<Ask>) {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.set_max_width(ui.available_width() - 8.0);
+            panel::show(ui, self, now, asked);
+        });
+    }
+
+    fn act(&mut self, action: Ask, acting: &mut Acting<'_>) -> Option<Ask> {
+        let Ask::Measure(action) = action else { return Some(action) };
+        self.act_on(action, acting);
+        None
+    }
+
+    fn leave_surface(&mut self, _: &mut Acting<'_>) {
+        self.forget_surface();
     }
 }

@@ -9,8 +9,8 @@ use super::subject::Subject;
 use super::{Action, Measuring, Tool, Under, marks};
 use crate::app::assist::describe;
 use crate::app::document::Document;
+use crate::app::places::in_view;
 use crate::app::theme;
-use crate::app::views::in_view;
 use crate::mesh::InnerBall;
 use crate::pipeline::settings::Keep;
 use crate::render::{Camera, ClipPlane};
@@ -40,6 +40,8 @@ pub(in crate::app) struct Seen<'a> {
     pub(in crate::app) parts: &'a [(Rect, bool)],
     /// Whether it is a wireframe.
     pub(in crate::app) is_lines: bool,
+    /// Whether the panel is open: then the hand may move the plane and use the tool.
+    pub(in crate::app) is_measuring: bool,
     /// What was measured.
     pub(in crate::app) measures: &'a [Measure],
 }
@@ -75,7 +77,7 @@ impl Measuring {
         if self.marks {
             marks::show(&canvas, seen.measures, self.chosen);
         }
-        let tool = self.tool.filter(|_| self.is_open);
+        let tool = self.tool.filter(|_| seen.is_measuring);
         if tool.is_some() {
             let places: Vec<_> = self.begun.iter().map(|picked| picked.at).collect();
             marks::begun(&canvas, &places);
@@ -153,7 +155,7 @@ impl Measuring {
 
     /// Shows the handle of the clip plane, and moves the plane with it.
     fn handle(&self, ui: &Ui, canvas: &Canvas<'_>, document: &Document, seen: &Seen<'_>) -> Option<Action> {
-        let clip = self.clip.filter(|_| self.is_open)?;
+        let clip = self.clip.filter(|_| seen.is_measuring)?;
         let Placed { at, way, range_mm: [low, high], .. } = clip.place(document, seen.keep)?;
         let middle = canvas.at(at).filter(|middle| seen.rect.contains(*middle))?;
         let per_mm = canvas.at(at + way).map_or(Vec2::ZERO, |next| next - middle);

@@ -9,11 +9,12 @@ use crate::app::assist::name;
 use crate::app::control::Setting;
 use crate::app::document::Document;
 use crate::app::icon::{self, Icon};
+use crate::app::mode::Now;
 use crate::app::row::{remark, row, warning};
 use crate::app::state::State;
 use crate::app::theme;
-use crate::app::views::Views;
 use crate::mesh::Vec3;
+use crate::render::Camera;
 use crate::say;
 use crate::sharing::measures::Measure;
 
@@ -22,14 +23,8 @@ const SEEN: f32 = 4.0;
 const LEAST_SEEN_MM: f32 = 12.0;
 
 /// Shows the controls; on a phone they take the place of the panel.
-pub(in crate::app) fn show(
-    ui: &mut Ui,
-    measuring: &Measuring,
-    state: &State,
-    views: &Views,
-    is_narrow: bool,
-    asked: &mut Vec<Action>,
-) {
+pub(super) fn show(ui: &mut Ui, measuring: &Measuring, now: Now<'_>, asked: &mut Vec<Action>) {
+    let Now { state, camera, is_narrow, .. } = now;
     ui.spacing_mut().item_spacing.y = 4.0;
     let mut ask = |what: Asked| asked.push(Action::Measure(what));
     ui.horizontal(|ui| {
@@ -47,7 +42,7 @@ pub(in crate::app) fn show(
     };
     tools(ui, measuring, &mut ask);
     ui.separator();
-    clip_plane(ui, measuring, state, views, document, &mut ask);
+    clip_plane(ui, measuring, state, camera, document, &mut ask);
     ui.separator();
     list(ui, measuring, state, asked);
 }
@@ -76,7 +71,7 @@ fn clip_plane(
     ui: &mut Ui,
     measuring: &Measuring,
     state: &State,
-    views: &Views,
+    camera: &Camera,
     document: &Document,
     ask: &mut impl FnMut(Asked),
 ) {
@@ -90,7 +85,7 @@ fn clip_plane(
     row(ui, &say!("measure-square-to"), &say!("measure-square-to-help"), |ui| {
         let list = ComboBox::from_id_salt("across").width(140.0).selected_text(across.label(document));
         let response = list.show_ui(ui, |ui| {
-            let sight = Across::Direction(views.camera.rotation * Vec3::Z);
+            let sight = Across::Direction(camera.rotation * Vec3::Z);
             let ways = (0..3).map(Across::Axis).chain([sight]);
             let of = branches(document).iter().filter(|branch| !branch.at_mm.is_empty());
             for way in ways.chain(of.map(|branch| Across::Branch(branch.number))) {

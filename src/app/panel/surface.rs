@@ -6,9 +6,10 @@ use super::set;
 use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::document::Document;
+use crate::app::options::ViewOptions;
 use crate::app::row::{number, step};
 use crate::app::state::State;
-use crate::app::views::{ViewOptions, Views};
+use crate::app::views::Views;
 use crate::app::{array_list, axes, mending};
 use crate::engine::Source;
 use crate::io::Unit;
@@ -53,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Ac
         }
     }
     array_list::list(ui, document, views, asked);
-    mending::section(ui, state, views, asked);
+    mending::section(ui, state, views.options, asked);
 }
 
 /// The unit of the file's numbers.

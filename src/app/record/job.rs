@@ -14,12 +14,13 @@ use crate::app::arrays;
 use crate::app::deviating::Deviating;
 use crate::app::document::Document;
 use crate::app::graphics_error::{picture_error, surface_error};
+use crate::app::options::Colours;
 use crate::app::portrait::{
     Alone, Behind, Marks, Portrait, Pose, SIZE, Shown, camera, meaning, pixels, without_ground,
 };
 use crate::app::scene::{colour_map, coloured, scalars};
 use crate::app::state::State;
-use crate::app::views::{Colours, Views, legend};
+use crate::app::views::{Views, legend};
 use crate::engine::{Command, Frame, Link};
 use crate::io::Axes;
 use crate::mesh::TriMesh;

@@ -1,7 +1,7 @@
 //! What leaves the app for the record: reports, pictures and turntables. What they show is drawn here, a picture a frame of
 //! the window; the files are made by the engine, so that no frame waits for them.
 
-mod action;
+pub(super) mod action;
 mod job;
 mod menu;
 

@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use super::slices::SlicePicture;
 use crate::app::document::{Document, Revision};
-use crate::app::views::seen;
+use crate::app::places::seen;
 use crate::mesh::cut_pieces;
 use crate::pipeline::settings::Keep;
 use crate::render::Camera;

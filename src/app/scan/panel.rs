@@ -18,7 +18,7 @@ const AXES: [(Axis, Key); 3] =
     [(Axis::I, Key("scan-columns")), (Axis::J, Key("scan-rows")), (Axis::K, Key("scan-slices"))];
 
 /// Shows the panel of a scan.
-pub(in crate::app) fn show(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
+pub(super) fn show(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     step(ui, 1, &say!("scan-title"), &say!("scan-what"));
     facts(ui, scan);
     ui.separator();
@@ -204,7 +204,7 @@ fn label(work: ScanWork) -> Key {
 }
 
 /// Shows in the bar below how far the scan is that is on its way in.
-pub(in crate::app) fn status(
+pub(super) fn status(
     ui: &mut Ui,
     (file, work, fraction): (&str, ScanWork, f32),
     is_narrow: bool,

@@ -13,7 +13,7 @@ use crate::say;
 use crate::volume::{Survey, WINDOWS};
 
 /// Shows the section.
-pub(in crate::app) fn show(ui: &mut Ui, scan: &KeptScan, asked: &mut Vec<Action>) {
+pub(super) fn show(ui: &mut Ui, scan: &KeptScan, asked: &mut Vec<Action>) {
     let header = egui::CollapsingHeader::new(say!("scan-slices-title")).id_salt("slices").default_open(true);
     header.show(ui, |ui| {
         let mut options = scan.options;

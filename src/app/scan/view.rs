@@ -6,7 +6,9 @@ use super::state::{OpenScan, Picture};
 use crate::app::assist::name;
 use crate::app::compare::{CompareScene, Shot};
 use crate::app::graphics_error::surface_error;
-use crate::app::views::{NO_MEMORY, Views, first_view, pixels};
+use crate::app::places::pixels;
+use crate::app::sides::first_view;
+use crate::app::views::{NO_MEMORY, Views};
 use crate::app::{halo, overlay, theme};
 use crate::io::Axes;
 use crate::render::{Camera, Look};
@@ -15,7 +17,7 @@ use crate::volume::Axis;
 
 /// What the views of a scan hold on the device.
 #[derive(Default)]
-pub(in crate::app) struct ScanView {
+pub(super) struct ScanView {
     device: Option<egui_wgpu::RenderState>,
     scene: Option<CompareScene>,
     slice: Option<(Picture, TextureHandle)>,
@@ -28,22 +30,22 @@ pub(in crate::app) struct ScanView {
 
 impl ScanView {
     /// Takes another device, on which nothing stands yet.
-    pub(in crate::app) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
+    pub(super) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
         *self = Self { device: device.cloned(), camera: self.camera, fitted: self.fitted, ..Self::default() };
     }
 
     /// Lets go of all that stands on the device.
-    pub(in crate::app) fn let_go(&mut self) {
+    pub(super) fn let_go(&mut self) {
         (self.scene, self.slice, self.fitted, self.is_refused) = (None, None, None, false);
     }
 
     /// Gives up what a full device has no memory for.
-    pub(in crate::app) fn refuse(&mut self) {
+    pub(super) fn refuse(&mut self) {
         (self.scene, self.is_refused) = (None, true);
     }
 
     /// Shows both views in what is left of `ui`.
-    pub(in crate::app) fn show(&mut self, ui: &mut Ui, scan: &OpenScan, views: &mut Views, is_narrow: bool) {
+    pub(super) fn show(&mut self, ui: &mut Ui, scan: &OpenScan, views: &mut Views, is_narrow: bool) {
         let area = ui.available_rect_before_wrap();
         let (first, second) =
             if is_narrow { area.split_top_bottom_at_fraction(0.5) } else { area.split_left_right_at_fraction(0.5) };

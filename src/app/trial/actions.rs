@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::action::{Action, DeviceAsk, Pick};
 use super::device::TrialState;
 use super::rumble::Felt;
-use super::state::{Coming, Comparing, Preparing, Run, Stage, Subject, Trial, taken_from};
+use super::state::{Coming, Comparing, Open, Preparing, Run, Stage, Subject, Trial, taken_from};
 use super::tables::Tables;
 use crate::app::document::Document;
 use crate::app::keys::Keys;
@@ -37,14 +37,16 @@ impl Trial {
             Action::Restart => self.restart(document, link),
             Action::Autopilot => self.set_autopilot(!self.run().is_some_and(|run| run.autopilot), link),
             Action::Pause => {
-                if let Stage::On(session) = &mut self.stage {
+                if let Some(session) = self.session_on_mut() {
                     session.run.is_paused = !session.run.is_paused;
                     link.send(TrialCommand::Pause(session.run.is_paused));
                 }
             }
             Action::Slow => {
-                self.is_slow = !self.is_slow;
-                link.send(TrialCommand::Pace(self.pace()));
+                if let Some(open) = &mut self.open {
+                    open.is_slow = !open.is_slow;
+                    link.send(TrialCommand::Pace(self.pace()));
+                }
             }
             Action::StepBack => {
                 if let Some(id) = self.begin_run(|session, id| session.run.stepped_back(id)) {
@@ -60,12 +62,20 @@ impl Trial {
             }
             Action::Close => {
                 link.send(TrialCommand::Stop);
-                self.end(Stage::Closed);
+                self.end(false);
             }
             Action::Set(setup) => self.setup = *setup,
-            Action::Pick(pick) => self.pick = pick,
+            Action::Pick(pick) => {
+                if let Some(open) = &mut self.open {
+                    open.pick = pick;
+                }
+            }
             Action::Place(pick, at) => self.place(pick, at, document, link),
-            Action::Arm(arm) => self.carm.act(arm),
+            Action::Arm(arm) => {
+                if let Some(open) = &mut self.open {
+                    open.carm.act(arm);
+                }
+            }
             Action::Tables => self.show_tables(document),
             Action::RepeatTables => self.tables.again(),
             Action::CancelTables => self.cancel_tables(link),
@@ -82,20 +92,21 @@ impl Trial {
             self.problem = Some(say!("trial-no-surface").into());
             return;
         };
-        (self.awaits, self.flight) = (None, None);
         let (id, mesh) = (self.next_number(), Arc::new(mesh));
         document.name.clone_into(&mut self.name);
         let (sample, setup) = (sample_of(document), self.setup.clone());
-        self.sent = Some(setup.clone());
-        let mut preparing = match std::mem::take(&mut self.stage) {
-            Stage::Closed | Stage::Off(_) => Preparing::default(),
+        let open = self.open.get_or_insert_default();
+        (open.awaits, open.flight) = (None, None);
+        open.sent = Some(setup.clone());
+        let mut preparing = match std::mem::take(&mut open.stage) {
+            Stage::Off(_) => Preparing::default(),
             Stage::Preparing(preparing) => Preparing { fraction: 0.0, ..preparing },
             Stage::On(session) => Preparing { before: Some(session), ..Preparing::default() },
         };
         let subject = Subject { mesh: mesh.clone(), levels, of: taken_from(document) };
         preparing.coming.push(Coming { id, subject });
         preparing.log = log.or(preparing.log);
-        self.stage = Stage::Preparing(preparing);
+        open.stage = Stage::Preparing(preparing);
         link.send(TrialCommand::Start { id, mesh, sample, setup });
     }
 
@@ -137,7 +148,7 @@ impl Trial {
     }
 
     fn set_autopilot(&mut self, on: bool, link: &mut TrialLink) {
-        let Stage::On(session) = &mut self.stage else { return };
+        let Some(session) = self.session_on_mut() else { return };
         session.run.autopilot = on;
         link.send(TrialCommand::Autopilot(on));
         if on && std::mem::take(&mut session.run.is_paused) {
@@ -146,19 +157,19 @@ impl Trial {
     }
 
     fn pace(&self) -> f32 {
-        if self.is_slow { SLOW } else { 1.0 }
+        if self.open().is_some_and(|open| open.is_slow) { SLOW } else { 1.0 }
     }
 
     /// Tells an engine that has just begun, as fast as time, where it is to be slower.
     pub(super) fn tell_pace(&self, link: &mut TrialLink) {
-        if self.is_slow {
+        if self.open().is_some_and(|open| open.is_slow) {
             link.send(TrialCommand::Pace(self.pace()));
         }
     }
 
     fn compare(&mut self, link: &mut TrialLink) {
         let id = self.next_number();
-        let Stage::On(session) = &mut self.stage else { return };
+        let Some(session) = self.session_on_mut() else { return };
         let levels = &session.subject.levels;
         let whole = levels.extract(&levels.level(Target::Reduction(0)).triangles);
         session.run.comparing = Some(Comparing { id, fraction: 0.0 });
@@ -167,7 +178,9 @@ impl Trial {
 
     /// Begins with a place that was picked: where the wire enters, or where it should go.
     fn place(&mut self, pick: Pick, at: Vec3, document: Option<&Document>, link: &mut TrialLink) {
-        self.pick = None;
+        if let Some(open) = &mut self.open {
+            open.pick = None;
+        }
         match pick {
             Pick::Target => self.setup.target = Some(at.to_array()),
             Pick::Entry => {
@@ -185,7 +198,7 @@ impl Trial {
         if self.is_open() {
             link.send(TrialCommand::Stop);
         }
-        self.end(Stage::Closed);
+        self.end(false);
         self.tables = Tables::default();
         // Places in one vessel are nowhere in another.
         (self.setup.entry, self.setup.target) = (None, None);
@@ -219,9 +232,11 @@ impl Trial {
 
     /// Sets the gentler smoothing; the trial begins once its level is there.
     pub(in crate::app) fn adapt_smoothing(&mut self, smoothing: &mut Smoothing) {
-        if let Some(gentler) = self.gentler(smoothing) {
+        if let Some(gentler) = self.gentler(smoothing)
+            && let Some(open) = &mut self.open
+        {
             *smoothing = gentler;
-            (self.problem, self.awaits) = (None, Some(gentler));
+            (self.problem, open.awaits) = (None, Some(gentler));
         }
     }
 
@@ -234,8 +249,9 @@ impl Trial {
         document: Option<&Document>,
         link: &mut TrialLink,
     ) {
-        self.awaits.take_if(|awaited| awaited != smoothing);
-        if self.awaits.is_some() && has_level {
+        let Some(open) = &mut self.open else { return };
+        open.awaits.take_if(|awaited| awaited != smoothing);
+        if open.awaits.is_some() && has_level {
             self.start(None, document, link);
         }
     }
@@ -248,11 +264,12 @@ impl Trial {
         gamepad: Option<Gamepad>,
         link: &mut TrialLink,
     ) {
-        let hand = self.hand.input(ctx, keys, gamepad);
-        let input = if self.is_on() { hand } else { Input::default() };
-        let steers_itself = self.run().is_some_and(|run| run.autopilot);
-        let is_other = input != self.hand.told();
-        if !self.hand.tell(input, ctx.input(|input| input.time), steers_itself) {
+        let (is_on, steers_itself) = (self.is_on(), self.run().is_some_and(|run| run.autopilot));
+        let Some(Open { hand, .. }) = self.open.as_deref_mut() else { return };
+        let held = hand.input(ctx, keys, gamepad);
+        let input = if is_on { held } else { Input::default() };
+        let is_other = input != hand.told();
+        if !hand.tell(input, ctx.input(|input| input.time), steers_itself) {
             return;
         }
         if is_other && steers_itself && input != Input::default() {
@@ -263,10 +280,10 @@ impl Trial {
 
     /// Does what is asked of the haptic device.
     pub(in crate::app) fn act_on_device(&mut self, ask: DeviceAsk, devices: Option<&mut dyn Devices>) {
-        match ask {
-            DeviceAsk::Rumble(ask) => return self.rumble.act(ask),
-            DeviceAsk::Sound(on) => return self.sound.turn(on),
-            DeviceAsk::Command(DeviceCommand::Halt(why)) => self.rumble.halt(why),
+        match (ask, self.open.as_deref_mut()) {
+            (DeviceAsk::Rumble(ask), Some(open)) => return open.rumble.act(ask),
+            (DeviceAsk::Sound(on), Some(open)) => return open.sound.turn(on),
+            (DeviceAsk::Command(DeviceCommand::Halt(why)), Some(open)) => open.rumble.halt(why),
             _ => {}
         }
         self.device.act(ask, devices);
@@ -281,14 +298,13 @@ impl Trial {
         has_sound: bool,
         is_hidden: bool,
     ) -> (Option<f64>, Option<Tone>) {
-        if is_hidden {
-            self.rumble.halt(Halt::Hidden);
-        } else if !self.is_open() {
-            self.rumble.halt(Halt::NotArmed);
-        }
         let felt = self.take_felt();
-        let shake = self.rumble.follow(now_ms, gamepad.is_some_and(|pad| pad.can_rumble), felt);
-        (shake, self.sound.follow(now_ms, has_sound, felt.filter(|_| !is_hidden)))
+        let Some(Open { rumble, sound, .. }) = self.open.as_deref_mut() else { return (None, None) };
+        if is_hidden {
+            rumble.halt(Halt::Hidden);
+        }
+        let shake = rumble.follow(now_ms, gamepad.is_some_and(|pad| pad.can_rumble), felt);
+        (shake, sound.follow(now_ms, has_sound, felt.filter(|_| !is_hidden)))
     }
 
     /// The most that the hand has held at the guide since it was last asked, while one does.
@@ -329,17 +345,20 @@ impl Trial {
 
     /// Whether a haptic device is served, and whether its force, or a gamepad's, is armed.
     pub(in crate::app) fn has_device(&self) -> (bool, bool) {
-        (self.device.is_served(), self.device.is_armed() || self.rumble.is_armed())
+        let rumbles = self.open().is_some_and(|open| open.rumble.is_armed());
+        (self.device.is_served(), self.device.is_armed() || rumbles)
     }
 
     /// Whether the hand is on the wire: then the engine has to be told of it.
     pub(in crate::app) fn is_driven(&self) -> bool {
-        self.hand.told() != Input::default()
+        self.open().is_some_and(|open| open.hand.told() != Input::default())
     }
 
     /// Shows the pads for a finger or the mouse.
     pub(in crate::app) fn pads(&mut self, ui: &mut egui::Ui) {
-        self.hand.pads(ui);
+        if let Some(open) = &mut self.open {
+            open.hand.pads(ui);
+        }
     }
 }
 

@@ -88,6 +88,11 @@ impl Device {
         self.known = known;
     }
 
+    /// The trial is over: nothing is known of a device any more but what was learnt.
+    pub(super) fn forget_trial(&mut self) {
+        *self = Self { known: std::mem::take(&mut self.known), ..Self::default() };
+    }
+
     /// By what the one that is served is remembered; empty where none is open.
     fn key(&self) -> &str {
         self.status.as_ref().filter(|status| status.ended.is_none()).map_or("", |status| status.key.as_str())

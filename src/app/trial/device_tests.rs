@@ -2,7 +2,7 @@
 
 use super::action::DeviceAsk;
 use super::device::{Device, TrialState};
-use super::state::{Stage, Trial};
+use super::state::Trial;
 use crate::app::platform::Devices;
 use crate::haptics::controls::Motion;
 use crate::haptics::known::KnownMappings;
@@ -144,6 +144,6 @@ fn the_end_of_a_trial_forgets_no_device() {
     let (mut trial, mut known) = (Trial::default(), KnownMappings::default());
     known.remember("1209:0001:0", 2, by(1));
     trial.set_known_mappings(known.clone());
-    trial.end(Stage::Closed);
+    trial.end(false);
     assert_eq!(trial.known_mappings(), &known);
 }

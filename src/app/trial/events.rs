@@ -12,7 +12,7 @@ impl Trial {
     pub fn receive(&mut self, event: TrialEvent, link: &mut TrialLink) -> Option<[Offer; 2]> {
         match event {
             TrialEvent::Preparing { id, fraction } => {
-                if let Stage::Preparing(preparing) = &mut self.stage
+                if let Some(Stage::Preparing(preparing)) = self.stage_mut()
                     && preparing.awaits(id)
                 {
                     preparing.fraction = fraction;
@@ -41,7 +41,9 @@ impl Trial {
                 if let Some(session) = self.session_of(id) {
                     let missed = summary.missed_fork_at.map(Vec3::from);
                     session.run.summary = Some(*summary);
-                    self.flight = missed.or(self.flight);
+                    if let (Some(open), Some(missed)) = (&mut self.open, missed) {
+                        open.flight = Some(missed);
+                    }
                 }
             }
             TrialEvent::Saved { csv, json } => {
@@ -79,13 +81,14 @@ impl Trial {
     }
 
     fn receive_ready(&mut self, ready: TrialReady, link: &mut TrialLink) {
-        let Stage::Preparing(preparing) = &mut self.stage else { return };
+        let Some(open) = self.open.as_deref_mut() else { return };
+        let Stage::Preparing(preparing) = &mut open.stage else { return };
         // Those before it are over; what was asked for since then is not.
         let Some(at) = preparing.coming.iter().position(|coming| coming.id == ready.id) else { return };
         let Some(Coming { id, subject }) = preparing.coming.drain(..=at).next_back() else { return };
         let way: Vec<Vec3> = ready.route.points.iter().map(|&p| p.into()).collect();
         // The numbers of the wire that was proposed are shown.
-        for setup in [Some(&mut self.setup), self.sent.as_mut()].into_iter().flatten() {
+        for setup in [Some(&mut self.setup), open.sent.as_mut()].into_iter().flatten() {
             if setup.proposes_wire {
                 setup.wire.clone_from(&ready.setup.wire);
             }
@@ -93,16 +96,18 @@ impl Trial {
         let session = Box::new(Session { subject, ready, at_entry: None, run: Run::new(id) });
         let log = if preparing.coming.is_empty() {
             let log = preparing.log.take();
-            self.stage = Stage::On(session);
-            // The engine begins as fast as time.
-            self.tell_pace(link);
+            open.stage = Stage::On(session);
             log
         } else {
             preparing.before = Some(session);
             None
         };
+        open.carm.centre(&Bounds::of(&way));
+        if self.is_on() {
+            // The engine begins as fast as time.
+            self.tell_pace(link);
+        }
         self.reset_controls();
-        self.carm.centre(&Bounds::of(&way));
         if let Some(csv) = log
             && let Some(id) = self.begin_run(|_, id| Run::new(id))
         {
@@ -111,16 +116,17 @@ impl Trial {
     }
 
     fn receive_refusal(&mut self, id: u64, problem: Problem) {
-        if let Stage::Preparing(preparing) = &mut self.stage
+        if let Some(open) = self.open.as_deref_mut()
+            && let Stage::Preparing(preparing) = &mut open.stage
             && preparing.awaits(id)
         {
             let refused = preparing.coming.iter().find(|coming| coming.id == id);
             let refused = refused.map(|coming| coming.subject.mesh.clone());
             preparing.coming.retain(|coming| coming.id > id);
             if preparing.coming.is_empty() {
-                self.stage = preparing.before.take().map_or(Stage::Off(refused), Stage::On);
+                open.stage = preparing.before.take().map_or(Stage::Off(refused), Stage::On);
             }
-            self.flight = problem.at;
+            open.flight = problem.at;
             self.problem = Some(problem);
         } else if let Some(run) = self.run_comparing(id) {
             run.comparing = None;
@@ -135,7 +141,7 @@ impl Trial {
         link.give_up();
         self.tables.fails(&say!("trial-computation-stopped"));
         self.tables.cancel();
-        self.end(if self.is_open() { Stage::Off(None) } else { Stage::Closed });
+        self.end(self.is_open());
         let text = say!("trial-stopped", reason = reason);
         self.problem = Some(text.clone().into());
         text

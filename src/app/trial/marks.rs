@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2
 
 use super::plate::plate;
 use super::state::Session;
-use crate::app::views::seen;
+use crate::app::places::seen;
 use crate::app::{halo, overlay};
 use crate::engine::trial::RouteShown;
 use crate::language::decimal;

@@ -3,7 +3,7 @@
 use egui::{Button, Key, Modifiers, RichText, Ui};
 
 use super::action::Action;
-use super::state::{AWAITS, Stage, Trial};
+use super::state::{AWAITS, Open, Stage, Trial};
 use super::{device, fluoroscope, outcome, readout, rumble, setup, sound};
 use crate::app::control::progress;
 use crate::app::document::Document;
@@ -14,7 +14,7 @@ use crate::say;
 
 /// Shows the step; while the trial's views are shown it has the panel to itself. What was set there comes before what was
 /// asked for, which is done with it.
-pub(in crate::app) fn show(
+pub(super) fn show(
     ui: &mut Ui,
     trial: &Trial,
     smoothing: &Smoothing,
@@ -28,7 +28,10 @@ pub(in crate::app) fn show(
     if trial.gentler(smoothing).is_some() {
         adapt_smoothing(ui, asked);
     }
-    if trial.is_open() { open(ui, trial, asked) } else { closed(ui, document, asked) }
+    match trial.open() {
+        Some(shown) => open(ui, trial, shown, asked),
+        None => closed(ui, document, asked),
+    }
 }
 
 /// Offers the smoothing that leaves thin vessels as wide as they are.
@@ -54,10 +57,10 @@ fn closed(ui: &mut Ui, document: Option<&Document>, asked: &mut Vec<Action>) {
     });
 }
 
-fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
+fn open(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {
     let before = asked.len();
-    state(ui, trial);
-    buttons(ui, trial, asked);
+    state(ui, shown);
+    buttons(ui, trial, shown, asked);
     if let (true, Some(frame)) = (trial.is_on(), trial.frame()) {
         ui.separator();
         ui.push_id("numbers", |ui| readout::show(ui, trial, frame));
@@ -67,7 +70,7 @@ fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     ui.push_id("wire", |ui| setup::wire(ui, &mut setup, trial.proposed_wire()));
     ui.push_id("places", |ui| {
         if let Some(session) = trial.session() {
-            setup::places(ui, &session.ready, &mut setup, trial.pick, asked);
+            setup::places(ui, &session.ready, &mut setup, shown.pick, asked);
         }
     });
     if setup != trial.setup {
@@ -78,25 +81,25 @@ fn open(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
     }
     ui.separator();
     ui.push_id("device", |ui| device::show(ui, &trial.device, asked));
-    ui.push_id("rumble", |ui| rumble::show(ui, &trial.rumble, asked));
-    ui.push_id("sound", |ui| sound::show(ui, &trial.sound, asked));
+    ui.push_id("rumble", |ui| rumble::show(ui, &shown.rumble, asked));
+    ui.push_id("sound", |ui| sound::show(ui, &shown.sound, asked));
     if trial.device.is_offered() {
         ui.separator();
     }
-    ui.push_id("fluoroscopy", |ui| fluoroscope::show(ui, &trial.carm, asked));
+    ui.push_id("fluoroscopy", |ui| fluoroscope::show(ui, &shown.carm, asked));
     ui.separator();
     ui.push_id("outcome", |ui| outcome::show(ui, trial, asked));
     ui.separator();
     log(ui, trial, asked);
 }
 
-fn state(ui: &mut Ui, trial: &Trial) {
+fn state(ui: &mut Ui, shown: &Open) {
     ui.add_space(4.0);
-    if trial.awaits.is_some() {
+    if shown.awaits.is_some() {
         ui.add(egui::Label::new(AWAITS.say()).wrap());
         return;
     }
-    match &trial.stage {
+    match &shown.stage {
         Stage::Preparing(preparing) => {
             progress(ui, preparing.fraction, ui.available_width(), &say!("trial-preparing"));
             ui.label(say!("trial-finding"));
@@ -117,13 +120,13 @@ fn state(ui: &mut Ui, trial: &Trial) {
             }
             ui.add(egui::Label::new(rich).wrap());
         }
-        Stage::Closed | Stage::Off(_) => {
+        Stage::Off(_) => {
             ui.label(say!("trial-none-on"));
         }
     }
 }
 
-fn buttons(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
+fn buttons(ui: &mut Ui, trial: &Trial, shown: &Open, asked: &mut Vec<Action>) {
     let is_on = trial.is_on();
     let run = trial.run();
     let (autopilot, is_paused) = run.map_or((false, false), |run| (run.autopilot, run.is_paused));
@@ -134,7 +137,7 @@ fn buttons(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
                 asked.push(what);
             }
         };
-        if matches!(trial.stage, Stage::Closed | Stage::Off(_)) {
+        if matches!(shown.stage, Stage::Off(_)) {
             button(ui, true, false, &say!("trial-start"), "", Action::Start);
         } else {
             let help = say!("trial-restart-help");
@@ -143,7 +146,7 @@ fn buttons(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
         let help = say!("trial-autopilot-help");
         button(ui, is_on, autopilot, &say!("trial-autopilot"), &help, Action::Autopilot);
         button(ui, is_on, is_paused, &say!("trial-pause"), &say!("trial-pause-help"), Action::Pause);
-        button(ui, is_on, trial.is_slow, &say!("trial-slow"), &say!("trial-slow-help"), Action::Slow);
+        button(ui, is_on, shown.is_slow, &say!("trial-slow"), &say!("trial-slow-help"), Action::Slow);
         button(ui, is_on, false, &say!("trial-step-back"), &say!("trial-step-back-help"), Action::StepBack);
         button(ui, true, false, &say!("trial-close"), &say!("trial-close-help"), Action::Close);
     });
@@ -165,7 +168,7 @@ fn log(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
 }
 
 /// What the keys ask for while a trial is shown.
-pub(in crate::app) fn keys(ui: &Ui, trial: &Trial, asked: &mut Vec<Action>) {
+pub(super) fn keys(ui: &Ui, trial: &Trial, asked: &mut Vec<Action>) {
     let pressed = |key| pressed(ui, Modifiers::NONE, key);
     fluoroscope::keys(ui, pressed, asked);
     let is_on = trial.is_on();

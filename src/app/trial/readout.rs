@@ -72,7 +72,12 @@ fn numbers(ui: &mut Ui, trial: &Trial, frame: &Frame) {
     let distance = format!("{} mm", decimal(frame.target_mm, 1));
     number(ui, &say!("trial-to-target"), &distance, &say!("trial-to-target-help"));
     number(ui, &say!("trial-elapsed"), &clock(frame.time_s), &say!("trial-elapsed-help"));
-    number(ui, &say!("trial-fluoroscopy"), &clock(trial.carm.seconds), &say!("trial-beam-time-help"));
+    number(
+        ui,
+        &say!("trial-fluoroscopy"),
+        &clock(trial.open().map_or(0.0, |open| open.carm.seconds)),
+        &say!("trial-beam-time-help"),
+    );
     let touches = say!("trial-contacts-sum", count = frame.contacts, force = force(frame.wall_force_n));
     number(ui, &say!("trial-contacts"), &touches, &say!("trial-contacts-help"));
     number(ui, &say!("trial-tip-force"), &force(frame.tip_force_n), &say!("trial-tip-force-help"));

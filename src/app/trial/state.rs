@@ -1,7 +1,8 @@
 //! What the app knows of a trial.
 //!
-//! [`Trial`] holds what belongs to the controls, and a [`Stage`]. A [`Session`] is a trial in one surface, a [`Run`] in it
-//! one way of the wire from its entry: what belongs to either goes with it when another takes its place.
+//! [`Trial`] holds what outlives a trial, and while its views are shown what is [`Open`] there, with a [`Stage`]. A
+//! [`Session`] is a trial in one surface, a [`Run`] in it one way of the wire from its entry: what belongs to any of them
+//! goes with it when another takes its place.
 
 use std::sync::Arc;
 
@@ -34,6 +35,21 @@ pub struct Trial {
     pub setup: Setup,
     /// The paper's tables.
     pub tables: Tables,
+    /// The haptic device. It is served, and its force ends, whether a trial is open or not.
+    pub(super) device: Device,
+    /// Why the last thing asked for could not be done.
+    pub(super) problem: Option<Problem>,
+    /// The number of the newest command that has one.
+    pub(super) number: u64,
+    /// The name of the surface.
+    pub(super) name: String,
+    /// While the trial's views are shown: all that means nothing without them.
+    pub(super) open: Option<Box<Open>>,
+}
+
+/// A trial whose views are shown.
+#[derive(Default)]
+pub struct Open {
     /// What the next click on the vessel chooses.
     pub pick: Option<Pick>,
     /// The fluoroscope.
@@ -42,39 +58,33 @@ pub struct Trial {
     pub is_slow: bool,
     /// The operator's hand.
     pub(super) hand: Hand,
-    /// The haptic device.
-    pub(super) device: Device,
     /// A gamepad's motors.
     pub(super) rumble: Rumble,
     /// A tone in place of a force.
     pub(super) sound: Sound,
-    /// Why the last thing asked for could not be done.
-    pub(super) problem: Option<Problem>,
     /// A place that the camera flies to from the next picture on, in mm: where it is too thin, the fork that was missed.
     pub(super) flight: Option<Vec3>,
     /// The smoothing whose level is awaited: it begins with that.
     pub(super) awaits: Option<Smoothing>,
     /// The setup of the newest start, as the controls had it.
     pub(super) sent: Option<Setup>,
-    /// The number of the newest command that has one.
-    pub(super) number: u64,
-    /// The name of the surface.
-    pub(super) name: String,
     pub(super) stage: Stage,
 }
 
 /// How far a trial is.
-#[derive(Default)]
 pub enum Stage {
-    /// The surface is shown, and there is no trial.
-    #[default]
-    Closed,
-    /// The trial's views are shown, but none is on. The surface in which one was refused is shown then.
+    /// None is on. The surface in which one was refused is shown then.
     Off(Option<Arc<TriMesh>>),
     /// The wall and the route are being found.
     Preparing(Preparing),
     /// The wire is in the vessel.
     On(Box<Session>),
+}
+
+impl Default for Stage {
+    fn default() -> Self {
+        Self::Off(None)
+    }
 }
 
 /// Starts that the engine has not answered yet.
@@ -176,29 +186,52 @@ impl Trial {
         Self { setup: Setup { proposes_wire: true, ..Setup::default() }, ..Self::default() }
     }
 
-    /// How far it is.
-    pub fn stage(&self) -> &Stage {
-        &self.stage
+    /// What is open while its views are shown.
+    pub fn open(&self) -> Option<&Open> {
+        self.open.as_deref()
+    }
+
+    /// How far it is; `None` while its views are not shown.
+    pub(super) fn stage(&self) -> Option<&Stage> {
+        Some(&self.open()?.stage)
+    }
+
+    pub(super) fn stage_mut(&mut self) -> Option<&mut Stage> {
+        Some(&mut self.open.as_deref_mut()?.stage)
     }
 
     /// Whether its views are shown.
     pub fn is_open(&self) -> bool {
-        !matches!(self.stage, Stage::Closed)
+        self.open.is_some()
+    }
+
+    /// Whether its fluoroscopy is the large picture.
+    pub(super) fn is_large(&self) -> bool {
+        self.open().is_some_and(|open| open.carm.is_large)
     }
 
     /// Whether the wire is in the vessel, and nothing else on its way in.
     pub fn is_on(&self) -> bool {
-        matches!(self.stage, Stage::On(_))
+        self.session_on().is_some()
+    }
+
+    /// The trial whose wire is in the vessel.
+    fn session_on(&self) -> Option<&Session> {
+        if let Stage::On(session) = self.stage()? { Some(session) } else { None }
+    }
+
+    pub(super) fn session_on_mut(&mut self) -> Option<&mut Session> {
+        if let Stage::On(session) = self.stage_mut()? { Some(session) } else { None }
     }
 
     /// The trial that is shown: the one that is on, or that stands until the next is ready.
     pub fn session(&self) -> Option<&Session> {
-        self.stage.session()
+        self.stage()?.session()
     }
 
     pub(super) fn session_mut(&mut self) -> Option<&mut Session> {
-        match &mut self.stage {
-            Stage::Closed | Stage::Off(_) => None,
+        match self.stage_mut()? {
+            Stage::Off(_) => None,
             Stage::Preparing(preparing) => preparing.before.as_deref_mut(),
             Stage::On(session) => Some(session),
         }
@@ -221,7 +254,7 @@ impl Trial {
 
     /// The surface that the wire is in, or was refused in.
     pub(super) fn mesh(&self) -> Option<&Arc<TriMesh>> {
-        match &self.stage {
+        match self.stage()? {
             Stage::Off(refused) => refused.as_ref(),
             stage => stage.session().map(|session| &session.subject.mesh),
         }
@@ -229,8 +262,7 @@ impl Trial {
 
     /// Whether a hand can move the wire: then it is looked after, as a gamepad tells nothing by itself.
     pub fn is_in_hand(&self) -> bool {
-        let Stage::On(session) = &self.stage else { return false };
-        let run = &session.run;
+        let Some(Session { run, .. }) = self.session_on() else { return false };
         let is_over = run.frame.as_ref().is_some_and(|frame| frame.progress != Progress::Running);
         !(run.is_paused || is_over || run.summary.is_some())
     }
@@ -247,7 +279,7 @@ impl Trial {
 
     /// Whether something is being computed for it.
     pub fn is_busy(&self) -> bool {
-        matches!(self.stage, Stage::Preparing(_)) || self.is_comparing() || self.tables.is_busy()
+        matches!(self.stage(), Some(Stage::Preparing(_))) || self.is_comparing() || self.tables.is_busy()
     }
 
     /// The setup in force, with its entry and its target.
@@ -262,12 +294,17 @@ impl Trial {
             wire: if is_proposed(sent) { self.setup.wire.clone() } else { sent.wire.clone() },
             ..sent.clone()
         };
-        self.sent.as_ref().is_some_and(|sent| as_now(sent) != self.setup)
+        self.sent().is_some_and(|sent| as_now(sent) != self.setup)
+    }
+
+    /// The setup of the newest start, as the controls had it.
+    fn sent(&self) -> Option<&Setup> {
+        self.open()?.sent.as_ref()
     }
 
     /// The wire that is proposed for the way that is shown, where one was.
     pub(super) fn proposed_wire(&self) -> Option<&Wire> {
-        let is_proposed = self.is_on() && self.sent.as_ref().is_some_and(|sent| sent.proposes_wire);
+        let is_proposed = self.is_on() && self.sent().is_some_and(|sent| sent.proposes_wire);
         self.setup_in_force().filter(|_| is_proposed).map(|setup| &setup.wire)
     }
 
@@ -287,7 +324,7 @@ impl Trial {
     /// Begins another run in the trial that is on, if one is, with what `begin` makes of it and its number.
     pub(super) fn begin_run(&mut self, begin: impl FnOnce(&Session, u64) -> Run) -> Option<u64> {
         let id = self.number + 1;
-        let Stage::On(session) = &mut self.stage else { return None };
+        let session = self.session_on_mut()?;
         session.run = begin(session, id);
         self.number = id;
         Some(id)
@@ -295,23 +332,25 @@ impl Trial {
 
     /// The wire is at its entry: no hand is on it, and no time of the beam has passed.
     pub(super) fn reset_controls(&mut self) {
-        self.carm.reset();
-        self.hand.forget_told();
+        if let Some(open) = &mut self.open {
+            open.carm.reset();
+            open.hand.forget_told();
+        }
     }
 
-    /// Ends whatever is on. What was chosen stands, and so do the tables.
-    pub(super) fn end(&mut self, stage: Stage) {
-        let (setup, tables) = (std::mem::take(&mut self.setup), std::mem::take(&mut self.tables));
-        let (name, number) = (std::mem::take(&mut self.name), self.number);
-        let known = self.device.known().clone();
-        *self = Self { setup, tables, name, number, stage, ..Self::default() };
-        self.device.set_known(known);
+    /// Ends whatever is on, and closes the views unless they are to stay. What was chosen stands, and so do the tables.
+    pub(super) fn end(&mut self, stays_open: bool) {
+        self.open = stays_open.then(Box::default);
+        self.problem = None;
+        self.device.forget_trial();
     }
 
     /// Hears that the window's clock begins anew.
     pub(in crate::app) fn restart_clock(&mut self) {
-        self.carm.restart_clock();
-        self.hand.restart_clock();
+        if let Some(open) = &mut self.open {
+            open.carm.restart_clock();
+            open.hand.restart_clock();
+        }
     }
 }
 
@@ -319,7 +358,7 @@ impl Stage {
     /// The trial that is shown: the one that is on, or that stands until the next is ready.
     pub(super) fn session(&self) -> Option<&Session> {
         match self {
-            Self::Closed | Self::Off(_) => None,
+            Self::Off(_) => None,
             Self::Preparing(preparing) => preparing.before.as_deref(),
             Self::On(session) => Some(session),
         }

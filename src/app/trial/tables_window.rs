@@ -34,7 +34,7 @@ const COLUMNS: [(Key, Key); 13] = [
 const WIDTH: f32 = 960.0;
 
 /// Shows the tables, if they are open.
-pub(in crate::app) fn show(ui: &Ui, tables: &Tables, asked: &mut Vec<Action>) {
+pub(super) fn show(ui: &Ui, tables: &Tables, asked: &mut Vec<Action>) {
     if !tables.is_open {
         return;
     }

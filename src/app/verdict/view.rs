@@ -77,7 +77,7 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: b
         None => {
             let vessels = ui.add_enabled(verdict.calibre.is_some(), egui::Button::new(say!("verdict-show-vessels")));
             if vessels.on_hover_text(say!("verdict-show-vessels-help")).clicked() {
-                asked.push(Action::Vessels(vessels::Action::Toggle));
+                asked.push(Action::Vessels(vessels::action::Action::Toggle));
             }
         }
     }

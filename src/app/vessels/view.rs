@@ -3,14 +3,15 @@
 use egui::{Button, DragValue, Grid, RichText, Role, ScrollArea, Ui};
 
 use super::words::{COLUMNS, cells, text, why_not_measured};
-use super::{Action as Asked, Vessels, plot};
+use super::{Action as Asked, plot};
 use crate::app::action::Action;
 use crate::app::assist::{describe, heading, name};
 use crate::app::control::reads_comma;
 use crate::app::document::Document;
+use crate::app::mode::Now;
+use crate::app::options::{Colours, ViewOptions};
 use crate::app::state::State;
 use crate::app::theme;
-use crate::app::views::{Colours, ViewOptions, Views};
 use crate::pipeline::settings::Settings;
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, Change, Verdict};
@@ -22,16 +23,10 @@ const SEEN: f32 = 16.0;
 const PLOT: f32 = 0.42;
 
 /// Shows the vessels; on a phone the plot stands below the table.
-pub(in crate::app) fn show(
-    ui: &mut Ui,
-    vessels: &Vessels,
-    state: &State,
-    views: &Views,
-    is_narrow: bool,
-    asked: &mut Vec<Action>,
-) {
+pub(super) fn show(ui: &mut Ui, selected: Option<u32>, now: Now<'_>, asked: &mut Vec<Action>) {
+    let Now { state, options, is_narrow, .. } = now;
     ui.spacing_mut().item_spacing.y = 4.0;
-    head(ui, state, views, is_narrow, asked);
+    head(ui, state, options, is_narrow, asked);
     // What was known last stands until there is something newer.
     let known = state.document.as_ref().and_then(|document| document.calibre.as_ref());
     let Some(calibre) = known else {
@@ -46,7 +41,7 @@ pub(in crate::app) fn show(
     ui.add(egui::Label::new(told).wrap());
     let Ok(found) = &calibre.found else { return };
     let rows = in_order(found);
-    let chosen = rows.iter().find(|branch| Some(branch.number) == vessels.selected).or(rows.first());
+    let chosen = rows.iter().find(|branch| Some(branch.number) == selected).or(rows.first());
     let Some(&branch) = chosen else { return };
     if is_narrow {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -64,7 +59,7 @@ pub(in crate::app) fn show(
     });
 }
 
-fn head(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut Vec<Action>) {
+fn head(ui: &mut Ui, state: &State, options: ViewOptions, is_narrow: bool, asked: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         heading(ui, &say!("vessels-heading"));
         ui.add_space(8.0);
@@ -79,11 +74,11 @@ fn head(ui: &mut Ui, state: &State, views: &Views, is_narrow: bool, asked: &mut 
         if tolerance_percent.to_bits() != state.settings.tolerance_percent.to_bits() && field.changed() {
             asked.push(Action::Set(Box::new(Settings { tolerance_percent, ..state.settings.clone() })));
         }
-        let mut is_coloured = views.options.colours == Colours::Calibre;
+        let mut is_coloured = options.colours == Colours::Calibre;
         let colour = ui.checkbox(&mut is_coloured, say!("vessels-colour"));
         if colour.on_hover_text(say!("vessels-colour-help")).changed() {
-            let colours = views.options.colours.toggled(Colours::Calibre);
-            asked.push(Action::Show(ViewOptions { colours, ..views.options }));
+            let colours = options.colours.toggled(Colours::Calibre);
+            asked.push(Action::Show(ViewOptions { colours, ..options }));
         }
         let calibre = state.calibre();
         let found = calibre.and_then(|calibre| calibre.found.as_ref().ok());

@@ -1,11 +1,7 @@
 //! The two 3-D views: one camera, and what both show. What each of them draws and is written over it is in `picture`, how
-//! the camera is moved in `steering`, on which side it stands in `sides`, where a place is seen in `places`, what the user
-//! chooses to see in `options`.
+//! the camera is moved in `steering`.
 
-mod options;
 mod picture;
-mod places;
-mod sides;
 mod steering;
 
 use std::sync::Arc;
@@ -13,18 +9,18 @@ use std::sync::Arc;
 use egui::{Rect, Ui};
 use glam::Vec3;
 
-pub use self::options::{Colours, FaultShown, ViewOptions};
 pub(super) use self::picture::legend;
-pub(super) use self::places::{in_view, pixels, seen};
-pub(super) use self::sides::{first_view, side_label, stand};
 use super::action::Action;
 use super::collapses::Collapses;
 use super::document::{Document, Revision};
 use super::flight::Flight;
 use super::measure::{self, Measuring};
+use super::options::ViewOptions;
 use super::reveal::{Divider, Reveal};
-use super::scan::{KeptScan, Outlines, SlicePicture};
+use super::scan::outline::Outlines;
+use super::scan::slices::{KeptScan, SlicePicture};
 use super::scene::Scene;
+use super::sides::{first_view, stand};
 use super::tabs;
 use super::theme;
 use crate::app::graphics_error::surface_error;
@@ -55,7 +51,7 @@ pub(super) enum Clicked {
     /// To look at a place.
     Place(Action),
     /// Something of what is measured.
-    Measure(measure::Action),
+    Measure(measure::action::Action),
 }
 
 /// What the views show.
@@ -67,6 +63,16 @@ pub(super) struct Subject<'a> {
     pub(super) keep: Keep,
     /// What was measured.
     pub(super) measures: &'a [Measure],
+}
+
+/// What lies over the pictures.
+pub(super) struct Over<'a> {
+    /// Measures and clip plane.
+    pub(super) measuring: &'a mut Measuring,
+    /// Whether the hand may measure.
+    pub(super) is_measuring: bool,
+    /// The collapses, one by one.
+    pub(super) collapses: &'a Collapses,
 }
 
 /// The views and how they are looked at.
@@ -88,8 +94,6 @@ pub struct Views {
     outlines: Option<Outlines>,
     /// The place that a ring is drawn around.
     pub(super) spot: Option<Spot>,
-    /// The collapses, one by one.
-    pub(super) collapses: Collapses,
     scene: Option<Scene>,
     /// Why there is nothing to see.
     failure: Option<String>,
@@ -120,7 +124,6 @@ impl Views {
             slices: Vec::new(),
             outlines: None,
             spot: None,
-            collapses: Collapses::default(),
             scene: None,
             failure: None,
             refused: None,
@@ -275,16 +278,16 @@ impl Views {
         self.options.reveal = if is_on { Reveal::Off } else { Reveal::On };
     }
 
-    /// Brings the collapses up to the level that is shown; asks for the next while they are played.
-    pub(super) fn collapses_follow(&mut self, document: Option<&Document>, now_s: f64) -> Option<Action> {
+    /// Lets something else say where the camera goes: it flies there.
+    pub(super) fn led_by<T>(&mut self, lead: impl FnOnce(&mut Camera) -> T) -> T {
         // Not from the middle of a turn, where one is under way.
         let from = self.flight.map_or(self.camera, |flight| flight.to());
         let mut to = from;
-        let next = self.collapses.follow(document, &mut to, now_s);
+        let told = lead(&mut to);
         if to != from {
             self.fly_to(to);
         }
-        next
+        told
     }
 
     /// Takes how fast frames come, while something moves.
@@ -304,7 +307,7 @@ impl Views {
         &mut self,
         ui: &mut Ui,
         subject: Subject<'_>,
-        measuring: &mut Measuring,
+        over: &mut Over<'_>,
         is_narrow: bool,
     ) -> Option<Clicked> {
         let Subject { document, keep, .. } = subject;
@@ -355,7 +358,7 @@ impl Views {
             if is_alone && index != self.large {
                 continue;
             }
-            let hit = self.view(ui, index, rect.shrink(0.5), look, subject, measuring);
+            let hit = self.view(ui, index, rect.shrink(0.5), look, subject, over);
             clicked = clicked.or(hit);
         }
         clicked

@@ -3,11 +3,14 @@
 use egui::{Align2, Color32, EventFilter, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, pos2};
 use glam::Vec3;
 
-use super::{Clicked, Colours, Subject, Views, in_view, pixels};
+use super::{Clicked, Over, Subject, Views};
 use crate::app::assist::name;
+use crate::app::collapses::Collapses;
 use crate::app::document::Document;
 use crate::app::graphics_error::surface_error;
-use crate::app::measure::{Measuring, Seen};
+use crate::app::measure::Seen;
+use crate::app::options::Colours;
+use crate::app::places::{in_view, pixels};
 use crate::app::scene::{Picture, Scene, coloured};
 use crate::app::{arrays, classes, deviation, halo, mending, overlay, spoken, theme};
 use crate::language::decimal;
@@ -28,9 +31,10 @@ impl Views {
         rect: Rect,
         look: Look,
         subject: Subject<'_>,
-        measuring: &mut Measuring,
+        over: &mut Over<'_>,
     ) -> Option<Clicked> {
         let Subject { document, keep, measures } = subject;
+        let Over { measuring, is_measuring, collapses } = over;
         let response = self.take_hand(ui, index, rect, subject);
         let colours = if index == 0 && !self.show_before { self.options.colours } else { Colours::None };
         let mut picture = self.picture(ui, rect, look, document, colours);
@@ -41,14 +45,24 @@ impl Views {
         let reveals = sides.len() > 1;
         let measured: Vec<_> = sides.into_iter().filter(|(_, is_before)| !(is_averaged && *is_before)).collect();
         let (camera, is_lines) = (self.camera, index > 0);
-        let seen = Seen { index, rect, camera: &camera, document, keep, parts: &measured, is_lines, measures };
+        let seen = Seen {
+            index,
+            rect,
+            camera: &camera,
+            document,
+            keep,
+            parts: &measured,
+            is_lines,
+            is_measuring: *is_measuring,
+            measures,
+        };
         measuring.show_cut(ui, &seen);
         self.write(ui, index, rect, &picture, subject, colours);
         if reveals {
             self.divider.show(ui, rect, index, is_averaged.then(|| before_title(document, keep)));
         }
         // Over its words: what is wrong at a place counts more than which side is which.
-        self.mark(ui, rect, &picture, document);
+        self.mark(ui, rect, &picture, document, collapses);
         if response.has_focus() {
             let ring = Stroke::new(2.0, ui.visuals().hyperlink_color);
             ui.painter().rect_stroke(rect, 0.0, ring, StrokeKind::Inside);
@@ -66,10 +80,12 @@ impl Views {
         if let Some(asked) = measuring.show_over(ui, &response, &seen) {
             return Some(Clicked::Measure(asked));
         }
-        let at = response.interact_pointer_pos().filter(|_| response.clicked() && !measuring.has_tool())?;
+        let at = response
+            .interact_pointer_pos()
+            .filter(|_| response.clicked() && !(*is_measuring && measuring.has_tool()))?;
         if self.options.left_out {
             self.piece_at(at, rect, document?).map(Clicked::Piece)
-        } else if self.collapses.is_open() {
+        } else if collapses.is_open() {
             self.vertex_at(at, rect, document?).map(Clicked::Vertex)
         } else {
             None
@@ -193,7 +209,7 @@ impl Views {
     }
 
     /// Marks places: classes, the pinch, collapses, faults, and the one that was gone to.
-    fn mark(&self, ui: &Ui, rect: Rect, picture: &Picture, document: Option<&Document>) {
+    fn mark(&self, ui: &Ui, rect: Rect, picture: &Picture, document: Option<&Document>, collapses: &Collapses) {
         if let Some(document) = document.filter(|_| !self.show_before) {
             if picture.style.by_vertex
                 && let Some(found) = document.classes()
@@ -217,7 +233,7 @@ impl Views {
             overlay::ring(ui, rect, &self.camera, pinch.at_mm.into(), &label, ui.visuals().error_fg_color);
         }
         if let Some(document) = document.filter(|_| !self.show_before) {
-            self.collapses.marks(ui, rect, &self.camera, document);
+            collapses.marks(ui, rect, &self.camera, document);
         }
         if let Some((document, shown)) = document.zip(self.options.fault) {
             mending::marks(ui, rect, &self.camera, document, shown);

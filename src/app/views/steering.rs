@@ -4,8 +4,8 @@ use egui::{PointerButton, Pos2, Rect, Ui, pos2, vec2};
 use glam::Vec2;
 
 use super::Views;
-use super::places::in_view;
 use crate::app::document::Document;
+use crate::app::places::in_view;
 use crate::pipeline::settings::Keep;
 
 impl Views {

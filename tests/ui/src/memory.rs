@@ -5,7 +5,10 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use std::time::Duration;
 
-use lumen::app::{Gamepad, Offer, Platform, PlatformEvent, Store, Tone};
+use lumen::app::{
+    Engines, Files, Gamepad, Hands, Languages, Offer, Platform, PlatformEvent, Screen, Sharing, Sound, Storage, Store,
+    Tone,
+};
 use lumen::engine::scan::{ScanCommand, ScanEngine, ScanEvent, ScanLink};
 use lumen::engine::trial::{TrialCommand, TrialEvent, TrialLink};
 use lumen::engine::{Command, Engine, Event, Link, Machine, TrialEngine};
@@ -207,6 +210,16 @@ impl Link for MemoryPlatform {
 }
 
 impl Platform for MemoryPlatform {
+    fn enter(&mut self, _: &egui::Context) {
+        self.memory.borrow_mut().windows += 1;
+    }
+
+    fn poll(&mut self) -> Option<PlatformEvent> {
+        self.memory.borrow_mut().events.pop_front()
+    }
+}
+
+impl Engines for MemoryPlatform {
     fn link(&mut self) -> &mut dyn Link {
         self
     }
@@ -218,48 +231,9 @@ impl Platform for MemoryPlatform {
     fn scans(&mut self) -> Option<&mut ScanLink> {
         Some(&mut self.scans)
     }
+}
 
-    fn sample_triangles(&self) -> Option<u32> {
-        self.memory.borrow().coarse_samples
-    }
-
-    fn prefers_less_motion(&self) -> bool {
-        !self.memory.borrow().likes_motion
-    }
-
-    fn has_finger(&self) -> bool {
-        self.memory.borrow().has_finger
-    }
-
-    fn store(&mut self) -> Option<&mut dyn Store> {
-        let has_store = self.memory.borrow().kept.is_some();
-        has_store.then_some(self)
-    }
-
-    fn address(&self) -> Option<String> {
-        self.memory.borrow().address.clone()
-    }
-
-    fn enter(&mut self, _: &egui::Context) {
-        self.memory.borrow_mut().windows += 1;
-    }
-
-    fn gamepad(&self) -> Option<Gamepad> {
-        self.memory.borrow().gamepad
-    }
-
-    fn rumble(&mut self, strength: f64) {
-        self.memory.borrow_mut().rumbled.push(strength);
-    }
-
-    fn has_sound(&self) -> bool {
-        self.memory.borrow().has_sound
-    }
-
-    fn sound(&mut self, tone: Tone) {
-        self.memory.borrow_mut().sounded.push(tone);
-    }
-
+impl Files for MemoryPlatform {
     fn choose_file(&mut self, _: &egui::Context) {
         self.memory.borrow_mut().asked += 1;
     }
@@ -283,9 +257,54 @@ impl Platform for MemoryPlatform {
         memory.pairs += 1;
         memory.offered.extend(pair.map(|offer| (offer.name, offer.bytes)));
     }
+}
 
-    fn poll(&mut self) -> Option<PlatformEvent> {
-        self.memory.borrow_mut().events.pop_front()
+impl Storage for MemoryPlatform {
+    fn store(&mut self) -> Option<&mut dyn Store> {
+        let has_store = self.memory.borrow().kept.is_some();
+        has_store.then_some(self)
+    }
+}
+
+impl Screen for MemoryPlatform {
+    fn prefers_less_motion(&self) -> bool {
+        !self.memory.borrow().likes_motion
+    }
+
+    fn has_finger(&self) -> bool {
+        self.memory.borrow().has_finger
+    }
+}
+
+impl Sharing for MemoryPlatform {
+    fn address(&self) -> Option<String> {
+        self.memory.borrow().address.clone()
+    }
+
+    fn sample_triangles(&self) -> Option<u32> {
+        self.memory.borrow().coarse_samples
+    }
+}
+
+impl Languages for MemoryPlatform {}
+
+impl Hands for MemoryPlatform {
+    fn gamepad(&self) -> Option<Gamepad> {
+        self.memory.borrow().gamepad
+    }
+
+    fn rumble(&mut self, strength: f64) {
+        self.memory.borrow_mut().rumbled.push(strength);
+    }
+}
+
+impl Sound for MemoryPlatform {
+    fn has_sound(&self) -> bool {
+        self.memory.borrow().has_sound
+    }
+
+    fn sound(&mut self, tone: Tone) {
+        self.memory.borrow_mut().sounded.push(tone);
     }
 }
 

@@ -9,12 +9,12 @@ use crate::app::assist::name;
 use crate::app::graphics_error::surface_error;
 use crate::app::halo;
 use crate::app::overlay::{self, NOT_CLINICAL};
-use crate::app::trial::carm;
+use crate::app::places::pixels;
+use crate::app::trial::carm::{self, CArm};
 use crate::app::trial::marks::WRITTEN_OVER;
 use crate::app::trial::plate::plate;
 use crate::app::trial::scene::TrialScene;
-use crate::app::trial::state::Trial;
-use crate::app::views::pixels;
+use crate::app::trial::state::{Open, Trial};
 use crate::language::{decimal, grouped};
 use crate::render::{Camera, Exposure};
 use crate::say;
@@ -55,13 +55,15 @@ impl Fluoroscopy {
     ) {
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         name(&response, Role::Image, &say!("trial-fluoroscopy-view"));
-        steer(ui, &response, trial);
+        if let Some(open) = &mut trial.open {
+            steer(ui, &response, &mut open.carm);
+        }
         match scene.and_then(|scene| self.expose(ui, rect, trial, scene, failure)) {
             Some(texture) => image(ui, rect, texture),
             None => empty(ui, rect),
         }
         let inner = rect.shrink(8.0);
-        let arm = &trial.carm;
+        let Some(Open { carm: arm, .. }) = trial.open() else { return };
         plate(ui, inner.left_top(), Align2::LEFT_TOP, &say!("trial-fluoroscopy"), true);
         plate(ui, inner.left_top() + vec2(0.0, 22.0), Align2::LEFT_TOP, &arm.words(), true);
         if rect.height() > 200.0 {
@@ -98,7 +100,7 @@ impl Fluoroscopy {
         failure: &mut Option<String>,
     ) -> Option<TextureId> {
         let now = ui.input(|input| input.time);
-        let Trial { carm, stage, .. } = trial;
+        let Open { carm, stage, .. } = trial.open.as_deref_mut()?;
         let session = stage.session()?;
         let frame = session.run.frame.as_ref()?;
         let (bounds, radius) = (session.subject.mesh.bounds(), radius(session));
@@ -134,15 +136,15 @@ impl Fluoroscopy {
 }
 
 /// Turns the C-arm by dragging, magnifies by the wheel.
-fn steer(ui: &Ui, response: &Response, trial: &mut Trial) {
+fn steer(ui: &Ui, response: &Response, carm: &mut CArm) {
     const DEGREES_PER_HEIGHT: f32 = 120.0;
     if response.dragged_by(PointerButton::Primary) {
         let by = response.drag_delta() * (DEGREES_PER_HEIGHT / response.rect.height().max(1.0));
-        trial.carm.turn(-by.x, by.y);
+        carm.turn(-by.x, by.y);
     }
     if response.hovered() {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
-        trial.carm.zoom(pinch * (scroll.y / 240.0).exp());
+        carm.zoom(pinch * (scroll.y / 240.0).exp());
     }
 }
 

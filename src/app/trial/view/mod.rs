@@ -23,8 +23,9 @@ use crate::app::assist::name;
 use crate::app::document::Document;
 use crate::app::graphics_error::surface_error;
 use crate::app::overlay::{self, Legend};
+use crate::app::places::{in_view, pixels};
 use crate::app::theme;
-use crate::app::views::{NO_MEMORY, Views, in_view, pixels};
+use crate::app::views::{NO_MEMORY, Views};
 use crate::engine::trial::RouteShown;
 use crate::language::decimal;
 use crate::mesh::{TriMesh, Vec3};
@@ -57,7 +58,7 @@ pub(in crate::app) struct TrialView {
 
 impl TrialView {
     /// Views on the window's device; without one (in some tests) they say so.
-    pub(in crate::app) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
+    pub(in crate::app::trial) fn new(device: Option<&egui_wgpu::RenderState>) -> Self {
         let device = device.cloned();
         Self {
             device,
@@ -74,20 +75,20 @@ impl TrialView {
     }
 
     /// Gives back the memory of the device.
-    pub(in crate::app) fn let_go(&mut self) {
+    pub(in crate::app::trial) fn let_go(&mut self) {
         (self.scene, self.failure, self.refused) = (None, None, None);
         (self.felt, self.picture) = (0, None);
         self.fluoroscopy.forget();
     }
 
     /// Takes another device, on which nothing of the views stands yet.
-    pub(in crate::app) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
+    pub(in crate::app::trial) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
         self.let_go();
         self.device = device.cloned();
     }
 
     /// Gives up what stands on the device, whose memory is full, until the views are shown anew or another surface is.
-    pub(in crate::app) fn refuse(&mut self) {
+    pub(in crate::app::trial) fn refuse(&mut self) {
         if self.scene.is_some() {
             self.let_go();
             self.failure = Some(NO_MEMORY.say());
@@ -115,7 +116,7 @@ impl TrialView {
     }
 
     /// Times the drawing of the surfaces of the tables.
-    pub(in crate::app) fn time_tables(&mut self, ui: &Ui, tables: &mut Tables) {
+    pub(in crate::app::trial) fn time_tables(&mut self, ui: &Ui, tables: &mut Tables) {
         if tables.needs_views() {
             self.prepare();
             let (scene, style) = (&self.scene, theme::style(ui.visuals()));
@@ -125,7 +126,7 @@ impl TrialView {
     }
 
     /// Shows the views in what is left of `ui`. Returns what is asked for by a click: to begin with the place under it.
-    pub(in crate::app) fn show(
+    pub(in crate::app::trial) fn show(
         &mut self,
         ui: &mut Ui,
         trial: &mut Trial,
@@ -140,12 +141,14 @@ impl TrialView {
         }
         self.prepare();
         self.follow(trial);
-        trial.carm.axes = document.map(|document| document.import.axes).unwrap_or_default();
+        if let Some(open) = &mut trial.open {
+            open.carm.axes = document.map(|document| document.import.axes).unwrap_or_default();
+        }
         let area = ui.available_rect_before_wrap();
-        let is_large = trial.carm.is_large;
+        let is_large = trial.is_large();
         let [first, second, third] = places(area, is_large, self.shows_tip, is_narrow);
         views.take_shape(first, 1, document, keep);
-        if let Some(at) = trial.flight.take() {
+        if let Some(at) = trial.open.as_mut().and_then(|open| open.flight.take()) {
             views.fly(at, AROUND);
             ui.ctx().request_repaint();
         }
@@ -166,7 +169,7 @@ impl TrialView {
         let [tip, large] = buttons(second, third, self.shows_tip, size);
         tip_button(ui, tip, &mut self.shows_tip);
         let asked = large_button(ui, large, is_large);
-        asked.or_else(|| Some(Action::Place(trial.pick?, picked?)))
+        asked.or_else(|| Some(Action::Place(trial.open()?.pick?, picked?)))
     }
 
     /// Brings what is in memory up to the trial.
@@ -254,22 +257,23 @@ impl TrialView {
                 sentence(ui, rect, &problem.text);
             }
         }
-        let picks = trial.pick.is_some() && response.clicked();
+        let picks = trial.open().is_some_and(|open| open.pick.is_some()) && response.clicked();
         picks.then(|| lumen_at(response.interact_pointer_pos()?, rect, &camera, trial.mesh()?)).flatten()
     }
 
     /// What there is to say where there is nothing to see.
     fn say(&self, ui: &Ui, rect: Rect, trial: &Trial) {
-        let text = match (&self.failure, &trial.stage) {
+        let Some(open) = trial.open() else { return };
+        let text = match (&self.failure, &open.stage) {
             (Some(failure), _) => failure.clone(),
             (None, _) if self.device.is_none() => say!("trial-no-device"),
-            (None, _) if trial.awaits.is_some() => AWAITS.say(),
+            (None, _) if open.awaits.is_some() => AWAITS.say(),
             (None, Stage::Preparing(preparing)) => {
                 say!("trial-finding-way", percent = decimal(preparing.fraction * 100.0, 0))
             }
             (None, Stage::Off(Some(_))) => return,
-            (None, Stage::Closed | Stage::Off(_)) if trial.problem.is_some() => say!("trial-none-on-problem"),
-            (None, Stage::Closed | Stage::Off(_)) => say!("trial-none-on"),
+            (None, Stage::Off(_)) if trial.problem.is_some() => say!("trial-none-on-problem"),
+            (None, Stage::Off(_)) => say!("trial-none-on"),
             (None, Stage::On(_)) => return,
         };
         plate(ui, rect.center(), Align2::CENTER_CENTER, &text, true);

@@ -7,10 +7,10 @@ use super::TrialView;
 use super::painting::{empty, image, radius};
 use crate::app::assist::name;
 use crate::app::overlay::NOT_CLINICAL;
+use crate::app::places::pixels;
 use crate::app::theme;
 use crate::app::trial::plate::plate;
 use crate::app::trial::state::Trial;
-use crate::app::views::pixels;
 use crate::mesh::{Bounds, Vec3};
 use crate::render::Camera;
 use crate::say;
@@ -24,7 +24,7 @@ const TIP_FIELD: f32 = 1.7;
 impl TrialView {
     pub(super) fn tip(&mut self, ui: &mut Ui, rect: Rect, trial: &Trial) {
         // It takes the pointer from what it lies over.
-        let sense = if trial.carm.is_large { Sense::CLICK | Sense::DRAG } else { Sense::hover() };
+        let sense = if trial.is_large() { Sense::CLICK | Sense::DRAG } else { Sense::hover() };
         let response = ui.allocate_rect(rect, sense);
         name(&response, Role::Image, &say!("trial-tip-view"));
         match (&mut self.scene, trial.session(), trial.frame()) {

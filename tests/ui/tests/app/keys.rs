@@ -240,9 +240,9 @@ fn a_held_key_switches_once() {
     };
     hold(&mut harness, Key::P);
     assert_eq!(asked(&memory), [TrialCommand::Pause(true)]);
-    let pedal = harness.state().trial().carm.is_on;
+    let pedal = harness.state().trial().open().unwrap().carm.is_on;
     hold(&mut harness, Key::Space);
-    assert_ne!(harness.state().trial().carm.is_on, pedal);
+    assert_ne!(harness.state().trial().open().unwrap().carm.is_on, pedal);
     hold(&mut harness, Key::F1);
     assert!(says(&harness, "Keys and gestures"));
     hold(&mut harness, Key::F1);

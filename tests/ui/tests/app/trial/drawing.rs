@@ -129,7 +129,9 @@ fn the_fluoroscopy_is_the_large_picture_on_demand_with_the_others_over_it() {
     assert!(large.contains_rect(vessel) && large.contains_rect(tip) && !vessel.intersects(tip), "{vessel} {tip}");
     assert!(vessel.width() < 0.4 * large.width() && vessel.width() > 200.0, "{vessel}");
     // What is dragged in the strip is the strip's.
-    let arm = |harness: &App| (harness.state().trial().carm.lao, harness.state().trial().carm.cran);
+    let arm = |harness: &App| {
+        (harness.state().trial().open().unwrap().carm.lao, harness.state().trial().open().unwrap().carm.cran)
+    };
     let aside = egui::vec2(60.0, 0.0);
     let (camera, before) = (*harness.state().camera(), arm(&harness));
     drag(&mut harness, vessel.center(), aside);
@@ -140,10 +142,10 @@ fn the_fluoroscopy_is_the_large_picture_on_demand_with_the_others_over_it() {
     drag(&mut harness, large.left_center() + egui::vec2(100.0, 60.0), aside);
     assert!(*harness.state().camera() == turned && arm(&harness) != before);
     for key in [Key::F, Key::F, Key::Escape] {
-        let is_large = harness.state().trial().carm.is_large;
+        let is_large = harness.state().trial().open().unwrap().carm.is_large;
         harness.key_press(key);
         harness.run_steps(3);
-        assert_ne!(harness.state().trial().carm.is_large, is_large, "{key:?}");
+        assert_ne!(harness.state().trial().open().unwrap().carm.is_large, is_large, "{key:?}");
     }
     assert!(views(&harness) == beside && harness.state().trial().is_open() && asked(&memory).is_empty());
 }

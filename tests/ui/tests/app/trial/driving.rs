@@ -94,11 +94,11 @@ fn buttons_and_keys_ask_for_the_same() {
     harness.key_press(Key::Num2);
     harness.run_steps(3);
     assert!(says(&harness, "LAO 45"));
-    assert_eq!(harness.state().trial().carm.lao, 45.0);
-    let pedal = harness.state().trial().carm.is_on;
+    assert_eq!(harness.state().trial().open().unwrap().carm.lao, 45.0);
+    let pedal = harness.state().trial().open().unwrap().carm.is_on;
     harness.key_press(Key::Space);
     harness.run_steps(3);
-    assert_ne!(harness.state().trial().carm.is_on, pedal);
+    assert_ne!(harness.state().trial().open().unwrap().carm.is_on, pedal);
     harness.key_press(Key::Escape);
     harness.run_steps(3);
     assert_eq!(asked(&memory), [TrialCommand::Stop]);

@@ -9,12 +9,12 @@ use crate::language::Key;
 use crate::render::{Camera, StandardView};
 
 /// From where a surface of this size is first seen: from the front, unless it lies on its back, as some scans are stored.
-pub(in crate::app) fn first_view(size: Vec3) -> StandardView {
+pub(super) fn first_view(size: Vec3) -> StandardView {
     if size.y > size.z && size.y > size.x { StandardView::Superior } else { StandardView::Anterior }
 }
 
 /// Stands on a side: RAS is LPS, whose sides the views are named for, after half a turn about the axis to the head.
-pub(in crate::app) fn stand(camera: &mut Camera, view: StandardView, axes: Axes) {
+pub(super) fn stand(camera: &mut Camera, view: StandardView, axes: Axes) {
     camera.standard_view(view);
     if axes == Axes::Ras {
         camera.rotation = (Quat::from_rotation_z(PI) * camera.rotation).normalize();
@@ -22,7 +22,7 @@ pub(in crate::app) fn stand(camera: &mut Camera, view: StandardView, axes: Axes)
 }
 
 /// What a side is called: for the patient's side, or where that is not known for the side of the surface as it stands.
-pub(in crate::app) fn side_label(view: StandardView, is_patient_known: bool) -> String {
+pub(super) fn side_label(view: StandardView, is_patient_known: bool) -> String {
     let [of_patient, of_surface] = match view {
         StandardView::Anterior => [Key("views-anterior"), Key("views-front")],
         StandardView::Posterior => [Key("views-posterior"), Key("views-rear")],

@@ -76,7 +76,7 @@ impl Colours {
     }
 
     /// Whether they go both ways from white.
-    pub(in crate::app) fn are_diverging(self) -> bool {
+    pub(super) fn are_diverging(self) -> bool {
         matches!(self, Self::Deviation(Deviating { is_signed: true, .. }))
     }
 }
