@@ -10,12 +10,7 @@ use super::options::{FaultShown, ViewOptions};
 use super::places::seen;
 use super::row::{number, remark, row};
 use super::state::State;
-<<<<<<< HEAD
-use super::views::{FaultShown, ViewOptions, Views, seen};
 use crate::language::{Key, decimal, grouped, inner, text};
-=======
-use crate::language::{Key, decimal, grouped, inner};
->>>>>>> h-app
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Keep, Settings};
