@@ -41,6 +41,9 @@ pub type Signature = (&'static str, &'static [&'static str]);
 /// A number is written into translations with as many decimals as the field says in brackets (`width_mm: f64 [2]`), else
 /// with as few as give the same number. A field may be a message itself: its translation is put in place.
 ///
+/// After the enum, `or { Variant(Type), ... }` adds variants that are other messages and say what those say; each has a
+/// `From`.
+///
 /// The enum implements [`Message`], `Display`, `Error` and [`ToValue`], and lists what translations need as
 /// `Name::MESSAGES`.
 #[macro_export]
@@ -51,12 +54,18 @@ macro_rules! messages {
             $(#[$field_meta:meta])*
             $field:ident : $type:ty $([$places:literal])?
         ),* $(,)? })? => $english:tt
-    ),* $(,)? }) => {
+    ),* $(,)? } $(or { $(
+        $(#[$other_meta:meta])*
+        $other:ident($other_type:ty)
+    ),* $(,)? })?) => {
         $(#[$meta])*
         $vis enum $enum { $(
             $(#[$variant_meta])*
-            $variant $({ $( $(#[$field_meta])* $field: $type ),* })?
-        ),* }
+            $variant $({ $( $(#[$field_meta])* $field: $type ),* })?,
+        )* $($(
+            $(#[$other_meta])*
+            $other($other_type),
+        )*)? }
 
         impl $enum {
             /// Identifier and placeables of each message.
@@ -68,7 +77,10 @@ macro_rules! messages {
         impl ::std::fmt::Display for $enum {
             #[allow(unused_variables, clippy::uninlined_format_args, reason = "not every sentence has every field")]
             fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
-                match self { $( Self::$variant $({ $( $field ),* })? => $crate::messages!(@english f $english) ),* }
+                match self {
+                    $( Self::$variant $({ $( $field ),* })? => $crate::messages!(@english f $english), )*
+                    $($( Self::$other(other) => ::std::fmt::Display::fmt(other, f), )*)?
+                }
             }
         }
 
@@ -76,13 +88,19 @@ macro_rules! messages {
 
         impl $crate::Message for $enum {
             fn id(&self) -> &str {
-                match self { $( Self::$variant $({ $( $field: _ ),* })? => $id ),* }
+                match self {
+                    $( Self::$variant $({ $( $field: _ ),* })? => $id, )*
+                    $($( Self::$other(other) => $crate::Message::id(other), )*)?
+                }
             }
 
             fn values(&self) -> Vec<(&str, $crate::Value)> {
-                match self { $( Self::$variant $({ $( $field ),* })? => vec![$($(
-                    (stringify!($field), $crate::messages!(@value $field $($places)?))
-                ),*)?] ),* }
+                match self {
+                    $( Self::$variant $({ $( $field ),* })? => vec![$($(
+                        (stringify!($field), $crate::messages!(@value $field $($places)?))
+                    ),*)?], )*
+                    $($( Self::$other(other) => $crate::Message::values(other), )*)?
+                }
             }
         }
 
@@ -91,6 +109,14 @@ macro_rules! messages {
                 $crate::Value::Message(Box::new($crate::Message::told(self)))
             }
         }
+
+        $($(
+            impl From<$other_type> for $enum {
+                fn from(other: $other_type) -> Self {
+                    Self::$other(other)
+                }
+            }
+        )*)?
     };
     (@english $f:ident ($count:ident, $one:literal, $other:literal)) => {
         if u64::try_from(*$count).is_ok_and(|count| count == 1) { write!($f, $one) } else { write!($f, $other) }
@@ -142,6 +168,25 @@ mod tests {
         assert_eq!(Sample::Place { at: [0.0, 1.0, 2.0] }.to_string(), "at 0.0, 1.0, 2.0");
         assert_eq!(Sample::MESSAGES[1], ("sample-line", &["line", "problem"][..]));
         assert_eq!((Sample::Empty.id(), Sample::Empty.values()), ("sample-empty", vec![]));
+    }
+
+    messages! {
+        /// Of this test.
+        #[derive(Clone, Debug, PartialEq)]
+        enum Outer {
+            "outer-own" Own => "Own.",
+        } or {
+            /// Of the other.
+            Inner(Inner),
+        }
+    }
+
+    #[test]
+    fn a_variant_that_is_another_message_says_what_that_says() {
+        let inner = Inner::Word { word: "x".into() };
+        let outer = Outer::from(inner.clone());
+        assert_eq!((outer.id(), outer.values(), outer.to_string()), (inner.id(), inner.values(), inner.to_string()));
+        assert_eq!((Outer::Own.to_string(), Outer::MESSAGES.len()), ("Own.".to_owned(), 1));
     }
 
     #[test]
