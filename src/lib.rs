@@ -45,6 +45,8 @@ pub mod desktop;
 pub mod engine;
 pub mod report;
 pub mod sharing;
+#[cfg(test)]
+mod translations;
 
 pub use lumen_haptics as haptics;
 pub use lumen_io as io;

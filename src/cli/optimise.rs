@@ -17,7 +17,7 @@ use super::scan::ScanOptions;
 use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, places, source};
-use crate::io::Unit;
+use crate::io::{self, Unit};
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report};
 use crate::pipeline::results::Adapted;
@@ -96,7 +96,7 @@ impl Optimise {
             branches_csv: self.branches_csv.as_deref(),
             prints_branches: self.branches,
         };
-        let told = imported.report.warnings.clone();
+        let told = io::in_english(&imported.report.warnings);
         let (report, left_out) = outputs.make(file, imported, read, asked, advance)?;
         if let Some(sentence) = left_out {
             eprintln!("lumen: warning: {}: {sentence}", self.output.display());

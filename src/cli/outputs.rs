@@ -66,7 +66,7 @@ impl Outputs<'_> {
         let reduced = pipeline.reduced().context("the pipeline ended without a result")?;
         let start = Instant::now();
         let mut arrays = self.written.arrays(&pipeline);
-        let left_out = io::left_out(&arrays, self.format);
+        let left_out = io::left_out(&arrays, self.format).map(|arrays| arrays.to_string());
         let (mut mesh, mut normals) = ((*reduced.mesh).clone(), reduced.normals.clone());
         axes.turn(to, &mut mesh, &mut normals, &mut arrays)?;
         let normals = self.written.has_normals().then_some(&normals[..]);

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::misuse::misuse;
 use super::rows::row;
 use crate::io::volume::{self, Part};
-use crate::io::{Axes, Imported, import_mesh};
+use crate::io::{Axes, Imported, Warning, import_mesh, in_english};
 use crate::volume::{Grid, Label, PRESETS, Region, Selection, Survey, surface, survey};
 
 /// What is said of a folder without surfaces: it may be a scan.
@@ -67,7 +67,7 @@ pub(super) struct Opened {
     format: &'static str,
     axes: Axes,
     is_ct: bool,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
 }
 
 /// What is in a volume. The field names are the keys of the JSON that `lumen inspect` prints.
@@ -88,7 +88,7 @@ struct Report<'a> {
     is_ct: bool,
     /// Of a mask, the labels but 0.
     labels: &'a [Label],
-    warnings: &'a [String],
+    warnings: Vec<String>,
 }
 
 /// Opens the volume in the files or the folder of those names; `None` where the only one is a file that is none.
@@ -119,7 +119,7 @@ impl Opened {
     }
 
     /// What is strange about it.
-    pub(super) fn warnings(&self) -> &[String] {
+    pub(super) fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
@@ -137,7 +137,7 @@ impl Opened {
             range: self.survey.range,
             is_ct: self.is_ct,
             labels: &self.survey.labels,
-            warnings: &self.warnings,
+            warnings: in_english(&self.warnings),
         })?)
     }
 
@@ -163,7 +163,7 @@ impl Opened {
             row("labels", labels.collect::<Vec<_>>().join(", "));
         } else if self.is_ct || self.survey.has_air() {
             for preset in PRESETS {
-                row("threshold", format!("{} HU {}", preset.value, preset.name.say()));
+                row("threshold", format!("{} HU {}", preset.value, preset.name));
             }
         }
     }

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 
 use super::interrupt;
 use super::scan::{self, ScanOptions};
-use crate::io::{self, ImportOptions, Imported, Unit, UnknownUnit, read_in_slices};
+use crate::io::{self, ImportOptions, Imported, Unit, UnknownUnit, Warning, read_in_slices};
 use crate::phantom::{self, Sample};
 use crate::sharing::Digest;
 use crate::task::{Budget, Progress, Running};
@@ -92,8 +92,7 @@ fn open(name: &str, unit: Option<UnitOption>, options: &ScanOptions) -> Result<(
             {
                 imported = read(Some(unit))?;
                 imported.report.unit_by_size = true;
-                let sentence = format!("The numbers of the file were taken in {unit}, by the size of the surface.");
-                imported.report.warnings.push(sentence);
+                imported.report.warnings.push(Warning::UnitBySize { unit });
             }
             Ok((imported, Some(Digest::of(&bytes))))
         }

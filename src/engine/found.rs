@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::surfaces::{levels, surface};
-use crate::io::ImportReport;
+use crate::io::{ImportReport, Warning};
 use crate::mesh::mending::{FaultCounts, FaultPlace};
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::deviation::Deviation;
@@ -27,6 +27,7 @@ pub struct Opened {
     /// The hash of its file; none of a sample.
     pub digest: Option<Digest>,
     /// What was found and mended.
+    #[serde(with = "import_report")]
     pub report: ImportReport,
     /// All of it.
     #[serde(with = "surface")]
@@ -132,4 +133,20 @@ pub struct Averaged {
     /// Where each vertex of the surface as it was opened is moved to, in mm; those of other pieces stay.
     #[serde(with = "bulk")]
     pub positions: Vec<Vec3>,
+}
+
+/// A report with its warnings as they are: its own JSON has their sentences.
+mod import_report {
+    use serde::{Deserializer, Serializer};
+
+    use super::*;
+
+    pub(super) fn serialize<S: Serializer>(report: &ImportReport, serializer: S) -> Result<S::Ok, S::Error> {
+        (report, &report.warnings).serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<ImportReport, D::Error> {
+        let (report, warnings) = <(ImportReport, Vec<Warning>)>::deserialize(deserializer)?;
+        Ok(ImportReport { warnings, ..report })
+    }
 }

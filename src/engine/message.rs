@@ -281,7 +281,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Engine;
-    use crate::io::ImportOptions;
+    use crate::io::{ImportOptions, ScanWarning};
     use crate::phantom::Sample;
     use crate::pipeline::settings::Keep;
     use crate::transfer::sent;
@@ -303,7 +303,7 @@ mod tests {
             format: "DICOM".into(),
             mesh: Arc::new(sphere),
             axes: Axes::Lps,
-            warnings: vec!["odd".into()],
+            warnings: vec![ScanWarning::Silent { format: "DICOM".into() }.into()],
         };
         let holed = crate::mesh::shapes::icosphere(3, 30.0, glam::Vec3::ZERO).filtered(|t| t != 7);
         let holed = Source::Made {

@@ -6,6 +6,7 @@ use web_time::Instant;
 
 use super::source::Source;
 use crate::io::{Axes, Imported, import_made, read_in_slices};
+use crate::language::tell;
 use crate::phantom;
 use crate::pipeline::settings::Settings;
 use crate::sharing::{Digest, Digesting};
@@ -64,7 +65,7 @@ async fn read(source: Source, name: &str, yielder: &Yielder) -> Result<Read, Str
             yielder.rest(DIGESTED).await;
             // Of two owners of the bytes only one is left, which lets them go once they are parsed.
             let read = read_in_slices(bytes, name, &options, &yielder.part(DIGESTED..1.0)).await;
-            return read.map(|imported| Read { imported, digest }).map_err(|error| error.to_string());
+            return read.map(|imported| Read { imported, digest }).map_err(|error| tell(&error));
         }
         Source::Made { format, mesh, axes, warnings, .. } => (Arc::unwrap_or_clone(mesh), format, axes, warnings),
         Source::Sample { sample, triangles } => {

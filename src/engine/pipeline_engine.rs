@@ -17,7 +17,7 @@ use super::progress::tell_progress;
 use super::record::{self, Animation, Asked, Origin};
 use super::source::Source;
 use crate::io::{self, Axes, Imported, Output};
-use crate::language::Key;
+use crate::language::{Key, tell};
 use crate::mesh::{TriMesh, Vec3};
 use crate::pipeline::normals::{Weighting, vertex_normals};
 use crate::pipeline::run::Pipeline;
@@ -185,13 +185,13 @@ impl Engine {
         let has_arrays = self.current.as_ref().is_some_and(|current| current.pipeline.has_arrays());
         let left_out = match carried {
             None => has_arrays.then(|| NOT_CARRIED.say()),
-            Some(arrays) => io::left_out(arrays, format),
+            Some(arrays) => io::left_out(arrays, format).map(|arrays| tell(&arrays)),
         };
         let mut arrays = Cow::Borrowed(carried.map_or(&[][..], |arrays| arrays));
         let turned = if axes == to { Ok(()) } else { axes.turn(to, &mut mesh, &mut normals, arrays.to_mut()) };
-        let written = turned.map_err(|error| error.to_string()).and_then(|()| {
+        let written = turned.map_err(|error| tell(&error)).and_then(|()| {
             let output = Output { mesh: &mesh, normals: Some(&normals), arrays: &arrays, axes: to };
-            io::write_output(&output, format).map_err(|error| error.to_string())
+            io::write_output(&output, format).map_err(|error| tell(&error))
         });
         self.events.push_back(match written {
             Ok(bytes) => Event::Written { name, bytes, left_out },

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::surfaces::surface;
-use crate::io::{Axes, ImportOptions};
+use crate::io::{Axes, ImportOptions, Warning};
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::transfer::bulk;
@@ -43,7 +43,7 @@ pub enum Source {
         /// What its coordinates grow towards, as far as the scan says it.
         axes: Axes,
         /// What looked odd about the scan.
-        warnings: Vec<String>,
+        warnings: Vec<Warning>,
     },
 }
 

@@ -51,7 +51,7 @@ fn legacy_text_and_binary_of_both_layouts_are_read() {
 fn flat_cells_of_a_grid_are_its_surface() {
     let Imported { report, .. } = open(LEGACY_GRID.as_bytes());
     assert_eq!((report.triangles, report.area_mm2, report.skipped.lines), (5, 4050.0 + 2.0 * 8100.0, 1));
-    assert_eq!(report.warnings[0], "1 solid or curved cells left out: Lumen shows surfaces.");
+    assert_eq!(report.warnings[0].to_string(), "1 solid or curved cells left out: Lumen shows surfaces.");
     let Imported { report, .. } = open(VTU_TEXT.as_bytes());
     assert_eq!((report.format.as_str(), report.triangles, report.area_mm2), ("VTU", 1, 4050.0));
     let solid = VTU_TEXT.replace("5 10<", "10 10<");

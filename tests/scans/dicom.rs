@@ -1,5 +1,6 @@
 //! Series of DICOM: every packing, any order, and what is said of series that are mixed or have gaps.
 
+use lumen::io::in_english;
 use lumen::io::volume::ScanError;
 
 use crate::jpeg::{flat, lossless};
@@ -200,7 +201,7 @@ fn what_is_said_of_a_broken_series_does_not_name_the_patient() {
             let cut: Files =
                 files.iter().map(|(name, bytes)| (*name, bytes[..length.min(bytes.len())].to_vec())).collect();
             let said = match open(&cut) {
-                Ok(scan) => scan.warnings.join(" "),
+                Ok(scan) => in_english(&scan.warnings).join(" "),
                 Err(error) => {
                     refused += 1;
                     format!("{error} {error:?}")
@@ -275,7 +276,7 @@ fn the_series_of_most_slices_is_taken_and_the_rest_told_by_number() {
     let scan = open(&files).unwrap();
     assert_is_it(&scan, "mixed");
     assert_eq!(
-        scan.warnings,
+        in_english(&scan.warnings),
         [
             "The files hold 3 series: the one with most slices, 5, is taken, and 2 of 2 others are left out.",
             "1 files hold no slice in shades of grey and are left out.",
@@ -292,7 +293,7 @@ fn files_that_cannot_be_read_are_left_out_and_counted() {
         files.splice(1..1, extra);
         let scan = open(&files).unwrap();
         assert_is_it(&scan, "beside what cannot be read");
-        scan.warnings
+        in_english(&scan.warnings)
     };
     let cut = File::slice(EXPLICIT, 2).bytes()[..200].to_vec();
     let short_of_pixels = File::slice(EXPLICIT, 4).with(0x7FE0, 0x0010, vec![0; 58]).bytes();
@@ -315,7 +316,7 @@ fn gaps_are_told() {
     let files: Files = (0..4).map(|k| (NAMES[k], File::slice(EXPLICIT, if k == 3 { 4 } else { k }).bytes())).collect();
     let scan = open(&files).unwrap();
     assert_eq!(
-        scan.warnings,
+        in_english(&scan.warnings),
         [
             "The slices are not evenly apart: mostly 2.000 mm, but 4.000 mm between slices 3 and 4; some may be missing, and \
          the surface is stretched there.",

@@ -1,6 +1,6 @@
 //! Every way to write a volume is read as the same volume, and what cannot be read is refused in a sentence.
 
-use lumen::io::Axes;
+use lumen::io::in_english;
 use lumen::io::volume::{Head, Part, Scan, ScanError, begin, data_name, is_volume, read};
 use lumen::volume::{Label, Selection, VolumeError, survey};
 
@@ -35,7 +35,7 @@ fn an_unknown_space_is_told() {
     let scan = open(&[("a.nrrd", [header.into_bytes(), little()].concat())]).unwrap();
     assert_eq!((scan.axes, scan.warnings.len()), (Axes::Unknown, 1));
     let scan = open(&[("a.vti", vti("", &format!("format=\"ascii\">{}", crate::samples::ascii()), b""))]).unwrap();
-    assert_eq!(scan.warnings, ["VTI does not say which way the patient lies: the axes are unknown."]);
+    assert_eq!(in_english(&scan.warnings), ["VTI does not say which way the patient lies: the axes are unknown."]);
     for header in [
         metaimage("", "LOCAL").replace("AnatomicalOrientation = RAI\n", ""),
         metaimage("", "LOCAL").replace("RAI", "???"),
@@ -69,7 +69,7 @@ fn lengths_in_other_units_are_made_millimetres() {
     let grid = |name: &str, header: String| {
         let scan = open(&[(name, [header.into_bytes(), little()].concat())]).unwrap();
         let geometry = scan.grid.geometry();
-        ((geometry.spacing * 1e6).round() / 1e6, geometry.origin, scan.warnings)
+        ((geometry.spacing * 1e6).round() / 1e6, geometry.origin, in_english(&scan.warnings))
     };
     // Both have steps of 0.5, 0.75 and 2 from (-10, 20, 300).
     let (spacing, origin, none) = grid("a.nrrd", nrrd("raw", "\n"));

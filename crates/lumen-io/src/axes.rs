@@ -6,44 +6,37 @@
 //! upright in it. Everywhere else nothing is known, and nothing is asserted. What is known is written as Slicer writes it
 //! (`vtkMRMLModelStorageNode`): the same words in the same places.
 
-use std::fmt;
-
+use lumen_message::messages;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use lumen_language::say;
 use lumen_mesh::{Array, TriMesh, Vec3};
 
-/// What the coordinates grow towards.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axes {
-    /// Left, posterior, superior: as DICOM has it.
-    Lps,
-    /// Right, anterior, superior.
-    Ras,
-    /// Nothing is said.
-    #[default]
-    Unknown,
+messages! {
+    /// What the coordinates grow towards.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum Axes {
+        /// Left, posterior, superior: as DICOM has it.
+        "errors-axes-lps" Lps => "LPS",
+        /// Right, anterior, superior.
+        "errors-axes-ras" Ras => "RAS",
+        /// Nothing is said.
+        #[default]
+        "errors-axes-unknown" Unknown => "unknown axes",
+    }
 }
 
-/// Axes that are asked for where those of the surface are not known, or the other way round.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("{}", say!("errors-axes", from = .from.to_string(), to = .to.to_string()))]
-pub struct UnknownAxes {
-    /// Those of the surface.
-    pub from: Axes,
-    /// Those that were asked for.
-    pub to: Axes,
-}
-
-impl fmt::Display for Axes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Lps => f.write_str("LPS"),
-            Self::Ras => f.write_str("RAS"),
-            Self::Unknown => f.write_str(&say!("errors-axes-unknown")),
-        }
+messages! {
+    /// Why a surface was not turned.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum TurnError {
+        /// Axes are asked for where those of the surface are not known, or the other way round.
+        "errors-axes" UnknownAxes {
+            /// Those of the surface.
+            from: Axes,
+            /// Those that were asked for.
+            to: Axes,
+        } => "Which way the axes of the surface point is not known, so it cannot be turned from {from} to {to}.",
     }
 }
 
@@ -60,12 +53,12 @@ impl Axes {
         mesh: &mut TriMesh,
         normals: &mut [Vec3],
         arrays: &mut [Array],
-    ) -> Result<(), UnknownAxes> {
+    ) -> Result<(), TurnError> {
         if self == to {
             return Ok(());
         }
         if self == Self::Unknown || to == Self::Unknown {
-            return Err(UnknownAxes { from: self, to });
+            return Err(TurnError::UnknownAxes { from: self, to });
         }
         // Not to minus zero.
         let turned = |p: Vec3| Vec3::new(0.0 - p.x, 0.0 - p.y, p.z);

@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use super::text::quoted;
-use lumen_language::say;
+use super::warnings::{ArrayProblem, Warning};
 use lumen_mesh::arrays::{Array, On, Values};
 
 /// Sentences that are told one by one; beyond these, how many more there are.
@@ -27,7 +27,7 @@ pub(super) struct Columns {
     /// Where each name stands in the list.
     places: HashMap<(On, String), usize>,
     /// What is said of the first that are left out.
-    left_out: Vec<String>,
+    left_out: Vec<Warning>,
     /// How many more are.
     more: usize,
 }
@@ -53,7 +53,7 @@ impl Columns {
             // A file may have a million of them: what is not told is not put into words.
             None if is_full && self.left_out.len() == TOLD => self.more += 1,
             None if is_full => {
-                self.leave_out(name, &say!("errors-array-beyond", most = MOST));
+                self.leave_out(name, ArrayProblem::Beyond { most: MOST });
             }
             None if before == 0 => {
                 self.list.push(Column { name: name.to_owned(), on, components, values });
@@ -66,12 +66,12 @@ impl Columns {
             {
                 column.values.push_from(&values, 0, values.len());
             }
-            _ => self.leave_out(name, &say!("errors-array-parts")),
+            _ => self.leave_out(name, ArrayProblem::Parts),
         }
     }
 
     /// Notes that an array stays behind. `why` goes on after a colon.
-    pub(super) fn leave_out(&mut self, name: &str, why: &str) {
+    pub(super) fn leave_out(&mut self, name: &str, why: ArrayProblem) {
         if self.left_out.len() < TOLD {
             self.left_out.push(left_out(name, why));
         } else {
@@ -91,26 +91,26 @@ impl Columns {
     }
 
     /// The arrays, with a tuple for each point or cell, and the sentences.
-    pub(super) fn finish(mut self) -> (Vec<Array>, Vec<String>) {
+    pub(super) fn finish(mut self) -> (Vec<Array>, Vec<Warning>) {
         let (points, cells, list) = (self.points, self.cells, std::mem::take(&mut self.list));
         let mut arrays = Vec::with_capacity(list.len());
         for Column { name, on, components, values } in list {
             if values.len() == components.saturating_mul(if on == On::Point { points } else { cells }) {
                 arrays.push(Array::new(name, on, components, values));
             } else {
-                self.leave_out(&name, &say!("errors-array-not-everywhere"));
+                self.leave_out(&name, ArrayProblem::NotEverywhere);
             }
         }
         if self.more > 0 {
-            self.left_out.push(say!("errors-arrays-more", count = self.more, number = self.more.to_string()));
+            self.left_out.push(Warning::MoreArrays { count: self.more });
         }
         (arrays, self.left_out)
     }
 }
 
 /// That an array is left out.
-pub(super) fn left_out(name: &str, why: &str) -> String {
-    say!("errors-array-left-out", name = quoted(name.as_bytes()), why = why)
+pub(super) fn left_out(name: &str, why: ArrayProblem) -> Warning {
+    Warning::ArrayLeftOut { name: quoted(name.as_bytes()), why }
 }
 
 /// Whether it holds normals, which are made anew.
@@ -122,6 +122,7 @@ fn is_normal(name: &str, components: usize, values: &Values) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::in_english;
     use lumen_mesh::arrays::Scalar;
 
     fn zeros(scalar: Scalar, count: usize) -> Values {
@@ -139,9 +140,10 @@ mod tests {
         columns.add(On::Point, "all", 1, zeros(Scalar::F32, 3));
         columns.add(On::Triangle, "all", 1, zeros(Scalar::I32, 4));
         columns.add(On::Point, "second", 1, zeros(Scalar::F32, 3));
-        columns.leave_out("names", "it holds text");
+        columns.leave_out("names", ArrayProblem::Text);
         columns.end_part(3, 4);
-        let (arrays, sentences) = columns.finish();
+        let (arrays, warnings) = columns.finish();
+        let sentences = in_english(&warnings);
         assert_eq!(
             arrays.iter().map(|array| (&*array.name, array.on, array.len())).collect::<Vec<_>>(),
             [("all", On::Point, 5)]
@@ -161,8 +163,9 @@ mod tests {
     #[test]
     fn many_sentences_become_a_few() {
         let mut columns = Columns::default();
-        (0..100).for_each(|i| columns.leave_out(&format!("a{i}"), "it holds text"));
-        let (_, sentences) = columns.finish();
+        (0..100).for_each(|i| columns.leave_out(&format!("a{i}"), ArrayProblem::Text));
+        let (_, warnings) = columns.finish();
+        let sentences = in_english(&warnings);
         assert_eq!((sentences.len(), &*sentences[8]), (9, "92 more arrays are left out."));
     }
 
@@ -173,7 +176,8 @@ mod tests {
         columns.end_part(1, 0);
         columns.add(On::Point, "a7", 1, zeros(Scalar::U8, 1));
         columns.end_part(1, 0);
-        let (arrays, sentences) = columns.finish();
+        let (arrays, warnings) = columns.finish();
+        let sentences = in_english(&warnings);
         assert_eq!((arrays.len(), &*arrays[0].name), (1, "a7"), "the rest is not everywhere");
         assert_eq!(sentences[0], "The array \"a1000\" is left out: only the first 1,000 arrays of a file are read.");
         assert_eq!(sentences.len(), 9);

@@ -56,7 +56,7 @@ pub(super) fn detect(bytes: &[u8], name: &str) -> Result<&'static FileKind, Read
         "mha" | "mhd" => Err(Volume::MetaImage.refused()),
         "nrrd" | "nhdr" => Err(Volume::Nrrd.refused()),
         "dcm" | "dicom" | "ima" => Err(Volume::Dicom.refused()),
-        _ => by_sign(Sign::Resembles).ok_or_else(|| ReadError::Unknown { name: name.to_owned() }),
+        _ => by_sign(Sign::Resembles).ok_or_else(|| ReadError::unknown(name)),
     }
 }
 
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn what_is_no_surface_is_named() {
         assert_eq!(detect(b"", "a.stl"), Err(ReadError::Empty));
-        assert_eq!(detect(b"Dear colleague", "letter"), Err(ReadError::Unknown { name: "letter".to_owned() }));
+        assert_eq!(detect(b"Dear colleague", "letter"), Err(ReadError::unknown("letter")));
         assert_eq!(detect(b"\x1f\x8b\x08", "a.nii.gz"), Err(ReadError::ImageVolume { format: "NIfTI" }));
         assert_eq!(detect(b"\x1f\x8b\x08", "a.stl.gz"), Err(ReadError::Compressed { format: "gzip" }));
         assert_eq!(detect(b"PK\x03\x04", "a.stl"), Err(ReadError::Compressed { format: "zip" }));

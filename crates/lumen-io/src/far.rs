@@ -33,7 +33,7 @@ pub(super) fn origin_for(raw: &RawSurface, unit: Unit) -> Option<DVec3> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Format, ImportOptions, Imported, Unit, read, write};
+    use crate::{Format, ImportOptions, Imported, Unit, Warning, read, write};
     use lumen_mesh::shapes::icosphere;
     use lumen_mesh::{TriMesh, Vec3};
 
@@ -102,7 +102,7 @@ mod tests {
                 };
                 assert!(moved.into_iter().all(right), "{name}, {offset:?}");
                 assert!(
-                    report.warnings.iter().any(|warning| warning.contains("was moved by")),
+                    report.warnings.iter().any(|warning| matches!(warning, Warning::Moved { .. })),
                     "{:?}",
                     report.warnings
                 );

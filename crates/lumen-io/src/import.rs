@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::error::ReadError;
 use super::raw::{RawSurface, check_size};
 use super::report::{ImportReport, Imported};
-use super::warnings::sentences;
+use super::warnings::{Warning, warnings};
 use super::weld::weld;
 use super::{Axes, Unit};
 use lumen_mesh::arrays::infos;
@@ -70,7 +70,7 @@ pub async fn import_made(
     mesh: TriMesh,
     format: String,
     axes: Axes,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
     yielder: &Yielder,
 ) -> Imported {
     let raw = RawSurface::new("", mesh.positions, mesh.triangles);
@@ -176,7 +176,7 @@ impl Import {
             arrays: infos(&arrays),
             warnings: self.raw.warnings,
         };
-        let mut told = sentences(&report);
+        let mut told = warnings(&report);
         report.warnings.append(&mut told);
         Imported { mesh, arrays, report }
     }
@@ -205,7 +205,7 @@ fn duplicates(triangles: &[[u32; 3]], topology: &Topology) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lumen_language::{Language, built_in, speak};
+    use crate::{Warning, in_english};
     use lumen_mesh::Vec3;
     use lumen_mesh::shapes::tube;
 
@@ -233,24 +233,8 @@ mod tests {
         assert!((report.volume_mm3.unwrap() - 64000.0 / 6.0).abs() < 1e-9);
         assert_eq!(report.bounds_mm.max, [40.0; 3]);
         assert_eq!(
-            report.warnings,
+            in_english(&report.warnings),
             ["1 triangle with a repeated vertex dropped.", "1 triangle turned over to agree with the neighbours."]
-        );
-    }
-
-    #[test]
-    fn what_was_mended_is_said_in_the_language_of_the_moment() {
-        let Imported { report, .. } = import(soup(4.0), Unit::Centimetre, Axes::Unknown).unwrap();
-        assert_eq!(report.warnings_now(), report.warnings);
-        speak(Language::German, built_in(Language::German).unwrap());
-        let german = report.warnings_now();
-        speak(Language::English, &[]);
-        assert_eq!(
-            german,
-            [
-                "1 Dreieck mit wiederholtem Eckpunkt verworfen.",
-                "1 Dreieck umgedreht, damit es zu seinen Nachbarn passt."
-            ]
         );
     }
 
@@ -265,7 +249,7 @@ mod tests {
 
     #[test]
     fn an_unusual_size_is_told_with_the_units_that_would_fit() {
-        let warnings = |size, unit| import(soup(size), unit, Axes::Unknown).unwrap().report.warnings;
+        let warnings = |size, unit| in_english(&import(soup(size), unit, Axes::Unknown).unwrap().report.warnings);
         assert_eq!(
             warnings(0.2, Unit::Millimetre)[0],
             "The surface is 0.346 mm across, which is unusual for vessels: its numbers may be in m (346 mm)."
@@ -280,10 +264,8 @@ mod tests {
         // An aorta of 12 mm, 24 cm long.
         let warnings = |part: f32, unit| {
             let aorta = tube(32, 120, 240.0 * part, |_| 6.0 * part);
-            import(RawSurface::new("tube", aorta.positions, aorta.triangles), unit, Axes::Unknown)
-                .unwrap()
-                .report
-                .warnings
+            let raw = RawSurface::new("tube", aorta.positions, aorta.triangles);
+            in_english(&import(raw, unit, Axes::Unknown).unwrap().report.warnings)
         };
         assert_eq!(
             warnings(0.1, Unit::Millimetre),
@@ -298,7 +280,9 @@ mod tests {
         }
         for sample in lumen_vessel::phantom::Sample::ALL {
             let made = lumen_vessel::phantom::generate(sample, 20_000).unwrap();
-            assert!(import_mesh(made, "sample").report.warnings.iter().all(|text| !text.contains("unusual")));
+            assert!(
+                import_mesh(made, "sample").report.warnings.iter().all(|warning| !matches!(warning, Warning::Size(_)))
+            );
         }
     }
 

@@ -40,6 +40,7 @@ mod parsing;
 mod places;
 mod ply;
 mod polygons;
+pub mod problem;
 mod raw;
 mod reading;
 mod report;
@@ -54,23 +55,55 @@ mod vtk;
 mod warnings;
 mod weld;
 
-pub use axes::{Axes, UnknownAxes};
+pub use axes::{Axes, TurnError};
 pub use detect::may_be_volume;
-pub use error::{ReadError, WriteError};
+pub use error::{Counted, Elements, Feature, Named, ReadError, Unfolded, Unnamed, WriteError};
 pub use estimate::{Estimate, estimate};
 pub use formats::Format;
 pub use import::{import_made, import_mesh};
 pub use output::Output;
-pub use places::left_out;
+pub use places::{LeftOut, left_out};
 pub use reading::{read, read_in_slices};
 pub use report::{ImportReport, Imported, Skipped};
-pub use size::UnusualSize;
+pub use size::{InUnits, Length, UnusualSize};
 pub use unit::{Unit, UnknownUnit};
-pub use warnings::NO_INSIDE;
+pub use warnings::{ArrayProblem, ScanWarning, Warning, in_english};
 
 use serde::{Deserialize, Serialize};
 
 use lumen_mesh::{TriMesh, Vec3};
+
+/// What translations need of the messages of this crate.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    ArrayProblem::MESSAGES,
+    Axes::MESSAGES,
+    Counted::MESSAGES,
+    Elements::MESSAGES,
+    Feature::MESSAGES,
+    InUnits::MESSAGES,
+    LeftOut::MESSAGES,
+    ReadError::MESSAGES,
+    ScanWarning::MESSAGES,
+    Warning::MESSAGES,
+    TurnError::MESSAGES,
+    Unfolded::MESSAGES,
+    UnknownUnit::MESSAGES,
+    Unnamed::MESSAGES,
+    UnusualSize::MESSAGES,
+    WriteError::MESSAGES,
+    problem::DicomProblem::MESSAGES,
+    problem::GltfProblem::MESSAGES,
+    problem::PlyProblem::MESSAGES,
+    problem::ScanProblem::MESSAGES,
+    problem::StlProblem::MESSAGES,
+    problem::TextProblem::MESSAGES,
+    problem::VtiProblem::MESSAGES,
+    problem::VtkProblem::MESSAGES,
+    #[cfg(feature = "scans")]
+    volume::ScanError::MESSAGES,
+    #[cfg(feature = "scans")]
+    volume::Unreadable::MESSAGES,
+];
 
 /// What the user says about a file that the file does not say itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

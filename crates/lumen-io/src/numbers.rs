@@ -1,8 +1,8 @@
 //! Numbers one after another, as text or in binary of either byte order: what the bodies of several formats are made of.
 
 use super::error::ReadError;
+use super::problem::TextProblem;
 use super::text::{self, Words};
-use lumen_language::say;
 pub(super) use lumen_mesh::arrays::Scalar;
 
 /// The numbers of a body, one after another. `None` is the end of the file, or a [`Numbers::fault`]: these calls
@@ -53,8 +53,8 @@ impl<'a> TextNumbers<'a> {
         let word = self.words.next()?;
         let value = of(word);
         if value.is_none() {
-            let problem = say!("errors-no-number", word = text::quoted(word));
-            self.fault = Some(ReadError::Syntax { format: self.format, line: self.words.line(), problem });
+            let problem = TextProblem::NoNumber { word: text::quoted(word) };
+            self.fault = Some(ReadError::syntax(self.format, self.words.line(), problem));
         }
         value
     }

@@ -17,11 +17,11 @@ use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::output::Output;
 use super::pace::Pace;
 use super::polygons::Faces;
+use super::problem::TextProblem;
 use super::raw::RawSurface;
 use super::room::Room;
 use super::text;
 use super::unit::Unit;
-use lumen_language::say;
 use lumen_mesh::arrays::{On, Scalar, Values};
 use lumen_mesh::{Array, Vec3};
 
@@ -57,8 +57,7 @@ fn looks_like(bytes: &[u8]) -> bool {
 /// Reads a file, with positions relative to an origin.
 pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
     if !text::is_text(bytes) {
-        let problem = say!("errors-no-text");
-        return Err(ReadError::Malformed { format: "OBJ", problem });
+        return Err(ReadError::malformed("OBJ", TextProblem::NoText));
     }
     let mut lines = Lines { bytes: text::without_mark(bytes), at: 0, line: 1 };
     let mut reader = Reader::new(origin);
@@ -106,13 +105,13 @@ impl Reader {
     /// Takes a line.
     fn take(&mut self, line: usize, row: &[u8]) -> Result<(), ReadError> {
         let mut words = row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        let syntax = |problem: String| ReadError::Syntax { format: "OBJ", line, problem };
+        let syntax = |problem: TextProblem| ReadError::syntax("OBJ", line, problem);
         match words.next() {
             Some(b"v") => {
                 let mut coordinates = [0.0; 3];
                 for (coordinate, origin) in coordinates.iter_mut().zip(self.origin.to_array()) {
-                    let word = words.next().ok_or_else(|| syntax(say!("errors-obj-vertex")))?;
-                    let broken = || syntax(say!("errors-no-coordinate", word = text::quoted(word)));
+                    let word = words.next().ok_or_else(|| syntax(TextProblem::ShortVertex))?;
+                    let broken = || syntax(TextProblem::NoCoordinate { word: text::quoted(word) });
                     *coordinate = text::coordinate(word, origin).ok_or_else(broken)?;
                 }
                 let colour: [Option<f32>; 3] = std::array::from_fn(|_| words.next().and_then(text::number));
@@ -128,7 +127,7 @@ impl Reader {
                 for word in words {
                     // A corner is v, v/vt, v//vn or v/vt/vn.
                     let vertex = word.split(|&byte| byte == b'/').next().unwrap_or(word);
-                    let broken = || syntax(say!("errors-no-vertex", word = text::quoted(word)));
+                    let broken = || syntax(TextProblem::NoVertex { word: text::quoted(word) });
                     let index: i64 = text::number(vertex).ok_or_else(broken)?;
                     // Negative numbers count back from the vertex read last; positive ones may look ahead.
                     let place =

@@ -2,9 +2,9 @@
 
 use super::Format;
 use super::formats::Arrays;
-use lumen_language::say;
 use lumen_mesh::Array;
 use lumen_mesh::arrays::On;
+use lumen_message::messages;
 
 /// Each array, and whether `format` has a place for it.
 fn places(arrays: &[Array], format: Format) -> impl Iterator<Item = (&Array, bool)> {
@@ -21,8 +21,67 @@ fn places(arrays: &[Array], format: Format) -> impl Iterator<Item = (&Array, boo
     })
 }
 
-/// A sentence about the arrays that a file of `format` does not hold, if there are any.
-pub fn left_out(arrays: &[Array], format: Format) -> Option<String> {
+messages! {
+    /// Arrays that have no place in a format.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum LeftOut {
+        /// The format has no arrays.
+        "errors-no-place-arrays" All {
+            /// The format.
+            format: &'static str,
+            /// How many there are.
+            count: usize,
+            /// Their names, with commas between.
+            names: String,
+        } => (
+            count,
+            "{format} has no place for arrays: {names} is left out.",
+            "{format} has no place for arrays: {names} are left out."
+        ),
+        /// It has none of triangles.
+        "errors-no-place-triangles" OfTriangles {
+            /// The format.
+            format: &'static str,
+            /// How many there are.
+            count: usize,
+            /// Their names, with commas between.
+            names: String,
+        } => (
+            count,
+            "{format} has no place for arrays of triangles: {names} is left out.",
+            "{format} has no place for arrays of triangles: {names} are left out."
+        ),
+        /// It has one colour alone.
+        "errors-no-place-colour" AllButColour {
+            /// The format.
+            format: &'static str,
+            /// How many there are.
+            count: usize,
+            /// Their names, with commas between.
+            names: String,
+        } => (
+            count,
+            "{format} has no place for arrays other than one colour: {names} is left out.",
+            "{format} has no place for arrays other than one colour: {names} are left out."
+        ),
+        /// It has none of their types.
+        "errors-no-place-such" Such {
+            /// The format.
+            format: &'static str,
+            /// How many there are.
+            count: usize,
+            /// Their names, with commas between.
+            names: String,
+        } => (
+            count,
+            "{format} has no place for such arrays: {names} is left out.",
+            "{format} has no place for such arrays: {names} are left out."
+        ),
+    }
+}
+
+/// The arrays that a file of `format` does not hold, if there are any.
+pub fn left_out(arrays: &[Array], format: Format) -> Option<LeftOut> {
     let homeless = || places(arrays, format).filter(|&(_, has_place)| !has_place).map(|(array, _)| array);
     let names: Vec<&str> = homeless().map(|array| array.name.as_str()).collect();
     if names.is_empty() {
@@ -31,12 +90,10 @@ pub fn left_out(arrays: &[Array], format: Format) -> Option<String> {
     let of_triangles = homeless().all(|array| array.on == On::Triangle);
     let (label, count, names) = (format.label(), names.len(), names.join(", "));
     Some(match format.written().arrays {
-        Arrays::Vertices(_) if of_triangles => {
-            say!("errors-no-place-triangles", format = label, count = count, names = names)
-        }
-        Arrays::Colour(_) => say!("errors-no-place-colour", format = label, count = count, names = names),
-        Arrays::None => say!("errors-no-place-arrays", format = label, count = count, names = names),
-        _ => say!("errors-no-place-such", format = label, count = count, names = names),
+        Arrays::Vertices(_) if of_triangles => LeftOut::OfTriangles { format: label, count, names },
+        Arrays::Colour(_) => LeftOut::AllButColour { format: label, count, names },
+        Arrays::None => LeftOut::All { format: label, count, names },
+        _ => LeftOut::Such { format: label, count, names },
     })
 }
 
@@ -56,7 +113,7 @@ mod tests {
         for format in [Format::Vtp, Format::Vtk, Format::Ply] {
             assert_eq!(left_out(&all, format), None);
         }
-        let said = |arrays: &[Array], format| left_out(arrays, format).unwrap();
+        let said = |arrays: &[Array], format| left_out(arrays, format).unwrap().to_string();
         assert_eq!(said(&all, Format::Stl), "STL has no place for arrays: Height, Face, RGB, Stress are left out.");
         assert_eq!(
             said(&all[..3], Format::Obj),

@@ -8,7 +8,7 @@ use super::error::ReadError;
 use super::polygons::Faces;
 use super::report::Skipped;
 use super::room::Room;
-use lumen_language::say;
+use super::warnings::{ArrayProblem, Warning};
 use lumen_mesh::arrays::On;
 use lumen_mesh::{Array, Vec3};
 
@@ -30,7 +30,7 @@ pub(super) struct RawSurface {
     pub(super) in_mm: bool,
     pub(super) polygons: usize,
     pub(super) skipped: Skipped,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
     /// The cell of the file that each triangle is of, where its format has such.
     pub(super) cells: Vec<u32>,
     /// A tuple for each position or each triangle.
@@ -68,14 +68,14 @@ impl RawSurface {
         raw.cells = faces.cells();
         raw.skipped.short_faces = faces.short;
         if cut.fanned > 0 {
-            raw.warnings.push(say!("errors-fanned", count = cut.fanned, number = cut.fanned.to_string()));
+            raw.warnings.push(Warning::Fanned { count: cut.fanned });
         }
         raw
     }
 
     /// Takes arrays along as far as there is room for them, those of the file's cells to the triangles cut from these, and
     /// says what is left out.
-    pub(super) fn carry(&mut self, (arrays, left_out): (Vec<Array>, Vec<String>), room: Room) {
+    pub(super) fn carry(&mut self, (arrays, left_out): (Vec<Array>, Vec<Warning>), room: Room) {
         self.warnings.extend(left_out);
         let mut bytes = 0;
         for array in arrays {
@@ -86,9 +86,9 @@ impl RawSurface {
             let of_row = array.components as u64 * array.values.scalar().size() as u64;
             let larger = bytes + of_row.saturating_mul(rows.max(array.len()) as u64);
             if !fits {
-                self.warnings.push(self::left_out(&array.name, &say!("errors-array-other-length")));
+                self.warnings.push(self::left_out(&array.name, ArrayProblem::OtherLength));
             } else if !room.holds_arrays(self.positions.len(), self.triangles.len(), larger) {
-                self.warnings.push(self::left_out(&array.name, &say!("errors-array-memory")));
+                self.warnings.push(self::left_out(&array.name, ArrayProblem::Memory));
             } else {
                 bytes = larger;
                 self.arrays.push(if array.on == On::Point { array } else { array.gathered(&self.cells) });

@@ -1,7 +1,8 @@
 //! What an import found and what it mended.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
+use super::warnings::{Warning, in_english};
 use super::{Axes, Unit};
 use lumen_mesh::{Array, ArrayInfo, Bounds, TriMesh};
 
@@ -75,8 +76,13 @@ pub struct ImportReport {
     pub arrays: Vec<ArrayInfo>,
     /// What the file holds besides the surface.
     pub skipped: Skipped,
-    /// Sentences for the user about what looks odd or was mended, in the language that was spoken where the file was read.
-    pub warnings: Vec<String>,
+    /// What looks odd or was mended. In JSON these are English sentences, which are not read back.
+    #[serde(serialize_with = "as_sentences", skip_deserializing)]
+    pub warnings: Vec<Warning>,
+}
+
+fn as_sentences<S: Serializer>(warnings: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
+    in_english(warnings).serialize(serializer)
 }
 
 /// Parts of a file that are no surface and were left out, counted.

@@ -4,8 +4,7 @@
 //! of one. What a file unfolds to is counted before it is made, and refused where it would not fit. Files that programs
 //! write stay far below: a triangle of a compressed strip takes seven bytes, of anything else ten or more.
 
-use super::error::ReadError;
-use lumen_language::say;
+use super::error::{ReadError, Unfolded};
 
 const MB: u64 = 1_000_000;
 /// What a vertex and a triangle take at most on their way through the import stage, in bytes (`tests/formats` measures).
@@ -35,7 +34,7 @@ impl Room {
     /// Refuses a structure of so many parts that, each taking a few bytes in the file, would not fit.
     pub(super) fn check_parts(self, format: &'static str, parts: usize) -> Result<(), ReadError> {
         if PART * parts as u64 > self.bytes() {
-            let what = say!("errors-parts", parts = parts.to_string());
+            let what = Unfolded::Parts { parts };
             return Err(ReadError::Unfolds { format, what, file: self.file });
         }
         Ok(())
@@ -57,8 +56,7 @@ impl Room {
     pub(super) fn check(self, format: &'static str, vertices: usize, triangles: usize) -> Result<(), ReadError> {
         let needed = VERTEX * vertices as u64 + TRIANGLE * triangles as u64;
         if needed > self.bytes() {
-            let (vertices, triangles) = (vertices.to_string(), triangles.to_string());
-            let what = say!("errors-vertices-triangles", vertices = vertices, triangles = triangles);
+            let what = Unfolded::Surface { vertices, triangles };
             return Err(ReadError::Unfolds { format, what, file: self.file });
         }
         Ok(())

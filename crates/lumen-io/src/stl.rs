@@ -5,16 +5,18 @@
 //! read here. Facet normals are not used: they are often wrong, and the winding says the same.
 
 use glam::DVec3;
+use lumen_message::messages;
 
-use super::error::{ReadError, WriteError};
+use super::error::{Counted, ReadError, WriteError};
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::output::Output;
 use super::pace::Pace;
 use super::polygons::Faces;
+use super::problem::{Problem, TextProblem};
 use super::raw::{RawSurface, check_size};
 use super::text::{self, Words};
 use super::unit::Unit;
-use lumen_language::say;
+use super::warnings::Warning;
 use lumen_mesh::Vec3;
 
 /// Facets, or words, between two looks at the clock.
@@ -69,15 +71,15 @@ pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<Raw
 
 /// The binary form.
 async fn read_binary(bytes: &[u8], pace: &Pace) -> Result<RawSurface, ReadError> {
-    let cut_short = |what: String, announced: u64, found: usize| ReadError::CutShort {
+    let cut_short = |what: Counted, announced: u64, found: usize| ReadError::CutShort {
         format: BINARY,
         what,
         announced,
         found: found as u64,
     };
-    let count = announced(bytes).ok_or_else(|| cut_short(say!("errors-header-bytes"), 84, bytes.len()))?;
+    let count = announced(bytes).ok_or_else(|| cut_short(Counted::HeaderBytes, 84, bytes.len()))?;
     if binary_length(count) > bytes.len() as u64 {
-        return Err(cut_short(say!("errors-triangles"), u64::from(count), (bytes.len() - HEADER - 4) / FACET));
+        return Err(cut_short(Counted::Triangles, u64::from(count), (bytes.len() - HEADER - 4) / FACET));
     }
     check_size(0, count as usize)?;
     let mut positions = Vec::with_capacity(3 * count as usize);
@@ -96,7 +98,7 @@ async fn read_binary(bytes: &[u8], pace: &Pace) -> Result<RawSurface, ReadError>
     let triangles = (0..count).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     let mut raw = RawSurface::new(BINARY, positions, triangles);
     if !trailing.is_empty() {
-        raw.warnings.push(say!("errors-stl-trailing", bytes = trailing.len().to_string()));
+        raw.warnings.push(Warning::StlTrailing { bytes: trailing.len() });
     }
     Ok(raw)
 }
@@ -160,17 +162,17 @@ impl Solids {
     /// The surface, once there is no word left in `line`, the last.
     fn surface(self, line: usize) -> Result<RawSurface, ReadError> {
         if !self.known {
-            let problem = say!("errors-stl-no-facet");
-            return Err(ReadError::Malformed { format: "STL", problem });
+            let problem = StlProblem::NoFacet;
+            return Err(ReadError::malformed("STL", problem));
         }
         if self.in_loop {
-            let problem = say!("errors-stl-ends");
-            return Err(ReadError::Syntax { format: ASCII, line, problem });
+            let problem = StlProblem::Ends;
+            return Err(ReadError::syntax(ASCII, line, problem));
         }
         let mut raw = RawSurface::of_faces(ASCII, self.positions, &self.faces);
         (raw.has_doubles, raw.origin) = (true, self.origin);
         if self.in_solid {
-            raw.warnings.push(say!("errors-stl-open"));
+            raw.warnings.push(Warning::StlOpen);
         }
         Ok(raw)
     }
@@ -181,13 +183,12 @@ fn vertex(words: &mut Words, origin: DVec3) -> Result<Vec3, ReadError> {
     let mut coordinates = [0.0; 3];
     for (coordinate, origin) in coordinates.iter_mut().zip(origin.to_array()) {
         let word = words.next();
-        *coordinate = word.and_then(|word| text::coordinate(word, origin)).ok_or_else(|| ReadError::Syntax {
-            format: ASCII,
-            line: words.line(),
-            problem: match word {
-                Some(word) => say!("errors-no-coordinate", word = text::quoted(word)),
-                None => say!("errors-stl-ends"),
-            },
+        *coordinate = word.and_then(|word| text::coordinate(word, origin)).ok_or_else(|| {
+            let problem: Problem = match word {
+                Some(word) => TextProblem::NoCoordinate { word: text::quoted(word) }.into(),
+                None => StlProblem::Ends.into(),
+            };
+            ReadError::syntax(ASCII, words.line(), problem)
         })?;
     }
     Ok(Vec3::from(coordinates))
@@ -213,9 +214,20 @@ fn write(&Output { mesh, axes, .. }: &Output) -> Result<Vec<u8>, WriteError> {
     Ok(out)
 }
 
+messages! {
+    /// What is wrong in an STL file.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    #[allow(missing_docs, reason = "its sentence says what each is")]
+    pub enum StlProblem {
+        "errors-stl-no-facet" NoFacet => "it is a text without a single \"facet\"",
+        "errors-stl-ends" Ends => "the file ends in the middle of a triangle",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Warning;
     use lumen_mesh::TriMesh;
     use lumen_mesh::task::at_once;
 
@@ -255,7 +267,7 @@ mod tests {
         assert_eq!(read(&bytes).unwrap().positions, mesh.positions);
         assert_eq!(f32::from_le_bytes(*bytes[92..].first_chunk().unwrap()), 1.0, "the normal is +z");
         bytes.extend_from_slice(b"etc");
-        assert_eq!(read(&bytes).unwrap().warnings, ["3 bytes after the last triangle left out."]);
+        assert_eq!(read(&bytes).unwrap().warnings, [Warning::StlTrailing { bytes: 3 }]);
         bytes[80..84].copy_from_slice(&60_000_000u32.to_le_bytes());
         assert_eq!(
             read(&bytes[..100]).err().unwrap().to_string(),

@@ -2,10 +2,8 @@
 
 use std::{fmt, str::FromStr};
 
+use lumen_message::{ToValue, Value, messages};
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
-
-use lumen_language::say;
 
 /// A unit of length that the numbers in a file may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -50,16 +48,32 @@ impl fmt::Display for Unit {
     }
 }
 
-/// A word that names no unit.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{}", say!("errors-unknown-unit", word = .0))]
-pub struct UnknownUnit(pub String);
+impl ToValue for Unit {
+    fn to_value(&self) -> Value {
+        self.symbol().to_value()
+    }
+}
+
+messages! {
+    /// What is no unit.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum UnknownUnit {
+        /// A word that names none.
+        "errors-unknown-unit" Word {
+            /// The word.
+            word: String,
+        } => "\"{word}\" is not a unit of length that Lumen knows: mm, cm or m.",
+    }
+}
 
 impl FromStr for Unit {
     type Err = UnknownUnit;
 
     fn from_str(word: &str) -> Result<Self, Self::Err> {
-        Self::ALL.into_iter().find(|unit| unit.symbol() == word).ok_or_else(|| UnknownUnit(word.to_owned()))
+        Self::ALL
+            .into_iter()
+            .find(|unit| unit.symbol() == word)
+            .ok_or_else(|| UnknownUnit::Word { word: word.to_owned() })
     }
 }
 
@@ -70,7 +84,7 @@ mod tests {
     #[test]
     fn words_find_their_unit() {
         assert_eq!("cm".parse(), Ok(Unit::Centimetre));
-        assert_eq!("inch".parse::<Unit>(), Err(UnknownUnit("inch".to_owned())));
+        assert_eq!("inch".parse::<Unit>(), Err(UnknownUnit::Word { word: "inch".to_owned() }));
         assert_eq!(serde_json::to_string(&Unit::Metre).unwrap(), "\"m\"");
     }
 }

@@ -1,66 +1,170 @@
-//! What a user should hear about a surface that was imported, in sentences.
+//! What a user should hear about a surface or a scan that was opened.
 
+use lumen_message::{Told, grouped, messages};
+use serde::{Deserialize, Serialize};
+
+use super::Unit;
 use super::report::{ImportReport, Skipped};
-use super::size::length;
-use lumen_language::Key;
-use lumen_language::say;
+use super::size::{Length, UnusualSize};
 
-/// What is said of a surface whose windings cannot be made to agree.
-pub const NO_INSIDE: Key = Key("errors-no-inside");
-
-impl ImportReport {
-    /// The warnings, with those on what was found and mended in the language that is spoken now: it may be another than when
-    /// the file was read.
-    pub fn warnings_now(&self) -> Vec<String> {
-        let mut sentences = sentences(self);
-        if sentences.iter().all(|sentence| self.warnings.contains(sentence)) {
-            return self.warnings.clone();
-        }
-        // They are the last.
-        let mut warnings = self.warnings[..self.warnings.len().saturating_sub(sentences.len())].to_vec();
-        warnings.append(&mut sentences);
-        warnings
+messages! {
+    /// What looks odd in a file, or was mended.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[allow(missing_docs, reason = "its sentence says what each is")]
+    pub enum Warning {
+        "errors-stl-trailing" StlTrailing { bytes: usize } => "{bytes} bytes after the last triangle left out.",
+        "errors-stl-open" StlOpen => "The file may be cut short: its last solid has no end.",
+        "errors-ply-trailing" PlyTrailing { bytes: usize } => "{bytes} bytes after the last element left out.",
+        "errors-ply-unannounced" PlyUnannounced =>
+            "Numbers that the file's header does not announce were left out.",
+        "errors-ply-more-numbers" PlyMoreNumbers => "Numbers after the last element were left out.",
+        "errors-vtk-solids-left-out" SolidCells { cells: u64 } =>
+            "{cells} solid or curved cells left out: Lumen shows surfaces.",
+        "errors-fanned" Fanned { count: usize } => (
+            count,
+            "{count} polygon could not be cut into triangles without folding, having no area or crossing itself.",
+            "{count} polygons could not be cut into triangles without folding, having no area or crossing itself."
+        ),
+        "errors-array-left-out" ArrayLeftOut { name: String, why: ArrayProblem } => "The array {name} is left out: {why}.",
+        "errors-arrays-more" MoreArrays { count: usize } => (
+            count,
+            "{count} more array is left out.",
+            "{count} more arrays are left out."
+        ),
+        "errors-moved" Moved { x: Length, y: Length, z: Length } =>
+            "The surface lies far from the origin of its coordinates: it was moved by ({x}, {y}, {z}) mm to keep its detail, and is saved there.",
+        "errors-degenerate" Degenerate { count: usize } => (
+            count,
+            "{count} triangle with a repeated vertex dropped.",
+            "{count} triangles with a repeated vertex dropped."
+        ),
+        "errors-duplicate" Duplicate { count: usize } => (
+            count,
+            "{count} triangle present twice; kept.",
+            "{count} triangles present twice; kept."
+        ),
+        "errors-short-faces" ShortFaces { count: usize } => (
+            count,
+            "{count} face of fewer than three corners left out.",
+            "{count} faces of fewer than three corners left out."
+        ),
+        "errors-lines-left-out" Lines { count: usize } => (
+            count,
+            "{count} line left out: Lumen shows surfaces.",
+            "{count} lines left out: Lumen shows surfaces."
+        ),
+        "errors-points-left-out" Points { count: usize } => (
+            count,
+            "{count} point left out: Lumen shows surfaces.",
+            "{count} points left out: Lumen shows surfaces."
+        ),
+        "errors-reoriented" Reoriented { count: usize } => (
+            count,
+            "{count} triangle turned over to agree with the neighbours.",
+            "{count} triangles turned over to agree with the neighbours."
+        ),
+        "errors-turned" Turned { count: usize } => (
+            count,
+            "{count} piece found inside out and turned.",
+            "{count} pieces found inside out and turned."
+        ),
+        "errors-non-manifold" NonManifold { count: usize } => (
+            count,
+            "{count} edge where more than two triangles meet; left as in the file.",
+            "{count} edges where more than two triangles meet; left as in the file."
+        ),
+        "errors-no-inside" NoInside =>
+            "The surface has no inside and outside (its triangles cannot be made to agree).",
+        "errors-unit-by-size" UnitBySize { unit: Unit } =>
+            "The numbers of the file were taken in {unit}, by the size of the surface.",
+    } or {
+        /// The surface has a size that vessels seldom have.
+        Size(UnusualSize),
+        /// Of a scan or a mask.
+        Scan(ScanWarning),
     }
 }
 
-/// What a user should hear about.
-pub(super) fn sentences(report: &ImportReport) -> Vec<String> {
-    let mut sentences = Vec::new();
-    sentences.extend(report.unusual_size().map(|found| found.sentence));
-    if report.moved_mm != [0.0; 3] {
-        let [x, y, z] = report.moved_mm.map(length);
-        sentences.push(say!("errors-moved", x = x, y = y, z = z));
+messages! {
+    /// Why an array is left out.
+    #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[allow(missing_docs, reason = "its sentence says what each is")]
+    pub enum ArrayProblem {
+        "errors-array-parts" Parts => "its parts do not go together",
+        "errors-array-beyond" Beyond { most: usize } =>
+            { format!("only the first {} arrays of a file are read", grouped(*most)) },
+        "errors-array-not-everywhere" NotEverywhere => "not every part of the file has it",
+        "errors-array-damaged" Damaged => "its data are damaged or elsewhere",
+        "errors-array-matrices" Matrices => "it holds matrices",
+        "errors-array-other-length" OtherLength => "it has another length than the surface",
+        "errors-array-memory" Memory => "it would take more memory than a file of this size is given",
+        "errors-array-cut-short" CutShort => "it is cut short",
+        "errors-array-no-number" NoNumber => "it holds what is no number",
+        "errors-array-text" Text => "it holds text",
+        "errors-array-type" NumberType => "its numbers are of a type that is not read",
+        "errors-array-too-many" TooMany => "its data are damaged, or too many for a file of this size",
+        "errors-array-of-type" OfType { kind: String } => "it holds values of the type {kind}",
+        "errors-array-not-understood" NotUnderstood => "it and what follows are not understood",
     }
+}
+
+messages! {
+    /// What a user should hear about a scan or a mask.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[allow(missing_docs, reason = "its sentence says what each is")]
+    pub enum ScanWarning {
+        "scan-silent" Silent { format: String } =>
+            "The {format} file does not say which way the patient lies: the axes are unknown.",
+        "scan-silent-format" SilentFormat { format: String } =>
+            "{format} does not say which way the patient lies: the axes are unknown.",
+        "scan-unknown-unit" UnknownUnit { format: String, unit: String } =>
+            "The unit of length of the {format} file, {unit}, is not known: it is taken as mm.",
+        "scan-dicom-unreadable" Unreadable { count: usize, why: Told } => {
+            match *count {
+                1 => format!("One slice cannot be read and is left out. {why}"),
+                count => format!("{} slices cannot be read and are left out. {why}", grouped(count)),
+            }
+        },
+        "scan-dicom-same-place" SamePlace { count: usize } =>
+            { format!("{} slices lie at the place of another: of each place the first is taken.", grouped(*count)) },
+        "scan-dicom-series" Series { count: usize, taken: usize, slices: usize, others: usize } => {
+            let of = match *others {
+                1 => "the other".to_owned(),
+                others => format!("{} others", grouped(others)),
+            };
+            let count = grouped(*count);
+            format!("The files hold {count} series: the one with most slices, {taken}, is taken, and {slices} of {of} are left out.")
+        },
+        "scan-dicom-no-slices" NoSlices { count: usize } =>
+            { format!("{} files hold no slice in shades of grey and are left out.", grouped(*count)) },
+        "scan-dicom-gap" Gap { usual: f64 [3], there: f64 [3], below: usize, above: usize } =>
+            "The slices are not evenly apart: mostly {usual:.3} mm, but {there:.3} mm between slices {below} and {above}; some may be missing, and the surface is stretched there.",
+        "scan-dicom-squeeze" Squeeze { usual: f64 [3], there: f64 [3], below: usize, above: usize } =>
+            "The slices are not evenly apart: mostly {usual:.3} mm, but {there:.3} mm between slices {below} and {above}; the surface is pressed together there.",
+    }
+}
+
+/// The English sentence of each.
+pub fn in_english(warnings: &[Warning]) -> Vec<String> {
+    warnings.iter().map(ToString::to_string).collect()
+}
+
+/// The warnings that follow from the numbers of a report.
+pub(super) fn warnings(report: &ImportReport) -> Vec<Warning> {
+    let mut warnings: Vec<Warning> = report.unusual_size().map(Warning::from).into_iter().collect();
+    let mut tell = |is_so: bool, warning: Warning| warnings.extend(is_so.then_some(warning));
+    let [x, y, z] = report.moved_mm.map(Length);
+    tell(report.moved_mm != [0.0; 3], Warning::Moved { x, y, z });
+    let mut tell_count = |count: usize, warning: fn(usize) -> Warning| tell(count > 0, warning(count));
     let Skipped { short_faces, lines, points } = report.skipped;
-    let (degenerate, duplicate) = (report.degenerate_triangles, report.duplicate_triangles);
-    let (reoriented, turned, edges) =
-        (report.reoriented_triangles, report.components_turned, report.non_manifold_edges);
-    if degenerate > 0 {
-        sentences.push(say!("errors-degenerate", count = degenerate, number = degenerate.to_string()));
-    }
-    if duplicate > 0 {
-        sentences.push(say!("errors-duplicate", count = duplicate, number = duplicate.to_string()));
-    }
-    if short_faces > 0 {
-        sentences.push(say!("errors-short-faces", count = short_faces, number = short_faces.to_string()));
-    }
-    if lines > 0 {
-        sentences.push(say!("errors-lines-left-out", count = lines, number = lines.to_string()));
-    }
-    if points > 0 {
-        sentences.push(say!("errors-points-left-out", count = points, number = points.to_string()));
-    }
-    if reoriented > 0 {
-        sentences.push(say!("errors-reoriented", count = reoriented, number = reoriented.to_string()));
-    }
-    if turned > 0 {
-        sentences.push(say!("errors-turned", count = turned, number = turned.to_string()));
-    }
-    if edges > 0 {
-        sentences.push(say!("errors-non-manifold", count = edges, number = edges.to_string()));
-    }
-    if !report.orientable {
-        sentences.push(NO_INSIDE.say());
-    }
-    sentences
+    tell_count(report.degenerate_triangles, |count| Warning::Degenerate { count });
+    tell_count(report.duplicate_triangles, |count| Warning::Duplicate { count });
+    tell_count(short_faces, |count| Warning::ShortFaces { count });
+    tell_count(lines, |count| Warning::Lines { count });
+    tell_count(points, |count| Warning::Points { count });
+    tell_count(report.reoriented_triangles, |count| Warning::Reoriented { count });
+    tell_count(report.components_turned, |count| Warning::Turned { count });
+    tell_count(report.non_manifold_edges, |count| Warning::NonManifold { count });
+    tell(!report.orientable, Warning::NoInside);
+    warnings
 }

@@ -187,9 +187,11 @@ fn workspace() -> PathBuf {
 #[test]
 fn every_language_has_every_message_with_the_same_places() {
     let english = found("en");
-    assert!(english.len() > 800, "{} messages", english.len());
+    assert!(english.len() > 600, "{} messages", english.len());
     for tag in ["de", "fr"] {
-        let other = found(tag);
+        // Of the messages whose English stands in the code of a library, `src/translations.rs` sees to it.
+        let mut other = found(tag);
+        other.retain(|of, _| english.contains_key(of));
         let (ours, theirs): (BTreeSet<_>, BTreeSet<_>) = (english.keys().collect(), other.keys().collect());
         assert_eq!(ours.symmetric_difference(&theirs).collect::<Vec<_>>(), Vec::<&&(String, String)>::new(), "{tag}");
         for (of, found) in &other {

@@ -61,10 +61,23 @@ to_value! {
     Told => |told| Value::Message(Box::new(told.clone()));
 }
 
+impl<T: ToValue + ?Sized> ToValue for Box<T> {
+    fn to_value(&self) -> Value {
+        (**self).to_value()
+    }
+}
+
 /// Coordinates: `x, y, z` with one decimal.
 impl ToValue for [f32; 3] {
     fn to_value(&self) -> Value {
         Value::Text(self.map(|x| format!("{x:.1}")).join(", "))
+    }
+}
+
+/// Points along three axes: `512 x 512 x 800`.
+impl ToValue for [usize; 3] {
+    fn to_value(&self) -> Value {
+        Value::Text(self.map(|n| n.to_string()).join(" x "))
     }
 }
 

@@ -1,10 +1,7 @@
 //! Where the points of a grid lie in the patient.
 
 use glam::{DMat3, DVec3};
-use thiserror::Error;
-
-use lumen_language::exact;
-use lumen_language::say;
+use lumen_message::messages;
 
 /// The most points along an axis that indices are kept for.
 const LONGEST: usize = 1 << 20;
@@ -32,27 +29,25 @@ pub struct Geometry {
     pub direction: DMat3,
 }
 
-/// Why no surface in mm can be made on a grid.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum GeometryError {
-    /// An axis without points, or with more than can be.
-    #[error("{}", say!("scan-no-points", size = product(*.size)))]
-    Size {
-        /// Points along i, j, k.
-        size: [usize; 3],
-    },
-    /// A spacing that no scan has.
-    #[error("{}", say!("scan-no-spacing", spacing = exact(*.spacing)))]
-    Spacing {
-        /// The spacing in mm.
-        spacing: f64,
-    },
-    /// Directions that are in one plane, or no numbers.
-    #[error("{}", say!("scan-no-directions"))]
-    Direction,
-    /// An origin that is no number, or too far away.
-    #[error("{}", say!("scan-no-origin"))]
-    Origin,
+messages! {
+    /// Why no surface in mm can be made on a grid.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum GeometryError {
+        /// An axis without points, or with more than can be.
+        "scan-no-points" Size {
+            /// Points along i, j, k.
+            size: [usize; 3],
+        } => { format!("{} points make no volume", product(*size)) },
+        /// A spacing that no scan has.
+        "scan-no-spacing" Spacing {
+            /// The spacing in mm.
+            spacing: f64,
+        } => "a distance of {spacing} mm between its points is none that a scan has",
+        /// Directions that are in one plane, or no numbers.
+        "scan-no-directions" Direction => "the directions of its axes span no space",
+        /// An origin that is no number, or too far away.
+        "scan-no-origin" Origin => "its origin is not a place in a body",
+    }
 }
 
 impl Geometry {

@@ -23,14 +23,25 @@ mod surface;
 mod survey;
 mod window;
 
-pub use error::VolumeError;
+pub use error::{Known, VolumeError};
 pub use geometry::{Geometry, GeometryError, Region};
 pub use grid::Grid;
 pub use marching_cubes::{MarchingCubes, Mask};
 pub use reduced::{PREVIEW_POINTS, preview_step, reduced_in_slices};
 pub use samples::{SampleType, Samples};
-pub use selection::{PRESETS, Preset, Selection};
+pub use selection::{NamedThreshold, PRESETS, Preset, PresetName, Presets, Selection};
 pub use slice::{Axis, Slice, slice};
 pub use surface::{MOST_TRIANGLES, region_of, surface, surface_in_slices};
 pub use survey::{BINS, Label, Survey, survey, survey_in_slices};
-pub use window::{WINDOWS, Window};
+pub use window::{WINDOWS, Window, WindowName};
+
+/// What translations need of the messages of this crate.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    GeometryError::MESSAGES,
+    Known::MESSAGES,
+    NamedThreshold::MESSAGES,
+    PresetName::MESSAGES,
+    Presets::MESSAGES,
+    VolumeError::MESSAGES,
+    WindowName::MESSAGES,
+];

@@ -5,14 +5,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::error::VolumeError;
+use super::error::{Known, VolumeError};
 use super::geometry::Region;
 use super::grid::Grid;
 use super::marching_cubes::Mask;
 use super::samples::{Sample, with_samples};
 use super::survey::Survey;
-use lumen_language::say;
-use lumen_language::{Key, exact};
+use lumen_message::messages;
 
 /// What lies inside.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,11 +24,24 @@ pub enum Selection {
     AnyLabel,
 }
 
+messages! {
+    /// What a threshold shows.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum PresetName {
+        /// Vessels that are hardly brighter than what is around them.
+        "scan-preset-little" Little => "for vessels with little contrast",
+        /// Arteries of the body.
+        "scan-preset-arteries" Arteries => "for arteries",
+        /// The aorta, and the arteries of the heart, without the veins.
+        "scan-preset-aorta" Aorta => "for the aorta and the coronary arteries",
+    }
+}
+
 /// A threshold with a name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
     /// What it shows.
-    pub name: Key,
+    pub name: PresetName,
     /// Hounsfield units.
     pub value: f64,
 }
@@ -37,15 +49,45 @@ pub struct Preset {
 /// Thresholds for contrast-filled vessels in CT. Blood with contrast has 200 to 500 HU in the arterial phase, muscle 50,
 /// and half way between is where the wall is; spongy bone has 200 HU and more and comes along.
 pub const PRESETS: [Preset; 3] = [
-    Preset { name: Key("scan-preset-little"), value: 130.0 },
-    Preset { name: Key("scan-preset-arteries"), value: 180.0 },
-    Preset { name: Key("scan-preset-aorta"), value: 250.0 },
+    Preset { name: PresetName::Little, value: 130.0 },
+    Preset { name: PresetName::Arteries, value: 180.0 },
+    Preset { name: PresetName::Aorta, value: 250.0 },
 ];
+
+messages! {
+    /// A threshold with its name, as it stands in a sentence.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum NamedThreshold {
+        /// As [`Preset`].
+        "scan-preset" Preset {
+            /// Hounsfield units.
+            value: f64,
+            /// What it shows.
+            name: PresetName,
+        } => "{value} {name}",
+    }
+}
+
+messages! {
+    /// Thresholds of which one may be meant.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Presets {
+        /// All [`PRESETS`].
+        "scan-presets" All {
+            /// The lowest.
+            first: NamedThreshold,
+            /// The next.
+            second: NamedThreshold,
+            /// The highest.
+            third: NamedThreshold,
+        } => "{first}, {second}, {third}",
+    }
+}
 
 /// That a threshold is wanted of a scan with values from `low` to `high`.
 fn nothing_chosen([low, high]: [f64; 2]) -> VolumeError {
-    let named = PRESETS.map(|preset| format!("{} {}", preset.value, preset.name.say()));
-    VolumeError::NothingChosen { low, high, presets: named.join(", ") }
+    let [first, second, third] = PRESETS.map(|Preset { name, value }| NamedThreshold::Preset { value, name });
+    VolumeError::NothingChosen { low, high, presets: Presets::All { first, second, third } }
 }
 
 impl Selection {
@@ -79,10 +121,10 @@ impl Selection {
             // What has too many values to be told as a mask may be one of a whole body.
             Self::Label(label) if !survey.is_mask() && (low..=high).contains(&(label as f64)) => Ok(()),
             Self::Label(label) if !survey.labels.iter().any(|known| known.value == label) => {
-                let known: Vec<String> = survey.labels.iter().map(|label| label.value.to_string()).collect();
-                let known = match known.len() {
-                    0 => say!("scan-known-range", low = exact(low), high = exact(high)),
-                    _ => say!("scan-known-labels", labels = known.join(", ")),
+                let labels: Vec<String> = survey.labels.iter().map(|label| label.value.to_string()).collect();
+                let known = match labels.len() {
+                    0 => Known::Range { low, high },
+                    _ => Known::Labels { labels: labels.join(", ") },
                 };
                 Err(VolumeError::NoSuchLabel { label, known })
             }

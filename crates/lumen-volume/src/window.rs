@@ -1,13 +1,26 @@
 //! What a slice is shown with: the values that are black and white.
 
 use super::survey::Survey;
-use lumen_language::Key;
+use lumen_message::messages;
+
+messages! {
+    /// What a window shows.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum WindowName {
+        /// Vessels with contrast, from fat to bone.
+        "scan-window-vessels" Vessels => "Vessels",
+        /// Soft tissue.
+        "scan-window-soft" SoftTissue => "Soft tissue",
+        /// Bone.
+        "scan-window-bone" Bone => "Bone",
+    }
+}
 
 /// A window with a name, in Hounsfield units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// What it shows.
-    pub name: Key,
+    pub name: WindowName,
     /// The values that are black and white.
     pub ends: [f64; 2],
 }
@@ -15,9 +28,9 @@ pub struct Window {
 /// Windows for CT; the first is for vessels with contrast, from fat to bone, the others are radiology's usual ones (level 40
 /// and width 400, level 400 and width 1800).
 pub const WINDOWS: [Window; 3] = [
-    Window { name: Key("scan-window-vessels"), ends: [-150.0, 550.0] },
-    Window { name: Key("scan-window-soft"), ends: [-160.0, 240.0] },
-    Window { name: Key("scan-window-bone"), ends: [-500.0, 1300.0] },
+    Window { name: WindowName::Vessels, ends: [-150.0, 550.0] },
+    Window { name: WindowName::SoftTissue, ends: [-160.0, 240.0] },
+    Window { name: WindowName::Bone, ends: [-500.0, 1300.0] },
 ];
 
 /// Of the values of a scan that is no CT so many are darker than black, and as many brighter than white.

@@ -8,7 +8,7 @@ use crate::app::numbers;
 use crate::app::row::{number, remark, row};
 use crate::app::state::State;
 use crate::app::vessels;
-use crate::language::{Key, decimal, signed};
+use crate::language::{Key, decimal, signed, tell};
 use crate::pipeline::deviation::Deviation;
 use crate::pipeline::settings::reduction_percent;
 use crate::say;
@@ -68,8 +68,8 @@ pub(in crate::app) fn result(ui: &mut Ui, state: &State, asked: &mut Vec<Action>
     });
     if !document.import.warnings.is_empty() {
         CollapsingHeader::new(say!("panel-notes")).id_salt("Notes on the file").show(ui, |ui| {
-            for warning in &document.import.warnings_now() {
-                remark(ui, warning);
+            for warning in &document.import.warnings {
+                remark(ui, &tell(warning));
             }
         });
     }

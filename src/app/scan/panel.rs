@@ -9,7 +9,7 @@ use crate::app::control::{self, Setting, reads_comma};
 use crate::app::row::{number, remark, row, step, warning};
 use crate::app::swipe::Way;
 use crate::engine::scan::ScanWork;
-use crate::language::{Key, decimal, grouped, inner};
+use crate::language::{Key, decimal, grouped, inner, tell};
 use crate::say;
 use crate::volume::{Axis, PRESETS, Region, Selection};
 
@@ -51,8 +51,8 @@ fn facts(ui: &mut Ui, scan: &OpenScan) {
     let [low, high] = opened.survey.range;
     let [low, high] = [low, high].map(|value| grouped(format!("{value:.0}")));
     number(ui, &say!("scan-values"), &say!("scan-values-range", low = low, high = high, unit = scan.unit()), "");
-    for text in &opened.warnings {
-        warning(ui, text);
+    for found in &opened.warnings {
+        warning(ui, &tell(found));
     }
 }
 
@@ -76,7 +76,7 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
     if scan.is_ct() {
         ui.horizontal_wrapped(|ui| {
             for preset in PRESETS {
-                let button = ui.button(format!("{} HU", preset.value)).on_hover_text(preset.name.say());
+                let button = ui.button(format!("{} HU", preset.value)).on_hover_text(tell(&preset.name));
                 if button.clicked() {
                     asked.push(Action::Select(Selection::Threshold(preset.value)));
                 }

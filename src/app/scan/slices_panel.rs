@@ -8,7 +8,7 @@ use crate::app::assist::{describe, name};
 use crate::app::control::reads_comma;
 use crate::app::row::row;
 use crate::app::swipe::Way;
-use crate::language::{Key, decimal};
+use crate::language::{decimal, tell};
 use crate::say;
 use crate::volume::{Survey, WINDOWS};
 
@@ -60,14 +60,15 @@ pub(super) fn keep(ui: &mut Ui, bytes: u64, mut keeps: bool, asked: &mut Vec<Act
 /// What is black and white: a window with a name, or level and width.
 pub(super) fn window(ui: &mut Ui, is_ct: bool, survey: &Survey, ends: &mut [f64; 2]) {
     let (range, bulk) = (survey.range, survey.bulk());
-    let known = WINDOWS.iter().filter(|_| is_ct).map(|window| (window.name, window.ends));
-    let all = [(Key("scan-window-most"), bulk), (Key("scan-window-all"), range)];
-    let known: Vec<(Key, [f64; 2])> = known.chain(all).collect();
-    let shown = known.iter().find(|(_, other)| other == ends).map_or(Key("scan-window-own"), |(name, _)| *name);
+    let known = WINDOWS.iter().filter(|_| is_ct).map(|window| (tell(&window.name), window.ends));
+    let all = [(say!("scan-window-most"), bulk), (say!("scan-window-all"), range)];
+    let known: Vec<(String, [f64; 2])> = known.chain(all).collect();
+    let shown =
+        known.iter().find(|(_, other)| other == ends).map_or_else(|| say!("scan-window-own"), |(name, _)| name.clone());
     row(ui, &say!("scan-window"), &say!("scan-window-help"), |ui| {
-        let list = ComboBox::from_id_salt("window").selected_text(shown.say()).show_ui(ui, |ui| {
+        let list = ComboBox::from_id_salt("window").selected_text(shown).show_ui(ui, |ui| {
             for (text, other) in &known {
-                ui.selectable_value(ends, *other, text.say());
+                ui.selectable_value(ends, *other, text);
             }
         });
         name(&list.response, Role::ComboBox, &say!("scan-window-name"));

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::*;
 use crate::engine::scan::{NamedFile, OpenedScan, ScanCommand, ScanEvent, ScanWork};
 use crate::engine::{Link, Source};
+use crate::io::ScanWarning;
 use crate::language::Key;
 use crate::mesh::TriMesh;
 use crate::mesh::shapes::icosphere;
@@ -47,7 +48,7 @@ fn opened(id: u64, range: [f64; 2], labels: Vec<Label>) -> ScanEvent {
         is_ct: false,
         survey: Survey { range, histogram: vec![1; 256], labels },
         proposed,
-        warnings: vec!["It is silent.".to_owned()],
+        warnings: vec![ScanWarning::Silent { format: "NIfTI".to_owned() }.into()],
     }))
 }
 
@@ -124,7 +125,7 @@ fn the_surface_is_opened_and_the_scan_left() {
         format: "NIfTI".to_owned(),
         mesh: mesh(),
         axes: crate::io::Axes::Unknown,
-        warnings: vec!["It is silent.".to_owned()],
+        warnings: vec![ScanWarning::Silent { format: "NIfTI".to_owned() }.into()],
     };
     assert_eq!((told, scans.is_open()), (Some(Told::Made(expected)), false));
 }

@@ -7,6 +7,7 @@ use super::{Effect, Engine, Notice, Opening, State};
 use crate::app::document::Document;
 use crate::engine::{Command, Link, Opened, Source, Work};
 use crate::io::{ImportOptions, Unit};
+use crate::language::tell;
 use crate::phantom::{MIN_TRIANGLES, Sample};
 use crate::pipeline::settings::{Keep, Settings};
 
@@ -89,8 +90,8 @@ impl State {
         self.is_cancelling = false;
         // That another file could not be opened meanwhile is not to be lost.
         if self.notice.as_ref().is_none_or(|notice| !notice.is_error) {
-            let warning = document.import.warnings_now().into_iter().next();
-            self.notice = warning.map(|text| Notice { text, is_error: false });
+            let warning = document.import.warnings.first();
+            self.notice = warning.map(|warning| Notice { text: tell(warning), is_error: false });
         }
         self.shows_averaged = false;
         self.document = Some(document);

@@ -8,6 +8,7 @@ use super::super::machine::{Machine, SLICE};
 use super::message::{ScanCommand, ScanEvent, ScanWork};
 use super::opening::{Found, Opening};
 use super::shelf::{Empty, Shelf};
+use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::say;
 use crate::task::{Budget, Progress, Running};
@@ -116,7 +117,7 @@ impl ScanEngine {
     fn begin_preview(&mut self, wanted: Wanted, step: Option<usize>) {
         let Some(current) = self.current(wanted.generation) else { return };
         if let Err(error) = current.begin_preview(wanted, step) {
-            self.refuse(wanted.generation, error.to_string());
+            self.refuse(wanted.generation, tell(&error));
         }
     }
 
@@ -124,7 +125,7 @@ impl ScanEngine {
         let Some(current) = self.current(generation) else { return };
         match selection.check(&current.survey).and_then(|()| surfacing(&current.grid, selection, region)) {
             Ok(work) => current.job = Some(Job::Surface { work, generation }),
-            Err(error) => self.refuse(generation, error.to_string()),
+            Err(error) => self.refuse(generation, tell(&error)),
         }
     }
 
@@ -182,7 +183,7 @@ impl ScanEngine {
                 self.events.push_back(ScanEvent::Surface { generation, mesh: Arc::new(mesh) });
             }
             (Job::Preview { generation, .. } | Job::Surface { generation, .. }, Made::Surface(Err(error))) => {
-                self.refuse(generation, error.to_string());
+                self.refuse(generation, tell(&error));
             }
             _ => unreachable!("a job makes what it is for"),
         }

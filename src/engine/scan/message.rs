@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::link::Link;
 use super::super::surfaces::surface;
-use crate::io::Axes;
+use crate::io::{Axes, Warning};
 use crate::mesh::TriMesh;
 use crate::transfer::bulk;
 use crate::volume::{Axis, Region, Selection, Survey};
@@ -129,8 +129,8 @@ pub struct OpenedScan {
     pub survey: Survey,
     /// What to begin with: all of a mask; of a scan nothing is proposed.
     pub proposed: Option<Selection>,
-    /// Sentences for the user about what looks odd.
-    pub warnings: Vec<String>,
+    /// What looks odd.
+    pub warnings: Vec<Warning>,
 }
 
 /// What the engine has to say.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::message::{Contents, NamedFile, OpenedScan, ScanWork};
 use super::shelf::{Shelf, length, piece};
 use crate::io::volume::{self, HEAD, Head, Part, Scan, Stream};
-use crate::language::decimal;
+use crate::language::{decimal, tell};
 use crate::say;
 use crate::task::{Budget, Progress, Running};
 use crate::volume::{Grid, Survey, survey_in_slices};
@@ -119,13 +119,13 @@ impl Opening {
             Stage::Streaming { mut stream, next, piece: bytes, used } => {
                 if used < bytes.len() && !stream.is_full() {
                     let end = bytes.len().min(used + STEP);
-                    stream.push(&bytes[used..end]).map_err(|error| error.to_string())?;
+                    stream.push(&bytes[used..end]).map_err(|error| tell(&error))?;
                     Stage::Streaming { stream, next, piece: bytes, used: end }
                 } else if next < stream.length() && !stream.is_full() {
                     let bytes = piece(shelf, &self.files[stream.file()], next, PIECE)?;
                     Stage::Streaming { stream, next: next + bytes.len() as u64, piece: bytes, used: 0 }
                 } else {
-                    self.survey(stream.finish().map_err(|error| error.to_string())?)
+                    self.survey(stream.finish().map_err(|error| tell(&error))?)
                 }
             }
             Stage::Gathering { whole, current } => self.gather(shelf, whole, current)?,
@@ -148,7 +148,7 @@ impl Opening {
             .zip(&beginnings)
             .map(|(file, bytes)| Head { name: &file.name, bytes, length: length(file) })
             .collect();
-        Ok(match volume::begin(&heads).map_err(|error| error.to_string())? {
+        Ok(match volume::begin(&heads).map_err(|error| tell(&error))? {
             Some(stream) => {
                 Stage::Streaming { next: stream.start(), stream: Box::new(stream), piece: Vec::new(), used: 0 }
             }
@@ -166,7 +166,7 @@ impl Opening {
         let Some(file) = self.files.get(whole.len()) else {
             let parts: Vec<Part> =
                 self.files.iter().zip(&whole).map(|(file, bytes)| Part { name: &file.name, bytes }).collect();
-            return Ok(self.survey(volume::read(&parts).map_err(|error| error.to_string())?));
+            return Ok(self.survey(volume::read(&parts).map_err(|error| tell(&error))?));
         };
         match &file.contents {
             Contents::Bytes(bytes) => whole.push(Arc::clone(bytes)),

@@ -10,23 +10,23 @@ use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Root};
 use base64::Engine as _;
 
-use super::super::error::ReadError;
+use super::super::error::{Feature, Named, ReadError, Unnamed};
 use super::super::pace::{BYTES, NUMBERS, Pace};
+use super::super::problem::GltfProblem;
 use super::super::text::BASE64;
 use super::{FORMAT, malformed};
-use lumen_language::say;
 
 /// The part of the work on letters in base64 that decoding them is.
 const DECODED: f64 = 0.5;
 
 /// The bytes of each buffer, or the address of the file that they are in.
 pub(super) struct Buffers<'a> {
-    contents: Vec<Result<Cow<'a, [u8]>, String>>,
+    contents: Vec<Result<Cow<'a, [u8]>, Named>>,
 }
 
 /// The bytes of a text in base64.
 async fn from_base64(text: &str, pace: &Pace) -> Result<Vec<u8>, ReadError> {
-    let damaged = || malformed(say!("errors-gltf-base64"));
+    let damaged = || malformed(GltfProblem::Base64);
     let mut bytes = Vec::with_capacity(text.len().div_ceil(4) * 3);
     // Whole groups of four letters; padding stands behind the last.
     let mut blocks = text.as_bytes().chunks(BYTES).peekable();
@@ -47,10 +47,10 @@ impl<'a> Buffers<'a> {
             contents.push(match (&buffer.uri, binary) {
                 (Some(uri), _) => match uri.strip_prefix("data:").and_then(|data| data.split_once(";base64,")) {
                     Some((_, data)) => Ok(Cow::Owned(from_base64(data, pace).await?)),
-                    None => Err(uri.chars().take(80).collect()),
+                    None => Err(Named::Word(uri.chars().take(80).collect())),
                 },
                 (None, Some(binary)) if i == 0 => Ok(Cow::Borrowed(binary)),
-                (None, _) => Err(say!("errors-gltf-unnamed")),
+                (None, _) => Err(Named::Unnamed(Unnamed::NoFile)),
             });
         }
         Ok(Self { contents })
@@ -58,21 +58,20 @@ impl<'a> Buffers<'a> {
 
     /// The items of an accessor, checked to be of `shape` and to lie within their buffer in full.
     pub(super) fn items(&self, root: &Root, index: Index<Accessor>, shape: Type) -> Result<Items<'_>, ReadError> {
-        let number = || index.value().to_string();
-        let no_data = || malformed(say!("errors-gltf-accessor-empty", accessor = number()));
-        let beyond = || malformed(say!("errors-gltf-accessor-beyond", accessor = number()));
-        let accessor =
-            root.get(index).ok_or_else(|| malformed(say!("errors-gltf-no-accessor", accessor = number())))?;
+        let number = index.value();
+        let no_data = || malformed(GltfProblem::AccessorEmpty { accessor: number });
+        let beyond = || malformed(GltfProblem::AccessorBeyond { accessor: number });
+        let accessor = root.get(index).ok_or_else(|| malformed(GltfProblem::NoAccessor { accessor: number }))?;
         if accessor.sparse.is_some() {
-            return Err(ReadError::Unsupported { format: FORMAT, feature: say!("errors-gltf-sparse") });
+            return Err(ReadError::Unsupported { format: FORMAT, feature: Feature::SparseAccessors });
         }
         let (Checked::Valid(GenericComponentType(component)), Checked::Valid(type_)) =
             (accessor.component_type, accessor.type_)
         else {
-            return Err(malformed(say!("errors-gltf-accessor-type", accessor = number())));
+            return Err(malformed(GltfProblem::AccessorType { accessor: number }));
         };
         if type_ != shape {
-            return Err(malformed(say!("errors-gltf-accessor-shape", accessor = number())));
+            return Err(malformed(GltfProblem::AccessorShape { accessor: number }));
         }
         let view = accessor.buffer_view.and_then(|view| root.get(view)).ok_or_else(no_data)?;
         let contents = self.contents.get(view.buffer.value()).ok_or_else(no_data)?;
@@ -87,7 +86,7 @@ impl<'a> Buffers<'a> {
         let size = component.size() * type_.multiplicity();
         let stride = view.byte_stride.map_or(size, |stride| stride.0);
         if stride < size {
-            return Err(malformed(say!("errors-gltf-accessor-overlap", accessor = number())));
+            return Err(malformed(GltfProblem::AccessorOverlap { accessor: number }));
         }
         let count = accessor.count.0;
         let bytes = offset(accessor.byte_offset.map(|at| at.0))
@@ -153,7 +152,7 @@ impl Items<'_> {
             ComponentType::U8 => |b| u32::from(b[0]),
             ComponentType::U16 => |b| u32::from(u16::from_le_bytes([b[0], b[1]])),
             ComponentType::U32 => |b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]),
-            _ => return Err(malformed(say!("errors-gltf-indices"))),
+            _ => return Err(malformed(GltfProblem::Indices)),
         };
         let mut indices = Vec::with_capacity(self.count);
         for block in self.blocks() {

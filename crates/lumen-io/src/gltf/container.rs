@@ -3,13 +3,13 @@
 use glam::DVec3;
 
 use super::super::Unit;
-use super::super::error::ReadError;
+use super::super::error::{Counted, Feature, ReadError};
 use super::super::pace::Pace;
+use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
 use super::super::text;
 use super::malformed;
 use super::scene::read_scene;
-use lumen_language::say;
 
 pub(super) const JSON_CHUNK: u32 = 0x4e4f_534a;
 pub(super) const BIN_CHUNK: u32 = 0x004e_4942;
@@ -19,7 +19,7 @@ pub(super) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &
     let word = |at: usize| bytes.get(at..).and_then(|rest| rest.first_chunk()).map(|b| u32::from_le_bytes(*b));
     let cut_short = |announced: usize| ReadError::CutShort {
         format: "GLB",
-        what: say!("errors-bytes"),
+        what: Counted::Bytes,
         announced: announced as u64,
         found: bytes.len() as u64,
     };
@@ -27,10 +27,7 @@ pub(super) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &
         return Err(cut_short(12));
     };
     if version != 2 {
-        return Err(ReadError::Unsupported {
-            format: "GLB",
-            feature: say!("errors-version", version = version.to_string()),
-        });
+        return Err(ReadError::Unsupported { format: "GLB", feature: Feature::Version { version } });
     }
     if length as usize > bytes.len() {
         return Err(cut_short(length as usize));
@@ -47,7 +44,7 @@ pub(super) async fn read_binary(bytes: &[u8], unit: Unit, origin: DVec3, pace: &
         }
         at += 8 + chunk.len();
     }
-    let json = json.ok_or_else(|| malformed(say!("errors-gltf-no-json")))?;
+    let json = json.ok_or_else(|| malformed(GltfProblem::NoJson))?;
     pace.rest(json.len() as f64).await;
     read_scene("GLB", json, binary, unit, bytes.len(), origin, pace).await
 }

@@ -18,13 +18,17 @@ mod arrays;
 mod buffers;
 mod container;
 mod primitive;
+mod problem;
 mod scene;
 mod write;
 
 use super::error::ReadError;
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
+use super::problem::Problem;
 use super::text;
 use super::unit::Unit;
+
+pub use problem::GltfProblem;
 
 /// GLB in the table of formats.
 pub(super) static BINARY: FileKind = FileKind {
@@ -68,8 +72,8 @@ fn triangles(bytes: &[u8]) -> u64 {
 
 const FORMAT: &str = "glTF";
 
-fn malformed(problem: String) -> ReadError {
-    ReadError::Malformed { format: FORMAT, problem }
+fn malformed(problem: impl Into<Problem>) -> ReadError {
+    ReadError::malformed(FORMAT, problem)
 }
 
 #[cfg(test)]

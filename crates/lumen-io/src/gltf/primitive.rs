@@ -10,15 +10,15 @@ use ::gltf::json::{Accessor, Index, Root};
 use glam::{DMat4, DVec3};
 
 use super::super::columns::Columns;
-use super::super::error::ReadError;
+use super::super::error::{Feature, ReadError};
 use super::super::pace::{NUMBERS, Pace};
+use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
 use super::super::room::Room;
+use super::super::warnings::ArrayProblem;
 use super::arrays::array_name;
 use super::buffers::Buffers;
 use super::{FORMAT, malformed};
-use lumen_language::Key;
-use lumen_language::say;
 use lumen_mesh::arrays::{On, Scalar, Values};
 
 /// What has been read so far.
@@ -43,7 +43,7 @@ impl Collected<'_> {
         to_world: DMat4,
     ) -> Result<(), ReadError> {
         let Checked::Valid(mode) = primitive.mode else {
-            return Err(malformed(say!("errors-gltf-mode")));
+            return Err(malformed(GltfProblem::DrawingMode));
         };
         let Some(&positions) = primitive.attributes.get(&Checked::Valid(Semantic::Positions)) else {
             return Ok(());
@@ -64,7 +64,7 @@ impl Collected<'_> {
                 for (name, accessor) in arrays {
                     match self.values(root, buffers, Index::new(accessor), count).await {
                         Ok((components, values)) => self.columns.add(On::Point, name, components, values),
-                        Err(why) => self.columns.leave_out(name, &why.say()),
+                        Err(why) => self.columns.leave_out(name, why),
                     }
                 }
                 self.columns.end_part(count, 0);
@@ -80,21 +80,21 @@ impl Collected<'_> {
         buffers: &Buffers<'_>,
         accessor: Index<Accessor>,
         count: usize,
-    ) -> Result<(usize, Values), Key> {
-        const DAMAGED: Key = Key("errors-array-damaged");
+    ) -> Result<(usize, Values), ArrayProblem> {
+        const DAMAGED: ArrayProblem = ArrayProblem::Damaged;
         let Some(Checked::Valid(shape)) = root.get(accessor).map(|accessor| accessor.type_) else {
             return Err(DAMAGED);
         };
         if !matches!(shape, Type::Scalar | Type::Vec2 | Type::Vec3 | Type::Vec4) {
-            return Err(Key("errors-array-matrices"));
+            return Err(ArrayProblem::Matrices);
         }
         let items = buffers.items(root, accessor, shape).map_err(|_| DAMAGED)?;
         if items.count != count {
-            return Err(Key("errors-array-other-length"));
+            return Err(ArrayProblem::OtherLength);
         }
         let bytes = self.array_bytes.saturating_add((items.count * items.size) as u64);
         if !self.room.holds_arrays(self.raw.positions.len(), self.raw.triangles.len(), bytes) {
-            return Err(Key("errors-array-memory"));
+            return Err(ArrayProblem::Memory);
         }
         self.array_bytes = bytes;
         let scalar = match items.component {
@@ -124,7 +124,7 @@ impl Collected<'_> {
     ) -> Result<(), ReadError> {
         let positions = buffers.items(root, positions, Type::Vec3)?;
         if positions.component == ComponentType::U32 {
-            let feature = say!("errors-gltf-whole-positions");
+            let feature = Feature::WholePositions;
             return Err(ReadError::Unsupported { format: FORMAT, feature });
         }
         let indices = primitive.indices.map(|index| buffers.items(root, index, Type::Scalar)).transpose()?;

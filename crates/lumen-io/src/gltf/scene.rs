@@ -5,15 +5,15 @@ use glam::{DMat3, DMat4, DQuat, DVec3};
 
 use super::super::Unit;
 use super::super::columns::Columns;
-use super::super::error::ReadError;
+use super::super::error::{Feature, ReadError};
 use super::super::pace::Pace;
+use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
 use super::super::room::Room;
 use super::arrays::Names;
 use super::buffers::Buffers;
 use super::primitive::Collected;
 use super::{FORMAT, malformed};
-use lumen_language::say;
 
 /// Collects every triangle of the scene that opens first, through its tree of nodes.
 pub(super) async fn read_scene(
@@ -31,12 +31,12 @@ pub(super) async fn read_scene(
     // The crate parses the JSON at once. Of a GLB that is some kilobytes, of a text mostly one long string: a few tens of
     // milliseconds for a million triangles, and twice, for the names.
     let root: Root = deserialize::from_slice(json).map_err(|error| {
-        let (line, column) = (error.line().to_string(), error.column().to_string());
-        malformed(say!("errors-gltf-json", line = line, column = column))
+        let (line, column) = (error.line(), error.column());
+        malformed(GltfProblem::Json { line, column })
     })?;
     let compressions = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
     if let Some(feature) = root.extensions_required.iter().find(|name| compressions.contains(&name.as_str())) {
-        return Err(ReadError::Unsupported { format: FORMAT, feature: feature.clone() });
+        return Err(ReadError::Unsupported { format: FORMAT, feature: Feature::Extension { name: feature.clone() } });
     }
     pace.rest(0.0).await;
     let names = Names::of(json);
@@ -52,7 +52,7 @@ pub(super) async fn read_scene(
     let mut stack: Vec<(Index<Node>, DMat4)> = Vec::new();
     match scene {
         Some(scene) => {
-            let scene = root.get(scene).ok_or_else(|| malformed(say!("errors-gltf-no-scene")))?;
+            let scene = root.get(scene).ok_or_else(|| malformed(GltfProblem::NoScene))?;
             stack.extend(scene.nodes.iter().rev().map(|&node| (node, to_mm)));
         }
         // A library of meshes that are placed nowhere.
@@ -66,15 +66,15 @@ pub(super) async fn read_scene(
     }
     let mut visited = vec![false; root.nodes.len()];
     while let Some((index, parent)) = stack.pop() {
-        let number = || index.value().to_string();
-        let node = root.get(index).ok_or_else(|| malformed(say!("errors-gltf-no-node", node = number())))?;
+        let number = index.value();
+        let node = root.get(index).ok_or_else(|| malformed(GltfProblem::NoNode { node: number }))?;
         if std::mem::replace(&mut visited[index.value()], true) {
-            return Err(malformed(say!("errors-gltf-node-twice", node = number())));
+            return Err(malformed(GltfProblem::NodeTwice { node: number }));
         }
         let to_world = parent * transform(node);
         if let Some(mesh) = node.mesh {
             let m = mesh.value();
-            let mesh = root.get(mesh).ok_or_else(|| malformed(say!("errors-gltf-no-mesh", mesh = m.to_string())))?;
+            let mesh = root.get(mesh).ok_or_else(|| malformed(GltfProblem::NoMesh { mesh: m }))?;
             for (p, primitive) in mesh.primitives.iter().enumerate() {
                 collected.add(&root, &buffers, primitive, names.of_primitive(m, p), to_world).await?;
             }

@@ -8,8 +8,8 @@
 use super::super::columns::Columns;
 use super::super::numbers::Scalar;
 use super::super::room::Room;
+use super::super::warnings::ArrayProblem;
 use super::header::Property;
-use lumen_language::say;
 use lumen_mesh::Array;
 use lumen_mesh::arrays::{On, Values};
 
@@ -39,7 +39,7 @@ impl Extras {
             }
             let more = bytes.saturating_add(rows.saturating_mul(property.kind.size() as u64));
             if !room.holds_arrays(0, 0, more) {
-                columns.leave_out(&property.name, &say!("errors-array-memory"));
+                columns.leave_out(&property.name, ArrayProblem::Memory);
                 return None;
             }
             bytes = more;

@@ -9,12 +9,13 @@ use super::super::error::ReadError;
 use super::super::numbers::Numbers;
 use super::super::pace::Pace;
 use super::super::polygons::Faces;
+use super::super::problem::PlyProblem;
 use super::super::raw::RawSurface;
 use super::super::room::Room;
+use super::super::warnings::Warning;
 use super::arrays::Extras;
 use super::header::{Element, Encoding, Header, Meaning, Property, has_doubles, meaning};
 use super::malformed;
-use lumen_language::say;
 use lumen_mesh::Vec3;
 use lumen_mesh::arrays::On;
 
@@ -97,7 +98,7 @@ impl Body {
             if row.read(&element.properties, wanted, numbers).is_none() {
                 let (format, what) = (encoding.label(), element.plural());
                 return Err(match (row.bad_length, numbers.fault()) {
-                    (Some(length), _) => malformed(say!("errors-ply-list", length = length.to_string())),
+                    (Some(length), _) => malformed(PlyProblem::ListLength { length }),
                     (None, Some(fault)) => fault,
                     (None, None) => ReadError::CutShort { format, what, announced: element.count, found: n },
                 });
@@ -180,7 +181,7 @@ impl Body {
         (raw.has_doubles, raw.origin) = (has_doubles(header), self.origin);
         raw.carry(self.columns.finish(), self.room);
         if header.encoding != Encoding::Ascii && left > 0 {
-            raw.warnings.push(say!("errors-ply-trailing", bytes = left.to_string()));
+            raw.warnings.push(Warning::PlyTrailing { bytes: left });
         }
         raw
     }

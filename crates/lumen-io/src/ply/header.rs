@@ -1,10 +1,10 @@
 //! The header of a PLY file: its encoding, and its elements with their typed properties.
 
-use super::super::error::ReadError;
+use super::super::error::{Counted, ReadError};
 use super::super::numbers::Scalar;
+use super::super::problem::{PlyProblem, TextProblem};
 use super::super::text;
 use super::malformed;
-use lumen_language::say;
 use lumen_mesh::arrays::On;
 
 /// The type that a header calls `name`.
@@ -40,12 +40,12 @@ pub(super) struct Element {
 
 impl Element {
     /// What to call many of it.
-    pub(super) fn plural(&self) -> String {
+    pub(super) fn plural(&self) -> Counted {
         match self.name.as_str() {
-            "vertex" => say!("errors-vertices"),
-            "face" => say!("errors-faces"),
-            "tristrips" => say!("errors-strips"),
-            name => say!("errors-rows", name = text::quoted(name.as_bytes())),
+            "vertex" => Counted::Vertices,
+            "face" => Counted::Faces,
+            "tristrips" => Counted::Strips,
+            name => Counted::Rows { name: text::quoted(name.as_bytes()) },
         }
     }
 }
@@ -78,7 +78,7 @@ pub(super) struct Header {
 /// Reads the header, which is text in every encoding.
 pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     if !bytes.get(..3).is_some_and(|magic| magic.eq_ignore_ascii_case(b"ply")) {
-        return Err(malformed(say!("errors-ply-begin")));
+        return Err(malformed(PlyProblem::Begin));
     }
     // Old Macintosh files end lines with a carriage return alone; then a line feed after it is a number's byte.
     let ending: &[u8] = match bytes.get(3..5) {
@@ -92,17 +92,17 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     loop {
         let rest = &bytes[at..];
         let Some(length) = rest.windows(ending.len()).position(|part| part == ending) else {
-            return Err(malformed(say!("errors-ply-end")));
+            return Err(malformed(PlyProblem::NoEndHeader));
         };
         at += length + ending.len();
         line += 1;
-        let syntax = |problem: String| ReadError::Syntax { format: "PLY", line, problem };
         let row = String::from_utf8_lossy(&rest[..length]);
         // No line that means anything has more.
         let words: Vec<&str> = row.split_ascii_whitespace().take(6).collect();
         let property = |name: &str, kind: &str, length: Option<&str>| {
             let scalar = |kind: &str| {
-                let unknown = || syntax(say!("errors-no-type", word = text::quoted(kind.as_bytes())));
+                let unknown =
+                    || ReadError::syntax("PLY", line, TextProblem::NoType { word: text::quoted(kind.as_bytes()) });
                 scalar_type(kind).ok_or_else(unknown)
             };
             Ok(Property { name: name.to_owned(), kind: scalar(kind)?, length: length.map(scalar).transpose()? })
@@ -114,28 +114,35 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
                     "ascii" => Encoding::Ascii,
                     "binary_little_endian" => Encoding::Little,
                     "binary_big_endian" => Encoding::Big,
-                    _ => return Err(syntax(say!("errors-ply-encoding", word = text::quoted(kind.as_bytes())))),
+                    _ => {
+                        return Err(ReadError::syntax(
+                            "PLY",
+                            line,
+                            PlyProblem::UnknownEncoding { word: text::quoted(kind.as_bytes()) },
+                        ));
+                    }
                 });
             }
             ["element", name, count] => {
-                let count = count
-                    .parse()
-                    .map_err(|_| syntax(say!("errors-no-count", word = text::quoted(count.as_bytes()))))?;
+                let count = count.parse().map_err(|_| {
+                    ReadError::syntax("PLY", line, TextProblem::NoCount { word: text::quoted(count.as_bytes()) })
+                })?;
                 elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
             }
             ["property", ref rest @ ..] => {
-                let element = elements.last_mut().ok_or_else(|| syntax(say!("errors-ply-property-first")))?;
+                let element =
+                    elements.last_mut().ok_or_else(|| ReadError::syntax("PLY", line, PlyProblem::PropertyFirst))?;
                 element.properties.push(match *rest {
                     ["list", length, kind, name] => property(name, kind, Some(length))?,
                     [kind, name] => property(name, kind, None)?,
-                    _ => return Err(syntax(say!("errors-ply-property"))),
+                    _ => return Err(ReadError::syntax("PLY", line, PlyProblem::ShortProperty)),
                 });
             }
             // Comments, obj_info and what later versions may add.
             _ => {}
         }
     }
-    let encoding = encoding.ok_or_else(|| malformed(say!("errors-ply-no-encoding")))?;
+    let encoding = encoding.ok_or_else(|| malformed(PlyProblem::NoEncoding))?;
     Ok(Header { encoding, elements, body: at, body_line: line + 1 })
 }
 
@@ -170,7 +177,7 @@ pub(super) fn meaning(element: &Element) -> Result<Meaning, ReadError> {
     Ok(match element.name.as_str() {
         "vertex" => match (scalar("x"), scalar("y"), scalar("z")) {
             (Some(x), Some(y), Some(z)) => Meaning::Vertices([x, y, z]),
-            _ => return Err(malformed(say!("errors-ply-no-xyz"))),
+            _ => return Err(malformed(PlyProblem::NoCoordinates)),
         },
         "face" => indices().map_or(Meaning::Other, Meaning::Faces),
         "tristrips" => indices().map_or(Meaning::Other, Meaning::Strips),

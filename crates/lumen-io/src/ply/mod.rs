@@ -9,12 +9,16 @@ mod arrays;
 mod body;
 mod header;
 mod parsing;
+mod problem;
 mod write;
 
 use super::error::ReadError;
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
+use super::problem::Problem;
 use super::text;
 use super::unit::Unit;
+
+pub use problem::PlyProblem;
 
 /// PLY in the table of formats.
 pub(super) static KIND: FileKind = FileKind {
@@ -39,8 +43,8 @@ fn announced_faces(bytes: &[u8]) -> Option<u64> {
     Some(faces.min(bytes.len() as u64 / 4))
 }
 
-fn malformed(problem: String) -> ReadError {
-    ReadError::Malformed { format: "PLY", problem }
+fn malformed(problem: impl Into<Problem>) -> ReadError {
+    ReadError::malformed("PLY", problem)
 }
 
 #[cfg(test)]

@@ -7,9 +7,9 @@ use super::super::numbers::{BinaryNumbers, TextNumbers};
 use super::super::pace::Pace;
 use super::super::raw::RawSurface;
 use super::super::text::{self, Words};
+use super::super::warnings::Warning;
 use super::body;
 use super::header::{Encoding, header};
-use lumen_language::Key;
 
 /// Reads a file, with positions relative to an origin.
 ///
@@ -34,12 +34,12 @@ pub(crate) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<Raw
             let mut rows = as_text(true);
             let second = body::read(&header, length, origin, &mut rows, pace).await;
             let (read, what) = if second.is_ok() && rows.is_at_end() {
-                (second, Key("errors-ply-unannounced"))
+                (second, Warning::PlyUnannounced)
             } else {
-                (first, Key("errors-ply-more-numbers"))
+                (first, Warning::PlyMoreNumbers)
             };
             read.map(|mut raw| {
-                raw.warnings.push(what.say());
+                raw.warnings.push(what);
                 raw
             })
         }

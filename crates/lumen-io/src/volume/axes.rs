@@ -1,8 +1,7 @@
 //! From the axes of a file to those of the patient, and what is said where a file does not name them.
 
+use super::super::warnings::{ScanWarning, Warning};
 use glam::{DMat3, DVec3};
-
-use lumen_language::say;
 
 /// Turns steps and an origin in RAS into LPS: right is left reversed, front is back reversed.
 pub(super) fn ras_to_lps(steps: DMat3, origin: DVec3) -> (DMat3, DVec3) {
@@ -11,8 +10,8 @@ pub(super) fn ras_to_lps(steps: DMat3, origin: DVec3) -> (DMat3, DVec3) {
 }
 
 /// What is said of a file of `format` that does not name its axes.
-pub(super) fn silent(format: &str) -> String {
-    say!("scan-silent", format = format)
+pub(super) fn silent(format: &str) -> Warning {
+    ScanWarning::Silent { format: format.to_owned() }.into()
 }
 
 /// `count` numbers between white space or any of `,()`; `None` where there are not as many, or more.

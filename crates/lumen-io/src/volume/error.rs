@@ -1,58 +1,55 @@
 //! What can go wrong with the file of a volume, each in one plain sentence.
 
-use thiserror::Error;
-
-use super::super::error::ReadError;
-use lumen_language::say;
+use lumen_message::messages;
 use lumen_volume::VolumeError;
 
-/// Why a volume was not opened.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum ScanError {
-    /// The file is broken, cut short, or uses what Lumen does not read.
-    #[error(transparent)]
-    File(#[from] ReadError),
-    /// Its points or numbers make no volume.
-    #[error(transparent)]
-    Volume(#[from] VolumeError),
-    /// None of the files is a volume.
-    #[error("{}", say!("scan-no-volume", name = .name))]
-    NoVolume {
-        /// The first file's name.
-        name: String,
-    },
-    /// The numbers stand in a file of their own.
-    #[error("{}", say!("scan-data-elsewhere", format = *.format, name = .name))]
-    DataElsewhere {
-        /// The format.
-        format: &'static str,
-        /// The name of the file.
-        name: String,
-    },
-    /// More numbers than can be held.
-    #[error("{}", say!("scan-too-large", bytes = .bytes.to_string(), limit = .limit.to_string()))]
-    TooLarge {
-        /// Bytes of its numbers.
-        bytes: u64,
-        /// The most that can be taken.
-        limit: u64,
-    },
-    /// There is no memory for it here.
-    #[error("{}", say!("scan-volume-memory", bytes = .bytes.to_string()))]
-    Memory {
-        /// Bytes of its numbers.
-        bytes: u64,
-    },
+use super::super::error::{Feature, ReadError};
+use super::super::problem::Problem;
+
+messages! {
+    /// Why a volume was not opened.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum ScanError {
+        /// None of the files is a volume.
+        "scan-no-volume" NoVolume {
+            /// The first file's name.
+            name: String,
+        } => "\"{name}\" is not a volume that Lumen knows: it opens NIfTI, NRRD, MetaImage and VTI files and series of DICOM.",
+        /// The numbers stand in a file of their own.
+        "scan-data-elsewhere" DataElsewhere {
+            /// The format.
+            format: &'static str,
+            /// The name of the file.
+            name: String,
+        } => "The {format} header keeps its numbers in the file \"{name}\": open both together.",
+        /// More numbers than can be held.
+        "scan-too-large" TooLarge {
+            /// Bytes of its numbers.
+            bytes: u64,
+            /// The most that can be taken.
+            limit: u64,
+        } => "The volume is too large: its numbers take {bytes} bytes, and Lumen can take {limit}.",
+        /// There is no memory for it here.
+        "scan-volume-memory" Memory {
+            /// Bytes of its numbers.
+            bytes: u64,
+        } => "There is not enough memory for the {bytes} bytes of the volume.",
+    } or {
+        /// The file is broken, cut short, or uses what Lumen does not read.
+        File(ReadError),
+        /// Its points or numbers make no volume.
+        Volume(VolumeError),
+    }
 }
 
 impl ScanError {
     /// That a file breaks its format's rules.
-    pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> Self {
+    pub(super) fn malformed(format: &'static str, problem: impl Into<Problem>) -> Self {
         ReadError::Malformed { format, problem: problem.into() }.into()
     }
 
     /// That a file uses a part of its format that is not read.
-    pub(super) fn unsupported(format: &'static str, feature: impl Into<String>) -> Self {
-        ReadError::Unsupported { format, feature: feature.into() }.into()
+    pub(super) fn unsupported(format: &'static str, feature: Feature) -> Self {
+        ReadError::Unsupported { format, feature }.into()
     }
 }

@@ -4,21 +4,36 @@ use std::fs;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+use lumen_message::{Message, Signature, ToValue as _, Value};
 use thiserror::Error;
 
 use super::headers::{data_name, is_volume};
 use super::parts::{HEAD, base_name};
-use lumen_language::say;
 
 /// A file or a folder that cannot be read.
 #[derive(Debug, Error)]
-#[error("{}", say!("scan-unreadable", path = .path))]
+#[error("cannot read {path}")]
 pub struct Unreadable {
     /// Its name.
     pub path: String,
     /// What the system says.
     #[source]
     pub source: io::Error,
+}
+
+impl Unreadable {
+    /// Identifier and placeables of the message.
+    pub const MESSAGES: &'static [Signature] = &[("scan-unreadable", &["path"])];
+}
+
+impl Message for Unreadable {
+    fn id(&self) -> &str {
+        Self::MESSAGES[0].0
+    }
+
+    fn values(&self) -> Vec<(&str, Value)> {
+        vec![("path", self.path.to_value())]
+    }
 }
 
 /// Names and bytes of files.

@@ -8,8 +8,11 @@
 use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
+use super::super::error::Feature;
 use super::super::numbers::Scalar;
+use super::super::problem::ScanProblem;
 use super::super::text;
+use super::super::warnings::{ScanWarning, Warning};
 use super::axes::{numbers, silent};
 use super::error::ScanError;
 use super::lines::lines;
@@ -17,7 +20,6 @@ use super::numbers::{Layout, Packing};
 use super::outline::Outline;
 use super::parts::Head;
 use super::parts::named;
-use lumen_language::say;
 use lumen_volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "MetaImage";
@@ -41,7 +43,7 @@ impl<'a> Header<'a> {
                 }
             }
         }
-        Err(ScanError::malformed(FORMAT, say!("scan-no-data-file", key = "ElementDataFile")))
+        Err(ScanError::malformed(FORMAT, ScanProblem::NoDataFile { key: "ElementDataFile" }))
     }
 
     fn get(&self, key: &str) -> Option<&'a str> {
@@ -53,12 +55,12 @@ impl<'a> Header<'a> {
     }
 
     /// The first of `keys` that is there, as numbers.
-    fn numbers<const N: usize>(&self, keys: &[&str]) -> Result<Option<[f64; N]>, ScanError> {
+    fn numbers<const N: usize>(&self, keys: &[&'static str]) -> Result<Option<[f64; N]>, ScanError> {
         let Some((key, value)) = keys.iter().find_map(|&key| self.get(key).map(|value| (key, value))) else {
             return Ok(None);
         };
         let found = numbers(value);
-        let problem = || ScanError::malformed(FORMAT, say!("scan-not-numbers", key = key, count = N));
+        let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key, count: N });
         found.map(Some).ok_or_else(problem)
     }
 
@@ -91,14 +93,14 @@ fn scalar(name: &str) -> Option<Scalar> {
 }
 
 /// What the header's unit of length is in mm, and what is to be said where it is none.
-fn unit(header: &Header) -> (f64, Vec<String>) {
+fn unit(header: &Header) -> (f64, Vec<Warning>) {
     match header.get("DistanceUnits") {
         None | Some("?" | "" | "mm") => (1.0, Vec::new()),
         Some("cm") => (10.0, Vec::new()),
         Some("um") => (1e-3, Vec::new()),
         Some(other) => {
             let quoted = text::quoted(other.as_bytes());
-            (1.0, vec![say!("scan-unknown-unit", format = FORMAT, unit = quoted)])
+            (1.0, vec![ScanWarning::UnknownUnit { format: FORMAT.to_owned(), unit: quoted }.into()])
         }
     }
 }
@@ -107,12 +109,12 @@ fn unit(header: &Header) -> (f64, Vec<String>) {
 pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     let header = Header::parse(files[at].bytes)?;
     if header.get("NDims").is_some_and(|n| n != "3") {
-        return Err(ScanError::unsupported(FORMAT, say!("scan-dimensions")));
+        return Err(ScanError::unsupported(FORMAT, Feature::NotThreeDimensions));
     }
     if header.get("ElementNumberOfChannels").is_some_and(|n| n != "1") {
-        return Err(ScanError::unsupported(FORMAT, say!("scan-numbers-a-voxel")));
+        return Err(ScanError::unsupported(FORMAT, Feature::NumbersAVoxel));
     }
-    let missing = |key: &str| ScanError::malformed(FORMAT, say!("scan-header-lacks", key = key));
+    let missing = |key| ScanError::malformed(FORMAT, ScanProblem::HeaderLacks { key });
     let size = header.numbers::<3>(&["DimSize"])?.ok_or_else(|| missing("DimSize"))?.map(|n| n as usize);
     let spacing = header.numbers::<3>(&["ElementSpacing", "ElementSize"])?.unwrap_or([1.0; 3]);
     let origin = header.numbers::<3>(&["Offset", "Position", "Origin"])?.unwrap_or_default();
@@ -130,15 +132,14 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     let geometry = Geometry::from_steps(size, steps, DVec3::from(origin) * scale);
     let geometry = geometry.map_err(VolumeError::from)?;
     let name = header.get("ElementType").ok_or_else(|| missing("ElementType"))?;
-    let scalar = scalar(name).ok_or_else(|| {
-        ScanError::unsupported(FORMAT, say!("scan-number-type", kind = text::quoted(name.as_bytes())))
-    })?;
+    let scalar = scalar(name)
+        .ok_or_else(|| ScanError::unsupported(FORMAT, Feature::NumberType { kind: text::quoted(name.as_bytes()) }))?;
     let is_big_endian = header.is("BinaryDataByteOrderMSB", "True") || header.is("ElementByteOrderMSB", "True");
     let layout = Layout::new(FORMAT, size, scalar, is_big_endian)?;
     let (file, start) = match header.data() {
         None => (at, header.length as u64),
         Some(name) if name.starts_with("LIST") || name.contains('%') => {
-            return Err(ScanError::unsupported(FORMAT, say!("scan-file-a-slice")));
+            return Err(ScanError::unsupported(FORMAT, Feature::FileASlice));
         }
         Some(name) => (named(files, name, FORMAT)?, 0),
     };

@@ -10,13 +10,14 @@
 use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
+use super::super::error::Feature;
 use super::super::numbers::Scalar;
+use super::super::problem::ScanProblem;
 use super::axes::{ras_to_lps, silent};
 use super::error::ScanError;
 use super::numbers::{Layout, Packing, first_unfolded, is_gzip};
 use super::outline::Outline;
 use super::parts::{Head, base_name, named};
-use lumen_language::say;
 use lumen_volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "NIfTI";
@@ -169,10 +170,10 @@ impl<'a> Header<'a> {
         let axes = self.dimension(0);
         let along = |axis: i64| if axis <= axes { self.dimension(axis as usize) } else { 1 };
         if !(1..=7).contains(&axes) {
-            return Err(ScanError::malformed(FORMAT, say!("scan-axes", axes = axes.to_string())));
+            return Err(ScanError::malformed(FORMAT, ScanProblem::Axes { axes }));
         }
         if (4..=axes).any(|axis| along(axis) > 1) {
-            return Err(ScanError::unsupported(FORMAT, say!("scan-more-dimensions")));
+            return Err(ScanError::unsupported(FORMAT, Feature::MoreDimensions));
         }
         Ok([1, 2, 3].map(|axis| usize::try_from(along(axis)).unwrap_or(0)))
     }
@@ -189,7 +190,7 @@ impl<'a> Header<'a> {
             768 => Scalar::U32,
             1024 => Scalar::I64,
             1280 => Scalar::U64,
-            other => return Err(ScanError::unsupported(FORMAT, say!("scan-number-type", kind = other.to_string()))),
+            other => return Err(ScanError::unsupported(FORMAT, Feature::NumberType { kind: other.to_string() })),
         })
     }
 
@@ -241,7 +242,7 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     let part = files[at];
     let unfolded = if is_gzip(part.bytes) { first_unfolded(part.bytes) } else { Vec::new() };
     let header = Header::parse(if unfolded.is_empty() { part.bytes } else { &unfolded });
-    let header = header.ok_or_else(|| ScanError::malformed(FORMAT, say!("scan-header-none")))?;
+    let header = header.ok_or_else(|| ScanError::malformed(FORMAT, ScanProblem::NoHeader))?;
     let (places, size) = (header.places(), header.size()?);
     let mut warnings = Vec::new();
     let (steps, origin, axes) = match header.placed() {

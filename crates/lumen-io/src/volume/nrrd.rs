@@ -7,15 +7,17 @@
 use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
+use super::super::error::Feature;
 use super::super::numbers::Scalar;
+use super::super::problem::ScanProblem;
 use super::super::text;
+use super::super::warnings::{ScanWarning, Warning};
 use super::axes::{numbers, ras_to_lps, silent};
 use super::error::ScanError;
 use super::lines::lines;
 use super::numbers::{Layout, Packing};
 use super::outline::Outline;
 use super::parts::{Head, named};
-use lumen_language::say;
 use lumen_volume::{Geometry, VolumeError};
 
 const FORMAT: &str = "NRRD";
@@ -54,19 +56,19 @@ impl<'a> Header<'a> {
     }
 
     fn endless() -> ScanError {
-        ScanError::malformed(FORMAT, say!("scan-header-endless"))
+        ScanError::malformed(FORMAT, ScanProblem::EndlessHeader)
     }
 
     fn get(&self, key: &str) -> Option<&'a str> {
         self.fields.iter().find(|(known, _)| known == key).map(|&(_, value)| value)
     }
 
-    fn need(&self, key: &str) -> Result<&'a str, ScanError> {
-        self.get(key).ok_or_else(|| ScanError::malformed(FORMAT, say!("scan-header-lacks", key = key)))
+    fn need(&self, key: &'static str) -> Result<&'a str, ScanError> {
+        self.get(key).ok_or_else(|| ScanError::malformed(FORMAT, ScanProblem::HeaderLacks { key }))
     }
 
-    fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>, ScanError> {
-        let problem = || ScanError::malformed(FORMAT, say!("scan-not-numbers", key = key, count = N));
+    fn numbers<const N: usize>(&self, key: &'static str) -> Result<Option<[f64; N]>, ScanError> {
+        let problem = || ScanError::malformed(FORMAT, ScanProblem::NotNumbers { key, count: N });
         self.get(key).map(|value| numbers(value).ok_or_else(problem)).transpose()
     }
 }
@@ -94,7 +96,7 @@ fn scalar(name: &str) -> Option<Scalar> {
 }
 
 /// What the header's unit of length is in mm; 1 where it has none, or one that is no length of a body, which is told.
-fn unit(header: &Header, warnings: &mut Vec<String>) -> f64 {
+fn unit(header: &Header, warnings: &mut Vec<Warning>) -> f64 {
     let Some(units) = header.get("spaceunits").or_else(|| header.get("units")) else { return 1.0 };
     let mut names = units.split('"').filter(|name| !name.trim().is_empty());
     let first = names.next().unwrap_or_default().trim();
@@ -107,14 +109,14 @@ fn unit(header: &Header, warnings: &mut Vec<String>) -> f64 {
     };
     if scale.is_nan() || names.any(|name| name.trim() != first) {
         let quoted = text::quoted(units.as_bytes());
-        warnings.push(say!("scan-unknown-unit", format = FORMAT, unit = quoted));
+        warnings.push(ScanWarning::UnknownUnit { format: FORMAT.to_owned(), unit: quoted }.into());
         return 1.0;
     }
     scale
 }
 
 /// The place of the grid, its axes, and what is to be said about it.
-fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Axes, Vec<String>), ScanError> {
+fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Axes, Vec<Warning>), ScanError> {
     let steps = match header.numbers::<9>("spacedirections")? {
         Some(columns) => DMat3::from_cols_array(&columns),
         None => {
@@ -146,20 +148,19 @@ fn geometry(header: &Header, size: [usize; 3]) -> Result<(Geometry, Axes, Vec<St
 pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
     let header = Header::parse(files[at].bytes)?;
     if header.need("dimension")? != "3" {
-        return Err(ScanError::unsupported(FORMAT, say!("scan-dimensions")));
+        return Err(ScanError::unsupported(FORMAT, Feature::NotThreeDimensions));
     }
-    let missing = || ScanError::malformed(FORMAT, say!("scan-header-lacks", key = "sizes"));
+    let missing = || ScanError::malformed(FORMAT, ScanProblem::HeaderLacks { key: "sizes" });
     let size = header.numbers::<3>("sizes")?.ok_or_else(missing)?.map(|n| n as usize);
     let (geometry, axes, warnings) = geometry(&header, size)?;
     let name = header.need("type")?;
-    let scalar = scalar(name).ok_or_else(|| {
-        ScanError::unsupported(FORMAT, say!("scan-number-type", kind = text::quoted(name.as_bytes())))
-    })?;
+    let scalar = scalar(name)
+        .ok_or_else(|| ScanError::unsupported(FORMAT, Feature::NumberType { kind: text::quoted(name.as_bytes()) }))?;
     let layout = Layout::new(FORMAT, size, scalar, header.get("endian") == Some("big"))?;
     let (file, begin) = match header.get("datafile") {
         None => (at, header.length),
         Some(name) if name.starts_with("LIST") || name.contains('%') => {
-            return Err(ScanError::unsupported(FORMAT, say!("scan-file-a-slice")));
+            return Err(ScanError::unsupported(FORMAT, Feature::FileASlice));
         }
         Some(name) => (named(files, name, FORMAT)?, 0),
     };
@@ -168,7 +169,7 @@ pub(super) fn outline(at: usize, files: &[Head]) -> Result<Outline, ScanError> {
         "gzip" | "gz" => Packing::Gzip,
         "text" | "txt" | "ascii" => Packing::Text,
         other => {
-            return Err(ScanError::unsupported(FORMAT, say!("scan-encoding", name = text::quoted(other.as_bytes()))));
+            return Err(ScanError::unsupported(FORMAT, Feature::Encoding { name: text::quoted(other.as_bytes()) }));
         }
     };
     let skip = |key| header.get(key).map_or(Ok(0), str::parse::<i64>).unwrap_or(0);

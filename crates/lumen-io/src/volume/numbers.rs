@@ -6,11 +6,11 @@ use std::io::Read as _;
 use flate2::bufread::MultiGzDecoder;
 
 use super::super::detect::GZIP;
-use super::super::error::ReadError;
+use super::super::error::{Counted, ReadError};
 use super::super::numbers::Scalar;
+use super::super::problem::{ScanProblem, TextProblem};
 use super::super::text::{self, Words};
 use super::error::ScanError;
-use lumen_language::say;
 use lumen_volume::{SampleType, Samples};
 
 /// The most bytes that the numbers of a volume may take: 512 x 512 x 800 at 16 bit five times over.
@@ -98,7 +98,7 @@ impl Layout {
         let needed = self.bytes().saturating_add(skipped);
         let is_packed = matches!(packing, Packing::Gzip | Packing::Zlib);
         if is_packed && needed > MOST_UNFOLDED.saturating_mul(bytes) {
-            let problem = say!("scan-packed", needed = needed.to_string(), bytes = bytes.to_string());
+            let problem = ScanProblem::Packed { needed, bytes };
             return Err(ScanError::malformed(self.format, problem));
         }
         Ok(())
@@ -149,7 +149,7 @@ impl Layout {
         while samples.len() < self.points {
             let word = words.next().ok_or_else(|| self.cut_short((samples.len() * self.scalar.size()) as u64))?;
             let value = text::number(word)
-                .ok_or_else(|| ScanError::malformed(self.format, say!("scan-no-number", word = text::quoted(word))))?;
+                .ok_or_else(|| ScanError::malformed(self.format, TextProblem::NoNumber { word: text::quoted(word) }))?;
             self.make_room(&mut samples, 1)?;
             samples.push(value);
         }
@@ -180,12 +180,12 @@ impl Layout {
 
     /// That there are no more than `found` bytes of them.
     pub(super) fn cut_short(self, found: u64) -> ScanError {
-        let what = say!("scan-bytes");
+        let what = Counted::Bytes;
         ReadError::CutShort { format: self.format, what, announced: self.bytes(), found }.into()
     }
 
     /// That they cannot be unpacked.
     pub(super) fn damaged(self) -> ScanError {
-        ScanError::malformed(self.format, say!("scan-packed-damaged"))
+        ScanError::malformed(self.format, ScanProblem::PackedDamaged)
     }
 }

@@ -1,6 +1,7 @@
 //! What a header says of its volume, and the volume that comes of it with its numbers.
 
 use super::super::axes::Axes;
+use super::super::warnings::Warning;
 use super::error::ScanError;
 use super::numbers::{Layout, Packing};
 use lumen_volume::{Geometry, Grid, Samples};
@@ -17,7 +18,7 @@ pub struct Scan {
     /// Whether values are Hounsfield units, as DICOM and MetaImage say of CT; the other formats do not say.
     pub is_ct: bool,
     /// Sentences for the user about what looks odd.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// What a header says.
@@ -36,7 +37,7 @@ pub(super) struct Outline {
     pub(super) scaling: [f64; 2],
     pub(super) axes: Axes,
     pub(super) is_ct: bool,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl Outline {

@@ -6,10 +6,10 @@ use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
 use super::super::vtk::{Image, Values, read_image};
+use super::super::warnings::ScanWarning;
 use super::error::ScanError;
 use super::numbers::{LARGEST, Layout, MOST_UNFOLDED};
 use super::outline::Scan;
-use lumen_language::say;
 use lumen_volume::{Geometry, Grid, VolumeError};
 
 const FORMAT: &str = "VTI";
@@ -36,6 +36,6 @@ fn scan(image: &Image) -> Result<Scan, ScanError> {
         Values::Big(bytes) => layout(true)?.take(bytes)?,
     };
     let grid = Grid::new(geometry, samples, 1.0, 0.0)?;
-    let warnings = vec![say!("scan-silent-format", format = FORMAT)];
+    let warnings = vec![ScanWarning::SilentFormat { format: FORMAT.to_owned() }.into()];
     Ok(Scan { grid, format: FORMAT, axes: Axes::Unknown, is_ct: false, warnings })
 }

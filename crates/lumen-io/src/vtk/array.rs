@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::super::numbers::{BinaryNumbers, Numbers, Scalar, TextNumbers};
 use super::super::pace::{BYTES, NUMBERS, Pace};
 use super::super::text::Words;
-use lumen_language::Key;
+use super::super::warnings::ArrayProblem;
 use lumen_mesh::arrays::Values;
 
 /// The numbers of an array.
@@ -49,8 +49,8 @@ impl Array<'_> {
     }
 
     /// The first `count` numbers in their own type, or why they cannot be had.
-    pub(super) async fn values(&self, count: u64, pace: &Pace) -> Result<Values, Key> {
-        const CUT_SHORT: Key = Key("errors-array-cut-short");
+    pub(super) async fn values(&self, count: u64, pace: &Pace) -> Result<Values, ArrayProblem> {
+        const CUT_SHORT: ArrayProblem = ArrayProblem::CutShort;
         let count = usize::try_from(count).ok().filter(|&count| count <= self.most()).ok_or(CUT_SHORT)?;
         let size = self.kind.size();
         let (bytes, is_big) = match &self.content {
@@ -61,7 +61,7 @@ impl Array<'_> {
                     for _ in 0..NUMBERS.min(count - values.len()) {
                         let word = words.next().ok_or(CUT_SHORT)?;
                         if !std::str::from_utf8(word).is_ok_and(|word| values.push_word(word)) {
-                            return Err(Key("errors-array-no-number"));
+                            return Err(ArrayProblem::NoNumber);
                         }
                     }
                     pace.rest(self.weight * (before - words.remaining()) as f64).await;

@@ -17,10 +17,10 @@ use miniz_oxide::inflate::core::inflate_flags::{
 use miniz_oxide::inflate::core::{DecompressorOxide, decompress};
 use xz4rust::{XzDecoder, XzError};
 
-use super::super::error::ReadError;
+use super::super::error::{Feature, ReadError, Unfolded};
 use super::super::pace::{BYTES, Pace};
+use super::super::problem::{Problem, VtkProblem};
 use super::super::text::BASE64;
-use lumen_language::say;
 
 /// Packed bytes of zlib between two rests: of numbers they make three times as many.
 const PART: usize = 1 << 14;
@@ -137,12 +137,12 @@ impl Encoding {
         }
     }
 
-    fn broken(self, problem: String) -> ReadError {
-        ReadError::Malformed { format: self.format, problem }
+    fn broken(self, problem: impl Into<Problem>) -> ReadError {
+        ReadError::malformed(self.format, problem)
     }
 
     fn cut_short(self) -> ReadError {
-        self.broken(say!("errors-vtk-array-end"))
+        self.broken(VtkProblem::ArrayEnds)
     }
 
     async fn plain<'a>(self, source: Encoded<'a>, pace: &Pace) -> Result<(Cow<'a, [u8]>, f64), ReadError> {
@@ -181,8 +181,8 @@ impl Encoding {
         let unfolded = unfolded.filter(|bytes| bytes <= room).ok_or_else(|| ReadError::Unfolds {
             format: self.format,
             what: match unfolded {
-                Some(bytes) => say!("errors-so-many-bytes", bytes = bytes.to_string()),
-                None => say!("errors-too-many-bytes"),
+                Some(bytes) => Unfolded::Bytes { bytes },
+                None => Unfolded::TooManyBytes,
             },
             file: source.length() as u64,
         })?;
@@ -207,7 +207,7 @@ impl Encoding {
                 Compressor::Lzma => self.unpack(block, target, lzma.get_or_insert_with(|| decoder(source.length())))?,
             };
             if !is_whole {
-                return Err(self.broken(say!("errors-vtk-block")));
+                return Err(self.broken(VtkProblem::Block));
             }
             if compressor != Compressor::Zlib {
                 pace.rest(done * bytes as f64).await;
@@ -249,7 +249,7 @@ impl Encoding {
                     }
                 }
                 Err(XzError::DictionaryTooLarge(bytes)) => {
-                    let feature = say!("errors-lzma", bytes = bytes.to_string());
+                    let feature = Feature::Lzma { bytes };
                     return Err(ReadError::Unsupported { format: self.format, feature });
                 }
                 Err(_) => return Ok(false),

@@ -8,14 +8,14 @@ use std::borrow::Cow;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
-use super::super::error::ReadError;
+use super::super::error::{Feature, ReadError};
 use super::super::numbers::Scalar;
 use super::super::pace::Pace;
+use super::super::problem::VtiProblem;
 use super::super::text;
 use super::array::Content;
 use super::xml_arrays::Arrays;
 use super::xml_structure::{DataArray, Structure, attribute, broken, inline_text, malformed};
-use lumen_language::say;
 use lumen_mesh::task::at_once;
 
 const FORMAT: &str = "VTI";
@@ -79,9 +79,7 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
             b"ImageData" => {
                 found.whole = attribute(&element, "WholeExtent").and_then(|text| extent(&text));
                 let set = |name, values: &mut [f64]| match attribute(&element, name) {
-                    Some(text) => {
-                        fill(&text, values).ok_or_else(|| malformed(FORMAT, say!("scan-vti-wrong", name = name)))
-                    }
+                    Some(text) => fill(&text, values).ok_or_else(|| malformed(FORMAT, VtiProblem::Wrong { name })),
                     None => Ok(()),
                 };
                 set("Origin", &mut origin)?;
@@ -92,7 +90,7 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
                 found.pieces += 1;
                 let piece = attribute(&element, "Extent").and_then(|text| extent(&text));
                 if found.pieces > 1 || piece.is_some_and(|piece| Some(piece) != found.whole) {
-                    return Err(ReadError::Unsupported { format: FORMAT, feature: say!("scan-vti-pieces") });
+                    return Err(ReadError::Unsupported { format: FORMAT, feature: Feature::Pieces });
                 }
             }
             b"PointData" => (in_points, found.scalars) = (is_open, attribute(&element, "Scalars")),
@@ -112,9 +110,9 @@ pub(crate) fn read<'a, T>(bytes: &'a [u8], room: u64, make: impl FnOnce(Image) -
             _ => {}
         }
     }
-    let file = file.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-element", name = "VTKFile")))?;
-    let extent = found.whole.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-points")))?;
-    let array = found.array.ok_or_else(|| malformed(FORMAT, say!("scan-vti-no-array")))?;
+    let file = file.ok_or_else(|| malformed(FORMAT, VtiProblem::NoElement { name: "VTKFile" }))?;
+    let extent = found.whole.ok_or_else(|| malformed(FORMAT, VtiProblem::NoPoints))?;
+    let array = found.array.ok_or_else(|| malformed(FORMAT, VtiProblem::NoArray))?;
     let pace = Pace::never();
     let opened = at_once(Arrays::new(&file, bytes, room, &pace).open(&array))?;
     let values = match opened.content {

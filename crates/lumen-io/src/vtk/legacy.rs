@@ -9,6 +9,7 @@ use super::super::axes;
 use super::super::error::ReadError;
 use super::super::numbers::Scalar;
 use super::super::pace::Pace;
+use super::super::problem::VtkProblem;
 use super::super::raw::RawSurface;
 use super::super::room::Room;
 use super::super::text;
@@ -17,7 +18,6 @@ use super::legacy_data;
 use super::legacy_text::Cursor;
 use super::no_surface;
 use super::surface::{Cells, Lengths, Shape, Surface};
-use lumen_language::say;
 
 const MAGIC: &[u8] = b"# vtk DataFile";
 
@@ -43,7 +43,7 @@ pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<Raw
     let encoding = cursor.word().unwrap_or_default();
     cursor.is_binary = encoding.eq_ignore_ascii_case(b"binary");
     if !cursor.is_binary && !encoding.eq_ignore_ascii_case(b"ascii") {
-        return Err(cursor.broken(say!("errors-vtk-third-line")));
+        return Err(cursor.broken(VtkProblem::ThirdLine));
     }
     cursor.rest_of_line();
     let label = cursor.label();
@@ -100,11 +100,11 @@ impl<'a> Parts<'a> {
                     parts.has_data = true;
                     break;
                 }
-                _ => return Err(cursor.broken(say!("errors-vtk-no-part", word = text::quoted(word)))),
+                _ => return Err(cursor.broken(VtkProblem::NoPart { word: text::quoted(word) })),
             }
         }
         if parts.cells.iter().any(|cells| cells.shape == Shape::Typed && cells.types.is_none()) {
-            return Err(cursor.broken(say!("errors-vtk-no-types")));
+            return Err(cursor.broken(VtkProblem::NoTypes));
         }
         parts.number_cells();
         Ok(parts)
@@ -142,14 +142,14 @@ impl<'a> Parts<'a> {
 }
 
 /// Reads one of the two arrays that are cells from version 5.0 on.
-async fn part_of_cells<'a>(cursor: &mut Cursor<'a>, name: &str, count: u64) -> Result<Array<'a>, ReadError> {
+async fn part_of_cells<'a>(cursor: &mut Cursor<'a>, name: &'static str, count: u64) -> Result<Array<'a>, ReadError> {
     if !cursor.comes(name.as_bytes()) {
-        return Err(cursor.broken(say!("errors-vtk-cells-lack", name = name)));
+        return Err(cursor.broken(VtkProblem::CellsLack { name }));
     }
     cursor.word();
     let kind = cursor.kind()?;
     if !kind.is_whole() {
-        return Err(cursor.broken(say!("errors-vtk-fractions")));
+        return Err(cursor.broken(VtkProblem::Fractions));
     }
     Ok(cursor.numbers(kind, count).await)
 }

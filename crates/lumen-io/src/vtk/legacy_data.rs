@@ -11,8 +11,8 @@ use super::super::error::ReadError;
 use super::super::numbers::Scalar;
 use super::super::room::Room;
 use super::super::text::quoted;
+use super::super::warnings::ArrayProblem;
 use super::legacy_text::{Cursor, scalar};
-use lumen_language::say;
 use lumen_mesh::arrays::On;
 
 /// Reads the arrays on so many points and cells.
@@ -21,7 +21,7 @@ pub(super) async fn read(cursor: &mut Cursor<'_>, counts: [u64; 2], room: Room) 
     while let Some(word) = cursor.word() {
         room.check_parts(cursor.label(), data.columns.len())?;
         if data.attribute(word, cursor).await.is_none() {
-            data.columns.leave_out(&String::from_utf8_lossy(word), &say!("errors-array-not-understood"));
+            data.columns.leave_out(&String::from_utf8_lossy(word), ArrayProblem::NotUnderstood);
             break;
         }
     }
@@ -128,7 +128,7 @@ impl Data {
                 self.array(&name, kind, components, cursor).await?;
             } else {
                 cursor.skip_array(kind, components.saturating_mul(tuples)).await.ok()?;
-                self.columns.leave_out(&name, &say!("errors-array-other-length"));
+                self.columns.leave_out(&name, ArrayProblem::OtherLength);
             }
         }
         Some(())
@@ -141,11 +141,11 @@ impl Data {
             Some(scalar) => match cursor.numbers(scalar, count).await.values(count, cursor.pace).await {
                 // No more than the numbers that are there.
                 Ok(values) => self.columns.add(self.on, name, components as usize, values),
-                Err(why) => self.columns.leave_out(name, &why.say()),
+                Err(why) => self.columns.leave_out(name, why),
             },
             None => {
                 cursor.skip_array(kind, count).await.ok()?;
-                self.columns.leave_out(name, &say!("errors-array-of-type", kind = quoted(kind)));
+                self.columns.leave_out(name, ArrayProblem::OfType { kind: quoted(kind) });
             }
         }
         Some(())

@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use super::super::error::ReadError;
 use super::super::numbers::Scalar;
 use super::super::pace::{NUMBERS, Pace};
+use super::super::problem::{Problem, TextProblem, VtkProblem};
 use super::super::text::{self, Words};
 use super::array::{Array, Content};
-use lumen_language::say;
 
 /// A place in the file.
 pub(super) struct Cursor<'a> {
@@ -30,14 +30,14 @@ impl<'a> Cursor<'a> {
     }
 
     /// What is wrong here.
-    pub(super) fn broken(&self, problem: String) -> ReadError {
+    pub(super) fn broken(&self, problem: impl Into<Problem>) -> ReadError {
         let format = self.label();
         if self.is_binary {
             // Binary numbers have no lines.
-            let problem = say!("errors-at-byte", problem = problem, byte = self.at.to_string());
-            ReadError::Malformed { format, problem }
+            let problem = VtkProblem::AtByte { problem: Box::new(problem.into()), byte: self.at };
+            ReadError::malformed(format, problem)
         } else {
-            ReadError::Syntax { format, line: self.line, problem }
+            ReadError::syntax(format, self.line, problem)
         }
     }
 
@@ -76,14 +76,14 @@ impl<'a> Cursor<'a> {
 
     /// The next word as a count.
     pub(super) fn count(&mut self) -> Result<u64, ReadError> {
-        let word = self.word().ok_or_else(|| self.broken(say!("errors-vtk-ends-count")))?;
-        text::number(word).ok_or_else(|| self.broken(say!("errors-no-count", word = text::quoted(word))))
+        let word = self.word().ok_or_else(|| self.broken(VtkProblem::EndsAtCount))?;
+        text::number(word).ok_or_else(|| self.broken(TextProblem::NoCount { word: text::quoted(word) }))
     }
 
     /// The next word as a type of number.
     pub(super) fn kind(&mut self) -> Result<Scalar, ReadError> {
-        let word = self.word().ok_or_else(|| self.broken(say!("errors-vtk-ends-type")))?;
-        scalar(word).ok_or_else(|| self.broken(say!("errors-no-type", word = text::quoted(word))))
+        let word = self.word().ok_or_else(|| self.broken(VtkProblem::EndsAtType))?;
+        scalar(word).ok_or_else(|| self.broken(TextProblem::NoType { word: text::quoted(word) }))
     }
 
     /// The `count` numbers that begin on the next line if they are binary, and with the next word if they are text; those
@@ -140,7 +140,7 @@ impl<'a> Cursor<'a> {
             self.take(count.div_ceil(8));
         } else {
             let kind = scalar(kind);
-            let kind = kind.ok_or_else(|| self.broken(say!("errors-vtk-field-type")))?;
+            let kind = kind.ok_or_else(|| self.broken(VtkProblem::FieldType))?;
             self.numbers(kind, count).await;
         }
         Ok(())

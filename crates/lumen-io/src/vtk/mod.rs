@@ -14,6 +14,7 @@ mod image;
 mod legacy;
 mod legacy_data;
 mod legacy_text;
+mod problem;
 mod surface;
 mod write;
 mod xml;
@@ -22,9 +23,10 @@ mod xml_structure;
 
 #[cfg(feature = "scans")]
 pub(super) use image::{Image, Values, read as read_image};
+pub use problem::VtkProblem;
 pub(super) use xml::is_xml;
 
-use super::error::ReadError;
+use super::error::{Named, ReadError};
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
 use super::text;
 use super::unit::Unit;
@@ -72,13 +74,14 @@ pub(super) static LEGACY_WRITTEN: Written = Written { write: write::legacy, arra
 /// Refuses a kind of data that is no surface, by the name that VTK has for it.
 fn no_surface(kind: &str) -> ReadError {
     let is = |name: &str| kind.trim_start_matches('P').eq_ignore_ascii_case(name);
+    let named = || Named::Word(kind.chars().take(40).collect());
     if is("ImageData") {
         ReadError::ImageVolume { format: "VTK image data" }
     } else if is("STRUCTURED_POINTS") {
         ReadError::ImageVolume { format: "VTK structured points" }
     } else if kind == "PPolyData" || kind == "PUnstructuredGrid" || is("Collection") || kind.contains("MultiBlock") {
-        ReadError::VtkIndex { kind: kind.chars().take(40).collect() }
+        ReadError::VtkIndex { kind: named() }
     } else {
-        ReadError::VtkKind { kind: kind.chars().take(40).collect() }
+        ReadError::VtkKind { kind: named() }
     }
 }

@@ -7,16 +7,16 @@ use glam::DVec3;
 
 use super::super::Axes;
 use super::super::columns::Columns;
-use super::super::error::ReadError;
+use super::super::error::{Counted, Elements, Named, ReadError, Unnamed};
 use super::super::numbers::{Numbers, Scalar};
 use super::super::pace::{NUMBERS, Pace};
 use super::super::polygons::Faces;
+use super::super::problem::VtkProblem;
 use super::super::raw::RawSurface;
 use super::super::report::Skipped;
 use super::super::room::Room;
+use super::super::warnings::Warning;
 use super::array::Array;
-use lumen_language::Key;
-use lumen_language::say;
 use lumen_mesh::Vec3;
 
 /// What the cells of a list are.
@@ -183,7 +183,7 @@ impl Surface {
         for n in block {
             let mut next = |origin| numbers.coordinate(kind, origin);
             let (Some(x), Some(y), Some(z)) = (next(x), next(y), next(z)) else {
-                return Err(self.ended(numbers, Key("errors-points"), count, n));
+                return Err(self.ended(numbers, Counted::Points, count, n));
             };
             self.positions.push(Vec3::new(x, y, z));
         }
@@ -226,7 +226,7 @@ impl Surface {
                     return Ok(false);
                 }
                 let Some(number) = begun.points.next() else {
-                    return Err(self.ended(&mut *begun.points.numbers, Key("errors-cells"), cells.count, begun.at));
+                    return Err(self.ended(&mut *begun.points.numbers, Counted::Cells, cells.count, begun.at));
                 };
                 begun.cell.push(self.vertex(number)?);
                 missing -= 1;
@@ -237,7 +237,7 @@ impl Surface {
                 Some(types) => match types.next() {
                     Some(number) => self.add_typed(number, &mut begun.cell),
                     None => {
-                        return Err(self.ended(&mut *types.numbers, Key("errors-cell-types"), cells.count, begun.at));
+                        return Err(self.ended(&mut *types.numbers, Counted::CellTypes, cells.count, begun.at));
                     }
                 },
             }
@@ -253,12 +253,12 @@ impl Surface {
         let starts_anew = ends.is_none();
         let stream = ends.as_mut().unwrap_or(points);
         let Some(number) = stream.next() else {
-            return Err(self.ended(&mut *stream.numbers, Key("errors-cells"), cells.count, begun.at));
+            return Err(self.ended(&mut *stream.numbers, Counted::Cells, cells.count, begun.at));
         };
         let length = number - if starts_anew { 0.0 } else { mem::replace(last_end, number as u64) as f64 };
         if !(length >= 0.0 && length.fract() == 0.0) {
-            let problem = say!("errors-vtk-cell", cell = (begun.at + 1).to_string(), length = length.to_string());
-            return Err(ReadError::Malformed { format, problem });
+            let problem = VtkProblem::CellLength { cell: begun.at + 1, length };
+            return Err(ReadError::malformed(format, problem));
         }
         begun.cell.clear();
         self.faces_read += 1;
@@ -314,8 +314,8 @@ impl Surface {
     }
 
     /// Why there is no next number.
-    fn ended(&self, numbers: &mut dyn Numbers, what: Key, announced: u64, found: u64) -> ReadError {
-        let cut_short = || ReadError::CutShort { format: self.format, what: what.say(), announced, found };
+    fn ended(&self, numbers: &mut dyn Numbers, what: Counted, announced: u64, found: u64) -> ReadError {
+        let cut_short = || ReadError::CutShort { format: self.format, what, announced, found };
         numbers.fault().unwrap_or_else(cut_short)
     }
 
@@ -328,19 +328,17 @@ impl Surface {
     pub(super) fn finish(self, label: &'static str, axes: Axes, columns: Columns) -> Result<RawSurface, ReadError> {
         let Skipped { lines, points, .. } = self.skipped;
         if self.faces_read == 0 && (lines > 0 || points > 0) {
-            let lines = say!("errors-lines", count = lines, number = lines.to_string());
-            let points = say!("errors-so-many-points", count = points, number = points.to_string());
-            let found = say!("errors-lines-points", lines = lines, points = points);
-            return Err(ReadError::NoSurface { format: self.format, found });
+            let (lines, points) = (Elements::Lines { count: lines }, Elements::Points { count: points });
+            return Err(ReadError::NoSurface { format: self.format, lines, points });
         }
         if self.faces.triangles() == 0 && self.solids > 0 {
-            return Err(ReadError::VtkKind { kind: say!("errors-vtk-solids") });
+            return Err(ReadError::VtkKind { kind: Named::Unnamed(Unnamed::Solids) });
         }
         let mut raw = RawSurface::of_faces(label, self.positions, &self.faces);
         (raw.has_doubles, raw.origin, raw.axes) = (self.has_doubles, self.origin, axes);
         (raw.skipped.lines, raw.skipped.points) = (lines, points);
         if self.solids > 0 {
-            raw.warnings.push(say!("errors-vtk-solids-left-out", cells = self.solids.to_string()));
+            raw.warnings.push(Warning::SolidCells { cells: self.solids });
         }
         raw.carry(columns.finish(), self.room);
         Ok(raw)

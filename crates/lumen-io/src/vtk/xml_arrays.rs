@@ -7,14 +7,14 @@ use super::super::columns::Columns;
 use super::super::error::ReadError;
 use super::super::numbers::Scalar;
 use super::super::pace::{BYTES, Pace};
+use super::super::problem::{TextProblem, VtkProblem};
 use super::super::room::Room;
 use super::super::text;
+use super::super::warnings::ArrayProblem;
 use super::array::{Array, Content};
 use super::encoded::Encoded;
 use super::surface::{Cells, Lengths, Shape, Surface};
 use super::xml_structure::{DataArray, KINDS, Piece, Place, Structure, line_of, malformed};
-use lumen_language::Key;
-use lumen_language::say;
 use lumen_mesh::arrays::{On, Values};
 
 /// The numbers behind the structure.
@@ -49,11 +49,11 @@ impl<'a> Arrays<'a> {
             if count == 0 {
                 continue;
             }
-            let missing = || malformed(self.file.format, say!("errors-vtk-no-arrays", element = element));
+            let missing = || malformed(self.file.format, VtkProblem::NoArrays { element });
             let [connectivity, offsets, types] = [0, 1, 2].map(|part| piece.cells(kind + 1, part));
             let (Some(connectivity), Some(offsets)) = (connectivity, offsets) else { return Err(missing()) };
             if piece.points.is_none() {
-                return Err(malformed(self.file.format, say!("errors-vtk-no-points")));
+                return Err(malformed(self.file.format, VtkProblem::NoPoints));
             }
             if shape == Shape::Typed && types.is_none() {
                 return Err(missing());
@@ -80,7 +80,7 @@ impl<'a> Arrays<'a> {
         }
         let opened = self.open(array).await?;
         if !opened.kind.is_whole() && !matches!(opened.content, Content::Text { .. }) {
-            return Err(malformed(self.file.format, say!("errors-vtk-fractions")));
+            return Err(malformed(self.file.format, VtkProblem::Fractions));
         }
         Ok(opened)
     }
@@ -89,7 +89,7 @@ impl<'a> Arrays<'a> {
     pub(super) async fn open(&mut self, array: &DataArray<'a>) -> Result<Array<'a>, ReadError> {
         let format = self.file.format;
         let kind = scalar(&array.kind)
-            .ok_or_else(|| malformed(format, say!("errors-no-type", word = text::quoted(array.kind.as_bytes()))))?;
+            .ok_or_else(|| malformed(format, TextProblem::NoType { word: text::quoted(array.kind.as_bytes()) }))?;
         let encoding = self.file.encoding;
         let (bytes, left) = match array.place {
             Place::Text(text, at) => {
@@ -110,7 +110,7 @@ impl<'a> Arrays<'a> {
                     let rest = data.get(usize::try_from(offset).ok()?..)?;
                     Some(if is_base64 { Encoded::Base64(rest) } else { Encoded::Raw(rest) })
                 });
-                let rest = rest.ok_or_else(|| malformed(format, say!("errors-vtk-beyond")))?;
+                let rest = rest.ok_or_else(|| malformed(format, VtkProblem::ArrayBeyond))?;
                 encoding.decode(rest, &mut self.room, self.pace).await?
             }
         };
@@ -137,7 +137,7 @@ impl<'a> Arrays<'a> {
                 match self.values(array, rows.saturating_mul(array.components)).await {
                     // The components are no more than the numbers there are.
                     Ok(values) => columns.add(*on, &array.name, array.components as usize, values),
-                    Err(why) => columns.leave_out(&array.name, &why.say()),
+                    Err(why) => columns.leave_out(&array.name, why),
                 }
             }
             let [points, cells] = counts.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
@@ -147,15 +147,15 @@ impl<'a> Arrays<'a> {
     }
 
     /// The numbers of an array on points or cells, or why they cannot be had.
-    async fn values(&mut self, array: &DataArray<'a>, count: u64) -> Result<Values, Key> {
+    async fn values(&mut self, array: &DataArray<'a>, count: u64) -> Result<Values, ArrayProblem> {
         if array.kind == "String" {
-            return Err(Key("errors-array-text"));
+            return Err(ArrayProblem::Text);
         }
         if scalar(&array.kind).is_none() {
-            return Err(Key("errors-array-type"));
+            return Err(ArrayProblem::NumberType);
         }
         let opened = self.open(array).await;
-        let opened = opened.map_err(|_| Key("errors-array-too-many"))?;
+        let opened = opened.map_err(|_| ArrayProblem::TooMany)?;
         opened.values(count, self.pace).await
     }
 

@@ -5,14 +5,14 @@ use std::borrow::Cow;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use super::super::error::ReadError;
+use super::super::error::{Feature, Named, ReadError, Unnamed};
 use super::super::pace::{NUMBERS, Pace};
+use super::super::problem::{Problem, VtkProblem};
 use super::super::room::Room;
 use super::super::text;
 use super::encoded::{Compressor, Encoding};
 use super::no_surface;
 use super::surface::Shape;
-use lumen_language::say;
 use lumen_mesh::arrays::On;
 
 /// What the structure says.
@@ -99,8 +99,8 @@ enum Section {
     Kind(usize),
 }
 
-pub(super) fn malformed(format: &'static str, problem: impl Into<String>) -> ReadError {
-    ReadError::Malformed { format, problem: problem.into() }
+pub(super) fn malformed(format: &'static str, problem: impl Into<Problem>) -> ReadError {
+    ReadError::malformed(format, problem)
 }
 
 /// The value of an attribute, if it is there.
@@ -165,7 +165,7 @@ impl<'a> Structure<'a> {
                 other => section = section_named(other).filter(|_| is_open).unwrap_or(section),
             }
         }
-        file.ok_or_else(|| malformed("VTP", say!("errors-vtk-no-file")))
+        file.ok_or_else(|| malformed("VTP", VtkProblem::NoFile))
     }
 
     /// What the outermost element says.
@@ -174,7 +174,7 @@ impl<'a> Structure<'a> {
             Some("PolyData") => "VTP",
             Some("UnstructuredGrid") => "VTU",
             Some(other) => return Err(no_surface(other)),
-            None => return Err(no_surface(&say!("errors-vtk-no-kind"))),
+            None => return Err(ReadError::VtkKind { kind: Named::Unnamed(Unnamed::NoKind) }),
         };
         Self::of(format, element)
     }
@@ -185,7 +185,7 @@ impl<'a> Structure<'a> {
             None | Some("") => None,
             Some(name) => Some(Compressor::named(name).ok_or_else(|| ReadError::Unsupported {
                 format,
-                feature: say!("errors-compressor", name = text::quoted(name.as_bytes())),
+                feature: Feature::Compressor { name: text::quoted(name.as_bytes()) },
             })?),
         };
         let is = |name, value: &str| attribute(element, name).is_some_and(|found| found == value);
@@ -220,7 +220,7 @@ impl<'a> Structure<'a> {
     /// What is appended, with the reader behind its element's beginning.
     pub(super) fn append(&mut self, element: &BytesStart, rest: &'a [u8]) -> Result<(), ReadError> {
         let rest = rest.trim_ascii_start().strip_prefix(b"_");
-        let rest = rest.ok_or_else(|| malformed(self.format, say!("errors-vtk-underscore")))?;
+        let rest = rest.ok_or_else(|| malformed(self.format, VtkProblem::NoUnderscore))?;
         let is_base64 = attribute(element, "encoding").is_some_and(|encoding| encoding == "base64");
         self.appended = Some((rest, is_base64));
         Ok(())
@@ -237,7 +237,7 @@ impl<'a> DataArray<'a> {
         let place = match attribute(element, "format").as_deref() {
             Some("appended") => {
                 let offset = attribute(element, "offset").and_then(|offset| offset.parse().ok());
-                Place::Appended(offset.ok_or_else(|| malformed(format, say!("errors-vtk-no-place")))?)
+                Place::Appended(offset.ok_or_else(|| malformed(format, VtkProblem::NoPlace))?)
             }
             Some("binary") => Place::Binary(inline),
             _ => Place::Text(inline, at),
@@ -286,8 +286,8 @@ pub(super) fn inline_text<'a>(
 
 /// That the XML is wrong at a place.
 pub(super) fn broken(bytes: &[u8], at: usize) -> ReadError {
-    let problem = say!("errors-vtk-xml");
-    ReadError::Syntax { format: "VTK", line: line_of(bytes, at), problem }
+    let problem = VtkProblem::Xml;
+    ReadError::syntax("VTK", line_of(bytes, at), problem)
 }
 
 /// The line that a byte stands in, from 1.

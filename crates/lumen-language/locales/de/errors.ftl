@@ -19,7 +19,7 @@ errors-gltf-unnamed = die sie nicht nennt
 errors-unsupported = Die Datei ({ $format }) verwendet etwas, das Lumen nicht liest: { $feature }.
 errors-too-large = Die Oberfläche ist zu groß: Sie hat { $corners } Eckpunkte oder Ecken, Lumen kann höchstens { $limit } aufnehmen.
 errors-no-triangles = Die Datei ({ $format }) enthält keine Dreiecke ({ $vertices } Eckpunkte und nichts dazwischen, das zu zeigen wäre).
-errors-no-surface = Die Datei ({ $format }) enthält keine Oberfläche, nur { $found }: Lumen öffnet keine Zentrallinien.
+errors-no-surface = Die Datei ({ $format }) enthält keine Oberfläche, nur { $lines } und { $points }: Lumen öffnet keine Zentrallinien.
 errors-unfolds = Entpackt enthielte die Datei ({ $format }) { $what }, mehr als eine Datei von { $file } Byte glaubhaft enthalten kann.
 errors-all-degenerate = Keines der { $triangles } Dreiecke der Datei ({ $format }) hat eine Fläche: Jedes wiederholt einen seiner Eckpunkte.
 
@@ -39,14 +39,13 @@ errors-cell-types = Zelltypen
 ## Was eine Datei statt einer Oberfläche enthält. $number ist $count, ausgeschrieben.
 
 errors-lines = { $count ->
-    [one] { $number } Linie
-   *[other] { $number } Linien
+    [one] { $count } Linie
+   *[other] { $count } Linien
 }
 errors-so-many-points = { $count ->
-    [one] { $number } Punkt
-   *[other] { $number } Punkte
+    [one] { $count } Punkt
+   *[other] { $count } Punkte
 }
-errors-lines-points = { $lines } und { $points }
 errors-vtk-solids = Gitter aus Volumenzellen
 errors-vtk-no-kind = Datei ohne Typ
 
@@ -64,6 +63,7 @@ errors-compressor = das Kompressionsverfahren { $name }
 errors-lzma = LZMA mit einem Wörterbuch von { $bytes } Byte
 errors-gltf-whole-positions = Positionen aus ganzen 32-Bit-Zahlen
 errors-gltf-sparse = dünn besetzte Accessoren
+errors-extension = { $name }
 
 ## Was in einer Datei falsch ist: hinter einem Gedankenstrich, vor einem Punkt. Wörter der Datei stehen schon in Anführungszeichen.
 
@@ -133,54 +133,56 @@ errors-ply-unannounced = Zahlen, die der Kopf der Datei nicht ankündigt, wurden
 errors-ply-more-numbers = Zahlen nach dem letzten Element wurden weggelassen.
 errors-vtk-solids-left-out = { $cells } Volumen- oder gekrümmte Zellen weggelassen: Lumen zeigt Oberflächen.
 errors-fanned = { $count ->
-    [one] { $number } Vieleck konnte nicht ohne Falten in Dreiecke zerlegt werden, da es keine Fläche hat oder sich selbst schneidet.
-   *[other] { $number } Vielecke konnten nicht ohne Falten in Dreiecke zerlegt werden, da sie keine Fläche haben oder sich selbst schneiden.
+    [one] { $count } Vieleck konnte nicht ohne Falten in Dreiecke zerlegt werden, da es keine Fläche hat oder sich selbst schneidet.
+   *[other] { $count } Vielecke konnten nicht ohne Falten in Dreiecke zerlegt werden, da sie keine Fläche haben oder sich selbst schneiden.
 }
 errors-degenerate = { $count ->
-    [one] { $number } Dreieck mit wiederholtem Eckpunkt verworfen.
-   *[other] { $number } Dreiecke mit wiederholtem Eckpunkt verworfen.
+    [one] { $count } Dreieck mit wiederholtem Eckpunkt verworfen.
+   *[other] { $count } Dreiecke mit wiederholtem Eckpunkt verworfen.
 }
 errors-duplicate = { $count ->
-    [one] { $number } Dreieck doppelt vorhanden; behalten.
-   *[other] { $number } Dreiecke doppelt vorhanden; behalten.
+    [one] { $count } Dreieck doppelt vorhanden; behalten.
+   *[other] { $count } Dreiecke doppelt vorhanden; behalten.
 }
 errors-short-faces = { $count ->
-    [one] { $number } Fläche mit weniger als drei Ecken weggelassen.
-   *[other] { $number } Flächen mit weniger als drei Ecken weggelassen.
+    [one] { $count } Fläche mit weniger als drei Ecken weggelassen.
+   *[other] { $count } Flächen mit weniger als drei Ecken weggelassen.
 }
 errors-lines-left-out = { $count ->
-    [one] { $number } Linie weggelassen: Lumen zeigt Oberflächen.
-   *[other] { $number } Linien weggelassen: Lumen zeigt Oberflächen.
+    [one] { $count } Linie weggelassen: Lumen zeigt Oberflächen.
+   *[other] { $count } Linien weggelassen: Lumen zeigt Oberflächen.
 }
 errors-points-left-out = { $count ->
-    [one] { $number } Punkt weggelassen: Lumen zeigt Oberflächen.
-   *[other] { $number } Punkte weggelassen: Lumen zeigt Oberflächen.
+    [one] { $count } Punkt weggelassen: Lumen zeigt Oberflächen.
+   *[other] { $count } Punkte weggelassen: Lumen zeigt Oberflächen.
 }
 errors-reoriented = { $count ->
-    [one] { $number } Dreieck umgedreht, damit es zu seinen Nachbarn passt.
-   *[other] { $number } Dreiecke umgedreht, damit sie zu ihren Nachbarn passen.
+    [one] { $count } Dreieck umgedreht, damit es zu seinen Nachbarn passt.
+   *[other] { $count } Dreiecke umgedreht, damit sie zu ihren Nachbarn passen.
 }
 errors-turned = { $count ->
-    [one] { $number } Stück mit der Innenseite nach außen gefunden und gewendet.
-   *[other] { $number } Stücke mit der Innenseite nach außen gefunden und gewendet.
+    [one] { $count } Stück mit der Innenseite nach außen gefunden und gewendet.
+   *[other] { $count } Stücke mit der Innenseite nach außen gefunden und gewendet.
 }
 errors-non-manifold = { $count ->
-    [one] { $number } Kante, an der sich mehr als zwei Dreiecke treffen; wie in der Datei belassen.
-   *[other] { $number } Kanten, an denen sich mehr als zwei Dreiecke treffen; wie in der Datei belassen.
+    [one] { $count } Kante, an der sich mehr als zwei Dreiecke treffen; wie in der Datei belassen.
+   *[other] { $count } Kanten, an denen sich mehr als zwei Dreiecke treffen; wie in der Datei belassen.
 }
 errors-no-inside = Die Oberfläche hat kein Innen und Außen (ihre Dreiecke lassen sich nicht einheitlich ausrichten).
 errors-moved = Die Oberfläche liegt weit vom Ursprung ihrer Koordinaten: Sie wurde um ({ $x }; { $y }; { $z }) mm verschoben, damit keine Details verloren gehen, und wird dort gespeichert.
+errors-unit-by-size = Die Zahlen der Datei wurden nach der Größe der Oberfläche in { $unit } gelesen.
 errors-size = Die Oberfläche misst { $across } mm, was für Gefäße ungewöhnlich ist: bitte die Längeneinheit prüfen.
 errors-size-units = Die Oberfläche misst { $across } mm, was für Gefäße ungewöhnlich ist: Ihre Zahlen sind vielleicht in { $units } angegeben.
 errors-calibre-units = Ihre Gefäße sind im Mittel { $wide } mm weit, was ungewöhnlich ist: Die Zahlen der Datei sind vielleicht in { $units } angegeben.
 errors-size-or = { $first } oder in { $next }
+errors-size-in = { $unit } ({ $length } mm)
 
 ## Felder, die weggelassen werden
 
 errors-array-left-out = Das Feld { $name } wird weggelassen: { $why }.
 errors-arrays-more = { $count ->
-    [one] { $number } weiteres Feld wird weggelassen.
-   *[other] { $number } weitere Felder werden weggelassen.
+    [one] { $count } weiteres Feld wird weggelassen.
+   *[other] { $count } weitere Felder werden weggelassen.
 }
 errors-array-parts = Seine Teile passen nicht zusammen
 errors-array-beyond = Gelesen werden nur die ersten { $most } Felder einer Datei
@@ -229,6 +231,8 @@ errors-not-measured = Die Gefäße werden noch gemessen
 
 errors-unknown-unit = „{ $word }“ ist keine Längeneinheit, die Lumen kennt: mm, cm oder m.
 errors-axes = Wohin die Achsen der Oberfläche zeigen, ist nicht bekannt; sie kann daher nicht von { $from } nach { $to } gedreht werden.
+errors-axes-lps = LPS
+errors-axes-ras = RAS
 errors-axes-unknown = unbekannten Achsen
 
 ## Einstellungen, mit denen kein Schritt arbeiten kann: auch hinter einem Doppelpunkt

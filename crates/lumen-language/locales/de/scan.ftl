@@ -100,6 +100,8 @@ scan-level = Mitte des Fensters
 scan-preset-little = für Gefäße mit wenig Kontrastmittel
 scan-preset-arteries = für Arterien
 scan-preset-aorta = für die Aorta und die Koronararterien
+scan-preset = { $value } { $name }
+scan-presets = { $first }, { $second }, { $third }
 
 ## Warum es keine Oberfläche, Vorschau oder Schicht gibt
 
@@ -142,10 +144,8 @@ scan-unknown-unit = Die Längeneinheit der { $format }-Datei, { $unit }, ist nic
 
 ## Was an einer Datei falsch ist
 
-scan-bytes = Byte
 scan-packed = sie kündigt { $needed } Byte an, mehr als ihre { $bytes } komprimierten Byte enthalten können: Sie ist abgeschnitten oder beschädigt
 scan-packed-damaged = ihre komprimierten Daten sind abgeschnitten oder beschädigt
-scan-no-number = { $word } steht, wo eine Zahl stehen sollte
 scan-header-endless = ihr Kopf endet nicht mit einer leeren Zeile
 scan-header-lacks = in ihrem Kopf fehlt „{ $key }“
 scan-header-none = ihr Kopf ist keiner

@@ -98,9 +98,6 @@ scan-keep-help = The scan stays in memory, with what has read it, so that its sl
 scan-window = Window
 scan-window-help = The values that are black and white
 scan-window-name = Window of values
-scan-window-vessels = Vessels
-scan-window-soft = Soft tissue
-scan-window-bone = Bone
 scan-window-most = Most values
 scan-window-all = All values
 # Neither of those that have a name.
@@ -110,116 +107,15 @@ scan-level-width-help = The value half way between black and white, and how far 
 scan-width = Width of the window
 scan-level = Level of the window
 
-## Presets of the threshold: each follows its value, "180 for arteries", and stands alone as help
-
-scan-preset-little = for vessels with little contrast
-scan-preset-arteries = for arteries
-scan-preset-aorta = for the aorta and the coronary arteries
-
 ## Why there is no surface, preview or slice
 
 scan-none-open = No scan is open yet.
 scan-no-slice = There is no such slice.
-scan-nothing-chosen = This is a scan with values from { $low } to { $high }: say at which threshold its surface is to be made (contrast-filled vessels in CT: { $presets }).
-scan-outside-range = No surface lies at the threshold { $threshold }: the values go from { $low } to { $high }.
-# $known is one of the two below.
-scan-no-label = There is no label { $label } in the volume; { $known }.
-scan-known-range = it is a scan with values from { $low } to { $high }
-scan-known-labels = it has { $labels }
-# $size is, for example, 512 x 512 x 800.
-scan-outside-box = The box holds nothing of the volume, which has { $size } voxels.
-scan-slice-too-large = A slice has { $points } voxels, of which { $limit } can be worked on: set a box around the vessels.
-scan-one-side = There is no surface within the box: all of it lies on one side.
-scan-too-many-triangles = The surface has more than { $limit } triangles, most of them noise or bone: raise the threshold or set a box around the vessels.
-
-## Why a volume has no place
-
-# $why is one of the four below.
-scan-no-place = The volume cannot be placed in the patient: { $why }.
-scan-no-points = { $size } points make no volume
-scan-no-spacing = a distance of { $spacing } mm between its points is none that a scan has
-scan-no-directions = the directions of its axes span no space
-scan-no-origin = its origin is not a place in a body
-scan-points = The volume has { $points } points and { $samples } numbers for them.
 
 ## Why a file was not opened
 
-scan-no-volume = "{ $name }" is not a volume that Lumen knows: it opens NIfTI, NRRD, MetaImage and VTI files and series of DICOM.
-scan-data-elsewhere = The { $format } header keeps its numbers in the file "{ $name }": open both together.
-scan-too-large = The volume is too large: its numbers take { $bytes } bytes, and Lumen can take { $limit }.
-scan-volume-memory = There is not enough memory for the { $bytes } bytes of the volume.
 scan-no-memory = There is not enough memory here to read { $mb } MB.
 scan-file-gone = The file is not there any more.
-# What the system says of it follows.
-scan-unreadable = cannot read { $path }
-
-## What a file says that looks odd
-
-scan-silent = The { $format } file does not say which way the patient lies: the axes are unknown.
-scan-silent-format = { $format } does not say which way the patient lies: the axes are unknown.
-scan-unknown-unit = The unit of length of the { $format } file, { $unit }, is not known: it is taken as mm.
-
-## What is wrong with a file: each stands as $problem in a message of errors.ftl, behind "The ... file is broken:"
-
-# What is counted, in "announces 300 bytes and holds 240".
-scan-bytes = bytes
-scan-packed = it announces { $needed } bytes, more than its { $bytes } compressed bytes can hold: it is cut short or damaged
-scan-packed-damaged = its compressed data are cut short or damaged
-# $word is in quotation marks.
-scan-no-number = { $word } stands where a number should
-scan-header-endless = its header does not end with an empty line
-scan-header-lacks = its header has no "{ $key }"
-scan-header-none = its header is none
-scan-not-numbers = "{ $key }" is not { $count } numbers
-scan-no-data-file = its header does not say where the numbers are ({ $key })
-scan-axes = it has { $axes } axes
-scan-dicom-header = a file ends within its header
-scan-dicom-damaged = the elements of a file are damaged
-scan-dicom-cut-short = a file ends within one of its elements
-scan-dicom-pixels = a slice has fewer pixels than rows times columns
-scan-dicom-jpeg = the JPEG picture of a slice is damaged, or of a kind that is not read
-scan-dicom-jpeg-size = the JPEG picture of a slice is not of the size that the file says
-scan-dicom-no-directions = it does not say which way its slices lie
-scan-dicom-no-spacing = it does not say how far apart its pixels are
-scan-dicom-no-places = it does not say where its slices are
-scan-dicom-no-slice = none of its files holds a slice in shades of grey
-scan-dicom-single = it holds a single slice, and a surface takes two or more
-scan-vti-wrong = "{ $name }" is wrong
-scan-vti-no-element = it has no element "{ $name }"
-scan-vti-no-points = it does not say how many points there are
-scan-vti-no-array = it has no array of one number a point
-
-## What is not read: each stands as $feature in a message of errors.ftl, "The ... file uses ..., which Lumen does not read."
-
-scan-dimensions = other than three dimensions
-scan-more-dimensions = more than three dimensions
-scan-number-type = numbers of type { $kind }
-scan-file-a-slice = a file for each slice
-scan-encoding = the encoding { $name }
-scan-numbers-a-voxel = several numbers a voxel
-scan-dicom-deflated = a deflated data set
-scan-dicom-jpeg-ls = JPEG-LS compression
-scan-dicom-jpeg-2000 = JPEG 2000 compression
-scan-dicom-compression = a compression that is not known
-scan-dicom-bits = { $bits } bits a pixel
-scan-vti-pieces = several pieces
-
-## What is said of a series of DICOM
-
-# $why is a sentence with its full stop.
-scan-dicom-unreadable = { $count ->
-    [one] One slice cannot be read and is left out. { $why }
-   *[other] { $count } slices cannot be read and are left out. { $why }
-}
-scan-dicom-same-place = { $count } slices lie at the place of another: of each place the first is taken.
-# $count is all series, $others all but one of them.
-scan-dicom-series = { $others ->
-    [one] The files hold { $count } series: the one with most slices, { $taken }, is taken, and { $slices } of the other are left out.
-   *[other] The files hold { $count } series: the one with most slices, { $taken }, is taken, and { $slices } of { $others } others are left out.
-}
-scan-dicom-no-slices = { $count } files hold no slice in shades of grey and are left out.
-scan-dicom-gap = The slices are not evenly apart: mostly { $usual } mm, but { $there } mm between slices { $below } and { $above }; some may be missing, and the surface is stretched there.
-scan-dicom-squeeze = The slices are not evenly apart: mostly { $usual } mm, but { $there } mm between slices { $below } and { $above }; the surface is pressed together there.
 
 ## The browser
 

@@ -19,7 +19,7 @@ errors-gltf-unnamed = qu'il ne nomme pas
 errors-unsupported = Le fichier { $format } utilise quelque chose que Lumen ne lit pas : { $feature }.
 errors-too-large = La surface est trop grande : elle a { $corners } sommets ou coins, et Lumen en accepte { $limit }.
 errors-no-triangles = Le fichier { $format } ne contient aucun triangle ({ $vertices } sommets et rien à montrer entre eux).
-errors-no-surface = Le fichier { $format } ne contient pas de surface, seulement { $found } : Lumen n'ouvre pas de lignes centrales.
+errors-no-surface = Le fichier { $format } ne contient pas de surface, seulement { $lines } et { $points } : Lumen n'ouvre pas de lignes centrales.
 errors-unfolds = Décompressé, le fichier { $format } contiendrait { $what }, plus que ce qu'un fichier de { $file } octets peut vraisemblablement contenir.
 errors-all-degenerate = Aucun des { $triangles } triangles du fichier { $format } n'a d'aire : chacun répète un de ses sommets.
 
@@ -39,14 +39,13 @@ errors-cell-types = types de cellules
 ## Ce qu'un fichier contient au lieu d'une surface. $number est $count, écrit.
 
 errors-lines = { $count ->
-    [one] { $number } ligne
-   *[other] { $number } lignes
+    [one] { $count } ligne
+   *[other] { $count } lignes
 }
 errors-so-many-points = { $count ->
-    [one] { $number } point
-   *[other] { $number } points
+    [one] { $count } point
+   *[other] { $count } points
 }
-errors-lines-points = { $lines } et { $points }
 errors-vtk-solids = grille de cellules volumiques
 errors-vtk-no-kind = fichier sans type
 
@@ -64,6 +63,7 @@ errors-compressor = la compression { $name }
 errors-lzma = LZMA avec un dictionnaire de { $bytes } octets
 errors-gltf-whole-positions = des positions en nombres entiers de 32 bits
 errors-gltf-sparse = des accesseurs clairsemés
+errors-extension = { $name }
 
 ## Ce qui est incorrect dans un fichier: derrière deux points, avant un point. Les mots du fichier sont déjà entre guillemets.
 
@@ -133,54 +133,56 @@ errors-ply-unannounced = Des nombres que l'en-tête du fichier n'annonce pas ont
 errors-ply-more-numbers = Des nombres après le dernier élément ont été omis.
 errors-vtk-solids-left-out = { $cells } cellules volumiques ou courbes omises : Lumen montre des surfaces.
 errors-fanned = { $count ->
-    [one] { $number } polygone n'a pas pu être découpé en triangles sans repli : il n'a pas d'aire ou se croise lui-même.
-   *[other] { $number } polygones n'ont pas pu être découpés en triangles sans repli : ils n'ont pas d'aire ou se croisent eux-mêmes.
+    [one] { $count } polygone n'a pas pu être découpé en triangles sans repli : il n'a pas d'aire ou se croise lui-même.
+   *[other] { $count } polygones n'ont pas pu être découpés en triangles sans repli : ils n'ont pas d'aire ou se croisent eux-mêmes.
 }
 errors-degenerate = { $count ->
-    [one] { $number } triangle à sommet répété supprimé.
-   *[other] { $number } triangles à sommet répété supprimés.
+    [one] { $count } triangle à sommet répété supprimé.
+   *[other] { $count } triangles à sommet répété supprimés.
 }
 errors-duplicate = { $count ->
-    [one] { $number } triangle présent deux fois ; gardé.
-   *[other] { $number } triangles présents deux fois ; gardés.
+    [one] { $count } triangle présent deux fois ; gardé.
+   *[other] { $count } triangles présents deux fois ; gardés.
 }
 errors-short-faces = { $count ->
-    [one] { $number } face de moins de trois coins omise.
-   *[other] { $number } faces de moins de trois coins omises.
+    [one] { $count } face de moins de trois coins omise.
+   *[other] { $count } faces de moins de trois coins omises.
 }
 errors-lines-left-out = { $count ->
-    [one] { $number } ligne omise : Lumen montre des surfaces.
-   *[other] { $number } lignes omises : Lumen montre des surfaces.
+    [one] { $count } ligne omise : Lumen montre des surfaces.
+   *[other] { $count } lignes omises : Lumen montre des surfaces.
 }
 errors-points-left-out = { $count ->
-    [one] { $number } point omis : Lumen montre des surfaces.
-   *[other] { $number } points omis : Lumen montre des surfaces.
+    [one] { $count } point omis : Lumen montre des surfaces.
+   *[other] { $count } points omis : Lumen montre des surfaces.
 }
 errors-reoriented = { $count ->
-    [one] { $number } triangle retourné pour s'accorder avec ses voisins.
-   *[other] { $number } triangles retournés pour s'accorder avec leurs voisins.
+    [one] { $count } triangle retourné pour s'accorder avec ses voisins.
+   *[other] { $count } triangles retournés pour s'accorder avec leurs voisins.
 }
 errors-turned = { $count ->
-    [one] { $number } morceau trouvé à l'envers et retourné.
-   *[other] { $number } morceaux trouvés à l'envers et retournés.
+    [one] { $count } morceau trouvé à l'envers et retourné.
+   *[other] { $count } morceaux trouvés à l'envers et retournés.
 }
 errors-non-manifold = { $count ->
-    [one] { $number } arête où plus de deux triangles se rejoignent ; laissée comme dans le fichier.
-   *[other] { $number } arêtes où plus de deux triangles se rejoignent ; laissées comme dans le fichier.
+    [one] { $count } arête où plus de deux triangles se rejoignent ; laissée comme dans le fichier.
+   *[other] { $count } arêtes où plus de deux triangles se rejoignent ; laissées comme dans le fichier.
 }
 errors-no-inside = La surface n'a ni intérieur ni extérieur (ses triangles ne peuvent pas être accordés).
 errors-moved = La surface est loin de l'origine de ses coordonnées : elle a été déplacée de ({ $x } ; { $y } ; { $z }) mm pour garder ses détails, et y sera enregistrée.
+errors-unit-by-size = Les nombres du fichier ont été lus en { $unit }, d'après la taille de la surface.
 errors-size = La surface mesure { $across } mm, ce qui est inhabituel pour des vaisseaux : vérifier son unité de longueur.
 errors-size-units = La surface mesure { $across } mm, ce qui est inhabituel pour des vaisseaux : ses nombres sont peut-être en { $units }.
 errors-calibre-units = Ses vaisseaux ont { $wide } mm de large en moyenne, ce qui est inhabituel : les nombres du fichier sont peut-être en { $units }.
 errors-size-or = { $first } ou en { $next }
+errors-size-in = { $unit } ({ $length } mm)
 
 ## Tableaux qui sont omis
 
 errors-array-left-out = Le tableau { $name } est omis : { $why }.
 errors-arrays-more = { $count ->
-    [one] { $number } autre tableau est omis.
-   *[other] { $number } autres tableaux sont omis.
+    [one] { $count } autre tableau est omis.
+   *[other] { $count } autres tableaux sont omis.
 }
 errors-array-parts = ses parties ne s'accordent pas
 errors-array-beyond = seuls les { $most } premiers tableaux d'un fichier sont lus
@@ -229,6 +231,8 @@ errors-not-measured = les vaisseaux sont encore en cours de mesure
 
 errors-unknown-unit = « { $word } » n'est pas une unité de longueur que Lumen connaît : mm, cm ou m.
 errors-axes = On ne sait pas où pointent les axes de la surface ; elle ne peut donc pas être tournée ({ $from } vers { $to }).
+errors-axes-lps = LPS
+errors-axes-ras = RAS
 errors-axes-unknown = axes inconnus
 
 ## Réglages avec lesquels aucune étape ne peut travailler: aussi derrière deux points

@@ -100,6 +100,8 @@ scan-level = Centre de la fenêtre
 scan-preset-little = pour des vaisseaux peu opacifiés
 scan-preset-arteries = pour les artères
 scan-preset-aorta = pour l'aorte et les artères coronaires
+scan-preset = { $value } { $name }
+scan-presets = { $first }, { $second }, { $third }
 
 ## Pourquoi il n'y a pas de surface, d'aperçu ou de coupe
 
@@ -142,10 +144,8 @@ scan-unknown-unit = L'unité de longueur du fichier { $format }, { $unit }, n'es
 
 ## Ce qui ne va pas dans un fichier
 
-scan-bytes = octets
 scan-packed = il annonce { $needed } octets, plus que ses { $bytes } octets compressés ne peuvent contenir : il est tronqué ou endommagé
 scan-packed-damaged = ses données compressées sont tronquées ou endommagées
-scan-no-number = { $word } se trouve là où il faut un nombre
 scan-header-endless = son en-tête ne se termine pas par une ligne vide
 scan-header-lacks = son en-tête n'a pas de « { $key } »
 scan-header-none = son en-tête n'en est pas un

@@ -5,9 +5,9 @@ use super::super::report::Report;
 use super::super::settings::{Keep, Mending, Preset, Settings, Smoothing, Target};
 use super::super::shape::Shape;
 use super::finding::{Finding, Remedied, Remedy, Verdict};
-use lumen_io::{ImportReport, NO_INSIDE, Unit, UnusualSize};
+use lumen_io::{ImportReport, Unit, UnusualSize, Warning};
 use lumen_language::decimal;
-use lumen_language::say;
+use lumen_language::{say, tell};
 use lumen_mesh::mending::{FaultCounts, FaultKind, FaultPlace};
 use lumen_vessel::certificate::{BranchCalibre, Certificate, Verdict as Calibre};
 use lumen_vessel::summary::{in_order, place, sentence};
@@ -52,7 +52,7 @@ impl Verdict {
         let mut findings = Vec::new();
         let unusual = known.import.unusual_size();
         let is_wall = known.faults.is_some_and(|(counts, _)| counts.wall.is_some());
-        let of_vessels = unusual.as_ref().filter(|found| !(is_wall && found.is_calibre));
+        let of_vessels = unusual.as_ref().filter(|found| !(is_wall && matches!(found, UnusualSize::Calibre { .. })));
         findings.extend(of_vessels.map(|found| size(known, found)));
         // What is measured of a wall says nothing of vessels.
         findings.extend(faults(known));
@@ -61,9 +61,10 @@ impl Verdict {
             findings.extend(of_report(known, report));
         }
         findings.extend(calibre(known));
-        let (of_file, no_inside) = (known.import.warnings_now().into_iter(), NO_INSIDE.say());
-        let of_file = of_file.filter(|text| unusual.as_ref().is_none_or(|found| found.sentence != *text));
-        findings.extend(of_file.map(|text| Finding { is_grave: text == no_inside, ..Finding::note(text) }));
+        let of_file = known.import.warnings.iter().filter(|warning| !matches!(warning, Warning::Size(_)));
+        findings.extend(
+            of_file.map(|warning| Finding { is_grave: *warning == Warning::NoInside, ..Finding::note(tell(warning)) }),
+        );
         findings.sort_by_key(|finding| !finding.is_grave);
         let grave = findings.iter().filter(|finding| finding.is_grave).count();
         let is_known = known.report.is_some() && known.calibre.is_some();
@@ -132,13 +133,13 @@ fn less(known: &Known<'_>) -> Option<Remedy> {
 }
 
 fn size(known: &Known<'_>, found: &UnusualSize) -> Finding {
-    let mut finding = Finding::grave(found.sentence.clone());
+    let mut finding = Finding::grave(tell(found));
     if known.has_units {
         let read = |&unit: &Unit| Remedy {
             words: say!("verdict-read-in", unit = unit.to_string()),
             change: Remedied::Unit(unit),
         };
-        finding.remedies = found.units.iter().map(read).collect();
+        finding.remedies = found.units().iter().map(read).collect();
     }
     finding
 }

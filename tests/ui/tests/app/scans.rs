@@ -74,7 +74,7 @@ fn what_a_scan_says_of_its_axes_goes_with_its_surface() {
         make(&mut harness, &memory, orientation);
         let document = harness.state().state().document.as_ref().unwrap();
         assert_eq!((document.name.as_str(), document.import.axes), ("ball", expected));
-        let is_told = document.import.warnings.iter().any(|text| text.contains("the axes are unknown"));
+        let is_told = document.import.warnings.iter().any(|text| text.to_string().contains("the axes are unknown"));
         assert_eq!(is_told, expected == Axes::Unknown);
         let has_list = harness.query_by_role_and_label(Role::ComboBox, "Axes").is_some();
         assert_eq!(has_list, expected == Axes::Unknown, "asked where nothing says them");

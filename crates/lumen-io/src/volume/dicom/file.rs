@@ -15,9 +15,9 @@ use dicom_parser::stateful::decode::StatefulDecode;
 use dicom_transfer_syntax_registry::entries;
 use glam::DVec3;
 
+use super::super::super::error::Feature;
+use super::super::super::problem::DicomProblem;
 use super::super::error::ScanError;
-use lumen_language::Key;
-use lumen_language::say;
 
 pub(super) const FORMAT: &str = "DICOM";
 
@@ -98,7 +98,7 @@ impl<'a> File<'a> {
         let length = length.map_or(0, u32::from_le_bytes) as usize;
         let start = META + 12 + length;
         let (Some(meta), Some(rest)) = (bytes.get(META..start), bytes.get(start..)) else {
-            return Err(ScanError::malformed(FORMAT, say!("scan-dicom-header")));
+            return Err(ScanError::malformed(FORMAT, DicomProblem::Header));
         };
         let mut syntax = String::new();
         walk(meta, &entries::EXPLICIT_VR_LITTLE_ENDIAN.erased(), |_, tag, value| {
@@ -152,17 +152,17 @@ impl<'a> File<'a> {
 /// How the pixels of a transfer syntax are packed, and how its elements are encoded.
 fn packing(syntax: &str) -> Result<(Packing, TransferSyntax), ScanError> {
     let explicit = entries::EXPLICIT_VR_LITTLE_ENDIAN.erased();
-    let refused = |what: Key| Err(ScanError::unsupported(FORMAT, what.say()));
+    let refused = |what: Feature| Err(ScanError::unsupported(FORMAT, what));
     match syntax.strip_prefix("1.2.840.10008.1.2").unwrap_or("?") {
         "" => Ok((Packing::Little, entries::IMPLICIT_VR_LITTLE_ENDIAN.erased())),
         ".1" => Ok((Packing::Little, explicit)),
         ".2" => Ok((Packing::Big, entries::EXPLICIT_VR_BIG_ENDIAN.erased())),
         ".5" => Ok((Packing::Rle, explicit)),
         ".4.50" | ".4.51" | ".4.57" | ".4.70" => Ok((Packing::Jpeg, explicit)),
-        ".1.99" => refused(Key("scan-dicom-deflated")),
-        ".4.80" | ".4.81" => refused(Key("scan-dicom-jpeg-ls")),
-        ".4.90" | ".4.91" | ".4.201" | ".4.202" | ".4.203" => refused(Key("scan-dicom-jpeg-2000")),
-        _ => refused(Key("scan-dicom-compression")),
+        ".1.99" => refused(Feature::Deflated),
+        ".4.80" | ".4.81" => refused(Feature::JpegLs),
+        ".4.90" | ".4.91" | ".4.201" | ".4.202" | ".4.203" => refused(Feature::Jpeg2000),
+        _ => refused(Feature::UnknownCompression),
     }
 }
 
@@ -173,7 +173,7 @@ fn walk<'a>(
     encoding: &TransferSyntax,
     mut take: impl FnMut(Option<Tag>, Tag, &'a [u8]),
 ) -> Result<(), ScanError> {
-    let broken = || ScanError::malformed(FORMAT, say!("scan-dicom-damaged"));
+    let broken = || ScanError::malformed(FORMAT, DicomProblem::Damaged);
     let mut reader = LazyDataSetReader::new_with_ts(Cursor::new(bytes), encoding).map_err(|_| broken())?;
     // The sequences that are open, and the items in them.
     let mut open: Vec<Option<Tag>> = Vec::new();
@@ -214,7 +214,7 @@ fn walk<'a>(
 }
 
 fn cut_short() -> ScanError {
-    ScanError::malformed(FORMAT, say!("scan-dicom-cut-short"))
+    ScanError::malformed(FORMAT, DicomProblem::CutShort)
 }
 
 /// The bytes of a value, if they are all there.

@@ -10,14 +10,16 @@ mod pixels;
 use glam::{DMat3, DVec3};
 
 use super::super::axes::Axes;
+use super::super::error::Feature;
 use super::super::numbers::Scalar;
+use super::super::problem::DicomProblem;
+use super::super::warnings::{ScanWarning, Warning};
 use super::error::ScanError;
 use super::numbers::Layout;
 use super::outline::Scan;
 use super::parts::Part;
 use file::{FORMAT, File};
-use lumen_language::say;
-use lumen_language::{Key, decimal};
+use lumen_message::Message as _;
 use lumen_volume::{Geometry, Grid, Samples, VolumeError};
 
 /// By so much of a mean distance two neighbours may be farther apart or closer than others.
@@ -26,7 +28,6 @@ const UNEVEN: f64 = 0.05;
 const SAME: f64 = 1e-3;
 
 /// That a file of a series does not say where its slices are.
-const NO_PLACES: Key = Key("scan-dicom-no-places");
 
 /// A slice of the volume.
 struct Slice<'f, 'a> {
@@ -52,18 +53,18 @@ pub(super) fn read(parts: &[&Part]) -> Result<Scan, ScanError> {
     let mut warnings = Vec::new();
     let series = largest_series(&files, &mut warnings)?;
     let first = series[0];
-    let [across, down] = first.orientation.ok_or_else(|| missing(Key("scan-dicom-no-directions")))?;
-    let [between_rows, between_columns] = first.spacing.ok_or_else(|| missing(Key("scan-dicom-no-spacing")))?;
+    let [across, down] = first.orientation.ok_or_else(|| missing(DicomProblem::NoDirections))?;
+    let [between_rows, between_columns] = first.spacing.ok_or_else(|| missing(DicomProblem::NoSpacing))?;
     let mut slices = placed(&series, across.cross(down), &mut unreadable);
     slices.sort_by(|a, b| a.height.total_cmp(&b.height).then(a.file.instance.total_cmp(&b.file.instance)));
     let all = slices.len();
     slices.dedup_by(|next, kept| next.height - kept.height < SAME);
     if slices.len() < all {
         let more = all - slices.len();
-        warnings.push(say!("scan-dicom-same-place", count = more));
+        warnings.push(ScanWarning::SamePlace { count: more }.into());
     }
     let (samples, slope, intercept) = samples(&mut slices, &mut unreadable)?;
-    warnings.extend(unreadable.sentence());
+    warnings.extend(unreadable.warning());
     let step = step(&slices, &mut warnings)?;
     let size = [first.columns, first.rows, slices.len()];
     let steps = DMat3::from_cols(across * between_columns, down * between_rows, step);
@@ -87,23 +88,23 @@ impl Unreadable {
 
     /// Why there is nothing left.
     fn into_error(self) -> ScanError {
-        self.first.unwrap_or_else(|| missing(NO_PLACES))
+        self.first.unwrap_or_else(|| missing(DicomProblem::NoPlaces))
     }
 
     /// What to tell the user of them.
-    fn sentence(&self) -> Option<String> {
+    fn warning(&self) -> Option<Warning> {
         let first = self.first.as_ref()?;
-        Some(say!("scan-dicom-unreadable", count = self.count, why = first.to_string()))
+        Some(ScanWarning::Unreadable { count: self.count, why: first.told() }.into())
     }
 }
 
 /// That a file does not say what it should.
-fn missing(what: Key) -> ScanError {
-    ScanError::malformed(FORMAT, what.say())
+fn missing(what: DicomProblem) -> ScanError {
+    ScanError::malformed(FORMAT, what)
 }
 
 /// The files that belong together, of which there are most images.
-fn largest_series<'f, 'a>(files: &'f [File<'a>], warnings: &mut Vec<String>) -> Result<Vec<&'f File<'a>>, ScanError> {
+fn largest_series<'f, 'a>(files: &'f [File<'a>], warnings: &mut Vec<Warning>) -> Result<Vec<&'f File<'a>>, ScanError> {
     let mut groups: Vec<Vec<&File>> = Vec::new();
     let holds_slices = |file: &&File| {
         !file.pixels.is_empty() && file.is_monochrome && file.samples_per_pixel == 1 && file.rows * file.columns > 0
@@ -118,17 +119,17 @@ fn largest_series<'f, 'a>(files: &'f [File<'a>], warnings: &mut Vec<String>) -> 
     let others = groups.len().saturating_sub(1);
     let taken = groups.iter().enumerate().max_by_key(|(number, group)| (images(group), std::cmp::Reverse(*number)));
     let Some((number, _)) = taken else {
-        return Err(ScanError::malformed(FORMAT, say!("scan-dicom-no-slice")));
+        return Err(ScanError::malformed(FORMAT, DicomProblem::NoSlice));
     };
     let series = groups.swap_remove(number);
     let slices = groups.iter().map(|group| images(group)).fold(0, usize::saturating_add);
     let empty = files.iter().filter(|file| !holds_slices(file)).count();
     if others > 0 {
-        let (count, taken, slices) = (others + 1, images(&series).to_string(), slices.to_string());
-        warnings.push(say!("scan-dicom-series", count = count, taken = taken, slices = slices, others = others));
+        let (count, taken, slices) = (others + 1, images(&series), slices);
+        warnings.push(ScanWarning::Series { count, taken, slices, others }.into());
     }
     if empty > 0 {
-        warnings.push(say!("scan-dicom-no-slices", count = empty));
+        warnings.push(ScanWarning::NoSlices { count: empty }.into());
     }
     Ok(series)
 }
@@ -174,16 +175,16 @@ fn placed<'f, 'a>(series: &[&'f File<'a>], normal: DVec3, unreadable: &mut Unrea
                 Slice { file, frame, position, height: position.dot(normal) }
             }));
         } else {
-            unreadable.add(missing(NO_PLACES));
+            unreadable.add(missing(DicomProblem::NoPlaces));
         }
     }
     slices
 }
 
 /// The mean step from a slice to the next, which a tilted gantry makes oblique.
-fn step(slices: &[Slice], warnings: &mut Vec<String>) -> Result<DVec3, ScanError> {
+fn step(slices: &[Slice], warnings: &mut Vec<Warning>) -> Result<DVec3, ScanError> {
     let [first, .., last] = slices else {
-        return Err(ScanError::malformed(FORMAT, say!("scan-dicom-single")));
+        return Err(ScanError::malformed(FORMAT, DicomProblem::SingleSlice));
     };
     let steps = (slices.len() - 1) as f64;
     let distances: Vec<f64> = slices.windows(2).map(|two| two[1].height - two[0].height).collect();
@@ -196,12 +197,12 @@ fn step(slices: &[Slice], warnings: &mut Vec<String>) -> Result<DVec3, ScanError
     let worst = (0..distances.len()).max_by(|&a, &b| off(distances[a]).total_cmp(&off(distances[b]))).unwrap_or(0);
     let there = distances[worst];
     if off(there) > usual * UNEVEN {
-        let (below, above) = ((worst + 1).to_string(), (worst + 2).to_string());
-        let (is_wide, usual, there) = (there > usual, decimal(usual, 3), decimal(there, 3));
+        let (below, above) = (worst + 1, worst + 2);
+        let (is_wide, usual, there) = (there > usual, usual, there);
         warnings.push(if is_wide {
-            say!("scan-dicom-gap", usual = usual, there = there, below = below, above = above)
+            ScanWarning::Gap { usual, there, below, above }.into()
         } else {
-            say!("scan-dicom-squeeze", usual = usual, there = there, below = below, above = above)
+            ScanWarning::Squeeze { usual, there, below, above }.into()
         });
     }
     Ok((last.position - first.position) / steps)
@@ -220,7 +221,7 @@ fn samples(slices: &mut Vec<Slice>, unreadable: &mut Unreadable) -> Result<(Samp
         (8, true) => Scalar::I8,
         (16, false) => Scalar::U16,
         (16, true) => Scalar::I16,
-        (bits, _) => return Err(ScanError::unsupported(FORMAT, say!("scan-dicom-bits", bits = bits.to_string()))),
+        (bits, _) => return Err(ScanError::unsupported(FORMAT, Feature::Bits { bits })),
     };
     let layout = Layout::new(FORMAT, size, scalar, false)?;
     let (slope, intercept) = rescale(first);

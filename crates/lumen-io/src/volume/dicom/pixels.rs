@@ -5,16 +5,16 @@
 
 use jpeg_decoder::{Decoder, PixelFormat};
 
+use super::super::super::problem::DicomProblem;
 use super::super::error::ScanError;
 use super::super::numbers::MOST_UNFOLDED;
 use super::file::{FORMAT, File, Packing};
-use lumen_language::say;
 
 /// The pixels of frame `frame` of a file, in little-endian order.
 pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
     let size = file.bits_allocated as usize / 8;
     let bytes = file.rows * file.columns * size;
-    let short = || ScanError::malformed(FORMAT, say!("scan-dicom-pixels"));
+    let short = || ScanError::malformed(FORMAT, DicomProblem::Pixels);
     match file.packing {
         Some(Packing::Rle | Packing::Jpeg) => {
             let packed = packed(file, frame).ok_or_else(short)?;
@@ -88,7 +88,7 @@ fn run_lengths(packed: &[u8], size: usize, bytes: usize) -> Option<Vec<u8>> {
 
 /// Decodes a JPEG picture of one channel.
 fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
-    let damaged = || ScanError::malformed(FORMAT, say!("scan-dicom-jpeg"));
+    let damaged = || ScanError::malformed(FORMAT, DicomProblem::Jpeg);
     let mut decoder = Decoder::new(packed);
     decoder.read_info().map_err(|_| damaged())?;
     let info = decoder.info().ok_or_else(damaged)?;
@@ -99,7 +99,7 @@ fn picture(packed: &[u8], file: &File) -> Result<Vec<u8>, ScanError> {
         _ => return Err(damaged()),
     };
     if (width, height) != (file.columns, file.rows) || size > file.bits_allocated as usize / 8 {
-        return Err(ScanError::malformed(FORMAT, say!("scan-dicom-jpeg-size")));
+        return Err(ScanError::malformed(FORMAT, DicomProblem::JpegSize));
     }
     decoder.set_max_decoding_buffer_size(width * height * size);
     let pixels = decoder.decode().map_err(|_| damaged())?;

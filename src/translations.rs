@@ -1,0 +1,59 @@
+//! German and French have every message of the libraries, with the same placeables.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::language::{Language, built_in, speak, tell};
+use lumen_message::Signature;
+
+/// The messages of every crate that has some.
+const ALL: &[&[&[Signature]]] = &[lumen_io::MESSAGES, lumen_volume::MESSAGES];
+
+/// The placeables of each message of a language.
+fn placeables(language: Language) -> BTreeMap<String, BTreeSet<String>> {
+    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut last = String::new();
+    for line in built_in(language).unwrap().iter().flat_map(|text| text.lines()) {
+        if let Some((id, _)) = line.split_once(" =").filter(|_| line.starts_with(|c: char| c.is_ascii_lowercase())) {
+            id.clone_into(&mut last);
+            all.entry(last.clone()).or_default();
+        } else if !line.starts_with([' ', '}']) {
+            last.clear();
+        }
+        let names = line
+            .split('$')
+            .skip(1)
+            .map(|rest| rest.chars().take_while(|&c| c.is_ascii_alphanumeric() || c == '_').collect::<String>());
+        if let Some(found) = all.get_mut(&last) {
+            found.extend(names);
+        }
+    }
+    all
+}
+
+#[test]
+fn german_and_french_have_every_message_of_the_libraries() {
+    let english = placeables(Language::English);
+    for language in [Language::German, Language::French] {
+        let theirs = placeables(language);
+        for &(id, fields) in ALL.iter().copied().flatten().copied().flatten() {
+            let Some(found) = theirs.get(id) else { panic!("{language:?} lacks {id}") };
+            let known: BTreeSet<String> = fields.iter().map(|&field| field.to_owned()).collect();
+            assert!(found.is_subset(&known), "{language:?}, {id}: {found:?} of {known:?}");
+            assert!(!english.contains_key(id), "{id} stands in the code: the English catalogue has it twice");
+        }
+    }
+}
+
+#[test]
+fn what_was_mended_is_said_in_the_language_of_the_moment() {
+    use crate::io::Warning;
+
+    let warnings = [Warning::Degenerate { count: 1 }, Warning::Reoriented { count: 1 }];
+    speak(Language::German, built_in(Language::German).unwrap());
+    let german = warnings.each_ref().map(|warning| tell(warning));
+    speak(Language::English, &[]);
+    assert_eq!(
+        german,
+        ["1 Dreieck mit wiederholtem Eckpunkt verworfen.", "1 Dreieck umgedreht, damit es zu seinen Nachbarn passt."]
+    );
+}
