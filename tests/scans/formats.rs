@@ -1,7 +1,7 @@
 //! Every way to write a volume is read as the same volume, and what cannot be read is refused in a sentence.
 
-use lumen::io::in_english;
 use lumen::io::volume::{Head, Part, Scan, ScanError, begin, data_name, is_volume, read};
+use lumen::io::{Axes, in_english};
 use lumen::volume::{Label, Selection, VolumeError, survey};
 
 use crate::open;
