@@ -16,8 +16,7 @@ use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
 use super::verdict;
 use lumen_io::{Axes, Unit};
-use lumen_language::say;
-use lumen_language::{decimal, signed};
+use lumen_language::{decimal, say, signed, tell};
 use lumen_mesh::arrays::infos;
 use lumen_mesh::mending::{FaultCounts, MendReport};
 use lumen_mesh::{ArrayInfo, Measures, TriMesh, components};
@@ -272,7 +271,9 @@ impl Report {
 impl Report {
     /// Sentences where mending left something that it was asked to do.
     pub fn mending_warnings(&self) -> Vec<String> {
-        self.mending.map_or_else(Vec::new, |done| done.warnings(&self.settings.mending))
+        self.mending.map_or_else(Vec::new, |done| {
+            done.warnings(&self.settings.mending).iter().map(|warning| tell(warning)).collect()
+        })
     }
 
     /// A sentence where the volume was to be held and could not be.

@@ -22,20 +22,9 @@ errors-no-component = there is no component { $wanted }: the surface has { $numb
 
 ## What mending left
 
-errors-weld-limited = At { $vertices } vertices on open edges less than { $mm } mm was welded: their triangles are as small.
-errors-wall-not-parted = The lumen was not taken: the sides of the wall cannot be told apart.
-errors-no-wall = The surface is no wall with two sides: it is taken as it is.
-errors-holes-left = { $count ->
-    [one] { $number } hole within the limit could not be filled without crossing the surface.
-   *[other] { $number } holes within the limit could not be filled without crossing the surface.
-}
 
 ## Messages between the parts of Lumen
 
-errors-message = the message is not understood: { $error }
-errors-message-buffer = buffer { $index } of the message has { $bytes } bytes, not a multiple of { $element }
-errors-message-memory = there is no memory left for its { $bytes } bytes
-errors-message-text = buffer { $index } of the message is no text
 
 ## Samples that cannot be made
 
