@@ -18,7 +18,7 @@ use super::state::State;
 use super::views::Views;
 use super::{deviation, lesson, record, spoken, theme, verdict, vessels};
 use crate::io::{Axes, Format, Unit};
-use crate::language::{self, Key, Language};
+use crate::language::{self, Key, Language, tell};
 use crate::phantom::Sample;
 use crate::render::StandardView;
 use crate::say;
@@ -83,7 +83,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
         }
         menu(ui, &say!("app-sample"), &mut |ui| {
             for sample in Sample::ALL {
-                ask(ui.button(sample.label()).clicked(), Action::Sample(sample));
+                ask(ui.button(tell(&sample.label())).clicked(), Action::Sample(sample));
             }
         });
         let has_result = state.document.as_ref().is_some_and(|document| document.shown.is_some());

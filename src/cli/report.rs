@@ -58,7 +58,7 @@ impl WriteReport {
         run_through(&mut pipeline, asked.wants_safe, advance)?;
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.axes = import.axes;
-        let verdict = Verdict::of_run(&report, &import, Format::from_name(&self.file).is_some());
+        let verdict = Verdict::of_run(&pipeline, &report, &import, Format::from_name(&self.file).is_some());
         let drawn = if self.no_pictures { Vec::new() } else { self.pictures(&pipeline, import.axes)? };
         let subject = Subject {
             title: self.title.as_deref(),

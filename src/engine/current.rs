@@ -209,7 +209,7 @@ impl Current {
         let Some(certified) = self.pipeline.certified() else { return };
         let (found, change_by_node) = match certified {
             Ok(found) => (Ok(found.certificate.clone()), found.change_by_node.clone()),
-            Err(error) => (Err(error.to_string()), Vec::new()),
+            Err(error) => (Err(error.clone()), Vec::new()),
         };
         let generation = self.generation;
         events.push_back(Event::Certified(Box::new(Calibre { generation, found, change_by_node })));

@@ -6,7 +6,7 @@ use super::picture::Picture;
 use super::plot::{Plot, radius, response};
 use super::words::{others, said};
 use crate::io::{Axes, ImportReport};
-use crate::language::{decimal, exact, grouped, inner, signed};
+use crate::language::{decimal, exact, grouped, inner, signed, tell};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Preset, Settings, Target};
 use crate::pipeline::verdict::Verdict;
@@ -250,11 +250,11 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
         |of: &OnSurface| of.largest_change.map_or_else(none, |found| format!("{} %", signed(found.percent, 1)));
     let row = |branch: &BranchCalibre| {
         vec![
-            branch.label(),
-            branch.verdict.label().say(),
+            tell(&branch.label()),
+            tell(&branch.verdict),
             change(&branch.smoothed),
             change(&branch.reduced),
-            branch.opened.radius_mm.map_or_else(none, |radius| radius.text()),
+            branch.opened.radius_mm.map_or_else(none, |radius| tell(&radius.text())),
             decimal(branch.length_mm, 1),
             branch.tortuosity.map_or_else(none, |tortuosity| decimal(tortuosity, 2)),
         ]
@@ -276,8 +276,8 @@ fn stretches(branches: &[BranchCalibre]) -> Table {
     let row = |(branch, found): (&BranchCalibre, &crate::vessel::variation::Variation)| {
         let [diameter, reference] = [found.diameter_mm, found.reference_mm].map(|mm| decimal(mm, 2));
         vec![
-            branch.label(),
-            found.degree(),
+            tell(&branch.label()),
+            tell(&found.degree()),
             format!("{} %", decimal(found.area_percent, 0)),
             found.reduced_degree_percent.map_or("–".to_owned(), |degree| format!("{} %", decimal(degree, 0))),
             say!("report-diameter-of", diameter = diameter, reference = reference),

@@ -11,7 +11,7 @@ mod value;
 use std::fmt;
 
 pub use told::Told;
-pub use value::{ToValue, Value, grouped};
+pub use value::{Signed, ToValue, Value, grouped};
 
 /// Something to say to a user. Its `Display` is plain English.
 pub trait Message: fmt::Display {

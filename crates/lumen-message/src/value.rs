@@ -1,5 +1,7 @@
 //! What a message carries.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::Told;
@@ -18,6 +20,13 @@ pub enum Value {
         /// Decimals that are written; `None` writes as few as give the same number.
         places: Option<u8>,
     },
+    /// A change: a number with its sign, a plus too.
+    Change {
+        /// The number.
+        value: f64,
+        /// Decimals that are written.
+        places: u8,
+    },
     /// A message in a message.
     Message(Box<Told>),
 }
@@ -26,6 +35,22 @@ impl Value {
     /// A number that is written with so many decimals.
     pub fn decimal(value: f64, places: u8) -> Self {
         Self::Number { value, places: Some(places) }
+    }
+}
+
+/// A number that is written with its sign and so many decimals: `+0.5`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+pub struct Signed<const PLACES: u8>(pub f64);
+
+impl<const PLACES: u8> fmt::Display for Signed<PLACES> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:+.places$}", self.0, places = usize::from(PLACES))
+    }
+}
+
+impl<const PLACES: u8> ToValue for Signed<PLACES> {
+    fn to_value(&self) -> Value {
+        Value::Change { value: self.0, places: PLACES }
     }
 }
 
@@ -82,7 +107,7 @@ impl ToValue for [usize; 3] {
 }
 
 /// A whole number in groups of three, as English writes it: `74,307`.
-pub fn grouped(number: impl std::fmt::Display) -> String {
+pub fn grouped(number: impl fmt::Display) -> String {
     let digits = number.to_string();
     let (sign, digits) = digits.strip_prefix('-').map_or(("", &*digits), |digits| ("-", digits));
     let mut text = sign.to_owned();

@@ -20,8 +20,7 @@ use super::pinch::Pinch;
 use super::progressive::ProgressiveMesh;
 use super::settings::{Target, reduction_percent};
 use super::task::Yielder;
-use lumen_language::say;
-use lumen_language::{decimal, signed};
+use lumen_language::{decimal, say, signed, tell};
 use lumen_mesh::TriMesh;
 use lumen_vessel::Subject;
 use lumen_vessel::certificate::{Basis, BranchCalibre, Standing, Verdict};
@@ -209,9 +208,9 @@ impl Search {
                 Some(change) if branch.verdict == Verdict::Changed => {
                     let [x, y, z] = change.at_mm.map(|mm| decimal(mm, 1));
                     let (rate, by) = (decimal(look.percent(), 1), signed(change.percent, 1));
-                    say!("verdict-safe-changed", rate = rate, name = branch.label(), by = by, x = x, y = y, z = z)
+                    say!("verdict-safe-changed", rate = rate, name = tell(&branch.label()), by = by, x = x, y = y, z = z)
                 }
-                _ => say!("verdict-safe-unmeasured", rate = decimal(look.percent(), 1), name = branch.label()),
+                _ => say!("verdict-safe-unmeasured", rate = decimal(look.percent(), 1), name = tell(&branch.label())),
             }),
             None => self.pinch.map(|pinch| pinch.to_string()),
         });

@@ -28,6 +28,3 @@ errors-no-component = there is no component { $wanted }: the surface has { $numb
 
 ## Samples that cannot be made
 
-errors-sample-range = { $asked } triangles are outside the range of { $least } to { $most }
-errors-sample-grid = no grid gives { $asked } triangles to within 1 %; the nearest gives { $nearest }
-errors-cancelled = cancelled

@@ -391,5 +391,3 @@ panel-stage-safe = Finding how far is safe
 
 ## The samples, in the menu, and as the name of what is shown
 
-panel-sample-aorta = Abdominal aorta
-panel-sample-coronary = Coronary arteries

@@ -2,15 +2,15 @@
 
 use super::super::pinch::Pinch;
 use super::super::report::Report;
+use super::super::run::Pipeline;
 use super::super::settings::{Keep, Mending, Preset, Settings, Smoothing, Target};
 use super::super::shape::Shape;
 use super::finding::{Finding, Remedied, Remedy, Verdict};
 use lumen_io::{ImportReport, Unit, UnusualSize, Warning};
-use lumen_language::decimal;
-use lumen_language::{say, tell};
+use lumen_language::{decimal, say, tell};
 use lumen_mesh::mending::{FaultCounts, FaultKind, FaultPlace};
-use lumen_vessel::certificate::{BranchCalibre, Certificate, Verdict as Calibre};
-use lumen_vessel::summary::{in_order, place, sentence};
+use lumen_vessel::certificate::{BranchCalibre, CalibreError, Certificate, Verdict as Calibre};
+use lumen_vessel::summary::{in_order, place, summary};
 
 /// What becomes of that which is not known of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub struct Known<'a> {
     /// The vessel that is pinched or lost, if one is: it may be known before the numbers.
     pub pinch: Option<&'a Pinch>,
     /// What became of the vessels, or why there are none.
-    pub calibre: Option<&'a Result<Certificate, String>>,
+    pub calibre: Option<&'a Result<Certificate, CalibreError>>,
     /// The highest rate that is safe, in percent, where more is taken away.
     pub safe_percent: Option<f64>,
     /// What is wrong with the file, and where, if that is known.
@@ -77,14 +77,14 @@ impl Verdict {
             count => say!("verdict-to-look-at", count = count),
         };
         let is_safe = if grave > 0 { Some(false) } else { is_known.then_some(is_measured) };
-        Self { head, is_safe, calibre: known.calibre.map(sentence), findings }
+        Self { head, is_safe, calibre: known.calibre.map(|found| tell(&summary(found))), findings }
     }
 
-    /// On a run that is over.
-    pub fn of_run(report: &Report, import: &ImportReport, has_units: bool) -> Self {
-        let found = report.calibre.as_ref().map(|calibre| match (&calibre.refused, &report.branches) {
-            (None, Some(branches)) => Ok(Certificate::new(branches.clone(), calibre.tolerance_percent)),
-            (refused, _) => Err(refused.clone().unwrap_or_default()),
+    /// On a run that is over: `report` is of what `pipeline` has made.
+    pub fn of_run(pipeline: &Pipeline, report: &Report, import: &ImportReport, has_units: bool) -> Self {
+        let found = pipeline.certified().map(|found| match found {
+            Ok(found) => Ok(found.certificate.clone()),
+            Err(why) => Err(why.clone()),
         });
         let entering = report.after_connectivity.triangles;
         let takes_more = |percent: &f64| report.output.triangles < rate(*percent).triangles(entering);
@@ -238,9 +238,9 @@ fn calibre(known: &Known<'_>) -> Option<Finding> {
     let worst = in_order(certificate).into_iter().next()?;
     let by_smoothing = certificate.branches.iter().any(|branch| branch.verdict_smoothed == Calibre::Changed);
     let help = if by_smoothing { suit(known) } else { None };
-    let finding = Finding::grave(sentence(found));
+    let finding = Finding::grave(tell(&summary(found)));
     let finding = match worst.reduced.largest_change {
-        Some(change) => finding.at(change.at_mm, width(worst, change.abscissa_mm), place(worst, &change)),
+        Some(change) => finding.at(change.at_mm, width(worst, change.abscissa_mm), tell(&place(worst, &change))),
         None => finding,
     };
     Some(finding.helped_by(help.or_else(|| less(known))))
