@@ -6,7 +6,7 @@ use tabled::settings::{Alignment, Style};
 
 use super::rows::row;
 use crate::pipeline::report::Report;
-use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, Verdict, measured_percent};
+use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, measured_percent};
 
 /// Prints the table.
 pub(super) fn print(report: &Report) {

@@ -79,7 +79,7 @@ to_value! {
     usize => |n| Value::Count(i64::try_from(*n).unwrap_or(i64::MAX));
     i32 => |n| Value::Count((*n).into());
     i64 => |n| Value::Count(*n);
-    f32 => |x| Value::Number { value: (*x).into(), places: None };
+    f32 => |x| Value::Number { value: x.to_string().parse().unwrap_or(f64::NAN), places: None };
     f64 => |x| Value::Number { value: *x, places: None };
     &'static str => |text| Value::Text((*text).to_owned());
     String => |text| Value::Text(text.clone());
@@ -106,10 +106,11 @@ impl ToValue for [usize; 3] {
     }
 }
 
-/// A whole number in groups of three, as English writes it: `74,307`.
+/// A number with its digits before the point in groups of three, as English writes it: `74,307`.
 pub fn grouped(number: impl fmt::Display) -> String {
     let digits = number.to_string();
     let (sign, digits) = digits.strip_prefix('-').map_or(("", &*digits), |digits| ("-", digits));
+    let (digits, decimals) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
     let mut text = sign.to_owned();
     for (i, digit) in digits.chars().enumerate() {
         if i > 0 && (digits.len() - i).is_multiple_of(3) {
@@ -117,5 +118,5 @@ pub fn grouped(number: impl fmt::Display) -> String {
         }
         text.push(digit);
     }
-    text
+    text + decimals
 }

@@ -261,6 +261,11 @@ pub fn sent<M: Message>(message: &M) -> (String, Result<M, TransferError>) {
     (line, arrived)
 }
 
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    TransferError::MESSAGES,
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -78,3 +78,19 @@ messages! {
               Is it the wall of a vessel, with an inner and an outer side?",
     }
 }
+
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    BranchName::MESSAGES,
+    TreeError::MESSAGES,
+    beside::NotMeasured::MESSAGES,
+    certificate::CalibreError::MESSAGES,
+    certificate::SpreadText::MESSAGES,
+    certificate::Verdict::MESSAGES,
+    phantom::PhantomError::MESSAGES,
+    phantom::SampleName::MESSAGES,
+    summary::CalibreFinding::MESSAGES,
+    summary::CalibreSummary::MESSAGES,
+    summary::PlaceText::MESSAGES,
+    variation::VariationText::MESSAGES,
+];

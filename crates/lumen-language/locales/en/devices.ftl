@@ -115,9 +115,6 @@ devices-no-axis = The device has no axis that could feed or roll the wire.
 devices-not-opened = The device could not be opened: another program holds it, or this user may not use it (on Linux it takes a udev rule, see docs/haptics.md).
 devices-no-answer = The port is open, but what is there does not answer as the open feeder does.
 
-## The same, on the desktop; each stands alone
-
-
 ## What cannot be done in a trial; the app adds a capital letter and a full stop
 
 devices-no-trial = no trial is on

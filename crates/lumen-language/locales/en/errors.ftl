@@ -19,12 +19,3 @@ errors-deviation = the largest deviation must lie between 0.001 and 1000 mm, not
 errors-weld = the tolerance of a weld must lie between 0.000001 and 100 mm, not { $value } mm
 errors-fill = the size of holes to fill must lie between 0.001 and 1000 mm, not { $value } mm
 errors-no-component = there is no component { $wanted }: the surface has { $number }
-
-## What mending left
-
-
-## Messages between the parts of Lumen
-
-
-## Samples that cannot be made
-

@@ -388,6 +388,3 @@ panel-stage-faults = Looking for faults
 panel-stage-vessels = Finding the vessels
 panel-stage-certificate = Measuring calibre
 panel-stage-safe = Finding how far is safe
-
-## The samples, in the menu, and as the name of what is shown
-

@@ -1,6 +1,5 @@
 ### The vessels: what smoothing and reduction made of the calibre of each, in the app and in reports.
 
-
 ## What can be saved: entries of a menu
 
 vessels-save-vtp = Centrelines (VTP)...
@@ -81,6 +80,3 @@ vessels-hover =
 vessels-all-kept-short = kept, to { $tolerance } %
 vessels-some-changed-short = { $changed } of { $all } changed
 vessels-not-here = { $name }: not measured here
-
-## Why there are no vessels, or nothing was measured: said after a colon, a full stop follows
-
