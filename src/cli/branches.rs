@@ -66,4 +66,3 @@ fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
         branch.most_uneven().map_or_else(String::new, |found| found.text().to_string()),
     ]
 }
-

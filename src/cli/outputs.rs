@@ -77,7 +77,8 @@ impl Outputs<'_> {
         report.axes = to;
         report.unit = Some(unit);
         report.stages_ms.write = milliseconds(start);
-        report.verdict = Some(Box::new(Verdict::of_run(&pipeline, &report, &import, Format::from_name(name).is_some())));
+        report.verdict =
+            Some(Box::new(Verdict::of_run(&pipeline, &report, &import, Format::from_name(name).is_some())));
         if let Some(path) = self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
         }

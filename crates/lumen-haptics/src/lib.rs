@@ -59,7 +59,4 @@ mod fixtures;
 mod framing_tests;
 
 /// What the messages of this crate need of a translation.
-pub const MESSAGES: &[&[lumen_message::Signature]] = &[
-    descriptor::ModelError::MESSAGES,
-    port::PortError::MESSAGES,
-];
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[descriptor::ModelError::MESSAGES, port::PortError::MESSAGES];

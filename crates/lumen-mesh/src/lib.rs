@@ -131,6 +131,4 @@ pub fn used_vertices(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
 }
 
 /// What the messages of this crate need of a translation.
-pub const MESSAGES: &[&[lumen_message::Signature]] = &[
-    mending::MendWarning::MESSAGES,
-];
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[mending::MendWarning::MESSAGES];

@@ -208,7 +208,15 @@ impl Search {
                 Some(change) if branch.verdict == Verdict::Changed => {
                     let [x, y, z] = change.at_mm.map(|mm| decimal(mm, 1));
                     let (rate, by) = (decimal(look.percent(), 1), signed(change.percent, 1));
-                    say!("verdict-safe-changed", rate = rate, name = tell(&branch.label()), by = by, x = x, y = y, z = z)
+                    say!(
+                        "verdict-safe-changed",
+                        rate = rate,
+                        name = tell(&branch.label()),
+                        by = by,
+                        x = x,
+                        y = y,
+                        z = z
+                    )
                 }
                 _ => say!("verdict-safe-unmeasured", rate = decimal(look.percent(), 1), name = tell(&branch.label())),
             }),

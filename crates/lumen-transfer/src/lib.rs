@@ -262,9 +262,7 @@ pub fn sent<M: Message>(message: &M) -> (String, Result<M, TransferError>) {
 }
 
 /// What the messages of this crate need of a translation.
-pub const MESSAGES: &[&[lumen_message::Signature]] = &[
-    TransferError::MESSAGES,
-];
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[TransferError::MESSAGES];
 
 #[cfg(test)]
 mod tests {

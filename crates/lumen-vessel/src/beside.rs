@@ -11,8 +11,8 @@ use glam::{DVec3, Vec3};
 
 use super::certificate::{BranchCalibre, Standing};
 use super::{Place, power};
-use lumen_message::messages;
 use lumen_mesh::{Outline, cut};
+use lumen_message::messages;
 
 /// A place on a branch's centreline.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -209,8 +209,8 @@ pub mod fixtures {
 mod tests {
     use super::fixtures::certificate;
     use super::*;
-    use crate::certificate::Standing;
     use crate::TreeError;
+    use crate::certificate::Standing;
 
     fn sentence(found: &Result<Certificate, CalibreError>) -> String {
         summary(found).to_string()

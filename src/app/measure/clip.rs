@@ -64,8 +64,10 @@ impl Across {
             Self::Direction(_) => say!("measure-facing"),
             Self::Branch(number) => {
                 let branch = branches(document).iter().find(|branch| branch.number == number);
-                branch
-                    .map_or_else(|| say!("measure-centreline"), |branch| say!("measure-along", vessel = tell(&branch.label())))
+                branch.map_or_else(
+                    || say!("measure-centreline"),
+                    |branch| say!("measure-along", vessel = tell(&branch.label())),
+                )
             }
         }
     }

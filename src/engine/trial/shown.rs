@@ -3,6 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use lumen_message::Message as _;
+
 use super::grasp::{Exchange, Grasp};
 use super::message::{HAND, TrialEvent};
 use super::pace::Pace;

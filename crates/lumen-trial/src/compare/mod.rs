@@ -15,12 +15,12 @@ use web_time::Instant;
 
 use self::verdict::verdict;
 pub use self::verdict::{ComparisonVerdict, PathVerdict};
-use lumen_message::{Message as _, Told};
 use super::course::{Course, TrialError};
 use super::session::Trial;
 use super::summary::Summary;
 use super::wall::Wall;
 use lumen_mesh::{TriMesh, shuffled};
+use lumen_message::{Message as _, Told};
 use lumen_pipeline::lumen::PINCHED;
 use lumen_pipeline::results::fingerprint;
 use lumen_pipeline::task::milliseconds;

@@ -22,8 +22,8 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use field::Field;
-use lumen_message::messages;
 use lumen_mesh::{TriMesh, components};
+use lumen_message::messages;
 use lumen_volume::MarchingCubes;
 pub use vessel::{Station, Vessel};
 
@@ -196,11 +196,7 @@ pub fn generate_with(
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<TriMesh, PhantomError> {
     if !(MIN_TRIANGLES..=MAX_TRIANGLES).contains(&triangles) {
-        return Err(PhantomError::TrianglesOutOfRange {
-            asked: triangles,
-            least: MIN_TRIANGLES,
-            most: MAX_TRIANGLES,
-        });
+        return Err(PhantomError::TrianglesOutOfRange { asked: triangles, least: MIN_TRIANGLES, most: MAX_TRIANGLES });
     }
     let default = sample.default_triangles();
     // A surface sampled s times as finely has s^2 times as many triangles.
