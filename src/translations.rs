@@ -10,6 +10,7 @@ const ALL: &[&[&[Signature]]] = &[
     lumen_haptics::MESSAGES,
     lumen_io::MESSAGES,
     lumen_mesh::MESSAGES,
+    lumen_pipeline::MESSAGES,
     lumen_transfer::MESSAGES,
     lumen_trial::MESSAGES,
     lumen_vessel::MESSAGES,
@@ -49,6 +50,10 @@ fn german_and_french_have_every_message_of_the_libraries() {
             assert!(found.is_subset(&known), "{language:?}, {id}: {found:?} of {known:?}");
             assert!(!english.contains_key(id), "{id} stands in the code: the English catalogue has it twice");
         }
+        let known: BTreeSet<&str> = ALL.iter().copied().flatten().copied().flatten().map(|&(id, _)| id).collect();
+        let of_nobody: Vec<_> =
+            theirs.keys().filter(|id| !english.contains_key(*id) && !known.contains(&***id)).collect();
+        assert_eq!(of_nobody, Vec::<&String>::new(), "{language:?}: nobody says these");
     }
 }
 

@@ -92,7 +92,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
                 if let Some(document) = &state.document {
                     let verdict = verdict::verdict(state, document);
                     ui.set_max_width(300.0);
-                    let text = RichText::new(verdict.in_short()).small();
+                    let text = RichText::new(verdict.in_short(tell)).small();
                     let is_bad = verdict.is_safe == Some(false);
                     let text = if is_bad { text.color(ui.visuals().error_fg_color) } else { text.weak() };
                     ui.add(egui::Label::new(text).wrap());

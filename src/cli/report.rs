@@ -70,7 +70,7 @@ impl WriteReport {
         };
         let document = Document::new(&subject, drawn);
         write_whole(&self.output, &format.write(&document))?;
-        row("verdict", verdict.in_short());
+        row("verdict", verdict.in_short(|words| words.to_string()));
         row("pictures", document.pictures.len());
         row("written to", self.output.display());
         println!("{DISCLAIMER}");

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
 
 use super::TreeError;
 use super::balls::fill;
@@ -30,7 +31,7 @@ pub enum End {
 
 messages! {
     /// What a branch is called.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     pub enum BranchName {
         /// By its number.
         "vessels-branch" Numbered {

@@ -245,7 +245,7 @@ errors-reduction = Die Reduktionsrate muss zwischen 0 und 99,9 % liegen, nicht b
 errors-deviation = Die größte Abweichung muss zwischen 0,001 und 1000 mm liegen, nicht bei { $value } mm
 errors-weld = Die Toleranz beim Verschweißen muss zwischen 0,000001 und 100 mm liegen, nicht bei { $value } mm
 errors-fill = Die Größe zu füllender Löcher muss zwischen 0,001 und 1000 mm liegen, nicht bei { $value } mm
-errors-no-component = Es gibt keine Komponente { $wanted }: Die Oberfläche hat { $number }
+errors-no-component = Es gibt keine Komponente { $wanted }: Die Oberfläche hat { $count }
 
 ## Was nach der Reparatur blieb
 

@@ -245,7 +245,7 @@ errors-reduction = le taux de réduction doit être entre 0 et 99,9 %, pas { $v
 errors-deviation = l'écart maximal doit être entre 0,001 et 1000 mm, pas { $value } mm
 errors-weld = la tolérance de soudure doit être entre 0,000001 et 100 mm, pas { $value } mm
 errors-fill = la taille des trous à combler doit être entre 0,001 et 1000 mm, pas { $value } mm
-errors-no-component = il n'y a pas de composante { $wanted } : la surface en a { $number }
+errors-no-component = il n'y a pas de composante { $wanted } : la surface en a { $count }
 
 ## Ce que la réparation a laissé
 
