@@ -206,8 +206,7 @@ impl Batch {
             prints_branches: false,
         };
         let made = outputs.make(&item.file, imported, read, asked, advance_quietly)?;
-        let left_out = made.left_out.map(|arrays| arrays.to_string());
-        let warnings = made.verdict.findings.iter().map(told_with_remedies).chain(left_out).collect();
+        let warnings = made.verdict.findings.iter().map(told_with_remedies).chain(made.left_out).collect();
         Ok(Made { digest, report: made.report, warnings })
     }
 

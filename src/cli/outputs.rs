@@ -10,7 +10,7 @@ use super::places::write_whole;
 use super::running::run_through;
 use super::settings::Asked;
 use super::written::WrittenOptions;
-use crate::io::{self, Format, Imported, LeftOut, Output};
+use crate::io::{self, Format, Imported, Output};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{Report, UnitReport};
 use crate::pipeline::run::Pipeline;
@@ -39,8 +39,8 @@ pub(super) struct Outcome {
     pub(super) report: Report,
     /// What there is to say of them.
     pub(super) verdict: Verdict,
-    /// The arrays that the format has no place for.
-    pub(super) left_out: Option<LeftOut>,
+    /// A sentence on the arrays that the format has no place for.
+    pub(super) left_out: Option<String>,
 }
 
 impl Outputs<'_> {
