@@ -6,7 +6,16 @@ use crate::language::{Language, built_in, speak, tell};
 use lumen_message::Signature;
 
 /// The messages of every crate that has some.
-const ALL: &[&[&[Signature]]] = &[lumen_io::MESSAGES, lumen_volume::MESSAGES];
+const ALL: &[&[&[Signature]]] = &[
+    lumen_haptics::MESSAGES,
+    lumen_io::MESSAGES,
+    lumen_mesh::MESSAGES,
+    lumen_pipeline::MESSAGES,
+    lumen_transfer::MESSAGES,
+    lumen_trial::MESSAGES,
+    lumen_vessel::MESSAGES,
+    lumen_volume::MESSAGES,
+];
 
 /// The placeables of each message of a language.
 fn placeables(language: Language) -> BTreeMap<String, BTreeSet<String>> {
@@ -41,6 +50,10 @@ fn german_and_french_have_every_message_of_the_libraries() {
             assert!(found.is_subset(&known), "{language:?}, {id}: {found:?} of {known:?}");
             assert!(!english.contains_key(id), "{id} stands in the code: the English catalogue has it twice");
         }
+        let known: BTreeSet<&str> = ALL.iter().copied().flatten().copied().flatten().map(|&(id, _)| id).collect();
+        let of_nobody: Vec<_> =
+            theirs.keys().filter(|id| !english.contains_key(*id) && !known.contains(&***id)).collect();
+        assert_eq!(of_nobody, Vec::<&String>::new(), "{language:?}: nobody says these");
     }
 }
 
@@ -56,4 +69,18 @@ fn what_was_mended_is_said_in_the_language_of_the_moment() {
         german,
         ["1 Dreieck mit wiederholtem Eckpunkt verworfen.", "1 Dreieck umgedreht, damit es zu seinen Nachbarn passt."]
     );
+}
+
+#[test]
+fn vessels_and_places_are_called_in_the_language_of_the_moment() {
+    use crate::trial::route::PlaceName;
+    use crate::vessel::summary::{fixtures, summary};
+
+    let found = summary(&fixtures::certificate(&[Some(2.5), Some(-9.04), None, Some(1.0)]));
+    let entry = PlaceName::Entry { branch: 2, diameter_mm: 9.04 }.label();
+    speak(Language::German, built_in(Language::German).unwrap());
+    let (found, entry) = (tell(&found), tell(&entry));
+    speak(Language::English, &[]);
+    assert!(found.contains("2 von 3") && found.contains("Ast 2: -9,0 %") && found.contains("Messung"), "{found}");
+    assert_eq!(entry, "Ast 3, 9,0 mm");
 }

@@ -18,7 +18,7 @@ use super::state::State;
 use super::views::Views;
 use super::{deviation, lesson, record, spoken, theme, verdict, vessels};
 use crate::io::{Axes, Format, Unit};
-use crate::language::{self, Key, Language};
+use crate::language::{self, Key, Language, tell};
 use crate::phantom::Sample;
 use crate::render::StandardView;
 use crate::say;
@@ -83,7 +83,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
         }
         menu(ui, &say!("app-sample"), &mut |ui| {
             for sample in Sample::ALL {
-                ask(ui.button(sample.label()).clicked(), Action::Sample(sample));
+                ask(ui.button(tell(&sample.label())).clicked(), Action::Sample(sample));
             }
         });
         let has_result = state.document.as_ref().is_some_and(|document| document.shown.is_some());
@@ -92,7 +92,7 @@ pub(super) fn top(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, a
                 if let Some(document) = &state.document {
                     let verdict = verdict::verdict(state, document);
                     ui.set_max_width(300.0);
-                    let text = RichText::new(verdict.in_short()).small();
+                    let text = RichText::new(verdict.in_short(tell)).small();
                     let is_bad = verdict.is_safe == Some(false);
                     let text = if is_bad { text.color(ui.visuals().error_fg_color) } else { text.weak() };
                     ui.add(egui::Label::new(text).wrap());

@@ -8,7 +8,7 @@ use super::assist::name;
 use super::document::Document;
 use super::halo;
 use super::places::seen;
-use crate::language::inner;
+use crate::language::{inner, tell};
 use crate::pipeline::classes::{Class, Lines};
 use crate::render::{Camera, Colour, ColourMap, label_colour};
 use crate::say;
@@ -40,7 +40,7 @@ pub(super) fn legend(ui: &Ui, rect: Rect, counts: &[usize; 5]) {
     for (i, (class, &count)) in Class::ALL.into_iter().zip(counts).enumerate() {
         let corner = pos2(right - SIDE, top + STEP * i as f32);
         painter.rect_filled(Rect::from_min_size(corner, Vec2::splat(SIDE)), 2.0, colour(class));
-        let words = say!("panel-class-count", class = class.name(), count = count);
+        let words = say!("panel-class-count", class = tell(&class), count = count);
         halo::text(&painter, corner + vec2(-6.0, 0.5 * SIDE), Align2::RIGHT_CENTER, &words, font.clone(), text);
         said.push(words);
     }

@@ -12,6 +12,7 @@ use crate::pipeline::connectivity::Component;
 use crate::pipeline::pinch::Pinch;
 use crate::pipeline::progressive::{Level, ProgressiveMesh};
 use crate::pipeline::report::Report;
+use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::{Keep, Target};
 use crate::sharing::Digest;
 
@@ -65,6 +66,8 @@ pub struct Measured {
     pub generation: u64,
     /// All numbers.
     pub report: Report,
+    /// How far a reduction is safe, once it is known.
+    pub safe: Option<Box<Safe>>,
     /// For each node of the level, the mean deviation around it, in mm; empty until it is known.
     pub deviation: Vec<f32>,
 }
@@ -234,14 +237,20 @@ impl Document {
     }
 
     /// Takes numbers; without a `deviation` by node the one that is known still stands.
-    pub fn set_measured(&mut self, generation: u64, report: Report, deviation: Option<Vec<f32>>) {
+    pub fn set_measured(
+        &mut self,
+        generation: u64,
+        report: Report,
+        safe: Option<Box<Safe>>,
+        deviation: Option<Vec<f32>>,
+    ) {
         if let Some(bound) = report.bound {
             self.found = Some((report.settings.target, bound.steps));
             self.asked = None;
         }
         let before = self.measured.take().map(|measured| measured.deviation);
         let deviation = deviation.or(before).unwrap_or_default();
-        self.measured = Some(Measured { generation, report, deviation });
+        self.measured = Some(Measured { generation, report, safe, deviation });
         self.revision.measured += 1;
     }
 

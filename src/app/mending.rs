@@ -10,7 +10,7 @@ use super::options::{FaultShown, ViewOptions};
 use super::places::seen;
 use super::row::{number, remark, row};
 use super::state::State;
-use crate::language::{Key, decimal, grouped, inner, text};
+use crate::language::{Key, decimal, grouped, inner, tell, text};
 use crate::mesh::mending::{FaultCounts, FaultKind, FaultPlace, Mending};
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Keep, Settings};
@@ -198,8 +198,8 @@ fn done(ui: &mut Ui, state: &State, document: &Document) {
     if !parts.is_empty() {
         remark(ui, &format!("{}.", parts.join(", ")));
     }
-    for sentence in report.mending_warnings() {
-        remark(ui, &sentence);
+    for warning in report.mending_warnings() {
+        remark(ui, &tell(&warning));
     }
 }
 

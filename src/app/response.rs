@@ -13,7 +13,7 @@ use super::still_plot::still;
 use crate::language::{decimal, grouped};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::laplacian::{RELAXATION, laplacian_response};
-use crate::pipeline::response::{SmoothingResponse, eigenvalue, in_mm, short, wavelength};
+use crate::pipeline::response::{SmoothingResponse, ThreeDigits, eigenvalue, wavelength};
 use crate::pipeline::settings::{Smoothing, Window};
 use crate::say;
 
@@ -222,6 +222,16 @@ fn filter(ui: &Ui, settings: &Smoothing) -> Arc<Filter> {
     let filter = Arc::new(Filter::new(settings));
     ui.data_mut(|data| data.insert_temp(id, (*settings, filter.clone())));
     filter
+}
+
+/// A positive number to about three significant digits.
+fn short(x: f64) -> String {
+    decimal(x, ThreeDigits(x).places().into())
+}
+
+/// A length as [`short`] writes it, with its unit.
+fn in_mm(length: f64) -> String {
+    format!("{} mm", short(length))
 }
 
 fn sentence(response: &SmoothingResponse, adapts: bool) -> String {

@@ -7,7 +7,7 @@ use super::document::Document;
 use super::state::State;
 use super::verdict;
 use crate::io::Axes;
-use crate::language::{Key, decimal};
+use crate::language::{Key, decimal, tell};
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::settings::Keep;
 use crate::render::Camera;
@@ -61,7 +61,7 @@ fn news(state: &State) -> (String, bool) {
         return (work.label(), false);
     }
     let Some(document) = &state.document else { return (String::new(), false) };
-    let verdict = verdict::verdict(state, document).in_short();
+    let verdict = verdict::verdict(state, document).in_short(tell);
     let count = document.shown.as_ref().map_or(0, |shown| shown.level.triangles.len());
     (say!("views-news", name = document.title(), count = count, verdict = verdict), false)
 }

@@ -212,10 +212,11 @@ impl State {
 
     /// How far a reduction is safe by the present settings, if that is known. It is the same for every level.
     pub fn safe(&self) -> Option<&Safe> {
-        let report = &self.document.as_ref()?.measured.as_ref()?.report;
+        let measured = self.document.as_ref()?.measured.as_ref()?;
+        let report = &measured.report;
         let is_same_tolerance = report.settings.tolerance_percent == self.settings.tolerance_percent;
         let is_same = Settings { target: self.settings.target, ..report.settings.clone() }.gives_same(&self.settings);
-        report.safe.as_ref().filter(|_| is_same_tolerance && is_same)
+        measured.safe.as_deref().filter(|_| is_same_tolerance && is_same)
     }
 
     /// Notes what stands now as a step to undo, if it is another than before.

@@ -205,10 +205,9 @@ impl Batch {
             branches_csv: None,
             prints_branches: false,
         };
-        let (report, left_out) = outputs.make(&item.file, imported, read, asked, advance_quietly)?;
-        let findings = report.verdict.iter().flat_map(|verdict| &verdict.findings);
-        let warnings = findings.map(told_with_remedies).chain(left_out).collect();
-        Ok(Made { digest, report, warnings })
+        let made = outputs.make(&item.file, imported, read, asked, advance_quietly)?;
+        let warnings = made.verdict.findings.iter().map(told_with_remedies).chain(made.left_out).collect();
+        Ok(Made { digest, report: made.report, warnings })
     }
 
     fn write_summary(&self, done: &BTreeMap<usize, Outcome>) -> Result<()> {

@@ -6,8 +6,7 @@ use tabled::settings::{Alignment, Style};
 
 use super::rows::row;
 use crate::pipeline::report::Report;
-use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, Verdict, measured_percent};
-use crate::vessel::variation::Variation;
+use crate::vessel::certificate::{BranchCalibre, Change, OnSurface, Spread, measured_percent};
 
 /// Prints the table.
 pub(super) fn print(report: &Report) {
@@ -22,7 +21,7 @@ pub(super) fn print(report: &Report) {
     let mut table = rows.build();
     table.with(Style::blank()).modify(Columns::new(1..NUMBERS), Alignment::right());
     println!("\n{table}");
-    let verdict = calibre.verdict.map_or("", word);
+    let verdict = calibre.verdict.map_or_else(String::new, |verdict| verdict.to_string());
     let part = measured_percent(report.branches.as_deref().unwrap_or_default()).unwrap_or(0.0);
     let of = format!("over {part:.0} % of the vessels' length");
     row("calibre", format!("{verdict}, at a tolerance of {} %, {of}", calibre.tolerance_percent));
@@ -62,16 +61,8 @@ fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
         mean(&branch.reduced),
         change(&branch.smoothed),
         change(&branch.reduced),
-        word(branch.verdict).to_owned(),
+        branch.verdict.to_string(),
         branch.reduced.largest_change.map_or_else(String::new, place),
-        branch.most_uneven().map_or_else(String::new, Variation::text),
+        branch.most_uneven().map_or_else(String::new, |found| found.text().to_string()),
     ]
-}
-
-fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Kept => "kept",
-        Verdict::Changed => "changed",
-        Verdict::NotMeasured => "not measured",
-    }
 }

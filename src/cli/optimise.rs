@@ -9,7 +9,7 @@ use clap::Args;
 use super::batch::BatchOptions;
 use super::mend::mended_rows;
 use super::misuse::misuse;
-use super::outputs::{Outputs, told_with_remedies};
+use super::outputs::{Outcome, Outputs, told_with_remedies};
 use super::places::{output_format, write_whole};
 use super::rows::{row, shape_rows};
 use super::running::advance;
@@ -17,11 +17,11 @@ use super::scan::ScanOptions;
 use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, places, source};
-use crate::io::{self, Unit};
+use crate::io::Unit;
 use crate::pipeline::narrowest::Narrowest;
-use crate::pipeline::report::{DISCLAIMER, Report};
+use crate::pipeline::report::{DISCLAIMER, Report, SafeReport};
 use crate::pipeline::results::Adapted;
-use crate::pipeline::safe::Safe;
+use crate::pipeline::verdict::Verdict;
 use crate::sharing::{SharedSettings, write_settings};
 use crate::task::milliseconds;
 
@@ -96,8 +96,7 @@ impl Optimise {
             branches_csv: self.branches_csv.as_deref(),
             prints_branches: self.branches,
         };
-        let told = io::in_english(&imported.report.warnings);
-        let (report, left_out) = outputs.make(file, imported, read, asked, advance)?;
+        let Outcome { report, verdict, left_out } = outputs.make(file, imported, read, asked, advance)?;
         if let Some(sentence) = left_out {
             eprintln!("lumen: warning: {}: {sentence}", self.output.display());
         }
@@ -106,7 +105,7 @@ impl Optimise {
             let used = SharedSettings { unit: asked.shared.unit.or(by_size), settings: report.settings.clone() };
             write_whole(path, write_settings(&used).as_bytes())?;
         }
-        self.print(&report, &told, format.unit());
+        self.print(&report, &verdict, format.unit());
         if self.branches {
             branches::print(&report);
         }
@@ -153,8 +152,8 @@ impl Optimise {
         places::check([Path::new(file)].into_iter().chain(self.settings.file()), outputs)
     }
 
-    /// Prints the numbers and the verdict, but for what was `told` when the file was read.
-    fn print(&self, report: &Report, told: &[String], unit: Unit) {
+    /// Prints the numbers and the verdict, but for what was told when the file was read.
+    fn print(&self, report: &Report, verdict: &Verdict, unit: Unit) {
         let (kept, output) = (report.after_connectivity, report.output);
         row("triangles in file", report.opened.triangles);
         if let Some(done) = &report.mending {
@@ -166,7 +165,7 @@ impl Optimise {
         );
         row("output", format!("{} triangles, {} vertices", output.triangles, output.vertices));
         row("reduction", format!("{:.2} %", report.reduction_percent));
-        if let Some(Safe { percent: Some(percent), tolerance_percent, stopped_by, .. }) = &report.safe {
+        if let Some(SafeReport { percent: Some(percent), tolerance_percent, stopped_by, .. }) = &report.safe {
             let stop = stopped_by.as_ref().map_or(String::new(), |why| format!(": {why}"));
             row("safe to", format!("{percent:.1} %, at a tolerance of {tolerance_percent} %{stop}"));
         }
@@ -175,7 +174,7 @@ impl Optimise {
             let next = bound.next_coarser_mm.map_or("none".to_owned(), |mm| format!("{mm:.4} mm"));
             row("next coarser level", next);
         }
-        if let Some(text) = report.smoothing_response.and_then(|response| response.half_gain_text()) {
+        if let Some(text) = report.smoothing_response.and_then(|response| response.half_gain_message()) {
             row("smoothing, half gain", text);
         }
         if let Some(Adapted { vertices_percent, widest_pass_band }) = report.smoothing_adapted {
@@ -216,10 +215,9 @@ impl Optimise {
         row("decimation, all rates", format!("{:.1} ms", ms.decimation));
         row("level and normals", format!("{:.1} ms", ms.level + ms.normals));
         row("written to", format!("{}, in {unit}", self.output.display()));
-        let Some(verdict) = &report.verdict else { return };
         let little = if verdict.calibre.is_some() { "" } else { " (the vessels were not measured: --branches does)" };
         row("verdict", format!("{}{little}", verdict.head));
-        for finding in verdict.findings.iter().filter(|finding| !told.contains(&finding.text)) {
+        for finding in verdict.findings.iter().filter(|finding| !finding.what.is_of_file()) {
             eprintln!("lumen: warning: {}", told_with_remedies(finding));
         }
     }

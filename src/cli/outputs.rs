@@ -14,7 +14,7 @@ use crate::io::{self, Format, Imported, Output};
 use crate::pipeline::deviation::REPORT_SAMPLES;
 use crate::pipeline::report::{Report, UnitReport};
 use crate::pipeline::run::Pipeline;
-use crate::pipeline::verdict::{Finding, Verdict};
+use crate::pipeline::verdict::{Finding, Verdict, VerdictReport};
 use crate::task::milliseconds;
 
 /// What is written of one surface.
@@ -33,9 +33,19 @@ pub(super) struct Outputs<'a> {
     pub(super) prints_branches: bool,
 }
 
+/// What became of it.
+pub(super) struct Outcome {
+    /// All numbers.
+    pub(super) report: Report,
+    /// What there is to say of them.
+    pub(super) verdict: Verdict,
+    /// A sentence on the arrays that the format has no place for.
+    pub(super) left_out: Option<String>,
+}
+
 impl Outputs<'_> {
     /// Runs the pipeline on the surface called `name` and writes what is asked for; `read` is the time in ms that reading
-    /// it took. Returns the report, and a sentence on the arrays that the format has no place for.
+    /// it took.
     pub(super) fn make(
         &self,
         name: &str,
@@ -43,7 +53,7 @@ impl Outputs<'_> {
         read: f64,
         asked: &Asked,
         advance: fn(&mut Pipeline) -> Result<()>,
-    ) -> Result<(Report, Option<String>)> {
+    ) -> Result<Outcome> {
         let settings = asked.shared.settings.clone();
         let unit = UnitReport { unit: imported.report.unit, by_size: imported.report.unit_by_size };
         let import = imported.report.clone();
@@ -77,19 +87,20 @@ impl Outputs<'_> {
         report.axes = to;
         report.unit = Some(unit);
         report.stages_ms.write = milliseconds(start);
-        report.verdict = Some(Box::new(Verdict::of_run(&report, &import, Format::from_name(name).is_some())));
+        let verdict = Verdict::of_run(&pipeline, &report, &import, Format::from_name(name).is_some());
+        report.verdict = Some(Box::new(VerdictReport::from(&verdict)));
         if let Some(path) = self.report {
             write_whole(path, serde_json::to_string_pretty(&report)?.as_bytes())?;
         }
-        Ok((report, left_out))
+        Ok(Outcome { report, verdict, left_out })
     }
 }
 
 /// A finding with its place and what would help, in a line.
 pub(super) fn told_with_remedies(finding: &Finding) -> String {
-    let at = finding.place.as_ref().map(|place| place.at_mm).filter(|_| !finding.text.contains("at ("));
+    let at = finding.place.as_ref().map(|place| place.at_mm).filter(|_| !finding.what.says_where());
     let at = at.map_or(String::new(), |[x, y, z]| format!(" At ({x:.1}, {y:.1}, {z:.1})."));
-    let help: Vec<&str> = finding.remedies.iter().map(|remedy| &*remedy.words).collect();
+    let help: Vec<String> = finding.remedies.iter().map(|remedy| remedy.label.to_string()).collect();
     let help = if help.is_empty() { String::new() } else { format!(" Would help: {}.", help.join(", ")) };
-    format!("{}{at}{help}", finding.text)
+    format!("{}{at}{help}", finding.what)
 }

@@ -58,7 +58,7 @@ impl WriteReport {
         run_through(&mut pipeline, asked.wants_safe, advance)?;
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.axes = import.axes;
-        let verdict = Verdict::of_run(&report, &import, Format::from_name(&self.file).is_some());
+        let verdict = Verdict::of_run(&pipeline, &report, &import, Format::from_name(&self.file).is_some());
         let drawn = if self.no_pictures { Vec::new() } else { self.pictures(&pipeline, import.axes)? };
         let subject = Subject {
             title: self.title.as_deref(),
@@ -70,7 +70,7 @@ impl WriteReport {
         };
         let document = Document::new(&subject, drawn);
         write_whole(&self.output, &format.write(&document))?;
-        row("verdict", verdict.in_short());
+        row("verdict", verdict.in_short(|words| words.to_string()));
         row("pictures", document.pictures.len());
         row("written to", self.output.display());
         println!("{DISCLAIMER}");

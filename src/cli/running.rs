@@ -8,6 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt;
 use crate::pipeline::run::{Advance, Pipeline};
+use crate::pipeline::safe::NoSafeRate;
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
 use crate::pipeline::task::Budget;
@@ -24,7 +25,7 @@ pub(super) fn run_through(
         return Ok(());
     }
     let safe = pipeline.safe().context("the search for the safe rate ended without a result")?;
-    let why = safe.refused.as_deref().unwrap_or_default();
+    let why = safe.refused.as_ref().map_or(String::new(), NoSafeRate::to_string);
     let percent = safe.percent.with_context(|| format!("no reduction can be called safe: {why}"))?;
     pipeline.set(Settings { target: rate(percent), ..pipeline.settings().clone() })?;
     advance(pipeline)
@@ -39,12 +40,12 @@ pub(super) fn advance(pipeline: &mut Pipeline) -> Result<()> {
         interrupt::check()?;
         match pipeline.advance(Budget::new(Duration::from_millis(50)))? {
             Advance::Working(stage, fraction) => {
-                bar.set_message(stage.label());
+                bar.set_message(stage.to_string());
                 bar.set_position((fraction * 1000.0) as u64);
             }
             // The measures are two stages of one name: the last says that they are done.
             Advance::Finished(stage) if !is_terminal && stage != Stage::SmoothedMeasures => {
-                eprintln!("{}: done", stage.label());
+                eprintln!("{stage}: done");
             }
             Advance::Finished(_) => {}
             Advance::Idle => break,

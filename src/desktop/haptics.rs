@@ -18,6 +18,7 @@ use crate::haptics::joining::JoinedPort;
 use crate::haptics::port::{Port, PortError, carry_out};
 use crate::haptics::service::{DeviceCommand, DeviceStatus, Service};
 use crate::haptics::virtual_feeder::VirtualFeeder;
+use crate::language::tell;
 use crate::say;
 
 /// Between two looks at the device: reports come at 1 kHz at most.
@@ -70,6 +71,17 @@ enum ServeError {
     Model(#[from] ModelError),
     #[error(transparent)]
     Port(#[from] PortError),
+}
+
+impl ServeError {
+    /// In the language that is spoken.
+    fn said(&self) -> String {
+        match self {
+            Self::Open(error) => error.to_string(),
+            Self::Model(error) => tell(error),
+            Self::Port(error) => tell(error),
+        }
+    }
 }
 
 /// A device that is served.
@@ -125,7 +137,7 @@ impl Served {
 /// Tells why a device is no longer served.
 fn end(told: &Mutex<DeviceStatus>, why: &ServeError) {
     speech::follow();
-    told.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why.to_string());
+    told.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why.said());
 }
 
 /// Opens the device that has these numbers, this name and these descriptors, where it is plugged in: of one that has two

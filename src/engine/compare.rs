@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 use super::found::Compared;
 use super::message::{Event, Work};
 use super::progress::tell_progress;
+use crate::language::tell;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::{Advance, Pipeline};
 use crate::pipeline::settings::{Settings, SettingsError};
@@ -61,7 +62,7 @@ impl Comparing {
                 Err(error) => {
                     self.running = None;
                     self.waiting.pop_front();
-                    events.push_back(Event::NotCompared { id: self.id, index, message: error.to_string() });
+                    events.push_back(Event::NotCompared { id: self.id, index, message: tell(&error) });
                 }
             }
             if budget.is_spent() {

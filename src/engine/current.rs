@@ -15,6 +15,7 @@ use super::found::{Calibre, Carried, Deviated, FaultsFound, Reduced};
 use super::message::{Event, Work};
 use super::progress::tell_progress;
 use super::record::Origin;
+use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::{Advance, Pipeline};
@@ -79,12 +80,12 @@ impl Current {
 
     /// One step; whether there is more to do.
     pub(super) fn advance(&mut self, budget: Budget, events: &mut VecDeque<Event>) -> Result<bool, String> {
-        self.take_waiting(events).map_err(|error| error.to_string())?;
+        self.take_waiting(events).map_err(|error| tell(&error))?;
         if self.is_stopped {
             return Ok(false);
         }
         let generation = self.generation;
-        match self.pipeline.advance(budget).map_err(|error| error.to_string())? {
+        match self.pipeline.advance(budget).map_err(|error| tell(&error))? {
             Advance::Idle => return Ok(self.pipeline.prepare(budget)),
             // Nobody waits for these: they go on in the background, and leave the bar to what is told there.
             Advance::Working(stage, _) if stage.is_background() => {}
@@ -151,11 +152,12 @@ impl Current {
         let Some(mut report) = Report::new(&self.name, &self.pipeline) else { return };
         report.stages_ms.read = self.read_ms;
         // They come by themselves, with what is shown of them.
-        report.branches = None;
+        (report.branches, report.safe) = (None, None);
+        let safe = self.pipeline.safe().map(|safe| Box::new((**safe).clone()));
         let by_node = || self.pipeline.deviations().map_or_else(Vec::new, |found| found.by_node.clone());
         let deviation = with_deviation.then(by_node);
         let generation = self.generation;
-        events.push_back(Event::Measured { generation, complete, report: Box::new(report), deviation });
+        events.push_back(Event::Measured { generation, complete, report: Box::new(report), safe, deviation });
     }
 
     /// The surface that goes through the stages, where it is another than the app has; whether it is.
@@ -209,7 +211,7 @@ impl Current {
         let Some(certified) = self.pipeline.certified() else { return };
         let (found, change_by_node) = match certified {
             Ok(found) => (Ok(found.certificate.clone()), found.change_by_node.clone()),
-            Err(error) => (Err(error.to_string()), Vec::new()),
+            Err(error) => (Err(error.clone()), Vec::new()),
         };
         let generation = self.generation;
         events.push_back(Event::Certified(Box::new(Calibre { generation, found, change_by_node })));

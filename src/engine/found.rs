@@ -15,7 +15,7 @@ use crate::pipeline::report::Report;
 use crate::pipeline::settings::Keep;
 use crate::sharing::Digest;
 use crate::transfer::bulk;
-use crate::vessel::certificate::Certificate;
+use crate::vessel::certificate::{CalibreError, Certificate};
 
 /// A surface that was opened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,8 +51,8 @@ pub struct Reduced {
 pub struct Calibre {
     /// That of the settings.
     pub generation: u64,
-    /// The calibre of each branch; or in one sentence why there is none.
-    pub found: Result<Certificate, String>,
+    /// The calibre of each branch; or why there is none.
+    pub found: Result<Certificate, CalibreError>,
     /// For each node of the level the change of calibre in percent, [`NOT_MEASURED`](crate::pipeline::results::NOT_MEASURED)
     /// where it is not known; empty where there are no branches.
     #[serde(with = "bulk")]

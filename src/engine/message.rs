@@ -9,9 +9,11 @@ use super::found::{Averaged, Calibre, Carried, Compared, Deviated, Differed, Fau
 use super::source::Source;
 use super::surfaces::surface;
 use crate::io::{Axes, Format};
+use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::pipeline::connectivity::Component;
 use crate::pipeline::report::Report;
+use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::Settings;
 use crate::pipeline::stage::Stage;
 use crate::report::ReportFormat;
@@ -159,7 +161,7 @@ impl Work {
     pub fn label(self) -> String {
         match self {
             Self::Reading => say!("panel-work-reading"),
-            Self::Stage(stage) => stage.label(),
+            Self::Stage(stage) => tell(&stage),
             Self::Comparing => say!("panel-work-comparing"),
         }
     }
@@ -216,8 +218,10 @@ pub enum Event {
         generation: u64,
         /// Whether the deviation is among them.
         complete: bool,
-        /// The numbers.
+        /// The numbers, but for those of the vessels, which come by themselves.
         report: Box<Report>,
+        /// How far a reduction is safe, once it is known.
+        safe: Option<Box<Safe>>,
         /// For each node of the level, the mean deviation around it, in mm; empty until `complete`. `None`: as in the
         /// event before.
         #[serde(with = "optional")]

@@ -69,7 +69,7 @@ async fn read(source: Source, name: &str, yielder: &Yielder) -> Result<Read, Str
         }
         Source::Made { format, mesh, axes, warnings, .. } => (Arc::unwrap_or_clone(mesh), format, axes, warnings),
         Source::Sample { sample, triangles } => {
-            let mesh = phantom::generate(sample, triangles as usize).map_err(|error| error.to_string())?;
+            let mesh = phantom::generate(sample, triangles as usize).map_err(|error| tell(&error))?;
             (mesh, "sample".to_owned(), Axes::Lps, Vec::new())
         }
     };

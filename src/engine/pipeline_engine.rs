@@ -229,7 +229,7 @@ impl Engine {
                 let bytes = basis.centrelines().written(format).into_bytes();
                 Event::Written { name, bytes, left_out: None }
             }
-            Some(Err(error)) => Event::NotWritten { name, message: error.to_string() },
+            Some(Err(error)) => Event::NotWritten { name, message: tell(error) },
             None => Event::NotWritten { name, message: say!("errors-not-measured") },
         });
     }
@@ -262,7 +262,7 @@ impl Engine {
         let mesh = Arc::new(mesh);
         let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_arrays(arrays).with_safe();
         if let Err(error) = pipeline.set(settings) {
-            self.events.push_back(Event::OpenFailed { id, name, message: error.to_string() });
+            self.events.push_back(Event::OpenFailed { id, name, message: tell(&error) });
             return;
         }
         // Those that were asked for before belong to the surface before.

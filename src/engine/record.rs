@@ -38,7 +38,7 @@ pub(super) fn report(name: &str, pipeline: &Pipeline, origin: &Origin, asked: As
         return Err(say!("errors-not-measured"));
     }
     report.axes = asked.axes;
-    let verdict = Verdict::of_run(&report, &origin.import, origin.has_units);
+    let verdict = Verdict::of_run(pipeline, &report, &origin.import, origin.has_units);
     let picture = |frame: Frame| {
         let Frame { caption, width, height, rgba } = frame;
         Picture::new(&caption, &Pixels { width, height, rgba }).map_err(|error| error.to_string())

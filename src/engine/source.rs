@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::surfaces::surface;
 use crate::io::{Axes, ImportOptions, Warning};
+use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::transfer::bulk;
@@ -73,7 +74,7 @@ impl Source {
     pub fn label(&self) -> Cow<'_, str> {
         match self {
             Self::File { name, .. } | Self::Made { name, .. } => name.as_str().into(),
-            Self::Sample { sample, .. } => sample.label().into(),
+            Self::Sample { sample, .. } => tell(&sample.label()).into(),
         }
     }
 }

@@ -6,10 +6,10 @@ use super::picture::Picture;
 use super::plot::{Plot, radius, response};
 use super::words::{others, said};
 use crate::io::{Axes, ImportReport};
-use crate::language::{decimal, exact, grouped, inner, signed};
+use crate::language::{decimal, exact, grouped, inner, signed, tell};
 use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Preset, Settings, Target};
-use crate::pipeline::verdict::Verdict;
+use crate::pipeline::verdict::{FindingKind, Verdict};
 use crate::say;
 use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
@@ -88,21 +88,22 @@ impl Document {
         plots.extend(drawn(branches).into_iter().filter_map(radius));
         let findings = verdict.findings.iter().map(|finding| {
             let at = finding.place.as_ref().map(|place| place.at_mm.map(|at| decimal(at, 1)));
-            match at.filter(|at| !names_place(&finding.text, at)) {
-                Some([x, y, z]) => format!("{} {}", finding.text, say!("report-at", x = x, y = y, z = z)),
-                None => finding.text.clone(),
+            let text = tell(&finding.what);
+            match at.filter(|_| !finding.what.says_where()) {
+                Some([x, y, z]) => format!("{text} {}", say!("report-at", x = x, y = y, z = z)),
+                None => text,
             }
         });
         // Where they change that is a finding already.
-        let calibre =
-            verdict.calibre.clone().filter(|text| verdict.findings.iter().all(|finding| finding.text != *text));
+        let is_found = verdict.findings.iter().any(|finding| matches!(finding.what, FindingKind::Calibre(_)));
+        let calibre = verdict.calibre.as_ref().filter(|_| !is_found).map(|calibre| tell(calibre));
         Self {
             title: title.map_or_else(|| say!("report-title"), str::to_owned),
             line: format!("Lumen {}. {}", report.lumen, say!("report-not-clinical")),
             file: file(subject),
             settings: settings(&report.settings),
             numbers: numbers(report),
-            head: verdict.head.clone(),
+            head: tell(&verdict.head),
             is_safe: verdict.is_safe,
             findings: calibre.into_iter().chain(findings).collect(),
             vessels: vessels(branches),
@@ -112,11 +113,6 @@ impl Document {
             plots,
         }
     }
-}
-
-/// Whether a text says already that it is of this place.
-fn names_place(text: &str, at: &[String; 3]) -> bool {
-    text.contains("at (") || (text.contains('(') && at.iter().all(|number| text.contains(number.as_str())))
 }
 
 /// A place, whose numbers are in mm.
@@ -183,7 +179,7 @@ fn filter(settings: &Settings) -> String {
     let parts = parts.into_iter().flatten().chain(others("smoothing", &KNOWN, settings));
     let filter = parts.collect::<Vec<_>>().join(", ");
     match Preset::of(smoothing) {
-        Some(preset) => say!("report-preset", preset = inner(&preset.label()), filter = filter),
+        Some(preset) => say!("report-preset", preset = inner(&tell(&preset)), filter = filter),
         None => filter,
     }
 }
@@ -233,7 +229,10 @@ fn numbers(report: &Report) -> Vec<Row> {
     add(say!("report-from-opened"), report.deviation_from_original_mm.map(distance));
     add(say!("report-volume-change"), report.volume_change_percent.map(change));
     add(say!("report-area-change"), report.area_change_percent.map(change));
-    add(say!("report-half-gain"), report.smoothing_response.and_then(|response| response.half_gain_text()));
+    add(
+        say!("report-half-gain"),
+        report.smoothing_response.and_then(|response| response.half_gain_message()).map(|found| tell(&found)),
+    );
     let shape = report.output_shape.as_ref();
     add(say!("report-crossing"), shape.map(|shape| grouped(shape.self_intersecting_faces)));
     let lumen = shape.and_then(|shape| shape.smallest_lumen);
@@ -250,11 +249,11 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
         |of: &OnSurface| of.largest_change.map_or_else(none, |found| format!("{} %", signed(found.percent, 1)));
     let row = |branch: &BranchCalibre| {
         vec![
-            branch.label(),
-            branch.verdict.label().say(),
+            tell(&branch.label()),
+            tell(&branch.verdict),
             change(&branch.smoothed),
             change(&branch.reduced),
-            branch.opened.radius_mm.map_or_else(none, |radius| radius.text()),
+            branch.opened.radius_mm.map_or_else(none, |radius| tell(&radius.text())),
             decimal(branch.length_mm, 1),
             branch.tortuosity.map_or_else(none, |tortuosity| decimal(tortuosity, 2)),
         ]
@@ -276,8 +275,8 @@ fn stretches(branches: &[BranchCalibre]) -> Table {
     let row = |(branch, found): (&BranchCalibre, &crate::vessel::variation::Variation)| {
         let [diameter, reference] = [found.diameter_mm, found.reference_mm].map(|mm| decimal(mm, 2));
         vec![
-            branch.label(),
-            found.degree(),
+            tell(&branch.label()),
+            tell(&found.degree()),
             format!("{} %", decimal(found.area_percent, 0)),
             found.reduced_degree_percent.map_or("–".to_owned(), |degree| format!("{} %", decimal(degree, 0))),
             say!("report-diameter-of", diameter = diameter, reference = reference),

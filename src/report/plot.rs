@@ -1,6 +1,6 @@
 //! Curves over axes, as both formats draw them.
 
-use crate::language::{decimal, grouped};
+use crate::language::{decimal, grouped, tell};
 use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, eigenvalue};
 use crate::pipeline::settings::Smoothing;
@@ -123,7 +123,7 @@ pub(super) fn radius(branch: &BranchCalibre) -> Option<Plot> {
     let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
     let spare = (0.1 * high).max(1e-3);
     low.is_finite().then(|| Plot {
-        title: say!("vessels-radius-along", name = branch.label()),
+        title: say!("vessels-radius-along", name = tell(&branch.label())),
         x: Axis::round(say!("vessels-along"), [0.0, branch.length_mm.max(1e-3)]),
         y: Axis::round(say!("vessels-radius"), [(low - spare).max(0.0), high + spare]),
         curves,

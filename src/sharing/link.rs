@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::{SharedSettings, ShortDigest};
 use crate::io::Unit;
+use crate::language::tell;
 use crate::phantom::Sample;
 use crate::pipeline::settings::table::{self, InLink, Setting, Value};
 use crate::pipeline::settings::{Settings, SettingsError};
@@ -68,7 +69,7 @@ pub enum LinkError {
         value: String,
     },
     /// A number is out of range.
-    #[error("{}", say!("app-link-range", why = .0.to_string()))]
+    #[error("{}", say!("app-link-range", why = tell(.0)))]
     Range(#[from] SettingsError),
 }
 

@@ -4,9 +4,9 @@
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::language::decimal;
+use crate::language::{decimal, tell};
 use crate::say;
-use crate::vessel::summary::called;
+use crate::vessel::BranchName;
 
 /// The most measures of a file that are read.
 const MOST: usize = 500;
@@ -76,6 +76,11 @@ pub enum Found {
         /// The places.
         places_mm: [[f32; 3]; 3],
     },
+}
+
+/// A vessel, which is kept by its English name, in the language that is spoken.
+fn called(vessel: &str) -> String {
+    BranchName::read(vessel).map_or_else(|| vessel.to_owned(), |name| tell(&name))
 }
 
 impl Measure {

@@ -11,6 +11,7 @@ use thiserror::Error;
 use super::SharedSettings;
 use super::measures::{Measure, are_sound};
 use crate::io::Unit;
+use crate::language::tell;
 use crate::pipeline::settings::{Settings, SettingsError};
 use crate::say;
 
@@ -39,7 +40,7 @@ pub enum SettingsFileError {
     #[error("{}", say!("app-settings-field", why = .0.to_string()))]
     Field(serde_json::Error),
     /// A number is out of range.
-    #[error("{}", say!("app-settings-range", why = .0.to_string()))]
+    #[error("{}", say!("app-settings-range", why = tell(.0)))]
     Range(#[from] SettingsError),
     /// A measure is not one.
     #[error("{}", say!("app-measures-unsound"))]

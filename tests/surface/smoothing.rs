@@ -14,7 +14,7 @@ use lumen::pipeline::filter::Filter;
 use lumen::pipeline::response::wavelength;
 use lumen::pipeline::results::Smoothed;
 use lumen::pipeline::run::Pipeline;
-use lumen::pipeline::settings::{Boundary, Keep, Settings, SettingsError, Smoothing, Target, Window};
+use lumen::pipeline::settings::{Boundary, Keep, OutOfRange, Settings, SettingsError, Smoothing, Target, Window};
 use lumen::pipeline::smoothing::{Terms, smooth, smooth_in_slices, smooth_keeping_terms, smooth_varying};
 use lumen::pipeline::stage::Stage;
 use lumen::pipeline::task::{Budget, Progress, Running, Yielder, at_once};
@@ -591,9 +591,10 @@ fn settings_out_of_range_are_refused_by_name() {
     for pass_band in [f64::NAN, f64::INFINITY, 0.0, -1.0, 2.1] {
         let error = refused(Smoothing { pass_band, ..Smoothing::PAPER }, &mut pipeline);
         assert!(
-            matches!(error, SettingsError::Range { key: "pass-band", .. }) && error.to_string().contains("pass band")
+            matches!(error, SettingsError::Range(OutOfRange::PassBand { .. }))
+                && error.to_string().contains("pass band")
         );
     }
     let error = refused(Smoothing { iterations: 201, ..Smoothing::PAPER }, &mut pipeline);
-    assert_eq!(error, SettingsError::Range { key: "iterations", value: 201.0 });
+    assert_eq!(error, SettingsError::Range(OutOfRange::Iterations { value: 201.0 }));
 }

@@ -120,7 +120,8 @@ fn the_same_trial_has_the_same_bits_and_its_log_replays_to_the_same_end() {
     let same = TrialComparison::new(&first, &again, &Noise::default());
     assert!(same.deviation_mm.iter().all(|&deviation| deviation == 0.0) && same.force_differences.is_empty());
     assert!(same.deviation_mm.len() > 100 && same.pinched.is_empty());
-    assert!(same.verdict.contains("arrives") && same.verdict.contains("0.0 mm"), "{}", same.verdict);
+    let said = same.verdict.to_string();
+    assert!(said.contains("arrives") && said.contains("0.0 mm"), "{said}");
     assert_eq!(same.smallest_before_mm, same.smallest_after_mm);
 }
 

@@ -233,10 +233,10 @@ fn a_comparison_knows_how_far_a_surface_differs_from_itself() {
     assert!(chance > 0.0, "another order is another sum");
     assert_eq!(comparison.noise_mm.len(), comparison.deviation_mm.len());
     assert_eq!(comparison.orders[0], SHUFFLES as usize);
-    assert!(comparison.verdict.contains("no more than noise"), "{}", comparison.verdict);
+    assert!(comparison.verdict.to_string().contains("no more than noise"), "{}", comparison.verdict);
     // The same surface in another order is no other surface: what is told of it is noise.
     let one = finished(trial.on_shuffled(&mesh, 1).unwrap());
     let shuffled = TrialComparison::new(&one, &original, &noise);
-    assert!(shuffled.verdict.contains("no more than noise"), "{}", shuffled.verdict);
+    assert!(shuffled.verdict.to_string().contains("no more than noise"), "{}", shuffled.verdict);
     assert!(shuffled.force_differences.is_empty(), "{:?}", shuffled.force_differences);
 }

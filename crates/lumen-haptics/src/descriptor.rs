@@ -5,12 +5,10 @@
 //! `hidreport` reads the same, but panics on an item of three bytes and makes an element of each of 2^32 counted fields; it
 //! is what the tests compare with.
 
-use std::fmt;
-
 use super::field::{Content, Field, Range, Usages};
 use super::model::{Collection, DeviceModel, Kind, Report};
 use super::usage::Usage;
-use lumen_language::say;
+use lumen_message::messages;
 
 /// The longest descriptor in bytes: USB has two for its length.
 pub const LONGEST: usize = 65_535;
@@ -20,47 +18,46 @@ const DEEPEST: usize = 64;
 const MOST_FIELDS: usize = 4096;
 const MOST_PUSHED: usize = 64;
 
-/// What is wrong with a device's reports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ModelError {
-    /// An item does not end within the bytes.
-    Cut {
-        /// Where the item begins.
-        at: usize,
-    },
-    /// Longer than any device's.
-    Long {
-        /// Its length.
-        bytes: usize,
-    },
-    /// A report is longer than any system takes.
-    Report {
-        /// Its id.
-        id: u8,
-    },
-    /// More than any device has.
-    Many,
-    /// A report's id that is 0 or more than a byte.
-    Id {
-        /// That.
-        id: u32,
-    },
-}
-
-impl fmt::Display for ModelError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let most = LONGEST.to_string();
-        f.write_str(&match self {
-            Self::Cut { at } => say!("devices-descriptor-cut", at = at.to_string()),
-            Self::Long { bytes } => say!("devices-descriptor-long", bytes = bytes.to_string(), most = most),
-            Self::Report { id } => say!("devices-report-long", id = id.to_string(), most = most),
-            Self::Many => {
-                say!("devices-descriptor-many", fields = MOST_FIELDS.to_string(), depth = DEEPEST.to_string())
-            }
-            Self::Id { id } => say!("devices-report-id", id = id.to_string()),
-        })
+messages! {
+    /// What is wrong with a device's reports.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum ModelError {
+        /// An item does not end within the bytes.
+        "devices-descriptor-cut" Cut {
+            /// Where the item begins.
+            at: usize,
+        } => "the report descriptor ends within the item at byte {at}",
+        /// Longer than any device's.
+        "devices-descriptor-long" Long {
+            /// Its length.
+            bytes: usize,
+            /// The longest that is read.
+            most: usize,
+        } => "the report descriptor has {bytes} bytes, more than {most}",
+        /// A report is longer than any system takes.
+        "devices-report-long" Report {
+            /// Its id.
+            id: u8,
+            /// The longest that is taken, in bytes.
+            most: usize,
+        } => "report {id} of the device is longer than {most} bytes",
+        /// More than any device has.
+        "devices-descriptor-many" Many {
+            /// The most fields that are read.
+            fields: usize,
+            /// The deepest collection that is read.
+            depth: usize,
+        } => "the device has more than {fields} fields, or collections more than {depth} deep",
+        /// A report's id that is 0 or more than a byte.
+        "devices-report-id" Id {
+            /// That.
+            id: u32,
+        } => "a report of the device has the id {id}, which is not 1 to 255",
     }
 }
+
+/// More fields or deeper collections than are read.
+pub(super) const MANY: ModelError = ModelError::Many { fields: MOST_FIELDS, depth: DEEPEST };
 
 /// A number as an item has it: without a sign, and how many bits it has.
 #[derive(Clone, Copy, Debug, Default)]
@@ -133,7 +130,7 @@ impl Locals {
 /// When the bytes end within an item, or describe more than any device has.
 pub fn parse(bytes: &[u8]) -> Result<DeviceModel, ModelError> {
     if bytes.len() > LONGEST {
-        return Err(ModelError::Long { bytes: bytes.len() });
+        return Err(ModelError::Long { bytes: bytes.len(), most: LONGEST });
     }
     let mut parser = Parser::default();
     let mut at = 0;
@@ -189,7 +186,7 @@ impl Parser {
             0x84 => self.id = u8::try_from(bits).ok().filter(|id| *id != 0).ok_or(ModelError::Id { id: bits })?,
             0x94 => self.globals.count = bits,
             0xA4 if self.pushed.len() < MOST_PUSHED => self.pushed.push(self.globals.clone()),
-            0xA4 => return Err(ModelError::Many),
+            0xA4 => return Err(MANY),
             0xB4 => {
                 if let Some(globals) = self.pushed.pop() {
                     self.globals = globals;
@@ -216,7 +213,7 @@ impl Parser {
 
     fn begin(&mut self, kind: u32) -> Result<(), ModelError> {
         if self.open.len() >= DEEPEST || self.model.collections.len() >= MOST_FIELDS {
-            return Err(ModelError::Many);
+            return Err(MANY);
         }
         let usage = self.locals.usages(self.globals.page).get(0).unwrap_or(Usage::new(self.globals.page, 0));
         self.model.collections.push(Collection { usage, kind: kind as u8, parent: self.open.last().copied() });
@@ -246,7 +243,7 @@ impl Parser {
         };
         self.fields += 1;
         if self.fields > MOST_FIELDS {
-            return Err(ModelError::Many);
+            return Err(MANY);
         }
         item.add_to(&mut self.model)
     }
@@ -288,7 +285,7 @@ impl Item {
         let report = &mut model.reports[place];
         let bits = u64::from(report.bits) + u64::from(size) * u64::from(count);
         if bits > LONGEST_REPORT {
-            return Err(ModelError::Report { id });
+            return Err(ModelError::Report { id, most: LONGEST });
         }
         if !self.is_constant && !self.usages.is_empty() && size > 0 && count > 0 {
             // Both 0 means that nothing was said (HID 1.11, 6.2.2.7).
@@ -354,11 +351,11 @@ mod tests {
         assert_eq!(parse(&[0xC0, 0xB4, 0x07, 1, 2, 3, 4]), Ok(DeviceModel::default()));
         assert_eq!(parse(&[0x85, 0]), Err(ModelError::Id { id: 0 }));
         assert_eq!(parse(&[0xFE, 2, 0xF0, 1]), Err(ModelError::Cut { at: 0 }));
-        assert_eq!(parse(&[0xA1, 1].repeat(DEEPEST + 1)), Err(ModelError::Many));
-        assert_eq!(parse(&vec![0; LONGEST + 1]), Err(ModelError::Long { bytes: LONGEST + 1 }));
+        assert_eq!(parse(&[0xA1, 1].repeat(DEEPEST + 1)), Err(MANY));
+        assert_eq!(parse(&vec![0; LONGEST + 1]), Err(ModelError::Long { bytes: LONGEST + 1, most: LONGEST }));
         // Two thousand million elements, which another parser makes room for.
         let endless = [0xA1, 1, 0x09, 1, 0x75, 8, 0x97, 0xFF, 0xFF, 0xFF, 0x7F, 0x81, 2];
-        assert_eq!(parse(&endless), Err(ModelError::Report { id: 0 }));
+        assert_eq!(parse(&endless), Err(ModelError::Report { id: 0, most: LONGEST }));
     }
 
     proptest! {

@@ -57,3 +57,6 @@ mod feeder_tests;
 mod fixtures;
 #[cfg(test)]
 mod framing_tests;
+
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[descriptor::ModelError::MESSAGES, port::PortError::MESSAGES];

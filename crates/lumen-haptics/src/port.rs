@@ -1,31 +1,22 @@
 //! A device that can be talked to: what a transport has to give where it can wait for an answer. In the browser nothing can
 //! wait; there requests go out and replies come in as messages.
 
-use std::fmt;
-
 use super::force::{Reply, Request};
-use lumen_language::say;
+use lumen_message::messages;
 
-/// Why a report did not get through.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PortError {
-    /// The device is gone.
-    Gone,
-    /// It does not take this report.
-    Refused {
-        /// Its id.
-        id: u8,
-        /// What the system says.
-        reason: String,
-    },
-}
-
-impl fmt::Display for PortError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&match self {
-            Self::Gone => say!("devices-gone"),
-            Self::Refused { id, reason } => say!("devices-report-refused", id = id.to_string(), reason = reason),
-        })
+messages! {
+    /// Why a report did not get through.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum PortError {
+        /// The device is gone.
+        "devices-gone" Gone => "the device is no longer there",
+        /// It does not take this report.
+        "devices-report-refused" Refused {
+            /// Its id.
+            id: u8,
+            /// What the system says.
+            reason: String,
+        } => "the device does not take report {id}: {reason}",
     }
 }
 

@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::descriptor::{Item, ModelError};
+use super::descriptor::{Item, MANY, ModelError};
 use super::field::{Range, Usages};
 use super::model::{Collection, DeviceModel, Kind};
 use super::usage::Usage;
@@ -130,7 +130,7 @@ fn add(
     depth: usize,
 ) -> Result<usize, ModelError> {
     if depth >= DEEPEST || model.collections.len() >= 4096 {
-        return Err(ModelError::Many);
+        return Err(MANY);
     }
     let number = model.collections.len();
     model.collections.push(Collection { usage: Usage::new(info.usage_page, info.usage), kind: info.kind, parent });

@@ -154,6 +154,9 @@ pub fn tell(message: &dyn lumen_message::Message) -> String {
                 lumen_message::Value::Number { value, places: Some(places) } => {
                     given.set(name.to_owned(), decimal(value, places.into()));
                 }
+                lumen_message::Value::Change { value, places } => {
+                    given.set(name.to_owned(), signed(value, places.into()));
+                }
                 lumen_message::Value::Message(inner) => given.set(name.to_owned(), tell(&*inner)),
             }
         }

@@ -129,3 +129,6 @@ pub fn used_vertices(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     triangles.as_flattened().iter().for_each(|&v| is_used[v as usize] = true);
     (0..vertices as u32).filter(|&v| is_used[v as usize]).collect()
 }
+
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[mending::MendWarning::MESSAGES];

@@ -11,7 +11,7 @@ mod value;
 use std::fmt;
 
 pub use told::Told;
-pub use value::{ToValue, Value, grouped};
+pub use value::{Signed, ToValue, Value, grouped};
 
 /// Something to say to a user. Its `Display` is plain English.
 pub trait Message: fmt::Display {
@@ -190,7 +190,9 @@ mod tests {
     }
 
     #[test]
-    fn whole_numbers_are_grouped() {
+    fn numbers_are_grouped() {
+        assert_eq!([grouped(0.25), grouped(-1234.5)], ["0.25", "-1,234.5"]);
+        assert_eq!(0.1_f32.to_value(), Value::Number { value: 0.1, places: None });
         assert_eq!([grouped(7), grouped(-1234), grouped(1_234_567)], ["7", "-1,234", "1,234,567"]);
     }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{Message, Value};
 
 /// Any message, as data that can be stored and sent.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Told {
     id: Cow<'static, str>,
     values: Vec<(Cow<'static, str>, Value)>,

@@ -1,5 +1,7 @@
 //! What a message carries.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::Told;
@@ -18,6 +20,13 @@ pub enum Value {
         /// Decimals that are written; `None` writes as few as give the same number.
         places: Option<u8>,
     },
+    /// A change: a number with its sign, a plus too.
+    Change {
+        /// The number.
+        value: f64,
+        /// Decimals that are written.
+        places: u8,
+    },
     /// A message in a message.
     Message(Box<Told>),
 }
@@ -26,6 +35,22 @@ impl Value {
     /// A number that is written with so many decimals.
     pub fn decimal(value: f64, places: u8) -> Self {
         Self::Number { value, places: Some(places) }
+    }
+}
+
+/// A number that is written with its sign and so many decimals: `+0.5`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+pub struct Signed<const PLACES: u8>(pub f64);
+
+impl<const PLACES: u8> fmt::Display for Signed<PLACES> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:+.places$}", self.0, places = usize::from(PLACES))
+    }
+}
+
+impl<const PLACES: u8> ToValue for Signed<PLACES> {
+    fn to_value(&self) -> Value {
+        Value::Change { value: self.0, places: PLACES }
     }
 }
 
@@ -54,7 +79,7 @@ to_value! {
     usize => |n| Value::Count(i64::try_from(*n).unwrap_or(i64::MAX));
     i32 => |n| Value::Count((*n).into());
     i64 => |n| Value::Count(*n);
-    f32 => |x| Value::Number { value: (*x).into(), places: None };
+    f32 => |x| Value::Number { value: x.to_string().parse().unwrap_or(f64::NAN), places: None };
     f64 => |x| Value::Number { value: *x, places: None };
     &'static str => |text| Value::Text((*text).to_owned());
     String => |text| Value::Text(text.clone());
@@ -81,10 +106,11 @@ impl ToValue for [usize; 3] {
     }
 }
 
-/// A whole number in groups of three, as English writes it: `74,307`.
-pub fn grouped(number: impl std::fmt::Display) -> String {
+/// A number with its digits before the point in groups of three, as English writes it: `74,307`.
+pub fn grouped(number: impl fmt::Display) -> String {
     let digits = number.to_string();
     let (sign, digits) = digits.strip_prefix('-').map_or(("", &*digits), |digits| ("-", digits));
+    let (digits, decimals) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
     let mut text = sign.to_owned();
     for (i, digit) in digits.chars().enumerate() {
         if i > 0 && (digits.len() - i).is_multiple_of(3) {
@@ -92,5 +118,5 @@ pub fn grouped(number: impl std::fmt::Display) -> String {
         }
         text.push(digit);
     }
-    text
+    text + decimals
 }

@@ -11,22 +11,24 @@
 
 pub use super::lines::Lines;
 use super::progressive::ProgressiveMesh;
-use lumen_language::say;
 use lumen_mesh::used_vertices;
+use lumen_message::messages;
 
-/// The class of a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Class {
-    /// Within the surface, on no feature edge.
-    Simple,
-    /// The surface is no disc there: the vertex stays.
-    Complex,
-    /// At an open end.
-    Boundary,
-    /// On a feature edge.
-    InteriorEdge,
-    /// Where feature edges meet or end.
-    Corner,
+messages! {
+    /// The class of a vertex. Its words are its name.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Class {
+        /// Within the surface, on no feature edge.
+        "views-class-simple" Simple => "Simple",
+        /// The surface is no disc there: the vertex stays.
+        "views-class-complex" Complex => "Complex",
+        /// At an open end.
+        "views-class-boundary" Boundary => "Boundary",
+        /// On a feature edge.
+        "views-class-interior-edge" InteriorEdge => "Interior edge",
+        /// Where feature edges meet or end.
+        "views-class-corner" Corner => "Corner",
+    }
 }
 
 impl Class {
@@ -41,17 +43,6 @@ impl Class {
             (.., 0) => Self::Simple,
             (.., 2) => Self::InteriorEdge,
             _ => Self::Corner,
-        }
-    }
-
-    /// Its name.
-    pub fn name(self) -> String {
-        match self {
-            Self::Simple => say!("views-class-simple"),
-            Self::Complex => say!("views-class-complex"),
-            Self::Boundary => say!("views-class-boundary"),
-            Self::InteriorEdge => say!("views-class-interior-edge"),
-            Self::Corner => say!("views-class-corner"),
         }
     }
 }

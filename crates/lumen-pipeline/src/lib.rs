@@ -37,6 +37,32 @@ mod stages;
 mod store;
 mod times;
 pub mod verdict;
+pub mod warnings;
 mod widths;
 
 pub use lumen_mesh::task;
+
+/// What translations need of the messages of this crate.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    classes::Class::MESSAGES,
+    pinch::PinchMessage::MESSAGES,
+    progressive::ShortfallMessage::MESSAGES,
+    response::HalfGain::MESSAGES,
+    safe::NoSafeRate::MESSAGES,
+    safe::Stop::MESSAGES,
+    settings::OutOfRange::MESSAGES,
+    settings::Preset::MESSAGES,
+    settings::SettingsError::MESSAGES,
+    stage::Stage::MESSAGES,
+    verdict::FindingKind::MESSAGES,
+    verdict::Head::MESSAGES,
+    verdict::PlaceLabel::MESSAGES,
+    verdict::RemedyLabel::MESSAGES,
+    warnings::DrawnShut::MESSAGES,
+    warnings::NarrowedAt::MESSAGES,
+    warnings::Pinches::MESSAGES,
+    warnings::VolumeCause::MESSAGES,
+    warnings::VolumeChange::MESSAGES,
+    warnings::VolumeNotHeld::MESSAGES,
+    warnings::VolumeWarning::MESSAGES,
+];

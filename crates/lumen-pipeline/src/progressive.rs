@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 
 use super::lines::Lines;
 use super::settings::Target;
-use lumen_language::say;
 use lumen_mesh::{TriMesh, compacted};
+use lumen_message::messages;
 
 /// The step at which a node or triangle ends that is never removed.
 pub const NEVER: u32 = u32::MAX;
@@ -126,15 +126,52 @@ pub struct Shortfall {
     pub limit: Limit,
 }
 
+messages! {
+    /// A [`Shortfall`] in words, without a full stop.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum ShortfallMessage {
+        /// The surface's topology stopped the run.
+        "verdict-shortfall-topology" Topology {
+            /// Triangles of the coarsest level there is.
+            reached: u32,
+            /// Triangles asked for.
+            wanted: u32,
+        } => "{reached} triangles is as far as this surface goes ({wanted} were asked for): removing more would close \
+            an open end or pinch a vessel",
+        /// Triangles would have folded over.
+        "verdict-shortfall-geometry" Geometry {
+            /// Triangles of the coarsest level there is.
+            reached: u32,
+            /// Triangles asked for.
+            wanted: u32,
+        } => "{reached} triangles is as far as this surface goes ({wanted} were asked for): removing more would fold \
+            the surface over itself",
+        /// What is left stays by rule.
+        "verdict-shortfall-complex" Complex {
+            /// Triangles of the coarsest level there is.
+            reached: u32,
+            /// Triangles asked for.
+            wanted: u32,
+        } => "{reached} triangles is as far as this surface goes ({wanted} were asked for): the rest lies on edges of \
+            more than two triangles, which are kept as they are",
+    }
+}
+
+impl Shortfall {
+    /// In words: what of the limit weighs most.
+    pub fn message(&self) -> ShortfallMessage {
+        let Self { wanted, reached, limit: Limit { topology, geometry, complex } } = *self;
+        match (topology >= geometry && topology >= complex, geometry >= complex) {
+            (true, _) => ShortfallMessage::Topology { reached, wanted },
+            (false, true) => ShortfallMessage::Geometry { reached, wanted },
+            (false, false) => ShortfallMessage::Complex { reached, wanted },
+        }
+    }
+}
+
 impl std::fmt::Display for Shortfall {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Limit { topology, geometry, complex } = self.limit;
-        let (wanted, reached) = (self.wanted.to_string(), self.reached.to_string());
-        f.write_str(&match (topology >= geometry && topology >= complex, geometry >= complex) {
-            (true, _) => say!("verdict-shortfall-topology", reached = reached, wanted = wanted),
-            (false, true) => say!("verdict-shortfall-geometry", reached = reached, wanted = wanted),
-            (false, false) => say!("verdict-shortfall-complex", reached = reached, wanted = wanted),
-        })
+        self.message().fmt(f)
     }
 }
 

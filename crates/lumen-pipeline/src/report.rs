@@ -1,23 +1,21 @@
-//! What a run came to, as numbers. The names of the fields are public and stay.
+//! What a run came to, as numbers, for programs. The names of the fields are public and stay; its sentences are English.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
-use super::lumen::{Narrowing, SHUT};
+use super::lumen::Narrowing;
 use super::pinch::Pinch;
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
 use super::results::{Adapted, StageTimes, Weakened};
 use super::run::Pipeline;
-use super::safe::Safe;
+use super::safe::{BranchSafe, NoSafeRate, Safe, Stop};
 use super::settings::{Settings, reduction_percent};
 use super::shape::Shape;
-use super::verdict;
+use super::verdict::VerdictReport;
 use lumen_io::{Axes, Unit};
-use lumen_language::say;
-use lumen_language::{decimal, signed};
 use lumen_mesh::arrays::infos;
 use lumen_mesh::mending::{FaultCounts, MendReport};
 use lumen_mesh::{ArrayInfo, Measures, TriMesh, components};
@@ -172,7 +170,7 @@ pub struct Report {
     pub pinch: Option<Pinch>,
     /// How far a reduction is safe; null where that was not asked for, and until it is known.
     #[serde(default)]
-    pub safe: Option<Safe>,
+    pub safe: Option<SafeReport>,
     /// Whether the vessels keep their calibre; null where that was not asked for.
     #[serde(default)]
     pub calibre: Option<CalibreReport>,
@@ -181,7 +179,7 @@ pub struct Report {
     pub branches: Option<Vec<BranchCalibre>>,
     /// What there is to say of the result, the weightiest first; set by whoever writes it, null before.
     #[serde(default)]
-    pub verdict: Option<Box<verdict::Verdict>>,
+    pub verdict: Option<Box<VerdictReport>>,
 }
 
 /// Whether the vessels keep their calibre.
@@ -195,6 +193,36 @@ pub struct CalibreReport {
     pub refused: Option<String>,
     /// Milliseconds that it took.
     pub ms: f64,
+}
+
+/// How far a reduction is safe.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SafeReport {
+    /// The change of calibre in percent that is allowed.
+    pub tolerance_percent: f64,
+    /// The highest rate up to which every vessel keeps its calibre, in percent; null where no vessel can be measured.
+    pub percent: Option<f64>,
+    /// Triangles at that rate.
+    pub triangles: Option<usize>,
+    /// Why it does not go further: a branch that is changed at the next rate, or a pinch; null where nothing stops it.
+    pub stopped_by: Option<String>,
+    /// Each branch by itself.
+    pub branches: Vec<BranchSafe>,
+    /// Why there is no such rate; null where there is one.
+    pub refused: Option<String>,
+}
+
+impl SafeReport {
+    fn new(safe: &Safe) -> Self {
+        Self {
+            tolerance_percent: safe.tolerance_percent,
+            percent: safe.percent,
+            triangles: safe.triangles,
+            stopped_by: safe.stopped_by.as_ref().map(Stop::to_string),
+            branches: safe.branches.clone(),
+            refused: safe.refused.as_ref().map(NoSafeRate::to_string),
+        }
+    }
 }
 
 impl Report {
@@ -256,7 +284,7 @@ impl Report {
             output_shape: pipeline.level_measures().map(|found| found.shape.clone()),
             narrowing: pipeline.level_measures().and_then(|found| found.narrowing),
             pinch: pipeline.smoothed_measures().and_then(|found| found.pinch),
-            safe: pipeline.safe().map(|safe| (**safe).clone()),
+            safe: pipeline.safe().map(|safe| SafeReport::new(safe)),
             calibre: certified.map(|found| CalibreReport {
                 tolerance_percent: pipeline.settings().tolerance_percent,
                 verdict: found.as_ref().ok().map(|found| found.certificate.verdict),
@@ -269,110 +297,9 @@ impl Report {
     }
 }
 
-impl Report {
-    /// Sentences where mending left something that it was asked to do.
-    pub fn mending_warnings(&self) -> Vec<String> {
-        self.mending.map_or_else(Vec::new, |done| done.warnings(&self.settings.mending))
-    }
-
-    /// A sentence where the volume was to be held and could not be.
-    pub fn volume_held_warning(&self) -> Option<String> {
-        self.volume_held.filter(|is_held| !is_held)?;
-        Some(if self.smoothing_weakened.is_some() {
-            say!("verdict-volume-put-back")
-        } else if self.volume_change_percent.is_none() {
-            say!("verdict-volume-none")
-        } else {
-            say!("verdict-volume-thin")
-        })
-    }
-
-    /// A sentence where smoothing has drawn a vessel shut.
-    pub fn smoothing_warning(&self) -> Option<String> {
-        let response = self.smoothing_response.as_ref()?;
-        let lumen = self.smoothed_shape.as_ref()?.smallest_lumen?;
-        let wave = response.wavelength_mm_at_half_gain?;
-        if lumen.diameter_mm >= SHUT * response.edge_length_mm {
-            return None;
-        }
-        let [x, y, z] = lumen.at_mm.map(|mm| decimal(mm, 1));
-        if self.settings.smoothing.adapt {
-            let diameter = decimal(lumen.diameter_mm, 2);
-            return Some(say!("verdict-all-but-shut", x = x, y = y, z = z, diameter = diameter));
-        }
-        let (wave, around) = (decimal(wave, 1), decimal(wave / std::f64::consts::PI, 1));
-        Some(say!("verdict-drawn-shut", x = x, y = y, z = z, wave = wave, around = around))
-    }
-
-    /// A sentence where the output pinches a vessel.
-    pub fn pinch_warning(&self) -> Option<String> {
-        let narrowed = self.narrowing.filter(|found| found.pinched_places > 0)?;
-        // The rate at which it began says more, where the search met it.
-        if let Some(pinch) = self.pinch.filter(|pinch| pinch.from_percent <= self.reduction_percent + 0.05) {
-            return Some(format!("{pinch}."));
-        }
-        let Narrowing { at_mm, diameter_before_mm, diameter_after_mm: after, .. } = narrowed;
-        let ([x, y, z], before) = (at_mm.map(|mm| decimal(mm, 1)), decimal(diameter_before_mm, 1));
-        let sentence = if after > 0.0 {
-            say!("verdict-pinched-to", before = before, after = decimal(after, 1), x = x, y = y, z = z)
-        } else {
-            say!("verdict-lost-at", before = before, x = x, y = y, z = z)
-        };
-        Some(match narrowed.pinched_places {
-            1 => sentence,
-            count => format!("{sentence} {}", say!("verdict-worst-of", count = count)),
-        })
-    }
-}
-
-/// A change of volume, in percent, above which a report warns.
-const LARGE_CHANGE: f64 = 10.0;
-
-impl Report {
-    /// A sentence where the volume changed so much that the settings do not suit the surface.
-    pub fn volume_warning(&self) -> Option<String> {
-        let change = self.volume_change_percent.filter(|change| change.abs() > LARGE_CHANGE)?;
-        let reduction = self.volume_change_from_smoothed_percent.unwrap_or(0.0);
-        let cause = volume_cause(change, reduction);
-        let sentence = say!("verdict-volume-changed", change = signed(change, 1), cause = cause);
-        Some(if is_by_smoothing(change, reduction) && !self.settings.smoothing.adapt {
-            format!("{sentence} {}", say!("verdict-volume-adapt"))
-        } else {
-            sentence
-        })
-    }
-}
-
-/// What made the most of a change of volume of `change` percent, of which the reduction made `reduction` percent of
-/// the smoothed surface's volume.
-fn volume_cause(change: f64, reduction: f64) -> String {
-    if is_by_smoothing(change, reduction) { say!("verdict-volume-narrow") } else { say!("verdict-volume-few") }
-}
-
-/// Whether that is smoothing, as of vessels whose circumference is shorter than the waves that it stops.
-fn is_by_smoothing(change: f64, reduction: f64) -> bool {
-    let smoothing = ((1.0 + change / 100.0) / (1.0 + reduction / 100.0) - 1.0) * 100.0;
-    smoothing.abs() >= (change - smoothing).abs()
-}
-
 /// Change of volume and area in percent of `before`; `None` where there is nothing to compare with.
 fn change(before: &Measures, after: &Measures) -> (Option<f64>, Option<f64>) {
     let percent = |before: f64, after: f64| (before != 0.0).then(|| (after / before - 1.0) * 100.0);
     let volume = before.volume_mm3.zip(after.volume_mm3).and_then(|(b, a)| percent(b, a));
     (volume, percent(before.area_mm2, after.area_mm2))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_change_of_volume_is_laid_to_the_stage_that_made_most_of_it() {
-        let (smoothing, reduction) = (volume_cause(-20.0, 0.0), volume_cause(-20.0, -20.0));
-        assert!(smoothing.contains("pass band") && reduction.contains("triangles"));
-        // 100 mm3 are smoothed to 5 and reduced to 1: the reduction took four fifths of little.
-        assert_eq!(volume_cause(-99.0, -80.0), smoothing);
-        // 100 mm3 are smoothed to 98 and reduced to 70.
-        assert_eq!(volume_cause(-30.0, (70.0 / 98.0 - 1.0) * 100.0), reduction);
-    }
 }

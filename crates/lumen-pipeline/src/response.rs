@@ -8,13 +8,13 @@
 //! whole mesh: where edges are longer, so are the waves that pass.
 
 use std::f64::consts::PI;
+use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
 use super::filter::Filter;
-use lumen_language::decimal;
-use lumen_language::say;
 use lumen_mesh::{TriMesh, Vec3};
+use lumen_message::{ToValue, Value, messages};
 
 /// Where a filter cuts, without unit and in mm on one surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,34 +45,61 @@ impl SmoothingResponse {
     }
 
     /// The half gain in words: "k = 0.023: waves of 12.3 mm".
-    pub fn half_gain_text(&self) -> Option<String> {
-        let k = self.half_gain?;
+    pub fn half_gain_message(&self) -> Option<HalfGain> {
+        let k = ThreeDigits(self.half_gain?);
         Some(match self.wavelength_mm_at_half_gain {
-            Some(mm) => say!("verdict-half-gain", k = short(k), length = in_mm(mm)),
-            None => format!("k = {}", short(k)),
+            Some(mm) => HalfGain::Waves { k, length: ThreeDigits(mm) },
+            None => HalfGain::Alone { k },
         })
     }
 }
 
-/// Three significant digits of a length in mm, with its unit, in the language that is spoken.
-pub fn in_mm(length: f64) -> String {
-    format!("{} mm", short(length))
+messages! {
+    /// Where half passes.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum HalfGain {
+        /// As an eigenvalue, and as waves on the surface.
+        "verdict-half-gain" Waves {
+            /// The eigenvalue.
+            k: ThreeDigits,
+            /// In mm.
+            length: ThreeDigits,
+        } => "k = {k}: waves of {length} mm",
+        /// On this surface no wave has that eigenvalue.
+        "verdict-half-gain-alone" Alone {
+            /// The eigenvalue.
+            k: ThreeDigits,
+        } => "k = {k}",
+    }
 }
 
-/// A positive number to about three significant digits, in the language that is spoken.
-pub fn short(x: f64) -> String {
-    let decimals = if x >= 100.0 {
-        0
-    } else if x >= 10.0 {
-        1
-    } else if x >= 1.0 {
-        2
-    } else if x >= 0.1 {
-        3
-    } else {
-        4
-    };
-    decimal(x, decimals)
+/// A positive number that is written with about three significant digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThreeDigits(pub f64);
+
+impl ThreeDigits {
+    /// How many decimals are written.
+    pub fn places(self) -> u8 {
+        match self.0 {
+            x if x >= 100.0 => 0,
+            x if x >= 10.0 => 1,
+            x if x >= 1.0 => 2,
+            x if x >= 0.1 => 3,
+            _ => 4,
+        }
+    }
+}
+
+impl fmt::Display for ThreeDigits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.places$}", self.0, places = usize::from(self.places()))
+    }
+}
+
+impl ToValue for ThreeDigits {
+    fn to_value(&self) -> Value {
+        Value::decimal(self.0, self.places())
+    }
 }
 
 /// The eigenvalue `k` of waves of `wavelength` on a lattice of edges of `edge_length`, the mean over all directions.
@@ -151,6 +178,6 @@ mod tests {
             wavelength_mm_at_half_gain: Some(12.34),
             edge_length_mm: 1.0,
         };
-        assert_eq!(response.half_gain_text().unwrap(), "k = 0.0234: waves of 12.3 mm");
+        assert_eq!(response.half_gain_message().unwrap().to_string(), "k = 0.0234: waves of 12.3 mm");
     }
 }

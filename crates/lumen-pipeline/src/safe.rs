@@ -16,15 +16,14 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::pinch::Pinch;
+use super::pinch::{Pinch, PinchMessage};
 use super::progressive::ProgressiveMesh;
 use super::settings::{Target, reduction_percent};
 use super::task::Yielder;
-use lumen_language::say;
-use lumen_language::{decimal, signed};
 use lumen_mesh::TriMesh;
-use lumen_vessel::Subject;
-use lumen_vessel::certificate::{Basis, BranchCalibre, Standing, Verdict};
+use lumen_message::{Signed, messages};
+use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, Standing, Verdict};
+use lumen_vessel::{BranchName, Subject};
 
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
 const RATES: [u32; 16] = [0, 500, 750, 850, 900, 925, 950, 960, 970, 975, 980, 985, 990, 995, 998, 999];
@@ -37,16 +36,62 @@ const MEASURED: f64 = 0.9;
 pub struct Safe {
     /// The change of calibre in percent that is allowed.
     pub tolerance_percent: f64,
-    /// The highest rate up to which every vessel keeps its calibre, in percent; null where no vessel can be measured.
+    /// The highest rate up to which every vessel keeps its calibre, in percent; `None` where no vessel can be measured.
     pub percent: Option<f64>,
     /// Triangles at that rate.
     pub triangles: Option<usize>,
-    /// Why it does not go further: a branch that is changed at the next rate, or a pinch; null where nothing stops it.
-    pub stopped_by: Option<String>,
+    /// Why it does not go further; `None` where nothing stops it.
+    pub stopped_by: Option<Stop>,
     /// Each branch by itself.
     pub branches: Vec<BranchSafe>,
-    /// Why there is no such rate; null where there is one.
-    pub refused: Option<String>,
+    /// Why there is no such rate; `None` where there is one.
+    pub refused: Option<NoSafeRate>,
+}
+
+messages! {
+    /// What stops a reduction, without a full stop.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub enum Stop {
+        /// A branch is changed at the next rate.
+        "verdict-safe-changed" Changed {
+            /// The next rate, in percent.
+            rate: f64 [1],
+            /// The branch.
+            name: BranchName,
+            /// The change of its calibre, in percent.
+            by: Signed<1>,
+            /// In mm.
+            x: f32 [1],
+            /// In mm.
+            y: f32 [1],
+            /// In mm.
+            z: f32 [1],
+        } => "At {rate:.1} % {name} changes by {by} %, at ({x:.1}, {y:.1}, {z:.1})",
+        /// A branch cannot be measured at the next rate.
+        "verdict-safe-unmeasured" Unmeasured {
+            /// The next rate, in percent.
+            rate: f64 [1],
+            /// The branch.
+            name: BranchName,
+        } => "At {rate:.1} % {name} can no longer be measured",
+    } or {
+        /// A vessel is pinched at the next rate.
+        Pinched(PinchMessage),
+    }
+}
+
+messages! {
+    /// Why no rate is safe, without a full stop.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub enum NoSafeRate {
+        /// Smoothing leaves no branch its calibre.
+        "verdict-safe-none-kept" NoneKept => "smoothing itself changes every vessel that can be measured",
+        /// No branch is measured.
+        "verdict-safe-none-measured" NoneMeasured => "no vessel can be measured",
+    } or {
+        /// There is no vessel tree.
+        NoTree(CalibreError),
+    }
 }
 
 /// How far a reduction is safe for a branch.
@@ -66,8 +111,8 @@ pub struct BranchSafe {
 
 impl Safe {
     /// No rate, for this reason.
-    pub fn refused(tolerance_percent: f64, why: &impl ToString) -> Self {
-        let refused = Some(why.to_string());
+    pub fn refused(tolerance_percent: f64, why: NoSafeRate) -> Self {
+        let refused = Some(why);
         Self { tolerance_percent, percent: None, triangles: None, stopped_by: None, branches: Vec::new(), refused }
     }
 }
@@ -200,20 +245,19 @@ impl Search {
         let can_measure = has(Verdict::Kept);
         let refused = match (can_measure, has(Verdict::Changed)) {
             (true, _) => None,
-            (false, true) => Some(say!("verdict-safe-none-kept")),
-            (false, false) => Some(say!("verdict-safe-none-measured")),
+            (false, true) => Some(NoSafeRate::NoneKept),
+            (false, false) => Some(NoSafeRate::NoneMeasured),
         };
         let good = good.filter(|_| can_measure);
         let stopped_by = bad.filter(|_| can_measure).and_then(|look| match self.changed(look) {
             Some(branch) => Some(match branch.reduced.largest_change {
                 Some(change) if branch.verdict == Verdict::Changed => {
-                    let [x, y, z] = change.at_mm.map(|mm| decimal(mm, 1));
-                    let (rate, by) = (decimal(look.percent(), 1), signed(change.percent, 1));
-                    say!("verdict-safe-changed", rate = rate, name = branch.label(), by = by, x = x, y = y, z = z)
+                    let ([x, y, z], by) = (change.at_mm, Signed(change.percent));
+                    Stop::Changed { rate: look.percent(), name: branch.label(), by, x, y, z }
                 }
-                _ => say!("verdict-safe-unmeasured", rate = decimal(look.percent(), 1), name = branch.label()),
+                _ => Stop::Unmeasured { rate: look.percent(), name: branch.label() },
             }),
-            None => self.pinch.map(|pinch| pinch.to_string()),
+            None => self.pinch.map(|pinch| Stop::Pinched(pinch.message())),
         });
         Safe {
             tolerance_percent: self.tolerance_percent,

@@ -7,38 +7,41 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::Settings;
 use super::stages::{Row, row};
+use lumen_message::messages;
 
-/// A stage of the pipeline, in their order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Stage {
-    /// What is wrong with the surface is mended, where that was asked for.
-    Mending,
-    /// Which pieces there are, and the ones that go on.
-    Connectivity,
-    /// The windowed-sinc filter.
-    Smoothing,
-    /// The run that makes the progressive mesh.
-    Decimation,
-    /// Which level stays within the bound on the deviation, if there is one.
-    Bound,
-    /// One level of it.
-    Level,
-    /// How far it is from the smoothed surface and from the one that was opened.
-    Deviation,
-    /// What the file says of its vertices and triangles, for those of the level.
-    Arrays,
-    /// Shape and lumen of the smoothed surface, and from which rate on a vessel of it is pinched.
-    SmoothedMeasures,
-    /// Shape and lumen of the level.
-    Measures,
-    /// What is wrong with the surface as it was opened.
-    Faults,
-    /// Where the vessels are, and how wide before and after smoothing.
-    Vessels,
-    /// Whether the level keeps the calibre of each.
-    Certificate,
-    /// Up to which rate every vessel keeps its calibre.
-    Safe,
+messages! {
+    /// A stage of the pipeline, in their order. Its words are what it is called while it runs.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+    pub enum Stage {
+        /// What is wrong with the surface is mended, where that was asked for.
+        "panel-stage-mending" Mending => "Mending",
+        /// Which pieces there are, and the ones that go on.
+        "panel-stage-connectivity" Connectivity => "Finding pieces",
+        /// The windowed-sinc filter.
+        "panel-stage-smoothing" Smoothing => "Smoothing",
+        /// The run that makes the progressive mesh.
+        "panel-stage-decimation" Decimation => "Reducing",
+        /// Which level stays within the bound on the deviation, if there is one.
+        "panel-stage-bound" Bound => "Finding the level",
+        /// One level of it.
+        "panel-stage-level" Level => "Taking the level",
+        /// How far it is from the smoothed surface and from the one that was opened.
+        "panel-stage-deviation" Deviation => "Measuring deviation",
+        /// What the file says of its vertices and triangles, for those of the level.
+        "panel-stage-arrays" Arrays => "Carrying the arrays",
+        /// Shape and lumen of the smoothed surface, and from which rate on a vessel of it is pinched.
+        "panel-stage-measures" SmoothedMeasures => "Measuring shape and lumen",
+        /// Shape and lumen of the level.
+        "panel-stage-measures" Measures => "Measuring shape and lumen",
+        /// What is wrong with the surface as it was opened.
+        "panel-stage-faults" Faults => "Looking for faults",
+        /// Where the vessels are, and how wide before and after smoothing.
+        "panel-stage-vessels" Vessels => "Finding the vessels",
+        /// Whether the level keeps the calibre of each.
+        "panel-stage-certificate" Certificate => "Measuring calibre",
+        /// Up to which rate every vessel keeps its calibre.
+        "panel-stage-safe" Safe => "Finding how far is safe",
+    }
 }
 
 impl Stage {
@@ -59,11 +62,6 @@ impl Stage {
         Self::Certificate,
         Self::Safe,
     ];
-
-    /// What the stage is called while it runs, in the language that is spoken.
-    pub fn label(self) -> String {
-        (self.row().label)()
-    }
 
     /// Whether the stage runs while the user works with the level, and nothing waits for it.
     pub fn is_background(self) -> bool {

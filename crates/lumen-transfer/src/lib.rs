@@ -15,41 +15,48 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::ser::Formatter;
 
-use lumen_language::say;
+use lumen_message::messages;
 
-/// A message that cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum TransferError {
-    /// The line is not one of ours.
-    #[error("{}", say!("errors-message", error = .0.to_string()))]
-    Line(#[from] serde_json::Error),
-    /// A buffer is missing or has no whole number of elements.
-    #[error("{}", say!(
-        "errors-message-buffer",
-        index = .index.to_string(),
-        bytes = format!("{:?}", .bytes),
-        element = .element.to_string()
-    ))]
-    Buffer {
-        /// Which.
-        index: usize,
-        /// Its length, if it is there.
-        bytes: Option<usize>,
-        /// Bytes of an element.
-        element: usize,
-    },
-    /// There is no memory for a buffer.
-    #[error("{}", say!("errors-message-memory", bytes = .bytes.to_string()))]
-    Memory {
-        /// Its length.
-        bytes: usize,
-    },
-    /// A buffer that should be text is not UTF-8.
-    #[error("{}", say!("errors-message-text", index = .index.to_string()))]
-    Text {
-        /// Which.
-        index: usize,
-    },
+messages! {
+    /// A message that cannot be read.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum TransferError {
+        /// The line is not one of ours.
+        "errors-message" Line {
+            /// What `serde_json` says.
+            error: String,
+        } => "the message is not understood: {error}",
+        /// A buffer is missing.
+        "errors-message-missing" Missing {
+            /// Which.
+            index: usize,
+        } => "buffer {index} of the message is missing",
+        /// A buffer has no whole number of elements.
+        "errors-message-buffer" Buffer {
+            /// Which.
+            index: usize,
+            /// Its length.
+            bytes: usize,
+            /// Bytes of an element.
+            element: usize,
+        } => "buffer {index} of the message has {bytes} bytes, not a multiple of {element}",
+        /// There is no memory for a buffer.
+        "errors-message-memory" Memory {
+            /// Its length.
+            bytes: usize,
+        } => "there is no memory left for its {bytes} bytes",
+        /// A buffer that should be text is not UTF-8.
+        "errors-message-text" Text {
+            /// Which.
+            index: usize,
+        } => "buffer {index} of the message is no text",
+    }
+}
+
+impl From<serde_json::Error> for TransferError {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Line { error: error.to_string() }
+    }
 }
 
 /// What can cross.
@@ -129,7 +136,7 @@ pub fn decode<M: Message>(line: &str, buffers: impl Buffers + 'static) -> Result
     READING.set(Some(Reading { buffers: Box::new(buffers), failure: None }));
     let message = serde_json::from_str(line);
     let failure = READING.take().and_then(|reading| reading.failure);
-    message.map_err(|error| failure.unwrap_or(TransferError::Line(error)))
+    message.map_err(|error| failure.unwrap_or_else(|| error.into()))
 }
 
 /// What crosses as a buffer.
@@ -160,7 +167,8 @@ impl<T: Pod + Zeroable> Bulk for Vec<T> {
                 buffers.copy(index, cast_slice_mut(&mut values));
                 Ok(values)
             }
-            _ => Err(TransferError::Buffer { index, bytes, element }),
+            Some(bytes) => Err(TransferError::Buffer { index, bytes, element }),
+            None => Err(TransferError::Missing { index }),
         }
     }
 }
@@ -253,6 +261,9 @@ pub fn sent<M: Message>(message: &M) -> (String, Result<M, TransferError>) {
     (line, arrived)
 }
 
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[TransferError::MESSAGES];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -314,9 +325,9 @@ mod tests {
     #[test]
     fn messages_of_others_are_refused() {
         let read = |line, buffers: Vec<Vec<u8>>| decode::<Parcel>(line, buffers).unwrap_err();
-        assert!(matches!(read("{}", vec![]), TransferError::Line(_)));
-        assert!(matches!(read(LINE, vec![]), TransferError::Buffer { index: 0, bytes: None, element: 4 }));
-        assert!(matches!(read(LINE, vec![vec![1; 7]]), TransferError::Buffer { bytes: Some(7), .. }));
+        assert!(matches!(read("{}", vec![]), TransferError::Line { .. }));
+        assert!(matches!(read(LINE, vec![]), TransferError::Missing { index: 0 }));
+        assert!(matches!(read(LINE, vec![vec![1; 7]]), TransferError::Buffer { bytes: 7, .. }));
         assert!(matches!(read(LINE, vec![vec![1; 8], vec![0xFF]]), TransferError::Text { index: 1 }));
         assert!(serde_json::from_str::<Parcel>(LINE).is_err(), "outside a message there are no arrays");
     }

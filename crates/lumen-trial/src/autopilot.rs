@@ -13,10 +13,11 @@
 //! shaft lies, takes many tries, or a wire with a longer bend.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::route::Route;
 use super::setup::Input;
-use lumen_language::say;
+use lumen_message::messages;
 
 /// Speed of the feed in mm/s.
 pub const FEED: f64 = 20.0;
@@ -210,12 +211,25 @@ impl Autopilot {
         angle - turns * (angle / turns).round()
     }
 
-    /// What it is doing, in words.
-    pub fn words(&self) -> String {
+    /// What it is doing, to a user.
+    pub fn task(&self) -> AutopilotTask {
         match self.doing {
-            Doing::Advancing if self.trouble.is_none() => say!("trial-doing-following"),
-            Doing::Advancing => say!("trial-doing-again"),
-            Doing::Withdrawing { .. } => say!("trial-doing-withdrawing"),
+            Doing::Advancing if self.trouble.is_none() => AutopilotTask::Following,
+            Doing::Advancing => AutopilotTask::TryingAgain,
+            Doing::Withdrawing { .. } => AutopilotTask::Withdrawing,
         }
+    }
+}
+
+messages! {
+    /// What the autopilot is doing.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum AutopilotTask {
+        /// It follows the route.
+        "trial-doing-following" Following => "Following the route",
+        /// It tries again where it failed, turned.
+        "trial-doing-again" TryingAgain => "Trying again, turned",
+        /// It withdraws the wire.
+        "trial-doing-withdrawing" Withdrawing => "Withdrawing",
     }
 }

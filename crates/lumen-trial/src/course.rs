@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use thiserror::Error;
 use web_time::Instant;
 
 use super::placement::{PlacementError, rotation};
@@ -13,9 +12,9 @@ use super::setup::{Entry, Setup};
 use super::simulation::Simulation;
 use super::wall::Wall;
 use super::wire::Wire;
-use lumen_language::say;
 use lumen_mesh::chance::Chance;
 use lumen_mesh::{TriMesh, Vec3};
+use lumen_message::messages;
 use lumen_pipeline::results::fingerprint;
 use lumen_pipeline::task::milliseconds;
 use lumen_vessel::phantom::Sample;
@@ -24,24 +23,24 @@ use lumen_vessel::{Tree, TreeError};
 /// By how much a seed moves the entry, in mm, turns it, in radians, and changes friction, as a part.
 const VARIED: (f64, f64, f64) = (0.5, 2.0 * std::f64::consts::PI / 180.0, 0.2);
 
-/// Why a trial cannot begin.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum TrialError {
-    /// There is no tree.
-    #[error(transparent)]
-    Tree(#[from] TreeError),
-    /// There is no way.
-    #[error(transparent)]
-    Route(#[from] RouteError),
-    /// The wire cannot be put there.
-    #[error(transparent)]
-    Placement(#[from] PlacementError),
-    /// No place is known where a wire could enter.
-    #[error("{}", say!("trial-no-entry"))]
-    NoEntry,
-    /// No place is known where it could go.
-    #[error("{}", say!("trial-no-target"))]
-    NoTarget,
+messages! {
+    /// Why a trial cannot begin.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum TrialError {
+        /// No place is known where a wire could enter.
+        "trial-no-entry" NoEntry =>
+            "no vessel of this surface has an end where a wire could enter; give an entry",
+        /// No place is known where it could go.
+        "trial-no-target" NoTarget =>
+            "no vessel of this surface is far enough from the entry to be a target; give a target",
+    } or {
+        /// There is no tree.
+        Tree(TreeError),
+        /// There is no way.
+        Route(RouteError),
+        /// The wire cannot be put there.
+        Placement(PlacementError),
+    }
 }
 
 impl TrialError {

@@ -3,6 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
+use super::autopilot::AutopilotTask;
 use super::report::{StepCounts, StepReport};
 
 /// A place where the wire lies against the wall.
@@ -81,8 +82,8 @@ pub struct Frame {
     pub is_looped: bool,
     /// How far it is.
     pub progress: Progress,
-    /// What the autopilot is doing; empty by hand.
-    pub doing: String,
+    /// What the autopilot is doing; `None` by hand.
+    pub doing: Option<AutopilotTask>,
     /// Steps a second of the clock that the simulation could do, over the last half second.
     pub steps_per_second: f32,
     /// Whether the machine is behind by more than 50 ms, so that the trial runs slower than time.

@@ -66,7 +66,7 @@ pub mod frame;
 pub mod hold;
 pub mod log;
 pub mod meter;
-mod missed;
+pub mod missed;
 pub mod placement;
 mod press;
 mod proposal;
@@ -83,3 +83,23 @@ pub mod wire;
 
 /// Seconds of simulated time in a step.
 pub const STEP: f64 = 0.002;
+
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    autopilot::AutopilotTask::MESSAGES,
+    compare::ComparisonVerdict::MESSAGES,
+    compare::PathVerdict::MESSAGES,
+    course::TrialError::MESSAGES,
+    log::LineProblem::MESSAGES,
+    log::LogError::MESSAGES,
+    missed::MissedForkText::MESSAGES,
+    missed::Taken::MESSAGES,
+    placement::PlacementError::MESSAGES,
+    route::AtText::MESSAGES,
+    route::PlaceLabel::MESSAGES,
+    route::RouteError::MESSAGES,
+    route::TargetLabel::MESSAGES,
+    summary::TrialEnd::MESSAGES,
+    wire::WireError::MESSAGES,
+    wire::WireNumber::MESSAGES,
+];

@@ -6,13 +6,11 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::STEP;
 use super::meter::SinceRow;
 use super::setup::{Input, Setup};
-use lumen_language::Key;
-use lumen_language::say;
+use lumen_message::messages;
 
 /// Version of the columns of the log and of the fields of the summary.
 pub const SCHEMA: u32 = 2;
@@ -82,32 +80,62 @@ pub struct Log {
     pub rows: Vec<Row>,
 }
 
-/// Why a log cannot be replayed.
-#[derive(Debug, Error)]
-pub enum LogError {
-    /// Not one of ours.
-    #[error("{}", say!("trial-log-none"))]
-    NoLog,
-    /// From another version.
-    #[error("{}", say!("trial-log-schema", found = found, oldest = OLDEST, newest = SCHEMA))]
-    Schema {
-        /// The number that stands there.
-        found: String,
-    },
-    /// The setup cannot be read.
-    #[error("{}", say!("trial-log-setup", why = .0.to_string()))]
-    Setup(#[from] serde_json::Error),
-    /// The setup is not there.
-    #[error("{}", say!("trial-log-no-setup"))]
-    NoSetup,
-    /// A line cannot be read.
-    #[error("{}", say!("trial-log-line", line = line.to_string(), what = what.say()))]
-    Line {
-        /// Counted from 1.
-        line: usize,
-        /// What is wrong.
-        what: Key,
-    },
+messages! {
+    /// Why a log cannot be replayed.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum LogError {
+        /// Not one of ours.
+        "trial-log-none" NoLog =>
+            "this is no log of a Lumen trial: its first line is not \"# lumen trial log\"",
+        /// From another version.
+        "trial-log-schema" Schema {
+            /// The number that stands there.
+            found: String,
+            /// The oldest that can be read.
+            oldest: u32,
+            /// The newest.
+            newest: u32,
+        } => "the log has schema {found}; this version reads schemas {oldest} to {newest}",
+        /// The setup cannot be read.
+        "trial-log-setup" Setup {
+            /// What `serde_json` says.
+            why: String,
+        } => "the setup in the log cannot be read: {why}",
+        /// The setup is not there.
+        "trial-log-no-setup" NoSetup => "the log does not say what the setup was",
+        /// A line cannot be read.
+        "trial-log-line" Line {
+            /// Counted from 1.
+            line: usize,
+            /// What is wrong.
+            what: LineProblem,
+        } => "line {line} of the log cannot be read: {what}",
+    }
+}
+
+messages! {
+    /// What is wrong with a line of a log.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum LineProblem {
+        /// The number of steps of the log is none.
+        "trial-log-steps" Steps => "the number of steps is no number",
+        /// The step is none.
+        "trial-log-step" Step => "its step is no number",
+        /// The feed is none.
+        "trial-log-feed" Feed => "its feed is no number",
+        /// The roll is none.
+        "trial-log-roll" Roll => "its roll is no number",
+        /// The step is not after that of the line before.
+        "trial-log-order" Order => "its step is not after the one before",
+        /// The head names other columns.
+        "trial-log-columns" Columns => "the columns are not those of a log",
+    }
+}
+
+impl From<serde_json::Error> for LogError {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Setup { why: error.to_string() }
+    }
 }
 
 /// What a log says that is needed to replay it.
@@ -159,7 +187,7 @@ impl Log {
         let head = lines.next().and_then(|(_, line)| line.strip_prefix("# lumen trial log, schema "));
         let schema = head.ok_or(LogError::NoLog)?.trim();
         if !schema.parse().is_ok_and(|schema: u32| (OLDEST..=SCHEMA).contains(&schema)) {
-            return Err(LogError::Schema { found: schema.to_owned() });
+            return Err(LogError::Schema { found: schema.to_owned(), oldest: OLDEST, newest: SCHEMA });
         }
         let (mut setup, mut surface, mut inputs) = (None, String::new(), Vec::<(u64, Input)>::new());
         let mut steps = 0;
@@ -169,7 +197,7 @@ impl Log {
             if let Some(json) = line.strip_prefix("# setup ") {
                 setup = Some(serde_json::from_str(json)?);
             } else if let Some(count) = line.strip_prefix("# steps ") {
-                steps = count.trim().parse().map_err(|_| wrong(Key("trial-log-steps")))?;
+                steps = count.trim().parse().map_err(|_| wrong(LineProblem::Steps))?;
             } else if let Some(hash) = line.strip_prefix("# surface ") {
                 surface = hash.trim().to_owned();
             } else if line.starts_with('#') || line.trim().is_empty() {
@@ -178,18 +206,18 @@ impl Log {
                 let speed = |column: usize| {
                     fields.get(column).and_then(|field| field.parse::<f32>().ok()).filter(|x| x.is_finite())
                 };
-                let step = fields[0].parse().map_err(|_| wrong(Key("trial-log-step")))?;
-                let feed = speed(2).ok_or(wrong(Key("trial-log-feed")))?;
-                let roll = speed(3).ok_or(wrong(Key("trial-log-roll")))?;
+                let step = fields[0].parse().map_err(|_| wrong(LineProblem::Step))?;
+                let feed = speed(2).ok_or(wrong(LineProblem::Feed))?;
+                let roll = speed(3).ok_or(wrong(LineProblem::Roll))?;
                 let input = Input { feed, roll };
                 if inputs.last().is_some_and(|&(last, _)| last >= step) {
-                    return Err(wrong(Key("trial-log-order")));
+                    return Err(wrong(LineProblem::Order));
                 }
                 inputs.push((step, input.limited()));
             } else if line.starts_with("step,time_s,feed_mm_s,roll_rad_s,") {
                 has_columns = true;
             } else {
-                return Err(wrong(Key("trial-log-columns")));
+                return Err(wrong(LineProblem::Columns));
             }
         }
         Ok(Recorded { setup: setup.ok_or(LogError::NoSetup)?, surface, inputs, steps })

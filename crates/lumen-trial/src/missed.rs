@@ -1,9 +1,8 @@
 //! The fork that the wire missed: where its tip left the route, and into which branch. It is what a failure names.
 
-use super::route::{Route, called};
-use lumen_language::decimal;
-use lumen_language::say;
-use lumen_vessel::Tree;
+use super::route::Route;
+use lumen_message::messages;
+use lumen_vessel::{BranchName, Tree};
 
 /// A tip on the route is past a fork this many radii of the lumen behind it.
 const PAST: f64 = 2.0;
@@ -35,14 +34,52 @@ impl MissedFork {
     }
 
     /// What is said of it, without a full stop.
-    pub(super) fn words(&self, tree: &Tree, route: &Route) -> String {
+    pub(super) fn words(&self, tree: &Tree, route: &Route) -> MissedForkText {
         let is_known = |branch: u32| (branch as usize) < tree.branches().len();
-        let name = |branch: u32| if is_known(branch) { called(branch) } else { say!("trial-another-branch") };
-        let (along, into) = (decimal(self.arc_mm, 0), name(self.into));
+        let name = |branch: u32| match is_known(branch) {
+            true => Taken::Known(BranchName::of_place(branch)),
+            false => Taken::Another,
+        };
+        let (along, into) = (self.arc_mm, name(self.into));
         match self.right(tree, route) {
-            Some(right) => say!("trial-missed-fork", along = along, into = into, instead = name(right)),
-            None => say!("trial-missed-route", along = along, into = into),
+            Some(right) => MissedForkText::Fork { along, into, instead: name(right) },
+            None => MissedForkText::Route { along, into },
         }
+    }
+}
+
+messages! {
+    /// The fork that a wire missed, as a clause.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum MissedForkText {
+        /// It should have gone into another branch.
+        "trial-missed-fork" Fork {
+            /// Arc length along the route, in mm.
+            along: f64 [0],
+            /// The branch that it went into.
+            into: Taken,
+            /// The branch of the route.
+            instead: Taken,
+        } => "it missed the fork {along:.0} mm along the route, going into {into} instead of {instead}",
+        /// No branch of the route meets the one that it went into.
+        "trial-missed-route" Route {
+            /// Arc length along the route, in mm.
+            along: f64 [0],
+            /// The branch that it went into.
+            into: Taken,
+        } => "it missed the fork {along:.0} mm along the route, going into {into} instead of following the route",
+    }
+}
+
+messages! {
+    /// The branch that a wire took or should have taken.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Taken {
+        /// One that has no name.
+        "trial-another-branch" Another => "another branch",
+    } or {
+        /// One of the tree.
+        Known(BranchName),
     }
 }
 
@@ -62,7 +99,7 @@ mod tests {
             let route = tree.route(from.as_vec3(), to.as_vec3()).unwrap();
             let fork = MissedFork { arc_mm: joint.distance(from), into: of(wrong) };
             let expected = format!("going into {} instead of {}", name(wrong), name(to));
-            let words = fork.words(&tree, &route);
+            let words = fork.words(&tree, &route).to_string();
             assert!(
                 words.starts_with("it missed the fork 40 mm along the route, ") && words.ends_with(&expected),
                 "{words}"

@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 use super::STEP;
 use super::frame::Progress;
 use super::log::SCHEMA;
+use super::missed::MissedForkText;
 use super::report::StepCounts;
 use super::session::Trial;
 use super::setup::{Entry, Press};
 use super::stopwatch::{StationResult, StepTimes};
-use lumen_language::decimal;
-use lumen_language::say;
+use lumen_message::{grouped, messages};
 
 /// What came of a trial.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -19,7 +19,7 @@ pub struct Summary {
     pub schema: u32,
     /// Whether the tip arrived.
     pub success: bool,
-    /// Why it ended, as a sentence in the language that is spoken; with the fork that was missed, where one was.
+    /// Why it ended, as a clause in English: see [`Trial::end`].
     pub reason: String,
     /// The fork that was missed, where it did not arrive for that: where the tip left the route, in mm.
     pub missed_fork_at: Option<[f32; 3]>,
@@ -111,7 +111,73 @@ pub struct Summary {
     pub notice: String,
 }
 
+messages! {
+    /// How a trial ended, as a clause.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum TrialEnd {
+        /// It goes on.
+        "trial-end-running" Running {
+            /// From the tip to the target, in mm.
+            away: f64 [1],
+        } => "not over yet: the tip is {away:.1} mm from the target",
+        /// The tip arrived.
+        "trial-end-arrived" Arrived {
+            /// Simulated seconds.
+            time: f64 [1],
+        } => "the tip arrived after {time:.1} s",
+        /// The autopilot's time was over.
+        "trial-end-timed-out" TimedOut {
+            /// That time, in simulated seconds.
+            limit: f64 [0],
+            /// From the tip to the target, in mm.
+            away: f64 [1],
+        } => "the autopilot's time of {limit:.0} s was over with the tip {away:.1} mm from the target",
+        /// The recorded input was over.
+        "trial-end-over" Over {
+            /// From the tip to the target, in mm.
+            away: f64 [1],
+        } => "the recorded input was over with the tip {away:.1} mm from the target",
+        /// The autopilot gave up.
+        "trial-end-gave-up" GaveUp {
+            /// Times that it withdrew the wire.
+            count: u32,
+            /// From the tip to the target, in mm.
+            away: f64 [1],
+        } => {
+            let count = grouped(count);
+            format!("the autopilot gave up after {count} retractions with the tip {away:.1} mm from the target")
+        },
+        /// It failed for a fork that was missed.
+        "trial-end-missed" Missed {
+            /// How it ended.
+            why: Box<TrialEnd>,
+            /// The fork.
+            missed: MissedForkText,
+        } => "{why}: {missed}",
+    }
+}
+
 impl Trial {
+    fn has_failed(&self) -> bool {
+        !matches!(self.progress(), Progress::Running | Progress::Arrived)
+    }
+
+    /// Why it ended, up to now; with the fork that was missed, where one was.
+    pub fn end(&self) -> TrialEnd {
+        let away = self.course().route.distance_to_target(self.simulation().tip());
+        let why = match self.progress() {
+            Progress::Running => TrialEnd::Running { away },
+            Progress::Arrived => TrialEnd::Arrived { time: self.simulation().steps() as f64 * STEP },
+            Progress::TimedOut => TrialEnd::TimedOut { limit: self.limit_s(), away },
+            Progress::Over => TrialEnd::Over { away },
+            Progress::GaveUp => TrialEnd::GaveUp { count: self.meter().retractions, away },
+        };
+        match self.missed_fork().filter(|_| self.has_failed()) {
+            Some(missed) => TrialEnd::Missed { why: Box::new(why), missed },
+            None => why,
+        }
+    }
+
     /// What came of it, up to now.
     pub fn summary(&self) -> Summary {
         let (meter, clock, course) = (self.meter(), self.stopwatch(), self.course());
@@ -121,24 +187,11 @@ impl Trial {
         let tip_distance_mm = route.distance_to_target(simulation.tip());
         let time_s = steps as f64 * STEP;
         let per = |sum: f64, count: u64| sum / count.max(1) as f64;
-        let is_failure = !matches!(self.progress(), Progress::Running | Progress::Arrived);
-        let away = decimal(tip_distance_mm, 1);
-        let why = match self.progress() {
-            Progress::Running => say!("trial-end-running", away = away),
-            Progress::Arrived => say!("trial-end-arrived", time = decimal(time_s, 1)),
-            Progress::TimedOut => say!("trial-end-timed-out", limit = decimal(self.limit_s(), 0), away = away),
-            Progress::Over => say!("trial-end-over", away = away),
-            Progress::GaveUp => say!("trial-end-gave-up", count = meter.retractions, away = away),
-        };
-        let missed = self.missed_fork().filter(|_| is_failure);
         Summary {
             schema: SCHEMA,
             success: self.progress() == Progress::Arrived,
-            reason: match missed {
-                Some(missed) => say!("trial-end-missed", why = why, missed = missed),
-                None => why,
-            },
-            missed_fork_at: self.missed_fork_at().filter(|_| is_failure).map(|at| at.as_vec3().to_array()),
+            reason: self.end().to_string(),
+            missed_fork_at: self.missed_fork_at().filter(|_| self.has_failed()).map(|at| at.as_vec3().to_array()),
             time_s,
             steps,
             steps_per_second: 1e3 * steps as f64 / clock.total_ms().max(1e-6),

@@ -8,12 +8,11 @@
 //! fork itself a centreline is a matter of its construction.
 
 use glam::{DVec3, Vec3};
-use thiserror::Error;
 
 use super::certificate::{BranchCalibre, Standing};
 use super::{Place, power};
-use lumen_language::say;
 use lumen_mesh::{Outline, cut};
+use lumen_message::messages;
 
 /// A place on a branch's centreline.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,21 +55,20 @@ pub struct ForkAngle<'a> {
     pub directions: [DVec3; 2],
 }
 
-/// Why nothing was measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum NotMeasured {
-    /// There are no stations.
-    #[error("{}", say!("vessels-error-no-centreline"))]
-    NoCentreline,
-    /// The plane cuts no closed loop around the centreline.
-    #[error("{}", say!("vessels-error-not-closed"))]
-    NotClosed,
-    /// No branch divides.
-    #[error("{}", say!("vessels-error-no-fork"))]
-    NoFork,
-    /// A branch is nowhere one vessel of its own.
-    #[error("{}", say!("vessels-error-short"))]
-    Short,
+messages! {
+    /// Why nothing was measured.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum NotMeasured {
+        /// There are no stations.
+        "vessels-error-no-centreline" NoCentreline => "there is no centreline to be square to",
+        /// The plane cuts no closed loop around the centreline.
+        "vessels-error-not-closed" NotClosed =>
+            "the wall is not closed around the centreline there: the surface is open or folded in that plane",
+        /// No branch divides.
+        "vessels-error-no-fork" NoFork => "no vessel divides: an angle can be measured between three places",
+        /// A branch is nowhere one vessel of its own.
+        "vessels-error-short" Short => "a branch of this fork is too short to have a direction of its own",
+    }
 }
 
 /// The place beside `p`.

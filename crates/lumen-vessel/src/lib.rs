@@ -25,6 +25,7 @@ mod centreline;
 mod centrelines;
 pub mod certificate;
 mod locating;
+mod on_surface;
 mod paths;
 pub mod phantom;
 mod recentring;
@@ -40,10 +41,10 @@ pub mod variation;
 mod variation_tests;
 mod zones;
 
-use thiserror::Error;
 pub use zones::Zone;
 
-use lumen_language::say;
+use lumen_message::messages;
+use serde::{Deserialize, Serialize};
 
 pub use calibre::{Calibre, Subject};
 pub use centreline::Place;
@@ -54,27 +55,42 @@ pub use locating::power;
 pub use paths::NONE;
 pub use space::Ball;
 pub use stations::{Station, Stations};
-pub use tree::{Branch, End, Tree};
+pub use tree::{Branch, BranchName, End, Tree};
 
-/// Why there is no tree.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum TreeError {
-    /// There is nothing to go through.
-    #[error("{}", say!("vessels-error-no-triangles"))]
-    NoTriangles,
-    /// Every wall faces away.
-    #[error("{}", say!("vessels-error-inside-out"))]
-    InsideOut,
-    /// No wall faces another.
-    #[error("{}", say!("vessels-error-no-inside", triangles = .triangles.to_string()))]
-    NoInside {
-        /// Triangles.
-        triangles: usize,
-    },
-    /// What is inside is flat.
-    #[error("{}", say!("vessels-error-sheet", balls = .balls.to_string()))]
-    Sheet {
-        /// Balls that overlap.
-        balls: usize,
-    },
+messages! {
+    /// Why there is no tree.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    pub enum TreeError {
+        /// There is nothing to go through.
+        "vessels-error-no-triangles" NoTriangles => "the surface has no triangles",
+        /// Every wall faces away.
+        "vessels-error-inside-out" InsideOut => "the surface is inside out: its triangles face into the vessel",
+        /// No wall faces another.
+        "vessels-error-no-inside" NoInside {
+            /// Triangles.
+            triangles: usize,
+        } => "the surface has no inside: of its {triangles} triangles none faces another",
+        /// What is inside is flat.
+        "vessels-error-sheet" Sheet {
+            /// Balls that overlap.
+            balls: usize,
+        } => "the inside of the surface is a thin sheet and no vessel: it takes more than {balls} balls to fill it. \
+              Is it the wall of a vessel, with an inner and an outer side?",
+    }
 }
+
+/// What the messages of this crate need of a translation.
+pub const MESSAGES: &[&[lumen_message::Signature]] = &[
+    BranchName::MESSAGES,
+    TreeError::MESSAGES,
+    beside::NotMeasured::MESSAGES,
+    certificate::CalibreError::MESSAGES,
+    certificate::SpreadText::MESSAGES,
+    certificate::Verdict::MESSAGES,
+    phantom::PhantomError::MESSAGES,
+    phantom::SampleName::MESSAGES,
+    summary::CalibreFinding::MESSAGES,
+    summary::CalibreSummary::MESSAGES,
+    summary::PlaceText::MESSAGES,
+    variation::VariationText::MESSAGES,
+];

@@ -1,8 +1,9 @@
 //! What became of the vessels, in words.
 
-use super::certificate::{BranchCalibre, Certificate, Change, Verdict, measured_percent};
-use lumen_language::say;
-use lumen_language::{decimal, signed};
+use lumen_message::{Signed, grouped, messages};
+
+use super::BranchName;
+use super::certificate::{BranchCalibre, CalibreError, Certificate, Change, Verdict, measured_percent};
 
 /// The branches as they are listed: those that change first, the most changed before the others.
 pub fn in_order(found: &Certificate) -> Vec<&BranchCalibre> {
@@ -18,51 +19,147 @@ pub fn in_order(found: &Certificate) -> Vec<&BranchCalibre> {
 /// Below this part of all vessels, in percent, a verdict is said to rest on little.
 const LITTLE: f64 = 25.0;
 
-/// What became of all of them, in a sentence or two.
-pub fn sentence(found: &Result<Certificate, String>) -> String {
+messages! {
+    /// What became of all vessels, in a sentence.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum CalibreFinding {
+        /// There are none.
+        "vessels-none" None {
+            /// The reason.
+            why: CalibreError,
+        } => "There are no vessels to measure: {why}.",
+        /// None can be measured.
+        "vessels-none-measured" NoneMeasured => "No vessel can be measured.",
+        /// All that are measured keep their calibre.
+        "vessels-all-kept" AllKept {
+            /// How many.
+            count: usize,
+            /// The change that is allowed, in percent.
+            tolerance: f64,
+        } => {
+            match count {
+                1 => format!("The vessel keeps its calibre to {tolerance} %."),
+                _ => format!("All {} vessels keep their calibre to {tolerance} %.", grouped(count)),
+            }
+        },
+        /// Some change; by how much at most is not known.
+        "vessels-changed" Changed {
+            /// How many change.
+            changed: usize,
+            /// How many are measured.
+            all: usize,
+            /// The change that is allowed, in percent.
+            tolerance: f64,
+        } => { format!("{} of {} vessels change by more than {tolerance} %.", grouped(changed), grouped(all)) },
+        /// Some change.
+        "vessels-changed-most" ChangedMost {
+            /// How many change.
+            changed: usize,
+            /// How many are measured.
+            all: usize,
+            /// The change that is allowed, in percent.
+            tolerance: f64,
+            /// The one that changes the most.
+            name: BranchName,
+            /// Its change, in percent.
+            by: Signed<1>,
+        } => {
+            let verb = if *changed == 1 { "changes" } else { "change" };
+            let (changed, all) = (grouped(changed), grouped(all));
+            format!("{changed} of {all} vessels {verb} by more than {tolerance} %, {name} the most: {by} %.")
+        },
+        /// The verdict rests on little.
+        "vessels-little" Little {
+            /// The part that is measured, in percent.
+            percent: f64 [0],
+        } => "That is said of {percent:.0} % of their length: the rest lies at ends or forks or is too coarse.",
+        /// Smoothing alone changes some.
+        "vessels-by-smoothing" BySmoothing {
+            /// How many.
+            count: usize,
+        } => { format!("Smoothing itself changes {} of them so much.", grouped(count)) },
+        /// Some cannot be measured.
+        "vessels-unknown" Unknown {
+            /// How many.
+            count: usize,
+        } => {
+            match count {
+                1 => "One is too short or too coarse to be measured.".to_owned(),
+                _ => format!("{} are too short or too coarse to be measured.", grouped(count)),
+            }
+        },
+    }
+}
+
+messages! {
+    /// What became of all vessels, in one sentence or a few.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum CalibreSummary {
+        /// A sentence and those that follow.
+        "vessels-sentences" Sentences {
+            /// The first.
+            first: CalibreFinding,
+            /// What follows.
+            rest: Box<CalibreSummary>,
+        } => "{first} {rest}",
+    } or {
+        /// One sentence.
+        One(CalibreFinding),
+    }
+}
+
+messages! {
+    /// What there is to say of a place of a vessel.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum PlaceText {
+        /// The change of its radius.
+        "vessels-place" Changed {
+            /// The vessel.
+            name: BranchName,
+            /// In percent.
+            percent: Signed<1>,
+        } => "{name}: {percent} %",
+    }
+}
+
+/// What became of all of them.
+pub fn summary(found: &Result<Certificate, CalibreError>) -> CalibreSummary {
     let found = match found {
         Ok(found) => found,
-        Err(why) => return say!("vessels-none", why = why),
+        Err(why) => return CalibreFinding::None { why: why.clone() }.into(),
     };
     let of = |verdict: Verdict| found.branches.iter().filter(move |branch| branch.verdict == verdict);
     let (kept, changed, unknown) =
         (of(Verdict::Kept).count(), of(Verdict::Changed).count(), of(Verdict::NotMeasured).count());
-    let tolerance = found.tolerance_percent;
+    let (all, tolerance) = (kept + changed, found.tolerance_percent);
     let largest = |branch: &&BranchCalibre| branch.reduced.largest_change.map_or(0.0, |change| change.percent.abs());
     let worst = of(Verdict::Changed).max_by(|a, b| largest(a).total_cmp(&largest(b)));
-    let mut text = match (kept, changed, worst.and_then(|worst| Some((worst, worst.reduced.largest_change?)))) {
-        (0, 0, _) => say!("vessels-none-measured"),
-        (_, 0, _) => say!("vessels-all-kept", count = kept, tolerance = tolerance),
+    let first = match (kept, changed, worst.and_then(|worst| Some((worst, worst.reduced.largest_change?)))) {
+        (0, 0, _) => CalibreFinding::NoneMeasured,
+        (_, 0, _) => CalibreFinding::AllKept { count: kept, tolerance },
         (_, _, Some((worst, change))) => {
-            let (all, name, by) = (kept + changed, worst.label(), signed(change.percent, 1));
-            say!("vessels-changed-most", changed = changed, all = all, tolerance = tolerance, name = name, by = by)
+            CalibreFinding::ChangedMost { changed, all, tolerance, name: worst.label(), by: Signed(change.percent) }
         }
-        (_, _, None) => say!("vessels-changed", changed = changed, all = kept + changed, tolerance = tolerance),
+        (_, _, None) => CalibreFinding::Changed { changed, all, tolerance },
     };
-    if let Some(percent) = measured_percent(&found.branches).filter(|&part| part < LITTLE && kept + changed > 0) {
-        text = format!("{text} {}", say!("vessels-little", percent = decimal(percent, 0)));
+    let mut sentences = vec![first];
+    if let Some(percent) = measured_percent(&found.branches).filter(|&part| part < LITTLE && all > 0) {
+        sentences.push(CalibreFinding::Little { percent });
     }
     let by_smoothing = of(Verdict::Changed).filter(|branch| branch.verdict_smoothed == Verdict::Changed).count();
     if by_smoothing > 0 {
-        text = format!("{text} {}", say!("vessels-by-smoothing", count = by_smoothing));
+        sentences.push(CalibreFinding::BySmoothing { count: by_smoothing });
     }
-    if unknown > 0 && kept + changed > 0 {
-        text = format!("{text} {}", say!("vessels-unknown", count = unknown));
+    if unknown > 0 && all > 0 {
+        sentences.push(CalibreFinding::Unknown { count: unknown });
     }
-    text
-}
-
-/// What a vessel of this name, which is English and kept in files, is called in the language that is spoken.
-pub fn called(name: &str) -> String {
-    match name.strip_prefix("branch ") {
-        Some(number) => say!("vessels-branch", number = number),
-        None => name.to_owned(),
-    }
+    let last = sentences.pop().map_or(CalibreSummary::One(CalibreFinding::NoneMeasured), CalibreSummary::One);
+    sentences.into_iter().rev().fold(last, |rest, first| CalibreSummary::Sentences { first, rest: Box::new(rest) })
 }
 
 /// What there is to say of a place.
-pub fn place(branch: &BranchCalibre, change: &Change) -> String {
-    say!("vessels-place", name = branch.label(), percent = signed(change.percent, 1))
+pub fn place(branch: &BranchCalibre, change: &Change) -> PlaceText {
+    PlaceText::Changed { name: branch.label(), percent: Signed(change.percent) }
 }
 
 /// Made-up branches, for tests of what is said of certificates.
@@ -102,7 +199,7 @@ pub mod fixtures {
     }
 
     /// A certificate of such branches.
-    pub fn certificate(percents: &[Option<f64>]) -> Result<Certificate, String> {
+    pub fn certificate(percents: &[Option<f64>]) -> Result<Certificate, CalibreError> {
         let branches = (1..).zip(percents).map(|(number, &percent)| branch(number, percent)).collect();
         Ok(Certificate { tolerance_percent: 2.0, verdict: Verdict::Kept, branches })
     }
@@ -112,8 +209,12 @@ pub mod fixtures {
 mod tests {
     use super::fixtures::certificate;
     use super::*;
+    use crate::TreeError;
     use crate::certificate::Standing;
-    use lumen_language::{Language, built_in, speak};
+
+    fn sentence(found: &Result<Certificate, CalibreError>) -> String {
+        summary(found).to_string()
+    }
 
     #[test]
     fn the_sentence_says_how_many_and_which_is_worst() {
@@ -129,17 +230,14 @@ mod tests {
              One is too short or too coarse to be measured."
         );
         assert_eq!(sentence(&certificate(&[None])), "No vessel can be measured.");
-        assert!(sentence(&Err("the surface has no inside".to_owned())).ends_with("the surface has no inside."));
+        assert!(sentence(&Err(TreeError::NoTriangles.into())).ends_with("the surface has no triangles."));
     }
 
     #[test]
-    fn the_sentence_is_in_the_language_that_is_spoken() {
-        let found = certificate(&[Some(2.5), Some(-9.04), None, Some(1.0)]);
-        speak(Language::German, built_in(Language::German).unwrap());
-        let (text, name) = (sentence(&found), called("branch 3"));
-        speak(Language::English, &[]);
-        assert!(text.contains("2 von 3") && text.contains("Ast 2: -9,0 %"), "{text}");
-        assert_eq!((&*name, &*called("branch 3"), &*called("aorta")), ("Ast 3", "branch 3", "aorta"));
+    fn a_branch_is_read_from_its_english_name() {
+        let name = BranchName::read("branch 3").unwrap();
+        assert_eq!((name, &*name.to_string()), (BranchName::Numbered { number: 3 }, "branch 3"));
+        assert_eq!(BranchName::read("aorta"), None);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
 
 use super::TreeError;
 use super::balls::fill;
@@ -10,9 +11,9 @@ use super::centreline::{Place, arcs, centreline};
 use super::locating::{Located, Segments};
 use super::paths::{Graph, Path};
 use super::space::{Ball, Space};
-use lumen_language::say;
 use lumen_mesh::task::{Yielder, at_once};
 use lumen_mesh::{SurfaceIndex, Topology, TriMesh, volume};
+use lumen_message::messages;
 
 /// A group of balls with less than this part of the largest group's volume is a speck, and has no branches.
 const SPECK: f64 = 0.005;
@@ -26,6 +27,31 @@ pub enum End {
     Closed,
     /// It goes on in other branches.
     Joint,
+}
+
+messages! {
+    /// What a branch is called.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum BranchName {
+        /// By its number.
+        "vessels-branch" Numbered {
+            /// 1 for the first.
+            number: u32,
+        } => "branch {number}",
+    }
+}
+
+impl BranchName {
+    /// Of the branch at this place in [`Tree::branches`].
+    pub fn of_place(place: u32) -> Self {
+        Self::Numbered { number: place + 1 }
+    }
+
+    /// That of which this is the English name, as files keep it.
+    pub fn read(english: &str) -> Option<Self> {
+        let number = english.strip_prefix("branch ")?.parse().ok()?;
+        Some(Self::Numbered { number })
+    }
 }
 
 /// A vessel between two places where vessels divide or end.
@@ -50,9 +76,9 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// What it is called in the language that is spoken; `name` is English.
-    pub fn label(&self) -> String {
-        say!("vessels-branch", number = (self.id + 1).to_string())
+    /// What it is called; `name` is the same in English.
+    pub fn label(&self) -> BranchName {
+        BranchName::of_place(self.id)
     }
 
     /// Whether it only goes on where its parent ends, past the ostium of a third.

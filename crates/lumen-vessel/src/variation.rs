@@ -19,9 +19,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::calibre::circle;
-use super::certificate::{OnSurface, Standing};
-use lumen_language::decimal;
-use lumen_language::say;
+use super::on_surface::{OnSurface, Standing};
+use lumen_message::messages;
 
 /// The least degree by diameter of a stretch: below that a narrowing is called minimal (CAD-RADS 2.0, 2022).
 pub const LEAST: f64 = 0.25;
@@ -77,22 +76,56 @@ pub struct Variation {
 
 impl Variation {
     /// As "70 % narrower over 12.3 mm, at 34.5 mm".
-    pub fn text(&self) -> String {
-        let (percent, length) = (decimal(self.degree_percent, 0), decimal(self.length_mm, 1));
-        let at = decimal(self.abscissa_mm, 1);
+    pub fn text(&self) -> VariationText {
+        let (percent, length, at) = (self.degree_percent, self.length_mm, self.abscissa_mm);
         match self.kind {
-            Kind::Narrower => say!("vessels-narrower-over", percent = percent, length = length, at = at),
-            Kind::Wider => say!("vessels-wider-over", percent = percent, length = length, at = at),
+            Kind::Narrower => VariationText::NarrowerOver { percent, length, at },
+            Kind::Wider => VariationText::WiderOver { percent, length, at },
         }
     }
 
     /// As "70 % narrower".
-    pub fn degree(&self) -> String {
-        let percent = decimal(self.degree_percent, 0);
+    pub fn degree(&self) -> VariationText {
+        let percent = self.degree_percent;
         match self.kind {
-            Kind::Narrower => say!("vessels-narrower", percent = percent),
-            Kind::Wider => say!("vessels-wider", percent = percent),
+            Kind::Narrower => VariationText::Narrower { percent },
+            Kind::Wider => VariationText::Wider { percent },
         }
+    }
+}
+
+messages! {
+    /// A [`Variation`] as tables show it.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum VariationText {
+        /// How much narrower.
+        "vessels-narrower" Narrower {
+            /// Degree by diameter, in percent.
+            percent: f64 [0],
+        } => "{percent:.0} % narrower",
+        /// How much wider.
+        "vessels-wider" Wider {
+            /// Degree by diameter, in percent.
+            percent: f64 [0],
+        } => "{percent:.0} % wider",
+        /// How much narrower, over which length and where.
+        "vessels-narrower-over" NarrowerOver {
+            /// Degree by diameter, in percent.
+            percent: f64 [0],
+            /// In mm.
+            length: f64 [1],
+            /// Arc length, in mm.
+            at: f64 [1],
+        } => "{percent:.0} % narrower over {length:.1} mm, at {at:.1} mm",
+        /// How much wider, over which length and where.
+        "vessels-wider-over" WiderOver {
+            /// Degree by diameter, in percent.
+            percent: f64 [0],
+            /// In mm.
+            length: f64 [1],
+            /// Arc length, in mm.
+            at: f64 [1],
+        } => "{percent:.0} % wider over {length:.1} mm, at {at:.1} mm",
     }
 }
 

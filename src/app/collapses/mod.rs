@@ -16,7 +16,7 @@ use crate::app::places::seen;
 use crate::app::platform::Platform;
 use crate::app::state::State;
 use crate::app::theme;
-use crate::language::{Key, decimal, inner};
+use crate::language::{Key, decimal, inner, tell};
 use crate::pipeline::classes::Class;
 use crate::pipeline::decimation::{Fate, Ways};
 use crate::pipeline::one_collapse::OneCollapse;
@@ -171,7 +171,7 @@ impl Collapses {
                 let (number, all) = (steps + 1, levels.errors.len());
                 let (before, after) = (next.hole.len(), next.patch.len());
                 said.push(if next.gone.len() == 1 {
-                    let class = class.map_or(String::new(), |class| inner(&class.name()));
+                    let class = class.map_or(String::new(), |class| inner(&tell(&class)));
                     say!("views-next-vertex", number = number, all = all, class = class, before = before, after = after)
                 } else {
                     say!("views-next-edge", number = number, all = all, before = before, after = after)
@@ -333,7 +333,7 @@ fn answer(node: u32, ways: &Ways, document: &Document, decimation: &Decimation) 
         let (triangles, cost) = (levels.triangles_after(end), levels.costs[end as usize]);
         say!("views-goes-at", count = triangles, cost = decimal(cost, 4))
     };
-    let vertex = say!("views-vertex", class = ways.class.name());
+    let vertex = say!("views-vertex", class = tell(&ways.class));
     if ways.to.is_empty() {
         let why = if ways.class == Class::Complex { say!("views-stays-by-rule") } else { say!("views-stays-crowded") };
         return vec![[vertex, why, goes].join(" ")];

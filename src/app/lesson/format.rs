@@ -18,6 +18,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use crate::language::tell;
 use crate::phantom::Sample;
 use crate::pipeline::settings::Settings;
 use crate::render::StandardView;
@@ -284,7 +285,7 @@ fn of_settings(line: usize, error: &LinkError) -> String {
         LinkError::Twice(name) => say!("lesson-settings-twice", line = line, name = name),
         LinkError::Unknown(name) => say!("lesson-settings-unknown", line = line, name = name),
         LinkError::Value { key, value } => say!("lesson-settings-value", line = line, key = *key, value = value),
-        LinkError::Range(error) => say!("lesson-settings-range", line = line, error = error.to_string()),
+        LinkError::Range(error) => say!("lesson-settings-range", line = line, error = tell(error)),
         // The last two are of a whole link.
         LinkError::Long(_) | LinkError::Newer { .. } | LinkError::Missing(_) => {
             say!("lesson-settings-long", line = line)

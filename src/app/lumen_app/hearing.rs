@@ -7,6 +7,7 @@ use crate::app::scan::{self, Told};
 use crate::app::sharing::{self, Sharing};
 use crate::app::state::{Effect, State};
 use crate::app::{keys, large, lesson, recovery, verdict};
+use crate::language::tell;
 use crate::say;
 
 impl LumenApp {
@@ -104,7 +105,7 @@ impl LumenApp {
     pub(super) fn tell_saved(&mut self, message: &str) {
         let verdict = self.state.document.as_ref().map(|document| verdict::verdict(&self.state, document));
         match verdict.filter(|verdict| verdict.is_safe == Some(false)) {
-            Some(verdict) => self.state.saved(&format!("{message} {}", verdict.in_short())),
+            Some(verdict) => self.state.saved(&format!("{message} {}", verdict.in_short(tell))),
             None => self.state.saved(message),
         }
     }

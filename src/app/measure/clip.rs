@@ -2,7 +2,7 @@
 
 use crate::app::document::Document;
 use crate::io::Axes;
-use crate::language::Key;
+use crate::language::{Key, tell};
 use crate::mesh::{Bounds, Vec3};
 use crate::pipeline::settings::Keep;
 use crate::render::ClipPlane;
@@ -64,8 +64,10 @@ impl Across {
             Self::Direction(_) => say!("measure-facing"),
             Self::Branch(number) => {
                 let branch = branches(document).iter().find(|branch| branch.number == number);
-                branch
-                    .map_or_else(|| say!("measure-centreline"), |branch| say!("measure-along", vessel = branch.label()))
+                branch.map_or_else(
+                    || say!("measure-centreline"),
+                    |branch| say!("measure-along", vessel = tell(&branch.label())),
+                )
             }
         }
     }

@@ -8,6 +8,7 @@ use super::subject::Subject;
 use super::tool::Tool;
 use crate::app::document::Document;
 use crate::app::state::State;
+use crate::language::tell;
 use crate::mesh::Vec3;
 use crate::say;
 use crate::sharing::measures::{Found, Measure};
@@ -52,7 +53,7 @@ impl Measuring {
 /// The cross-section of the vessel beside a place.
 fn section(subject: &Subject<'_>, document: &Document, at: DVec3) -> Result<Found, String> {
     has_centrelines(document)?;
-    let why = |error: crate::vessel::beside::NotMeasured| say!("measure-no-section", why = error.to_string());
+    let why = |error: crate::vessel::beside::NotMeasured| say!("measure-no-section", why = tell(&error));
     let place = beside(branches(document), at).map_err(why)?;
     let section = cross_section(subject.positions, &subject.triangles, &place).map_err(why)?;
     Ok(Found::Section {
@@ -69,7 +70,7 @@ fn section(subject: &Subject<'_>, document: &Document, at: DVec3) -> Result<Foun
 /// The angle of the fork next to a place, its sides as long as the branches are wide.
 fn angle(document: &Document, at: DVec3) -> Result<Found, String> {
     has_centrelines(document)?;
-    let found = fork(branches(document), at).map_err(|error| say!("measure-no-angle", why = error.to_string()))?;
+    let found = fork(branches(document), at).map_err(|error| say!("measure-no-angle", why = tell(&error)))?;
     let reach = |i: usize| found.branches[i].opened.radius_mm.map_or(5.0, |radius| 4.0 * radius.mean);
     let end = |i: usize| (found.at + found.directions[i] * reach(i)).as_vec3().to_array();
     Ok(Found::Angle { places_mm: [end(0), found.at.as_vec3().to_array(), end(1)] })
@@ -79,7 +80,7 @@ fn angle(document: &Document, at: DVec3) -> Result<Found, String> {
 fn has_centrelines(document: &Document) -> Result<(), String> {
     match document.calibre.as_ref().map(|calibre| &calibre.found) {
         None => Err(say!("measure-not-yet")),
-        Some(Err(why)) => Err(say!("measure-no-centreline", why = why)),
+        Some(Err(why)) => Err(say!("measure-no-centreline", why = tell(why))),
         Some(Ok(_)) => Ok(()),
     }
 }

@@ -11,7 +11,7 @@ use crate::app::row::{number, remark, row, step};
 use crate::app::state::State;
 use crate::app::swipe::Way;
 use crate::app::views::Views;
-use crate::language::{decimal, text};
+use crate::language::{decimal, tell, text};
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Settings, Target, reduction_percent};
@@ -46,7 +46,7 @@ fn reduction(ui: &mut Ui, state: &State, settings: &mut Settings) {
     error_plot::section(ui, state, &mut settings.target);
     let shown = state.document.as_ref().and_then(|d| d.shown.as_ref());
     if let Some(shortfall) = shown.and_then(|shown| shown.level.shortfall.as_ref()) {
-        remark(ui, &format!("{shortfall}."));
+        remark(ui, &format!("{}.", tell(&shortfall.message())));
     }
 }
 
@@ -139,11 +139,11 @@ fn largest_deviation(ui: &mut Ui, state: &State, settings: &mut Settings) {
 fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Target) {
     let mut help = say!("panel-safe-help", tolerance = tolerance);
     if let Some(why) = safe.and_then(|safe| safe.stopped_by.as_ref()) {
-        help += &format!(" {why}.");
+        help += &format!(" {}.", tell(why));
     }
     if let Some(why) = safe.and_then(|safe| safe.refused.as_ref()) {
         help += " ";
-        help += &say!("panel-safe-refused", why = why);
+        help += &say!("panel-safe-refused", why = tell(why));
     }
     let changed = safe.map_or(0, |safe| safe.branches.iter().filter(|branch| branch.changed_by_smoothing).count());
     if changed > 0 {

@@ -9,6 +9,7 @@ use crate::app::row::{remark, row, step};
 use crate::app::state::State;
 use crate::app::views::Views;
 use crate::app::{control, response, theme};
+use crate::language::tell;
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Preset, Settings, Smoothing};
 use crate::say;
@@ -30,11 +31,11 @@ fn preset_list(ui: &mut Ui, smoothing: &mut Smoothing) {
     row(ui, &say!("panel-strength"), &say!("panel-strength-help"), |ui| {
         // Whether the volume is held is chosen beside it.
         let chosen = Preset::of(&Smoothing { preserve_volume: false, ..*smoothing });
-        let words = chosen.map_or_else(|| say!("panel-strength-own"), Preset::label);
+        let words = chosen.map_or_else(|| say!("panel-strength-own"), |preset| tell(&preset));
         let list = ComboBox::from_id_salt("preset").selected_text(words);
         let response = list.show_ui(ui, |ui| {
             for preset in Preset::ALL {
-                if ui.selectable_label(chosen == Some(preset), preset.label()).clicked() {
+                if ui.selectable_label(chosen == Some(preset), tell(&preset)).clicked() {
                     *smoothing = Smoothing { preserve_volume: smoothing.preserve_volume, ..preset.smoothing() };
                     ui.close();
                 }

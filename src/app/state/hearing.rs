@@ -78,7 +78,7 @@ impl State {
                 }
                 return arrived;
             }
-            Event::Measured { generation, complete, report, deviation } => {
+            Event::Measured { generation, complete, report, safe, deviation } => {
                 if complete {
                     self.failures = 0;
                     // Numbers of older settings, or of the surface before, end no work on newer ones.
@@ -88,7 +88,7 @@ impl State {
                     }
                 }
                 if let Some(document) = &mut self.document {
-                    document.set_measured(generation, *report, deviation);
+                    document.set_measured(generation, *report, safe, deviation);
                     // Of an older bound too: the view follows the slider as fast as levels are found.
                     if self.settings.target.deviation_mm().is_some() {
                         document.show_found();

@@ -37,10 +37,11 @@ impl Trial {
                     session.run.felt.extend(touches);
                 }
             }
-            TrialEvent::Ended { id, summary } => {
+            TrialEvent::Ended { id, summary, end } => {
                 if let Some(session) = self.session_of(id) {
                     let missed = summary.missed_fork_at.map(Vec3::from);
                     session.run.summary = Some(*summary);
+                    session.run.end = Some(end);
                     if let (Some(open), Some(missed)) = (&mut self.open, missed) {
                         open.flight = Some(missed);
                     }

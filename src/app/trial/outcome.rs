@@ -11,7 +11,7 @@ use crate::app::control::progress;
 use crate::app::row::number;
 use crate::app::still_plot::tick;
 use crate::engine::trial::TrialComparison;
-use crate::language::decimal;
+use crate::language::{decimal, tell};
 use crate::say;
 
 /// Shows the button, and what came of it.
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, trial: &Trial, asked: &mut Vec<Action>) {
 }
 
 fn shown(ui: &mut Ui, comparison: &TrialComparison) {
-    ui.add(egui::Label::new(RichText::new(&comparison.verdict).strong()).wrap());
+    ui.add(egui::Label::new(RichText::new(tell(&comparison.verdict)).strong()).wrap());
     let [after, before] = [comparison.smallest_after_mm, comparison.smallest_before_mm].map(|mm| decimal(mm, 2));
     let diameters = say!("trial-smallest-was", after = after, before = before);
     number(ui, &say!("trial-smallest"), &diameters, &say!("trial-smallest-help"));

@@ -4,7 +4,7 @@ use egui::{Align2, CollapsingHeader, Color32, FontId, Role, Sense, Stroke, Ui, W
 
 use super::state::{Run, Trial};
 use crate::app::row::number;
-use crate::language::{decimal, grouped, inner};
+use crate::language::{decimal, grouped, inner, tell};
 use crate::render::{Colour, viridis};
 use crate::say;
 use crate::trial::STEP;
@@ -23,7 +23,7 @@ pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
         let text = if summary.success {
             say!("trial-success", time = time, force = force(summary.max_wall_force_n))
         } else {
-            say!("trial-failed", time = time, why = &summary.reason)
+            say!("trial-failed", time = time, why = run.end.as_ref().map_or_else(String::new, |end| tell(end)))
         };
         return (text, summary.success);
     }
@@ -36,9 +36,11 @@ pub(super) fn sentence(run: &Run, frame: &Frame) -> (String, bool) {
         Progress::Running if frame.is_looped => say!("trial-looped"),
         Progress::Running if frame.is_wrong_branch => say!("trial-wrong-branch"),
         Progress::Running if frame.is_behind => say!("trial-behind"),
-        Progress::Running if !frame.doing.is_empty() => say!("trial-steers", doing = inner(&frame.doing)),
-        Progress::Running if frame.step == 0 => say!("trial-feed-first"),
-        Progress::Running => say!("trial-feed"),
+        Progress::Running => match frame.doing {
+            Some(doing) => say!("trial-steers", doing = inner(&tell(&doing))),
+            None if frame.step == 0 => say!("trial-feed-first"),
+            None => say!("trial-feed"),
+        },
     };
     (text, matches!(frame.progress, Progress::Arrived | Progress::Running))
 }

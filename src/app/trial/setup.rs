@@ -10,6 +10,7 @@ use crate::app::control::{Setting, reads_comma};
 use crate::app::row::{remark, row};
 use crate::app::theme;
 use crate::engine::trial::TrialReady;
+use crate::language::tell;
 use crate::mesh::Vec3;
 use crate::say;
 use crate::trial::setup::{Entry, Setup};
@@ -98,7 +99,7 @@ fn setting<'a>(
 pub(super) fn places(ui: &mut Ui, ready: &TrialReady, setup: &mut Setup, pick: Option<Pick>, asked: &mut Vec<Action>) {
     let (mut entry, mut target) = (setup.entry, setup.target);
     let name_of = |at: Entry| ready.entries.iter().find(|(_, other)| key(*other) == key(at)).map(|(name, _)| name);
-    let called = |at: Entry| name_of(at).map_or_else(|| place(at.at), |name| name.label());
+    let called = |at: Entry| name_of(at).map_or_else(|| place(at.at), |name| tell(&name.label()));
     let chosen = entry.map_or(say!("trial-proposed"), called);
     let label = say!("trial-entry");
     row(ui, &label, &say!("trial-entry-help"), |ui| {
@@ -107,13 +108,13 @@ pub(super) fn places(ui: &mut Ui, ready: &TrialReady, setup: &mut Setup, pick: O
         let response = list.show_ui(ui, |ui| {
             ui.selectable_value(&mut entry, None, say!("trial-proposed"));
             for (name, other) in &ready.entries {
-                ui.selectable_value(&mut entry, Some(*other), name.label());
+                ui.selectable_value(&mut entry, Some(*other), tell(&name.label()));
             }
         });
         name(&response.response, Role::ComboBox, &label);
     });
     let name_of = |at: [f32; 3]| ready.targets.iter().find(|(_, other)| *other == at).map(|(name, _)| name);
-    let called = |at: [f32; 3]| name_of(at).map_or_else(|| place(at), |name| name.label());
+    let called = |at: [f32; 3]| name_of(at).map_or_else(|| place(at), |name| tell(&name.label()));
     let chosen = target.map_or(say!("trial-proposed"), called);
     let label = say!("trial-target");
     row(ui, &label, &say!("trial-target-help"), |ui| {
@@ -122,7 +123,7 @@ pub(super) fn places(ui: &mut Ui, ready: &TrialReady, setup: &mut Setup, pick: O
         let response = list.show_ui(ui, |ui| {
             ui.selectable_value(&mut target, None, say!("trial-proposed"));
             for (name, at) in &ready.targets {
-                ui.selectable_value(&mut target, Some(*at), name.label());
+                ui.selectable_value(&mut target, Some(*at), tell(&name.label()));
             }
         });
         name(&response.response, Role::ComboBox, &label);

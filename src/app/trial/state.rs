@@ -6,6 +6,8 @@
 
 use std::sync::Arc;
 
+use lumen_message::Told;
+
 use super::action::Pick;
 use super::carm::CArm;
 use super::device::Device;
@@ -150,6 +152,8 @@ pub struct Run {
     pub(super) peaks: Largest,
     /// What came of it, once it is over.
     pub summary: Option<Summary>,
+    /// Why it ended, once it has.
+    pub(super) end: Option<Told>,
     /// What the unreduced surface makes of it.
     pub comparison: Option<TrialComparison>,
     /// A comparison that is under way.

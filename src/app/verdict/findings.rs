@@ -4,6 +4,7 @@ use crate::app::action::Action;
 use crate::app::document::Document;
 use crate::app::state::State;
 use crate::engine::Source;
+use crate::language::tell;
 use crate::pipeline::verdict::{Finding, Known, Remedied, Remedy, Rest, Verdict, rate};
 
 /// Height of what is seen around a place, in widths of the vessel there.
@@ -18,6 +19,11 @@ pub(in crate::app) fn verdict(state: &State, document: &Document) -> Verdict {
         // Samples and scans are in mm.
         has_units: matches!(document.source, Source::File { .. }),
         report: measured.map(|measured| &measured.report),
+        shortfall: document
+            .shown
+            .as_ref()
+            .and_then(|shown| shown.level.shortfall.as_ref())
+            .filter(|_| measured.is_some()),
         // As the reduction moves, a pinch is known in the same frame; the rest follows.
         pinch: document.pinch(),
         calibre: state.calibre().map(|calibre| &calibre.found),
@@ -39,7 +45,7 @@ fn safe_percent(state: &State, document: &Document) -> Option<f64> {
 pub(super) fn look(finding: &Finding) -> Option<Action> {
     let place = finding.place.as_ref()?;
     let height_mm = (SEEN * place.width_mm).max(1.0) as f32;
-    Some(Action::GoTo { at_mm: place.at_mm, height_mm, label: place.label.clone() })
+    Some(Action::GoTo { at_mm: place.at_mm, height_mm, label: tell(&place.label) })
 }
 
 /// What takes a remedy.

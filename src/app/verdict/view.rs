@@ -10,6 +10,7 @@ use crate::app::menus::menu;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::app::vessels;
+use crate::language::tell;
 use crate::pipeline::verdict::{Finding, Verdict};
 use crate::say;
 
@@ -27,8 +28,8 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &
     let verdict = verdict(state, document);
     let first = verdict.findings.first().filter(|finding| finding.is_grave);
     let text = match (first, &verdict.calibre) {
-        (Some(finding), _) => finding.text.clone(),
-        (None, Some(sentence)) => sentence.clone(),
+        (Some(finding), _) => tell(&finding.what),
+        (None, Some(calibre)) => tell(calibre),
         (None, None) if state.is_measuring() => say!("verdict-follows"),
         (None, None) => say!("verdict-stopped"),
     };
@@ -37,7 +38,7 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &
     ui.spacing_mut().interact_size.y = line;
     ui.allocate_ui_with_layout(vec2(ui.available_width(), line), Layout::left_to_right(Align::Center), |ui| {
         mark(ui, verdict.is_safe);
-        ui.label(RichText::new(&verdict.head).strong());
+        ui.label(RichText::new(tell(&verdict.head)).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             buttons(ui, &verdict, first, is_narrow, asked);
             if !is_narrow {
@@ -66,7 +67,7 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: b
                 if i > 0 {
                     ui.separator();
                 }
-                ui.add(egui::Label::new(RichText::new(&finding.text).small()).wrap());
+                ui.add(egui::Label::new(RichText::new(tell(&finding.what)).small()).wrap());
                 ui.horizontal(|ui| act(ui, finding, asked));
             }
         });
@@ -87,7 +88,7 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: b
 fn act(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
     go(ui, finding, asked);
     for remedy in &finding.remedies {
-        if ui.button(&remedy.words).on_hover_text(say!("verdict-remedy-help")).clicked() {
+        if ui.button(tell(&remedy.label)).on_hover_text(say!("verdict-remedy-help")).clicked() {
             asked.push(take(remedy));
         }
     }

@@ -4,7 +4,7 @@ use egui::{RichText, Role, Stroke, Ui, Visuals, WidgetInfo};
 use egui_plot::{AxisHints, HoverPosition, Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine};
 
 use crate::app::still_plot::{still, tick};
-use crate::language::decimal;
+use crate::language::{decimal, tell};
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, OnSurface, Standing};
 
@@ -34,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) 
     let names = [say!("vessels-as-opened"), say!("vessels-smoothed"), say!("vessels-reduced")];
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 8.0;
-        ui.label(RichText::new(say!("vessels-radius-head", name = branch.label())).small().strong());
+        ui.label(RichText::new(say!("vessels-radius-head", name = tell(&branch.label()))).small().strong());
         for (name, stroke) in names.iter().zip([strokes.opened, strokes.smoothed, strokes.reduced]) {
             ui.label(RichText::new(name).small().color(stroke.color));
         }
@@ -89,7 +89,7 @@ pub(super) fn show(ui: &mut Ui, branch: &BranchCalibre, tolerance_percent: f64) 
         }
         plot.pointer_coordinate().filter(|_| plot.response().clicked())
     });
-    let text = say!("vessels-radius-along", name = branch.label());
+    let text = say!("vessels-radius-along", name = tell(&branch.label()));
     shown.response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &text));
     nearest(branch, shown.inner?.x)
 }

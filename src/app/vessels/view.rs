@@ -12,10 +12,11 @@ use crate::app::mode::Now;
 use crate::app::options::{Colours, ViewOptions};
 use crate::app::state::State;
 use crate::app::theme;
+use crate::language::tell;
 use crate::pipeline::settings::Settings;
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, Change, Verdict};
-use crate::vessel::summary::{in_order, place, sentence};
+use crate::vessel::summary::{in_order, place, summary};
 
 /// Height of what is seen at a place that is gone to, in radii of the vessel there.
 const SEEN: f32 = 16.0;
@@ -34,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, selected: Option<u32>, now: Now<'_>, asked: &mut
         return;
     };
     let is_current = state.calibre().is_some();
-    let told = sentence(&calibre.found);
+    let told = tell(&summary(&calibre.found));
     let told = RichText::new(if is_current { told } else { format!("{told} {}", say!("vessels-newer")) });
     let is_changed = matches!(&calibre.found, Ok(found) if found.verdict == Verdict::Changed);
     let told = if is_changed && is_current { told.color(ui.visuals().error_fg_color) } else { told };
@@ -147,14 +148,14 @@ fn go_to_station(branch: &BranchCalibre, i: usize) -> Option<Action> {
         None => Action::GoTo {
             at_mm,
             height_mm: height(branch, abscissa_mm),
-            label: say!("vessels-not-here", name = branch.label()),
+            label: say!("vessels-not-here", name = tell(&branch.label())),
         },
     })
 }
 
 /// A look at the place of a change.
 fn go_to(branch: &BranchCalibre, change: &Change) -> Action {
-    let label = place(branch, change);
+    let label = tell(&place(branch, change));
     Action::GoTo { at_mm: change.at_mm, height_mm: height(branch, change.abscissa_mm), label }
 }
 

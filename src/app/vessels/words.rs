@@ -1,11 +1,10 @@
 //! The calibre of the vessels in words and numbers.
 
 use crate::app::state::State;
-use crate::language::{Key, decimal, signed};
+use crate::language::{Key, decimal, signed, tell};
 use crate::pipeline::safe::Safe;
 use crate::say;
 use crate::vessel::certificate::{BranchCalibre, Certificate, OnSurface, Standing, Verdict};
-use crate::vessel::variation::Variation;
 
 /// Heads of the columns, and what they say.
 pub(super) const COLUMNS: [(Key, Key); 9] = [
@@ -29,7 +28,7 @@ pub(in crate::app) fn verdict(state: &State) -> String {
             let count = |verdict: Verdict| found.branches.iter().filter(|branch| branch.verdict == verdict).count();
             let (kept, changed) = (count(Verdict::Kept), count(Verdict::Changed));
             match (kept, changed) {
-                (0, 0) => Verdict::NotMeasured.label().say(),
+                (0, 0) => tell(&Verdict::NotMeasured),
                 (_, 0) => say!("vessels-all-kept-short", tolerance = found.tolerance_percent),
                 _ => say!("vessels-some-changed-short", changed = changed, all = kept + changed),
             }
@@ -45,16 +44,16 @@ pub(super) fn cells(branch: &BranchCalibre, safe: Option<&Safe>) -> [String; COL
     let radius = branch.opened.radius_mm;
     let safe = safe.and_then(|safe| safe.branches.iter().find(|of| of.number == branch.number));
     [
-        branch.label(),
-        branch.verdict.label().say(),
+        tell(&branch.label()),
+        tell(&branch.verdict),
         percent(&branch.reduced),
         percent(&branch.smoothed),
         match safe.map(|of| (of.changed_by_smoothing, of.kept_to_percent)) {
             Some((false, Some(percent))) => format!("{} %", decimal(percent, 1)),
             _ => none(),
         },
-        radius.map_or_else(none, |radius| radius.text()),
-        branch.most_uneven().map_or_else(none, Variation::text),
+        radius.map_or_else(none, |radius| tell(&radius.text())),
+        branch.most_uneven().map_or_else(none, |found| tell(&found.text())),
         decimal(branch.length_mm, 1),
         branch.tortuosity.map_or_else(none, |tortuosity| decimal(tortuosity, 2)),
     ]

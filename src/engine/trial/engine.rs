@@ -9,6 +9,7 @@ use super::message::{TrialCommand, TrialEvent, TrialReady};
 use super::shown::Shown;
 use super::start::start;
 use crate::engine::machine::{Machine, SLICE};
+use crate::language::tell;
 use crate::say;
 use crate::trial::session::Trial;
 
@@ -86,7 +87,7 @@ impl TrialEngine {
             TrialCommand::Pace(pace) => shown.set_pace(pace),
             TrialCommand::Restart { .. } => {
                 if let Err(error) = shown.restart() {
-                    self.events.push_back(TrialEvent::failed(&error.to_string()));
+                    self.events.push_back(TrialEvent::failed(&tell(&error)));
                 }
             }
             TrialCommand::StepBack { .. } => shown.step_back(),

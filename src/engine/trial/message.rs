@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use lumen_message::Told;
 use serde::{Deserialize, Serialize};
 
 use crate::engine::link::Link;
 use crate::engine::surfaces::surface;
+use crate::language::tell;
 use crate::mesh::TriMesh;
 use crate::phantom::Sample;
 use crate::say;
@@ -212,6 +214,8 @@ pub enum TrialEvent {
         id: u64,
         /// What came of it.
         summary: Box<Summary>,
+        /// Why it ended: a clause.
+        end: Told,
     },
     /// The log.
     Saved {
@@ -254,7 +258,7 @@ impl TrialEvent {
     /// That what was asked for under this number cannot be done.
     pub(super) fn refused(id: u64, error: &TrialError) -> Self {
         let is_too_thin = matches!(error, TrialError::Route(RouteError::TooThin { .. }));
-        Self::Refused { id, message: sentence(&error.to_string()), is_too_thin, at: error.place() }
+        Self::Refused { id, message: sentence(&tell(error)), is_too_thin, at: error.place() }
     }
 
     /// That what acts on a trial cannot be done without one.
@@ -290,9 +294,13 @@ fn sentence(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::transfer::sent;
+    use lumen_message::Message as _;
+
+    use crate::trial::autopilot::AutopilotTask;
     use crate::trial::frame::Progress;
     use crate::trial::report::{StepCounts, StepKind, StepReport};
     use crate::trial::route::WayEnd;
+    use crate::trial::summary::TrialEnd;
 
     #[test]
     fn every_command_comes_through_unchanged() {
@@ -329,14 +337,15 @@ mod tests {
             step_kinds: StepCounts { balanced: 40, held: 2, ..StepCounts::default() },
             time_s: 0.1,
             progress: Progress::Arrived,
-            doing: "feeds".to_owned(),
+            doing: Some(AutopilotTask::Following),
             ..Frame::default()
         };
         let route = RouteShown { points: vec![[1.0; 3]; 2], radii: vec![2.0; 2], ..RouteShown::default() };
         let left = PlaceName::Target { branch: 3, end: WayEnd::Closed, diameter_mm: 1.7, away_mm: 80.5 };
         let ready = TrialReady { id: 1, route, targets: vec![(left, [0.0; 3])], ..TrialReady::default() };
+        let end = TrialEnd::Arrived { time: 23.4 }.told();
         let comparison = TrialComparison {
-            verdict: "it arrives".to_owned(),
+            verdict: end.clone(),
             inserted_mm: vec![1.0, 2.0],
             deviation_mm: vec![0.0, 0.5],
             noise_mm: vec![0.1, 0.2],
@@ -354,7 +363,7 @@ mod tests {
             TrialEvent::Refused { id: 1, message: message.clone(), is_too_thin: true, at: Some([1.0, 2.5, 3.0]) },
             TrialEvent::Frame { id: 4, frame: Box::new(frame) },
             TrialEvent::Felt { id: 4, touches: vec![touch; 3] },
-            TrialEvent::Ended { id: 4, summary: summary.clone() },
+            TrialEvent::Ended { id: 4, summary: summary.clone(), end },
             TrialEvent::Saved { csv: "a,b\n1,2\n".to_owned(), json: "{}".to_owned() },
             TrialEvent::Compared { id: 2, comparison: Box::new(comparison) },
             TrialEvent::Busy { id: 2, fraction: 0.25 },

@@ -3,10 +3,12 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use lumen_message::Message as _;
+
 use super::grasp::{Exchange, Grasp};
 use super::message::{HAND, TrialEvent};
 use super::pace::Pace;
-use crate::language::decimal;
+use crate::language::{decimal, tell};
 use crate::say;
 use crate::trial::course::TrialError;
 use crate::trial::frame::Progress;
@@ -167,7 +169,7 @@ impl Shown {
     }
 
     fn recorded(&self, csv: &[u8]) -> Result<Trial, String> {
-        let recorded = Log::read(csv).map_err(|error| error.to_string())?;
+        let recorded = Log::read(csv).map_err(|error| tell(&error))?;
         let (course, setup) = (self.trial.course().clone(), self.trial.setup());
         if recorded.surface != format!("{:016x}", course.fingerprint) {
             return Err(say!("devices-log-other-surface"));
@@ -175,7 +177,7 @@ impl Shown {
         if (recorded.setup.entry, recorded.setup.target) != (setup.entry, setup.target) {
             return Err(say!("devices-log-other-route", length = decimal(course.route.length_mm, 0)));
         }
-        let mut trial = Trial::new(course, recorded.setup).map_err(|error| error.to_string())?;
+        let mut trial = Trial::new(course, recorded.setup).map_err(|error| tell(&error))?;
         trial.replay(recorded.inputs, recorded.steps);
         Ok(trial)
     }
@@ -241,7 +243,8 @@ impl Shown {
         }
         if is_end {
             self.is_told = true;
-            events.push_back(TrialEvent::Ended { id: self.id, summary: Box::new(self.trial.summary()) });
+            let (summary, end) = (Box::new(self.trial.summary()), self.trial.end().told());
+            events.push_back(TrialEvent::Ended { id: self.id, summary, end });
         }
         match (is_over, self.stands()) {
             (false, false) => Some(self.pace.rest()),

@@ -12,6 +12,7 @@ use lumen::trial::frame::Frame;
 use lumen::trial::route::{PlaceName, WayEnd};
 use lumen::trial::setup::{Entry, Setup};
 use lumen::trial::summary::Summary;
+use lumen_message::Told;
 
 pub use crate::{DESKTOP, PHONE, says};
 use crate::{Memory, app, settle};
@@ -116,9 +117,15 @@ pub fn now(id: u64, frame: Frame) -> TrialEvent {
     TrialEvent::Frame { id, frame: Box::new(frame) }
 }
 
+/// Words that no language has.
+pub fn told(words: &str) -> Told {
+    Told::new("", Vec::new(), words.to_owned())
+}
+
 /// The end of a trial.
 pub fn ended(id: u64, summary: Summary) -> TrialEvent {
-    TrialEvent::Ended { id, summary: Box::new(summary) }
+    let end = told(&summary.reason);
+    TrialEvent::Ended { id, summary: Box::new(summary), end }
 }
 
 /// A wire on its way.

@@ -245,7 +245,7 @@ errors-reduction = Die Reduktionsrate muss zwischen 0 und 99,9 % liegen, nicht b
 errors-deviation = Die größte Abweichung muss zwischen 0,001 und 1000 mm liegen, nicht bei { $value } mm
 errors-weld = Die Toleranz beim Verschweißen muss zwischen 0,000001 und 100 mm liegen, nicht bei { $value } mm
 errors-fill = Die Größe zu füllender Löcher muss zwischen 0,001 und 1000 mm liegen, nicht bei { $value } mm
-errors-no-component = Es gibt keine Komponente { $wanted }: Die Oberfläche hat { $number }
+errors-no-component = Es gibt keine Komponente { $wanted }: Die Oberfläche hat { $count }
 
 ## Was nach der Reparatur blieb
 
@@ -253,13 +253,14 @@ errors-weld-limited = An { $vertices } Eckpunkten an offenen Kanten wurde wenige
 errors-wall-not-parted = Das Lumen wurde nicht genommen: Die Seiten der Wand lassen sich nicht unterscheiden.
 errors-no-wall = Die Oberfläche ist keine Wand mit zwei Seiten: Sie wird genommen, wie sie ist.
 errors-holes-left = { $count ->
-    [one] { $number } Loch innerhalb der Grenze konnte nicht gefüllt werden, ohne die Oberfläche zu schneiden.
-   *[other] { $number } Löcher innerhalb der Grenze konnten nicht gefüllt werden, ohne die Oberfläche zu schneiden.
+    [one] { $count } Loch innerhalb der Grenze konnte nicht gefüllt werden, ohne die Oberfläche zu schneiden.
+   *[other] { $count } Löcher innerhalb der Grenze konnten nicht gefüllt werden, ohne die Oberfläche zu schneiden.
 }
 
 ## Nachrichten zwischen den Teilen von Lumen
 
 errors-message = Die Nachricht wird nicht verstanden: { $error }
+errors-message-missing = Puffer { $index } der Nachricht fehlt
 errors-message-buffer = Puffer { $index } der Nachricht hat { $bytes } Byte, kein Vielfaches von { $element }
 errors-message-memory = Für ihre { $bytes } Byte ist kein Speicher mehr da
 errors-message-text = Puffer { $index } der Nachricht ist kein Text

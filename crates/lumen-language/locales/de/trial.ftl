@@ -145,6 +145,7 @@ trial-click-target = Auf das Gefäß klicken, wohin er soll.
 trial-seed = Startwert
 trial-seed-help = Variiert Einführstelle, Drehung und Reibung ein wenig; 0 variiert nichts. Wirkt nach einem Neustart
 trial-own = aus dem Beispiel
+trial-entry-wide = { $branch }, { $width } mm
 trial-target-room = { $branch }, so weit der Platz reicht
 trial-target-open = { $branch }, offenes Ende
 trial-target-closed = { $branch }, geschlossenes Ende
@@ -291,7 +292,6 @@ trial-end-gave-up = { $count ->
    *[other] der Autopilot gab nach { $count } Rückzügen auf, die Spitze noch { $away } mm vom Ziel entfernt
 }
 trial-end-missed = { $why }; { $missed }
-trial-branch-named = Ast { $number }
 trial-missed-fork = er verfehlte die Gabelung nach { $along } mm der Route und nahm { $into } statt { $instead }
 trial-missed-route = er verfehlte die Gabelung nach { $along } mm der Route und nahm { $into }, statt der Route zu folgen
 trial-another-branch = einen anderen Ast
@@ -299,14 +299,14 @@ trial-another-branch = einen anderen Ast
 ## Why a trial cannot begin: clauses that a capital letter and a full stop are given to
 
 trial-place = ({ $x }; { $y }; { $z })
-trial-entry-outside = die Einführstelle { $at } liegt außerhalb des Gefäßes, { $distance } mm von dessen Wand
-trial-target-outside = das Ziel { $at } liegt außerhalb des Gefäßes, { $distance } mm von dessen Wand
-trial-no-way = von der Einführstelle zum Ziel führt kein offener Weg: Das Lumen endet bei { $at }, { $gap } mm vor dem des Ziels
-trial-too-short = Einführstelle und Ziel sind { $length } mm voneinander entfernt: zu nah für eine Route
-trial-too-thin = das Lumen ist zu dünn für einen Draht von { $wire } mm: Es ist { $lumen } mm weit bei { $at }, nach { $along } mm der Route; weniger Glättung hält dünne Gefäße weiter
+trial-entry-outside = die Einführstelle { $at } liegt außerhalb des Gefäßes, { $distance_mm } mm von dessen Wand
+trial-target-outside = das Ziel { $at } liegt außerhalb des Gefäßes, { $distance_mm } mm von dessen Wand
+trial-no-way = von der Einführstelle zum Ziel führt kein offener Weg: Das Lumen endet bei { $at }, { $gap_mm } mm vor dem des Ziels
+trial-too-short = Einführstelle und Ziel sind { $length_mm } mm voneinander entfernt: zu nah für eine Route
+trial-too-thin = das Lumen ist zu dünn für einen Draht von { $wire_mm } mm: Es ist { $lumen_mm } mm weit bei { $at }, nach { $arc_mm } mm der Route; weniger Glättung hält dünne Gefäße weiter
 trial-no-entry = kein Gefäß dieser Oberfläche hat ein Ende, an dem ein Draht eingeführt werden könnte; bitte eine Einführstelle angeben
 trial-no-target = kein Gefäß dieser Oberfläche ist weit genug von der Einführstelle entfernt, um Ziel zu sein; bitte ein Ziel angeben
-trial-tight = der Draht passt an der Einführstelle nicht hinein: Die Wand ist { $distance } mm entfernt, der Radius des Drahts ist { $radius } mm
+trial-tight = der Draht passt an der Einführstelle nicht hinein: Die Wand ist { $distance_mm } mm entfernt, der Radius des Drahts ist { $radius_mm } mm
 trial-no-direction = die Einführstelle hat keine Richtung
 trial-load = eine Last von { $load } N auf jeden Millimeter des Drahts ist nicht möglich: Sie kann von 0 bis { $most } N reichen
 trial-not-inside = die Einführstelle ist nicht im Gefäß

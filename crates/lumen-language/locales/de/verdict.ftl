@@ -56,7 +56,7 @@ verdict-pinched-at-first = Ein Gefäß von { $before } mm ist bei ({ $x }; { $y 
 verdict-lost-at-first = Ein Gefäß von { $before } mm ist bei ({ $x }; { $y }; { $z }) verloren, erstmals bei { $percent } %
 verdict-pinched-to = Ein Gefäß von { $before } mm ist bei ({ $x }; { $y }; { $z }) auf { $after } mm eingeschnürt.
 verdict-lost-at = Ein Gefäß von { $before } mm ist bei ({ $x }; { $y }; { $z }) verloren.
-verdict-worst-of = Es ist die schlimmste von { $count } Stellen.
+verdict-worst-of = { $sentence } Es ist die schlimmste von { $count } Stellen.
 
 ## Befunde zu Glättung, Volumen und Dreiecken
 
@@ -65,7 +65,7 @@ verdict-drawn-shut = Die Glättung hat ein Gefäß bei ({ $x }; { $y }; { $z }) 
 verdict-volume-changed = Das Volumen hat sich um { $change } % geändert: { $cause }.
 verdict-volume-narrow = Das Durchlassband ist zu schmal für so dünne Gefäße
 verdict-volume-few = So wenige Dreiecke tragen diese Form nicht
-verdict-volume-adapt = „Dem Kaliber anpassen“ (--smoothing auto) erhält es.
+verdict-volume-adapt = { $sentence } „Dem Kaliber anpassen“ (--smoothing auto) erhält es.
 verdict-volume-put-back = Das Volumen ist nicht auf 0,01 % gehalten: Eckpunkte wurden zurückgesetzt, damit sich keine Dreiecke schneiden.
 verdict-volume-none = Das Volumen konnte nicht gehalten werden, weil die Oberfläche keines einschließt: Sie ist wie ohne diese Vorgabe geglättet.
 verdict-volume-thin = Das Volumen konnte nicht gehalten werden, weil so dünne Gefäße bei diesem Durchlassband reißen oder anschwellen würden: Die Oberfläche ist wie ohne diese Vorgabe geglättet.
@@ -100,4 +100,9 @@ verdict-safe-unmeasured = Bei { $rate } % ist { $name } nicht mehr messbar
 
 ## Der Filter
 
-verdict-half-gain = k = { $k }: Wellen von { $length }
+verdict-half-gain = k = { $k }: Wellen von { $length } mm
+verdict-half-gain-alone = k = { $k }
+
+## Wörter als Satz
+
+verdict-sentence = { $words }.

@@ -87,6 +87,7 @@ vessels-some-changed-short = { $changed } von { $all } verändert
 vessels-place = { $name }: { $percent } %
 vessels-not-here = { $name }: hier nicht gemessen
 vessels-none = Es gibt keine messbaren Gefäße: { $why }.
+vessels-sentences = { $first } { $rest }
 vessels-none-measured = Kein Gefäß lässt sich messen.
 vessels-all-kept = { $count ->
     [one] Das Gefäß behält sein Kaliber auf { $tolerance } % genau.

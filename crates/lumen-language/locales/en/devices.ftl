@@ -115,16 +115,6 @@ devices-no-axis = The device has no axis that could feed or roll the wire.
 devices-not-opened = The device could not be opened: another program holds it, or this user may not use it (on Linux it takes a udev rule, see docs/haptics.md).
 devices-no-answer = The port is open, but what is there does not answer as the open feeder does.
 
-## The same, on the desktop; each stands alone
-
-devices-gone = the device is no longer there
-devices-report-refused = the device does not take report { $id }: { $reason }
-devices-descriptor-cut = the report descriptor ends within the item at byte { $at }
-devices-descriptor-long = the report descriptor has { $bytes } bytes, more than { $most }
-devices-descriptor-many = the device has more than { $fields } fields, or collections more than { $depth } deep
-devices-report-long = report { $id } of the device is longer than { $most } bytes
-devices-report-id = a report of the device has the id { $id }, which is not 1 to 255
-
 ## What cannot be done in a trial; the app adds a capital letter and a full stop
 
 devices-no-trial = no trial is on

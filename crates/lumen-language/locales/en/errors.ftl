@@ -7,38 +7,3 @@ errors-not-carried = The arrays of the file are not with it, because they are no
 # Why a file is not written: behind its name and a colon.
 errors-no-result = there is no result yet
 errors-not-measured = the vessels are still being measured
-
-## Settings that no stage can work with: behind a colon, too
-
-errors-pass-band = the pass band must lie between 0.001 and 2, not { $value }
-errors-iterations = the number of iterations must lie between 0 and 200, not { $value }
-errors-feature-angle = the feature angle must lie between 0 and 180 degrees, not { $value }
-errors-tolerance = the tolerance must lie between 0 and 100 %, not { $value } %
-errors-reduction = the reduction rate must lie between 0 and 99.9 %, not { $value } %
-errors-deviation = the largest deviation must lie between 0.001 and 1000 mm, not { $value } mm
-errors-weld = the tolerance of a weld must lie between 0.000001 and 100 mm, not { $value } mm
-errors-fill = the size of holes to fill must lie between 0.001 and 1000 mm, not { $value } mm
-errors-no-component = there is no component { $wanted }: the surface has { $number }
-
-## What mending left
-
-errors-weld-limited = At { $vertices } vertices on open edges less than { $mm } mm was welded: their triangles are as small.
-errors-wall-not-parted = The lumen was not taken: the sides of the wall cannot be told apart.
-errors-no-wall = The surface is no wall with two sides: it is taken as it is.
-errors-holes-left = { $count ->
-    [one] { $number } hole within the limit could not be filled without crossing the surface.
-   *[other] { $number } holes within the limit could not be filled without crossing the surface.
-}
-
-## Messages between the parts of Lumen
-
-errors-message = the message is not understood: { $error }
-errors-message-buffer = buffer { $index } of the message has { $bytes } bytes, not a multiple of { $element }
-errors-message-memory = there is no memory left for its { $bytes } bytes
-errors-message-text = buffer { $index } of the message is no text
-
-## Samples that cannot be made
-
-errors-sample-range = { $asked } triangles are outside the range of { $least } to { $most }
-errors-sample-grid = no grid gives { $asked } triangles to within 1 %; the nearest gives { $nearest }
-errors-cancelled = cancelled

@@ -182,12 +182,6 @@ panel-smoothed-less-help = Goes to where it is smoothed least
 # What is said of the place that the view goes to.
 panel-smoothed-less-place = Smoothed less
 
-## Step 2: the settings that have a name
-
-panel-preset-auto = Suits this surface
-panel-preset-paper = The paper's
-panel-preset-none = None
-
 ## Step 2: the response of the filter
 
 # $k is the eigenvalue, $length a length with its unit.
@@ -375,21 +369,3 @@ panel-classes-help = Simple: on no feature edge. Complex: the surface is no disc
 
 panel-work-reading = Reading
 panel-work-comparing = Comparing
-panel-stage-mending = Mending
-panel-stage-connectivity = Finding pieces
-panel-stage-smoothing = Smoothing
-panel-stage-decimation = Reducing
-panel-stage-bound = Finding the level
-panel-stage-level = Taking the level
-panel-stage-deviation = Measuring deviation
-panel-stage-arrays = Carrying the arrays
-panel-stage-measures = Measuring shape and lumen
-panel-stage-faults = Looking for faults
-panel-stage-vessels = Finding the vessels
-panel-stage-certificate = Measuring calibre
-panel-stage-safe = Finding how far is safe
-
-## The samples, in the menu, and as the name of what is shown
-
-panel-sample-aorta = Abdominal aorta
-panel-sample-coronary = Coronary arteries

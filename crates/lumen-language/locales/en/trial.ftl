@@ -60,9 +60,6 @@ trial-wrong-branch = Wrong branch: withdraw and roll.
 trial-behind = The machine is behind: the trial runs slower than time.
 # What it is doing is one of the three that follow, in English and French with a small first letter.
 trial-steers = Autopilot: { $doing }.
-trial-doing-following = Following the route
-trial-doing-again = Trying again, turned
-trial-doing-withdrawing = Withdrawing
 # W, S, A, D are keys.
 trial-feed-first = Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer: time runs from then on.
 trial-feed = Feed (W, S) and roll (A, D) the wire to the target, or let the autopilot steer.
@@ -157,13 +154,6 @@ trial-click-entry = Click the vessel where the wire enters.
 trial-click-target = Click the vessel where it should go.
 trial-seed = Seed
 trial-seed-help = Varies entry, roll and friction a little; 0 varies nothing. Takes effect on restart
-# In the lists of entries and targets.
-trial-own = the sample's own
-trial-target-room = { $branch }, as far as there is room
-trial-target-open = { $branch }, open end
-trial-target-closed = { $branch }, closed end
-# Name is one of the three above; the width is that of the lumen there.
-trial-target-away = { $name }, { $width } mm, { $away } mm away
 
 ## The fluoroscope
 
@@ -248,18 +238,6 @@ trial-noise-help = Between the tips on the unreduced surface and on the same wit
 trial-deviation = Deviation
 trial-deviation-plot = Deviation of the tip over insertion
 trial-deviation-plot-help = Deviation of the tip in mm over insertion in cm; grey: noise
-# A clause that stands as { $path } in the verdicts below: how far the ways of the tip on the two surfaces differ, and how far
-# they do by chance.
-trial-path = its tip path differs by { $most } mm at most
-trial-path-more = its tip path differs by { $most } mm at most, while the unreduced surface differs from itself by up to { $noise } mm with its triangles in another order
-trial-path-noise = its tip path differs by { $most } mm at most, no more than noise, as the unreduced surface differs from itself by up to { $noise } mm with its triangles in another order
-# { $gone } percent of the triangles were removed. The wire arrives at the target with { $arrives } of { $all } orders.
-trial-verdict-chance-yes = At { $gone } % this wire arrives, but whether it does is chance: on the unreduced surface it arrives with { $arrives } of { $all } orders of the triangles; { $path }.
-trial-verdict-chance-no = At { $gone } % this wire does not arrive, but whether it does is chance: on the unreduced surface it arrives with { $arrives } of { $all } orders of the triangles; { $path }.
-trial-verdict-both = At { $gone } % this wire arrives; { $path }.
-trial-verdict-neither = This wire arrives on neither surface under this input; at { $gone } % { $path }.
-trial-verdict-reduced = At { $gone } % this wire arrives; under the same input it does not on the unreduced surface, and { $path }.
-trial-verdict-unreduced = At { $gone } % this wire does not arrive, and on the unreduced surface it does; { $path }.
 
 ## The tables of the paper
 
@@ -306,68 +284,3 @@ trial-column-unbalanced = Unbalanced, %
 trial-column-unbalanced-help = Steps whose forces were not in balance; the forces are those of the others
 trial-column-time = Time, s
 trial-column-time-help = Simulated time to the target
-
-## What came of a trial: clauses without a capital letter or a full stop
-
-trial-end-running = not over yet: the tip is { $away } mm from the target
-trial-end-arrived = the tip arrived after { $time } s
-trial-end-timed-out = the autopilot's time of { $limit } s was over with the tip { $away } mm from the target
-trial-end-over = the recorded input was over with the tip { $away } mm from the target
-trial-end-gave-up = the autopilot gave up after { $count } retractions with the tip { $away } mm from the target
-# One of the clauses above, and one of the two below.
-trial-end-missed = { $why }: { $missed }
-# A branch of the vessel tree: stands in the two below and in the lists of entries and targets.
-trial-branch-named = branch { $number }
-trial-missed-fork = it missed the fork { $along } mm along the route, going into { $into } instead of { $instead }
-trial-missed-route = it missed the fork { $along } mm along the route, going into { $into } instead of following the route
-# In place of a branch's name in the two above.
-trial-another-branch = another branch
-
-## Why a trial cannot begin: clauses that a capital letter and a full stop are given to
-
-# A place in mm.
-trial-place = ({ $x }, { $y }, { $z })
-trial-entry-outside = the entry { $at } lies outside of the vessel, { $distance } mm from its wall
-trial-target-outside = the target { $at } lies outside of the vessel, { $distance } mm from its wall
-trial-no-way = there is no open way from the entry to the target: the lumen ends at { $at }, { $gap } mm from where the target's begins
-trial-too-short = entry and target are { $length } mm apart: too near for a route
-trial-too-thin = the lumen is too thin for a wire of { $wire } mm: it is { $lumen } mm wide at { $at }, { $along } mm along the route; less smoothing keeps thin vessels wider
-trial-no-entry = no vessel of this surface has an end where a wire could enter; give an entry
-trial-no-target = no vessel of this surface is far enough from the entry to be a target; give a target
-trial-tight = the wire does not fit where it enters: the wall is { $distance } mm away, the wire's radius is { $radius } mm
-trial-no-direction = the entry has no direction
-trial-load = a load of { $load } N on each mm of the wire is not possible: it can be from 0 to { $most } N
-trial-not-inside = the entry is not inside the vessel
-# What is one of the names that follow.
-trial-wire-impossible = the wire's { $what } of { $value } is not possible
-trial-wire-diameter = diameter
-trial-wire-shaft-stiffness = stiffness of the shaft
-trial-wire-tip-stiffness = stiffness of the tip
-trial-wire-torsion-ratio = torsion ratio
-trial-wire-length = length
-trial-wire-density = density
-trial-wire-tip-element = element at the tip
-trial-wire-shaft-element = element of the shaft
-trial-wire-soft-part = soft part
-trial-wire-taper = taper
-trial-wire-bend = bend
-trial-wire-bend-angle = angle of the bend
-trial-wire-straight-end = straight end
-trial-wire-static-friction = static friction
-trial-wire-kinetic-friction = kinetic friction
-
-## Why a log cannot be replayed: clauses as above
-
-# The line in quotes stays as it is.
-trial-log-none = this is no log of a Lumen trial: its first line is not "# lumen trial log"
-trial-log-schema = the log has schema { $found }; this version reads schemas { $oldest } to { $newest }
-trial-log-setup = the setup in the log cannot be read: { $why }
-trial-log-no-setup = the log does not say what the setup was
-# What is one of the clauses that follow.
-trial-log-line = line { $line } of the log cannot be read: { $what }
-trial-log-steps = the number of steps is no number
-trial-log-step = its step is no number
-trial-log-feed = its feed is no number
-trial-log-roll = its roll is no number
-trial-log-order = its step is not after the one before
-trial-log-columns = the columns are not those of a log

@@ -1,8 +1,5 @@
 ### The vessels: what smoothing and reduction made of the calibre of each, in the app and in reports.
 
-# What a vessel is called, also within a sentence: branch 2.
-vessels-branch = branch { $number }
-
 ## What can be saved: entries of a menu
 
 vessels-save-vtp = Centrelines (VTP)...
@@ -48,16 +45,6 @@ vessels-column-length = Length, mm
 vessels-column-length-help = Along its centreline
 vessels-column-tortuosity = Tortuosity
 vessels-column-tortuosity-help = Length over the distance of the ends
-vessels-verdict-kept = kept
-vessels-verdict-changed = changed
-vessels-verdict-not-measured = not measured
-# The mean of some radii, the least and the largest.
-vessels-spread = { $mean } ({ $least } to { $largest })
-# As narrow as can be: a stretch of a vessel beside what is on either side of it.
-vessels-narrower = { $percent } % narrower
-vessels-wider = { $percent } % wider
-vessels-narrower-over = { $percent } % narrower over { $length } mm, at { $at } mm
-vessels-wider-over = { $percent } % wider over { $length } mm, at { $at } mm
 # The first line of a table that is copied.
 vessels-table = { $name }, allowed change { $tolerance } %
 
@@ -92,36 +79,4 @@ vessels-hover =
 # In the panel, short.
 vessels-all-kept-short = kept, to { $tolerance } %
 vessels-some-changed-short = { $changed } of { $all } changed
-# A vessel and the change of its radius, signed.
-vessels-place = { $name }: { $percent } %
 vessels-not-here = { $name }: not measured here
-vessels-none = There are no vessels to measure: { $why }.
-vessels-none-measured = No vessel can be measured.
-vessels-all-kept = { $count ->
-    [one] The vessel keeps its calibre to { $tolerance } %.
-   *[other] All { $count } vessels keep their calibre to { $tolerance } %.
-}
-vessels-changed = { $changed } of { $all } vessels change by more than { $tolerance } %.
-vessels-changed-most = { $changed ->
-    [one] { $changed } of { $all } vessels changes by more than { $tolerance } %, { $name } the most: { $by } %.
-   *[other] { $changed } of { $all } vessels change by more than { $tolerance } %, { $name } the most: { $by } %.
-}
-# These three come after the sentences above.
-vessels-little = That is said of { $percent } % of their length: the rest lies at ends or forks or is too coarse.
-vessels-by-smoothing = Smoothing itself changes { $count } of them so much.
-vessels-unknown = { $count ->
-    [one] One is too short or too coarse to be measured.
-   *[other] { $count } are too short or too coarse to be measured.
-}
-
-## Why there are no vessels, or nothing was measured: said after a colon, a full stop follows
-
-vessels-error-no-triangles = the surface has no triangles
-vessels-error-inside-out = the surface is inside out: its triangles face into the vessel
-vessels-error-no-inside = the surface has no inside: of its { $triangles } triangles none faces another
-vessels-error-sheet = the inside of the surface is a thin sheet and no vessel: it takes more than { $balls } balls to fill it. Is it the wall of a vessel, with an inner and an outer side?
-vessels-error-unit = the widest vessel is { $diameter } mm across: the surface is probably not in the unit that it was opened in
-vessels-error-no-centreline = there is no centreline to be square to
-vessels-error-not-closed = the wall is not closed around the centreline there: the surface is open or folded in that plane
-vessels-error-no-fork = no vessel divides: an angle can be measured between three places
-vessels-error-short = a branch of this fork is too short to have a direction of its own

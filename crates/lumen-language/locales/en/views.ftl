@@ -112,14 +112,6 @@ views-triangles = Its triangles
 views-calibre-meaning = Change of calibre, { $from } % (dark) to { $to } % (bright)
 views-deviation-meaning = Deviation, { $from } mm (dark) to { $to } mm (bright)
 
-## Classes of vertices, by Schroeder
-
-views-class-simple = Simple
-views-class-complex = Complex
-views-class-boundary = Boundary
-views-class-interior-edge = Interior edge
-views-class-corner = Corner
-
 ## The collapses, one by one
 
 # Buttons.

@@ -245,7 +245,7 @@ errors-reduction = le taux de réduction doit être entre 0 et 99,9 %, pas { $v
 errors-deviation = l'écart maximal doit être entre 0,001 et 1000 mm, pas { $value } mm
 errors-weld = la tolérance de soudure doit être entre 0,000001 et 100 mm, pas { $value } mm
 errors-fill = la taille des trous à combler doit être entre 0,001 et 1000 mm, pas { $value } mm
-errors-no-component = il n'y a pas de composante { $wanted } : la surface en a { $number }
+errors-no-component = il n'y a pas de composante { $wanted } : la surface en a { $count }
 
 ## Ce que la réparation a laissé
 
@@ -253,13 +253,14 @@ errors-weld-limited = À { $vertices } sommets sur des arêtes libres, moins de 
 errors-wall-not-parted = La lumière n'a pas été prise : les faces de la paroi ne se distinguent pas.
 errors-no-wall = La surface n'est pas une paroi à deux faces : elle est prise telle quelle.
 errors-holes-left = { $count ->
-    [one] { $number } trou dans la limite n'a pas pu être comblé sans croiser la surface.
-   *[other] { $number } trous dans la limite n'ont pas pu être comblés sans croiser la surface.
+    [one] { $count } trou dans la limite n'a pas pu être comblé sans croiser la surface.
+   *[other] { $count } trous dans la limite n'ont pas pu être comblés sans croiser la surface.
 }
 
 ## Messages entre les parties de Lumen
 
 errors-message = le message n'est pas compris : { $error }
+errors-message-missing = le tampon { $index } du message manque
 errors-message-buffer = le tampon { $index } du message a { $bytes } octets, ce qui n'est pas un multiple de { $element }
 errors-message-memory = il n'y a plus de mémoire pour ses { $bytes } octets
 errors-message-text = le tampon { $index } du message n'est pas un texte

@@ -145,6 +145,7 @@ trial-click-target = Cliquer sur le vaisseau là où il doit aller.
 trial-seed = Graine
 trial-seed-help = Fait varier un peu l'entrée, la rotation et le frottement ; 0 ne change rien. Prend effet en relançant
 trial-own = celle de l'exemple
+trial-entry-wide = { $branch }, { $width } mm
 trial-target-room = { $branch }, aussi loin que possible
 trial-target-open = { $branch }, extrémité ouverte
 trial-target-closed = { $branch }, extrémité fermée
@@ -291,7 +292,6 @@ trial-end-gave-up = { $count ->
    *[other] l'autopilote a renoncé après { $count } retraits, la pointe encore à { $away } mm de la cible
 }
 trial-end-missed = { $why } ; { $missed }
-trial-branch-named = branche { $number }
 trial-missed-fork = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de { $instead }
 trial-missed-route = il a manqué la bifurcation à { $along } mm sur le trajet : { $into } au lieu de la suite du trajet
 trial-another-branch = une autre branche
@@ -299,14 +299,14 @@ trial-another-branch = une autre branche
 ## Why a trial cannot begin: clauses that a capital letter and a full stop are given to
 
 trial-place = ({ $x } ; { $y } ; { $z })
-trial-entry-outside = l'entrée { $at } est hors du vaisseau, à { $distance } mm de sa paroi
-trial-target-outside = la cible { $at } est hors du vaisseau, à { $distance } mm de sa paroi
-trial-no-way = aucun passage ouvert ne mène de l'entrée à la cible : la lumière s'arrête en { $at }, à { $gap } mm de celle de la cible
-trial-too-short = l'entrée et la cible sont à { $length } mm l'une de l'autre : trop proches pour un trajet
-trial-too-thin = la lumière est trop fine pour un guide de { $wire } mm : elle mesure { $lumen } mm en { $at }, à { $along } mm sur le trajet ; moins de lissage garde les vaisseaux fins plus larges
+trial-entry-outside = l'entrée { $at } est hors du vaisseau, à { $distance_mm } mm de sa paroi
+trial-target-outside = la cible { $at } est hors du vaisseau, à { $distance_mm } mm de sa paroi
+trial-no-way = aucun passage ouvert ne mène de l'entrée à la cible : la lumière s'arrête en { $at }, à { $gap_mm } mm de celle de la cible
+trial-too-short = l'entrée et la cible sont à { $length_mm } mm l'une de l'autre : trop proches pour un trajet
+trial-too-thin = la lumière est trop fine pour un guide de { $wire_mm } mm : elle mesure { $lumen_mm } mm en { $at }, à { $arc_mm } mm sur le trajet ; moins de lissage garde les vaisseaux fins plus larges
 trial-no-entry = aucun vaisseau de cette surface n'a d'extrémité où un guide puisse entrer ; indiquer une entrée
 trial-no-target = aucun vaisseau de cette surface n'est assez loin de l'entrée pour être une cible ; indiquer une cible
-trial-tight = le guide ne tient pas là où il entre : la paroi est à { $distance } mm, le rayon du guide est de { $radius } mm
+trial-tight = le guide ne tient pas là où il entre : la paroi est à { $distance_mm } mm, le rayon du guide est de { $radius_mm } mm
 trial-no-direction = l'entrée n'a pas de direction
 trial-load = une charge de { $load } N par mm de guide n'est pas possible : elle va de 0 à { $most } N
 trial-not-inside = l'entrée n'est pas dans le vaisseau

@@ -56,7 +56,7 @@ verdict-pinched-at-first = Un vaisseau de { $before } mm est pincé en ({ $x } 
 verdict-lost-at-first = Un vaisseau de { $before } mm est perdu en ({ $x } ; { $y } ; { $z }), dès { $percent } %
 verdict-pinched-to = Un vaisseau de { $before } mm est pincé à { $after } mm en ({ $x } ; { $y } ; { $z }).
 verdict-lost-at = Un vaisseau de { $before } mm est perdu en ({ $x } ; { $y } ; { $z }).
-verdict-worst-of = C'est le pire de { $count } endroits.
+verdict-worst-of = { $sentence } C'est le pire de { $count } endroits.
 
 ## Constats sur le lissage, le volume et les triangles
 
@@ -65,7 +65,7 @@ verdict-drawn-shut = Le lissage a fermé un vaisseau en ({ $x } ; { $y } ; { $
 verdict-volume-changed = Le volume a changé de { $change } % : { $cause }.
 verdict-volume-narrow = la bande passante est trop étroite pour des vaisseaux aussi fins
 verdict-volume-few = si peu de triangles ne portent pas cette forme
-verdict-volume-adapt = « Adapter au calibre » (--smoothing auto) le préserve.
+verdict-volume-adapt = { $sentence } « Adapter au calibre » (--smoothing auto) le préserve.
 verdict-volume-put-back = Le volume n'est pas préservé à 0,01 % près : des sommets ont été remis en place pour qu'aucun triangle n'en croise d'autres.
 verdict-volume-none = Le volume n'a pas pu être préservé, car la surface n'en renferme aucun : elle est lissée comme sans cette contrainte.
 verdict-volume-thin = Le volume n'a pas pu être préservé, car des vaisseaux aussi fins se déchireraient ou gonfleraient avec cette bande passante : la surface est lissée comme sans cette contrainte.
@@ -100,4 +100,9 @@ verdict-safe-unmeasured = À { $rate } %, la { $name } n'est plus mesurable
 
 ## Le filtre
 
-verdict-half-gain = k = { $k } : ondes de { $length }
+verdict-half-gain = k = { $k } : ondes de { $length } mm
+verdict-half-gain-alone = k = { $k }
+
+## Des mots comme phrase
+
+verdict-sentence = { $words }.

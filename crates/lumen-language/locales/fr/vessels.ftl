@@ -90,6 +90,7 @@ vessels-some-changed-short = { $changed ->
 vessels-place = { $name } : { $percent } %
 vessels-not-here = { $name } : non mesuré ici
 vessels-none = Il n'y a pas de vaisseau à mesurer : { $why }.
+vessels-sentences = { $first } { $rest }
 vessels-none-measured = Aucun vaisseau ne peut être mesuré.
 vessels-all-kept = { $count ->
     [one] Le vaisseau garde son calibre à { $tolerance } % près.

@@ -22,4 +22,4 @@ pub mod weld;
 
 pub use faults::{FaultCounts, FaultKind, FaultPlace, Faults};
 pub use holes::{Hole, Opening};
-pub use task::{MendReport, Mended, Mending, mend};
+pub use task::{MendReport, MendWarning, Mended, Mending, mend};

@@ -9,8 +9,7 @@ use super::wall::{Lumen, Wall, WallFound, find_in_slices};
 use super::weld::{Welded, weld_in_slices};
 use crate::task::Yielder;
 use crate::{Array, Blend, Topology, TriMesh, blended, components, winding};
-use lumen_language::exact;
-use lumen_language::say;
+use lumen_message::messages;
 
 /// What of a surface is mended. By default nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -79,25 +78,49 @@ pub struct MendReport {
 }
 
 impl MendReport {
-    /// Sentences where something of what was `asked` for was not done.
-    pub fn warnings(&self, asked: &Mending) -> Vec<String> {
-        let mut sentences = Vec::new();
-        if self.weld_limited > 0
-            && let Some(tolerance) = asked.weld_mm
-        {
-            let (vertices, mm) = (self.weld_limited.to_string(), exact(tolerance));
-            sentences.push(say!("errors-weld-limited", vertices = vertices, mm = mm));
+    /// What of that which was `asked` for was not done.
+    pub fn warnings(&self, asked: &Mending) -> Vec<MendWarning> {
+        let mut warnings = Vec::new();
+        if let Some(mm) = asked.weld_mm.filter(|_| self.weld_limited > 0) {
+            warnings.push(MendWarning::WeldLimited { vertices: self.weld_limited, mm });
         }
         if asked.lumen && self.wall_not_parted {
-            sentences.push(say!("errors-wall-not-parted"));
+            warnings.push(MendWarning::WallNotParted);
         } else if asked.lumen && self.wall.is_none() {
-            sentences.push(say!("errors-no-wall"));
+            warnings.push(MendWarning::NoWall);
         }
         if self.holes_left > 0 {
-            let number = self.holes_left.to_string();
-            sentences.push(say!("errors-holes-left", count = self.holes_left, number = number));
+            warnings.push(MendWarning::HolesLeft { count: self.holes_left });
         }
-        sentences
+        warnings
+    }
+}
+
+messages! {
+    /// What mending was asked for and did not do.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum MendWarning {
+        /// Triangles are too small for the tolerance.
+        "errors-weld-limited" WeldLimited {
+            /// Vertices on open edges where less was taken.
+            vertices: usize,
+            /// The tolerance in mm.
+            mm: f64,
+        } => "At {vertices} vertices on open edges less than {mm} mm was welded: their triangles are as small.",
+        /// The sides of a wall cannot be told apart.
+        "errors-wall-not-parted" WallNotParted =>
+            "The lumen was not taken: the sides of the wall cannot be told apart.",
+        /// There is no wall to take the lumen of.
+        "errors-no-wall" NoWall => "The surface is no wall with two sides: it is taken as it is.",
+        /// Holes could not be filled.
+        "errors-holes-left" HolesLeft {
+            /// Those within the limit.
+            count: usize,
+        } => (
+            count,
+            "{count} hole within the limit could not be filled without crossing the surface.",
+            "{count} holes within the limit could not be filled without crossing the surface."
+        ),
     }
 }
 

@@ -26,10 +26,9 @@ use super::lumen::{PINCHED, Sample, clearances, samples, worst};
 use super::progressive::{NEVER, ProgressiveMesh};
 use super::settings::{Target, reduction_percent};
 use super::task::{Yielder, at_once, blocks};
-use lumen_language::decimal;
-use lumen_language::say;
 use lumen_mesh::parallel;
 use lumen_mesh::{SurfaceIndex, Topology, TriMesh, Vec3, distance_to_triangle, inner_radii};
+use lumen_message::messages;
 
 /// Triangles of a core that are followed between two looks at the clock.
 const TRIANGLES: usize = 128;
@@ -51,15 +50,54 @@ pub struct Pinch {
     pub diameter_after_mm: f64,
 }
 
+messages! {
+    /// A [`Pinch`] in words, without a full stop.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+    pub enum PinchMessage {
+        /// Something of the vessel is left.
+        "verdict-pinched-at-first" Pinched {
+            /// Diameter before, in mm.
+            before: f64 [1],
+            /// In mm.
+            x: f32 [1],
+            /// In mm.
+            y: f32 [1],
+            /// In mm.
+            z: f32 [1],
+            /// The first reduction rate at which it is, in percent.
+            percent: f64 [1],
+        } => "A vessel of {before:.1} mm is pinched at ({x:.1}, {y:.1}, {z:.1}), first at {percent:.1} %",
+        /// The vessel is gone.
+        "verdict-lost-at-first" Lost {
+            /// Diameter before, in mm.
+            before: f64 [1],
+            /// In mm.
+            x: f32 [1],
+            /// In mm.
+            y: f32 [1],
+            /// In mm.
+            z: f32 [1],
+            /// The first reduction rate at which it is, in percent.
+            percent: f64 [1],
+        } => "A vessel of {before:.1} mm is lost at ({x:.1}, {y:.1}, {z:.1}), first at {percent:.1} %",
+    }
+}
+
+impl Pinch {
+    /// In words, with its place.
+    pub fn message(&self) -> PinchMessage {
+        let Self { from_percent: percent, at_mm: [x, y, z], diameter_before_mm: before, .. } = *self;
+        if self.diameter_after_mm > 0.0 {
+            PinchMessage::Pinched { before, x, y, z, percent }
+        } else {
+            PinchMessage::Lost { before, x, y, z, percent }
+        }
+    }
+}
+
 impl std::fmt::Display for Pinch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let [x, y, z] = self.at_mm.map(|mm| decimal(mm, 1));
-        let (before, percent) = (decimal(self.diameter_before_mm, 1), decimal(self.from_percent, 1));
-        f.write_str(&if self.diameter_after_mm > 0.0 {
-            say!("verdict-pinched-at-first", before = before, x = x, y = y, z = z, percent = percent)
-        } else {
-            say!("verdict-lost-at-first", before = before, x = x, y = y, z = z, percent = percent)
-        })
+        self.message().fmt(f)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::OutOfRange;
 use super::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
 
 /// How a surface is reduced.
@@ -77,7 +78,7 @@ pub(super) static ROWS: [Setting; 4] = [
         in_link: InLink::Always,
         matters: |_| true,
         option: CommandOption { value: "NAME", help: "How to reduce [default: schroeder]" },
-        messages: Messages { label: "panel-method", help: "panel-method-help", said: "compare-method", refused: "" },
+        messages: Messages { label: "panel-method", help: "panel-method-help", said: "compare-method", refused: None },
     },
     Setting {
         key: "feature-angle",
@@ -96,7 +97,7 @@ pub(super) static ROWS: [Setting; 4] = [
             label: "panel-feature-angle",
             help: "panel-feature-angle-help",
             said: "compare-feature-angle",
-            refused: "errors-feature-angle",
+            refused: Some(|value| OutOfRange::FeatureAngle { value }),
         },
     },
     Setting {
@@ -113,7 +114,7 @@ pub(super) static ROWS: [Setting; 4] = [
             label: "panel-spare-thin",
             help: "panel-spare-thin-help",
             said: "compare-thin-spared",
-            refused: "",
+            refused: None,
         },
     },
     Setting {
@@ -130,7 +131,7 @@ pub(super) static ROWS: [Setting; 4] = [
             label: "panel-keep-labels",
             help: "panel-keep-labels-help",
             said: "compare-labels-kept",
-            refused: "",
+            refused: None,
         },
     },
 ];

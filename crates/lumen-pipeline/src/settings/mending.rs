@@ -1,7 +1,7 @@
 //! The rows of mending in the table of settings.
 
-use super::Mending;
 use super::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
+use super::{Mending, OutOfRange};
 
 /// The rows of [`Mending`].
 pub(super) static ROWS: [Setting; 4] = [
@@ -23,7 +23,7 @@ pub(super) static ROWS: [Setting; 4] = [
             label: "panel-weld",
             help: "panel-weld-help",
             said: "report-welded",
-            refused: "errors-weld",
+            refused: Some(|value| OutOfRange::Weld { value }),
         },
     },
     Setting {
@@ -33,7 +33,7 @@ pub(super) static ROWS: [Setting; 4] = [
         in_link: InLink::Changed,
         matters: |_| true,
         option: CommandOption { value: "", help: "Part the sheets that share an edge or a vertex" },
-        messages: Messages { label: "panel-split", help: "panel-split-help", said: "report-split", refused: "" },
+        messages: Messages { label: "panel-split", help: "panel-split-help", said: "report-split", refused: None },
     },
     Setting {
         key: "fill-holes",
@@ -53,7 +53,7 @@ pub(super) static ROWS: [Setting; 4] = [
             label: "panel-fill",
             help: "panel-fill-help",
             said: "report-filled",
-            refused: "errors-fill",
+            refused: Some(|value| OutOfRange::Fill { value }),
         },
     },
     Setting {
@@ -63,6 +63,11 @@ pub(super) static ROWS: [Setting; 4] = [
         in_link: InLink::Changed,
         matters: |_| true,
         option: CommandOption { value: "", help: "Take the lumen where the surface is a wall with two sides" },
-        messages: Messages { label: "panel-lumen", help: "panel-lumen-help", said: "report-lumen-taken", refused: "" },
+        messages: Messages {
+            label: "panel-lumen",
+            help: "panel-lumen-help",
+            said: "report-lumen-taken",
+            refused: None,
+        },
     },
 ];

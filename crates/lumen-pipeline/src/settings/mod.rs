@@ -15,8 +15,8 @@ pub use self::decimation::{Decimation, Method};
 pub use self::smoothing::{Boundary, Preset, Smoothing, Window};
 use self::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
 pub use self::target::{Target, reduction_percent};
-use lumen_language::{Message, exact, say};
 pub use lumen_mesh::mending::Mending;
+use lumen_message::messages;
 use lumen_vessel::certificate::TOLERANCE_PERCENT;
 
 /// Settings of all stages, in the order of the method.
@@ -80,7 +80,7 @@ static KEEP: [Setting; 1] = [Setting {
         value: "PIECES",
         help: "The connected pieces to keep: largest, all, or the number of one, from 0 [default: largest]",
     },
-    messages: Messages { label: "", help: "", said: "", refused: "" },
+    messages: Messages { label: "", help: "", said: "", refused: None },
 }];
 
 /// The row of [`Settings::tolerance_percent`].
@@ -101,36 +101,72 @@ static TOLERANCE: [Setting; 1] = [Setting {
         label: "vessels-allowed",
         help: "vessels-allowed-help",
         said: "",
-        refused: "errors-tolerance",
+        refused: Some(|value| OutOfRange::Tolerance { value }),
     },
 }];
 
-/// A setting that no stage can work with.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SettingsError {
-    /// A number is none, or out of its range.
-    #[error("{}", refused(key, *value))]
-    Range {
-        /// The name of the setting in the [`table`].
-        key: &'static str,
-        /// The number.
-        value: f64,
-    },
-    /// There is no such component.
-    #[error("{}", say!("errors-no-component", wanted = .wanted.to_string(), number = .count.to_string()))]
-    Component {
-        /// The number asked for, from 0.
-        wanted: u32,
-        /// How many there are.
-        count: usize,
-    },
+messages! {
+    /// A setting that no stage can work with.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum SettingsError {
+        /// There is no such component.
+        "errors-no-component" Component {
+            /// The number asked for, from 0.
+            wanted: u32,
+            /// How many there are.
+            count: usize,
+        } => "there is no component {wanted}: the surface has {count}",
+    } or {
+        /// A number is none, or out of its range.
+        Range(OutOfRange),
+    }
 }
 
-/// That a number is out of its range, in the language that is spoken.
-fn refused(key: &str, value: f64) -> String {
-    let mut message = Message::new(table::find(key).map_or("", |setting| setting.messages.refused));
-    message.put("value", exact(value).into());
-    message.say()
+messages! {
+    /// A number that is none, or out of the range of its setting.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum OutOfRange {
+        /// The tolerance of a weld.
+        "errors-weld" Weld {
+            /// The number.
+            value: f64,
+        } => "the tolerance of a weld must lie between 0.000001 and 100 mm, not {value} mm",
+        /// The size of holes to fill.
+        "errors-fill" Fill {
+            /// The number.
+            value: f64,
+        } => "the size of holes to fill must lie between 0.001 and 1000 mm, not {value} mm",
+        /// The pass band.
+        "errors-pass-band" PassBand {
+            /// The number.
+            value: f64,
+        } => "the pass band must lie between 0.001 and 2, not {value}",
+        /// The iterations.
+        "errors-iterations" Iterations {
+            /// The number.
+            value: f64,
+        } => "the number of iterations must lie between 0 and 200, not {value}",
+        /// The feature angle.
+        "errors-feature-angle" FeatureAngle {
+            /// The number.
+            value: f64,
+        } => "the feature angle must lie between 0 and 180 degrees, not {value}",
+        /// The reduction rate.
+        "errors-reduction" Reduction {
+            /// The number.
+            value: f64,
+        } => "the reduction rate must lie between 0 and 99.9 %, not {value} %",
+        /// The bound on the deviation.
+        "errors-deviation" Deviation {
+            /// The number.
+            value: f64,
+        } => "the largest deviation must lie between 0.001 and 1000 mm, not {value} mm",
+        /// The tolerance.
+        "errors-tolerance" Tolerance {
+            /// The number.
+            value: f64,
+        } => "the tolerance must lie between 0 and 100 %, not {value} %",
+    }
 }
 
 impl Settings {
@@ -148,8 +184,7 @@ impl Settings {
     /// # Errors
     /// The first setting that is out of range.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let out = table::all().find_map(|setting| Some((setting.key, setting.out_of_range(self)?)));
-        out.map_or(Ok(()), |(key, value)| Err(SettingsError::Range { key, value }))
+        table::all().find_map(|setting| setting.out_of_range(self)).map_or(Ok(()), |out| Err(out.into()))
     }
 }
 
@@ -190,7 +225,7 @@ mod tests {
             let mending = Mending { fill_mm: Some(fill_mm), ..mending };
             assert!(matches!(
                 Settings { mending, ..Settings::default() }.check(),
-                Err(SettingsError::Range { key: "fill-holes", .. })
+                Err(SettingsError::Range(OutOfRange::Fill { .. }))
             ));
         }
     }
@@ -200,13 +235,13 @@ mod tests {
         let mut settings = Settings::default();
         assert_eq!(settings.check(), Ok(()));
         settings.smoothing.pass_band = f64::NAN;
-        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "pass-band", .. })));
+        assert!(matches!(settings.check(), Err(SettingsError::Range(OutOfRange::PassBand { .. }))));
         settings = Settings { target: Target::Reduction(1000), ..Settings::default() };
-        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "reduction", .. })));
+        assert!(matches!(settings.check(), Err(SettingsError::Range(OutOfRange::Reduction { .. }))));
         settings = Settings { target: Target::Deviation(0), ..Settings::default() };
-        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "max-deviation", .. })));
+        assert!(matches!(settings.check(), Err(SettingsError::Range(OutOfRange::Deviation { .. }))));
         settings =
             Settings { decimation: Decimation { feature_angle: -1.0, ..Decimation::default() }, ..Settings::default() };
-        assert!(matches!(settings.check(), Err(SettingsError::Range { key: "feature-angle", .. })));
+        assert!(matches!(settings.check(), Err(SettingsError::Range(OutOfRange::FeatureAngle { .. }))));
     }
 }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Settings;
 use super::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
-use lumen_language::say;
+use super::{OutOfRange, Settings};
+use lumen_message::messages;
 
 /// Settings of the windowed-sinc filter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,16 +68,18 @@ impl Smoothing {
     }
 }
 
-/// Settings of the filter that have a name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Preset {
-    /// [`Smoothing::AUTO`].
-    #[default]
-    Auto,
-    /// [`Smoothing::PAPER`].
-    Paper,
-    /// [`Smoothing::NONE`].
-    None,
+messages! {
+    /// Settings of the filter that have a name. Its words are what it is called where a user chooses.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Preset {
+        /// [`Smoothing::AUTO`].
+        #[default]
+        "panel-preset-auto" Auto => "Suits this surface",
+        /// [`Smoothing::PAPER`].
+        "panel-preset-paper" Paper => "The paper's",
+        /// [`Smoothing::NONE`].
+        "panel-preset-none" None => "None",
+    }
 }
 
 impl Preset {
@@ -90,15 +92,6 @@ impl Preset {
             Self::Auto => "auto",
             Self::Paper => "paper",
             Self::None => "none",
-        }
-    }
-
-    /// What it is called where a user chooses, in the language that is spoken.
-    pub fn label(self) -> String {
-        match self {
-            Self::Auto => say!("panel-preset-auto"),
-            Self::Paper => say!("panel-preset-paper"),
-            Self::None => say!("panel-preset-none"),
         }
     }
 
@@ -178,7 +171,7 @@ pub(super) static ROWS: [Setting; 7] = [
         in_link: InLink::Always,
         matters: smooths,
         option: CommandOption { value: "NAME", help: "Window of the smoothing filter [hamming]" },
-        messages: Messages { label: "panel-window", help: "panel-window-help", said: "compare-window", refused: "" },
+        messages: Messages { label: "panel-window", help: "panel-window-help", said: "compare-window", refused: None },
     },
     Setting {
         key: "pass-band",
@@ -197,7 +190,7 @@ pub(super) static ROWS: [Setting; 7] = [
             label: "panel-pass-band",
             help: "panel-pass-band-help",
             said: "compare-pass-band",
-            refused: "errors-pass-band",
+            refused: Some(|value| OutOfRange::PassBand { value }),
         },
     },
     Setting {
@@ -217,7 +210,7 @@ pub(super) static ROWS: [Setting; 7] = [
             label: "panel-iterations",
             help: "panel-iterations-help",
             said: "compare-iterations",
-            refused: "errors-iterations",
+            refused: Some(|value| OutOfRange::Iterations { value }),
         },
     },
     Setting {
@@ -235,7 +228,7 @@ pub(super) static ROWS: [Setting; 7] = [
             help: "What the filter does at open ends: loop smooths along them; vtk15 as VTK, which holds vertices where they \
                    turn by more than 15 degrees [loop]",
         },
-        messages: Messages { label: "", help: "", said: "compare-boundary", refused: "" },
+        messages: Messages { label: "", help: "", said: "compare-boundary", refused: None },
     },
     Setting {
         key: "preserve-volume",
@@ -251,7 +244,7 @@ pub(super) static ROWS: [Setting; 7] = [
             label: "panel-volume-held",
             help: "panel-volume-held-help",
             said: "compare-volume-preserved",
-            refused: "",
+            refused: None,
         },
     },
     Setting {
@@ -264,7 +257,7 @@ pub(super) static ROWS: [Setting; 7] = [
             value: "",
             help: "Smooth all vessels by the same pass band, though thin ones lose their calibre",
         },
-        messages: Messages { label: "panel-adapt", help: "panel-adapt-help", said: "compare-adapted", refused: "" },
+        messages: Messages { label: "panel-adapt", help: "panel-adapt-help", said: "compare-adapted", refused: None },
     },
     Setting {
         key: "guard",
@@ -273,6 +266,11 @@ pub(super) static ROWS: [Setting; 7] = [
         in_link: InLink::Always,
         matters: smooths,
         option: CommandOption { value: "", help: "Let smoothing make triangles cross" },
-        messages: Messages { label: "panel-guard", help: "panel-guard-help", said: "compare-no-crossing", refused: "" },
+        messages: Messages {
+            label: "panel-guard",
+            help: "panel-guard-help",
+            said: "compare-no-crossing",
+            refused: None,
+        },
     },
 ];

@@ -10,7 +10,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use super::{KEEP, TOLERANCE, decimation, mending, smoothing, target};
-use super::{Keep, Settings, Target};
+use super::{Keep, OutOfRange, Settings, Target};
 
 /// The rows, a group each, in the order of the method.
 static GROUPS: [&[Setting]; 6] =
@@ -138,7 +138,7 @@ pub struct CommandOption {
     pub help: &'static str,
 }
 
-/// The messages of a setting in `locales/`, by their names. An empty one is not there.
+/// The messages of a setting, in `locales/` by their names. An empty one is not there.
 #[derive(Clone, Copy, Debug)]
 pub struct Messages {
     /// What it is called.
@@ -147,8 +147,8 @@ pub struct Messages {
     pub help: &'static str,
     /// What a list of settings says of it, with `$value`; of a switch, where it is on.
     pub said: &'static str,
-    /// That `$value` is out of its range, for a number.
-    pub refused: &'static str,
+    /// That a number is out of its range.
+    pub refused: Option<fn(f64) -> OutOfRange>,
 }
 
 /// A value of a setting.
@@ -246,10 +246,12 @@ impl Setting {
         }
     }
 
-    /// Its number, where that is out of range.
-    pub(super) fn out_of_range(&self, settings: &Settings) -> Option<f64> {
+    /// That its number is out of range, where it is.
+    pub(super) fn out_of_range(&self, settings: &Settings) -> Option<OutOfRange> {
         let Value::Number(number) = self.value(settings)? else { return None };
-        (!self.range()?.bounds.contains(&number)).then_some(number)
+        let refused =
+            self.messages.refused.filter(|_| !self.range().is_some_and(|range| range.bounds.contains(&number)));
+        refused.map(|refused| refused(number))
     }
 }
 
@@ -349,7 +351,8 @@ mod tests {
             let beyond = setting.range().unwrap().bounds.end() + 1.0;
             setting.read(&mut settings, &beyond.to_string()).unwrap();
             let error = settings.check().unwrap_err();
-            assert_eq!(error, crate::settings::SettingsError::Range { key: setting.key, value: beyond });
+            let refused = setting.messages.refused.expect("a number can be out of range");
+            assert_eq!(error, refused(beyond).into());
             assert!(error.to_string().contains(&format!("not {beyond}")), "{error}");
         }
     }

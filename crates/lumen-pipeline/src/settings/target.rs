@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::OutOfRange;
 use super::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
 
 /// How many triangles are wanted.
@@ -91,7 +92,7 @@ pub(super) static ROWS: [Setting; 3] = [
             label: "panel-reduction",
             help: "panel-reduction-help",
             said: "",
-            refused: "errors-reduction",
+            refused: Some(|value| OutOfRange::Reduction { value }),
         },
     },
     Setting {
@@ -109,7 +110,7 @@ pub(super) static ROWS: [Setting; 3] = [
         in_link: InLink::Always,
         matters: |_| true,
         option: CommandOption { value: "N", help: "How many triangles to keep, in place of --reduction" },
-        messages: Messages { label: "panel-wanted", help: "panel-wanted-help", said: "", refused: "" },
+        messages: Messages { label: "panel-wanted", help: "panel-wanted-help", said: "", refused: None },
     },
     Setting {
         key: "max-deviation",
@@ -135,6 +136,11 @@ pub(super) static ROWS: [Setting; 3] = [
             help: "The farthest that the result may be from the smoothed surface, both ways, in mm, 0.001 to 1000, in place \
                    of --reduction: as few triangles as stay within it",
         },
-        messages: Messages { label: "panel-bound", help: "panel-bound-help", said: "", refused: "errors-deviation" },
+        messages: Messages {
+            label: "panel-bound",
+            help: "panel-bound-help",
+            said: "",
+            refused: Some(|value| OutOfRange::Deviation { value }),
+        },
     },
 ];

@@ -4,11 +4,9 @@ use super::{Row, Run};
 use crate::bound::bound_in_slices;
 use crate::stage::Stage;
 use crate::store::Store;
-use lumen_language::say;
 use lumen_mesh::SurfaceIndex;
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-bound"),
     needs: &[Stage::Decimation],
     is_decided_anew: |old, new| old.target != new.target,
     is_wanted: |settings, _| settings.target.deviation_mm().is_some(),

@@ -8,7 +8,6 @@ use crate::results::{Certified, NOT_MEASURED};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
 use crate::task::{Yielder, blocks};
-use lumen_language::say;
 use lumen_mesh::Vec3;
 use lumen_vessel::Subject;
 use lumen_vessel::certificate::{Basis, Certificate};
@@ -19,7 +18,6 @@ const TRIANGLES: usize = 256;
 const BESIDE: f64 = 2.0;
 
 pub(super) const VESSELS: Row = Row {
-    label: || say!("panel-stage-vessels"),
     needs: &[Stage::Smoothing],
     is_decided_anew: |_, _| false,
     is_wanted: |_, wanted| wanted >= Wanted::Certificate,
@@ -47,7 +45,6 @@ fn start_vessels(store: &Store) -> Option<Run> {
 }
 
 pub(super) const CERTIFICATE: Row = Row {
-    label: || say!("panel-stage-certificate"),
     needs: &[Stage::Level, Stage::Vessels],
     is_decided_anew: |old, new| old.tolerance_percent != new.tolerance_percent,
     is_wanted: |_, wanted| wanted >= Wanted::Certificate,

@@ -6,12 +6,10 @@ use super::{Row, Run};
 use crate::carry::{Entered, carry};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
-use lumen_language::say;
 use lumen_mesh::arrays::gathered;
 use lumen_mesh::{Array, SurfaceIndex};
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-arrays"),
     needs: &[Stage::Level],
     is_decided_anew: |_, _| false,
     is_wanted: |_, wanted| wanted >= Wanted::Measures,

@@ -10,11 +10,9 @@ use crate::results::Surface;
 use crate::stage::Stage;
 use crate::store::Store;
 use crate::times::Part;
-use lumen_language::say;
 use lumen_mesh::{Topology, measures_within, oriented_loops};
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-connectivity"),
     needs: &[Stage::Mending],
     is_decided_anew: |old, new| old.keep != new.keep,
     is_wanted: |_, _| true,

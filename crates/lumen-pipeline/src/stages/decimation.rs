@@ -9,10 +9,8 @@ use crate::results::Levels;
 use crate::stage::Stage;
 use crate::store::Store;
 use crate::widths::widths;
-use lumen_language::say;
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-decimation"),
     needs: &[Stage::Smoothing],
     is_decided_anew: |old, new| !old.decimation.gives_same(&new.decimation),
     is_wanted: |_, _| true,

@@ -9,10 +9,8 @@ use crate::progressive::ProgressiveMesh;
 use crate::results::{Deviations, Reduced};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
-use lumen_language::say;
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-deviation"),
     needs: &[Stage::Level],
     is_decided_anew: |_, _| false,
     is_wanted: |_, wanted| wanted >= Wanted::Measures,

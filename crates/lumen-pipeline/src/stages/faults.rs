@@ -5,13 +5,11 @@ use std::sync::Arc;
 use super::{Row, Run};
 use crate::stage::Wanted;
 use crate::store::Store;
-use lumen_language::say;
 use lumen_mesh::Topology;
 use lumen_mesh::mending::Faults;
 use lumen_mesh::mending::wall::find_in_slices;
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-faults"),
     needs: &[],
     is_decided_anew: |_, _| false,
     is_wanted: |_, wanted| wanted >= Wanted::Certificate,

@@ -10,11 +10,9 @@ use crate::results::{Levels, Reduced, fingerprint};
 use crate::stage::Stage;
 use crate::store::Store;
 use crate::times::Part;
-use lumen_language::say;
 use lumen_mesh::{Topology, measures};
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-level"),
     needs: &[Stage::Decimation, Stage::Bound],
     is_decided_anew: |old, new| old.target != new.target,
     is_wanted: |_, _| true,

@@ -12,13 +12,11 @@ use crate::results::{LevelMeasures, SmoothedMeasures};
 use crate::shape::{Known, shape_in_slices};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
-use lumen_language::say;
 
 /// The part of the work that the smoothed surface is, where it is to be measured.
 const SMOOTHED: f32 = 0.9;
 
 pub(super) const OF_SMOOTHED: Row = Row {
-    label: || say!("panel-stage-measures"),
     needs: &[Stage::Decimation],
     is_decided_anew: |_, _| false,
     is_wanted: |_, wanted| wanted >= Wanted::Measures,
@@ -47,7 +45,6 @@ fn start_smoothed(store: &Store) -> Option<Run> {
 }
 
 pub(super) const OF_LEVEL: Row = Row {
-    label: || say!("panel-stage-measures"),
     needs: &[Stage::Level, Stage::SmoothedMeasures],
     is_decided_anew: |_, _| false,
     is_wanted: |_, wanted| wanted >= Wanted::Measures,

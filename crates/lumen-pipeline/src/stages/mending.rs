@@ -5,11 +5,9 @@ use std::sync::Arc;
 use super::{Row, Run};
 use crate::results::Entering;
 use crate::store::Store;
-use lumen_language::say;
 use lumen_mesh::mending::{Mended, mend};
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-mending"),
     needs: &[],
     is_decided_anew: |old, new| old.mending != new.mending,
     is_wanted: |_, _| true,

@@ -23,8 +23,6 @@ pub(super) use running::{Outbox, Run};
 
 /// All that is known of a stage.
 pub(super) struct Row {
-    /// What the stage is called while it runs, in the language that is spoken.
-    pub(super) label: fn() -> String,
     /// The stages whose results it takes.
     pub(super) needs: &'static [Stage],
     /// Whether it depends on a setting that differs between the old and the new ones.

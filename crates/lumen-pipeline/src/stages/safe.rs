@@ -3,13 +3,11 @@
 use std::sync::Arc;
 
 use super::{Row, Run};
-use crate::safe::{Safe, safe_in_slices};
+use crate::safe::{NoSafeRate, Safe, safe_in_slices};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
-use lumen_language::say;
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-safe"),
     needs: &[Stage::SmoothedMeasures, Stage::Vessels],
     is_decided_anew: |old, new| old.tolerance_percent != new.tolerance_percent,
     is_wanted: |_, wanted| wanted >= Wanted::Safe,
@@ -29,7 +27,7 @@ fn start(store: &Store) -> Option<Run> {
         let safe = match vessels {
             Ok(basis) => safe_in_slices(&basis, &levels.progressive, pinch, tolerance, &yielder).await,
             // There are no vessels.
-            Err(error) => Safe::refused(tolerance, &error),
+            Err(error) => Safe::refused(tolerance, NoSafeRate::NoTree(error)),
         };
         outbox.leave(|store| store.now.safe = Some(Arc::new(safe)));
     }))

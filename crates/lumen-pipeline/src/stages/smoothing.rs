@@ -18,11 +18,9 @@ use crate::store::Store;
 use crate::task::Yielder;
 use crate::times::Part;
 use crate::widths::widths;
-use lumen_language::say;
 use lumen_mesh::{SurfaceIndex, TriMesh, Vec3, measures_within};
 
 pub(super) const ROW: Row = Row {
-    label: || say!("panel-stage-smoothing"),
     needs: &[Stage::Connectivity],
     is_decided_anew: |old, new| !old.smoothing.gives_same(&new.smoothing),
     is_wanted: |_, _| true,

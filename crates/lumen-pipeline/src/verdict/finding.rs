@@ -1,26 +1,170 @@
 //! A verdict, and what it is made of.
 
+use lumen_message::{Message, grouped, messages};
 use serde::{Deserialize, Serialize};
 
-use super::super::settings::Settings;
-use lumen_io::Unit;
+use super::super::progressive::ShortfallMessage;
+use super::super::settings::{Preset, Settings};
+use super::super::warnings::{DrawnShut, Pinches, VolumeNotHeld, VolumeWarning};
+use lumen_io::{Unit, UnusualSize, Warning};
+use lumen_mesh::mending::MendWarning;
+use lumen_vessel::summary::{CalibreSummary, PlaceText};
+
+messages! {
+    /// What there is to say of a result, in one or two sentences.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum FindingKind {
+        /// The surface is a wall with two sides.
+        "verdict-wall" Wall {
+            /// In mm.
+            thickness: f64 [2],
+        } => "The surface is a wall with two sides, {thickness:.2} mm thick.",
+        /// The wall has holes.
+        "verdict-holes" Holes {
+            /// How many.
+            count: usize,
+            /// That of the largest, in mm.
+            diameter: f64 [1],
+        } => {
+            match count {
+                1 => format!("The wall has a hole of {diameter:.1} mm."),
+                _ => format!("The wall has {} holes, the largest of {diameter:.1} mm.", grouped(count)),
+            }
+        },
+        /// Surfaces meet that should be apart.
+        "verdict-crowded" Crowded {
+            /// At how many edges and points.
+            count: usize,
+        } => { format!("At {} edges and points surfaces meet that should be apart.", grouped(count)) },
+        /// A vessel is pinched at a rate that was reached.
+        "verdict-pinched-first" PinchedFirst {
+            /// Its diameter, in mm.
+            before: f64 [1],
+            /// The first rate at which it is, in percent.
+            percent: f64 [1],
+        } => "A vessel of {before:.1} mm is pinched, first at {percent:.1} %.",
+        /// A vessel is lost at a rate that was reached.
+        "verdict-lost-first" LostFirst {
+            /// Its diameter, in mm.
+            before: f64 [1],
+            /// The first rate at which it is, in percent.
+            percent: f64 [1],
+        } => "A vessel of {before:.1} mm is lost, first at {percent:.1} %.",
+        /// Triangles cross that did not before the reduction.
+        "verdict-crossing" Crossing {
+            /// How many.
+            count: usize,
+        } => { format!("{} triangles run into others.", grouped(count)) },
+        /// Triangles cross, and some did before the reduction.
+        "verdict-crossing-before" CrossingBefore {
+            /// How many do now.
+            count: usize,
+            /// How many did.
+            before: usize,
+        } => { format!("{} triangles run into others; {} did before the reduction.", grouped(count), grouped(before)) },
+        /// The filter misses its pass band.
+        "verdict-few-iterations" FewIterations =>
+            "Too few iterations for this pass band: more are needed to smooth.",
+    } or {
+        /// The size of the surface is unusual for vessels.
+        Size(UnusualSize),
+        /// What else was found when the file was read.
+        Import(Warning),
+        /// Vessels do not keep their calibre.
+        Calibre(CalibreSummary),
+        /// The level pinches a vessel.
+        Pinches(Pinches),
+        /// Smoothing has drawn a vessel shut.
+        DrawnShut(DrawnShut),
+        /// The volume changed much.
+        Volume(VolumeWarning),
+        /// The volume is not held.
+        VolumeNotHeld(VolumeNotHeld),
+        /// Something that mending was asked for is not done.
+        Mending(MendWarning),
+        /// The target is not met.
+        Shortfall(ShortfallMessage),
+    }
+}
+
+impl FindingKind {
+    /// Whether the file itself is the reason: it is so whatever the settings, and was said when the file was read.
+    pub fn is_of_file(&self) -> bool {
+        matches!(self, Self::Size(_) | Self::Import(_))
+    }
+
+    /// Whether the sentence says where it is.
+    pub fn says_where(&self) -> bool {
+        matches!(self, Self::Pinches(_) | Self::DrawnShut(_))
+    }
+}
+
+messages! {
+    /// What there is to say of a place, in a few words.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum PlaceLabel {
+        /// A hole in the wall.
+        "verdict-place-hole" Hole => "Hole",
+        /// Surfaces meet.
+        "verdict-place-here" Here => "Here",
+        /// A vessel is narrower than it was.
+        "verdict-place-narrowed" Narrowed => "Pinched",
+        /// A vessel is pinched.
+        "verdict-place-pinched" Pinched => "pinched",
+        /// A vessel is lost.
+        "verdict-place-lost" Lost => "lost",
+        /// A vessel is drawn shut.
+        "verdict-place-shut" Shut => "Drawn shut",
+    } or {
+        /// A vessel changes its calibre.
+        Calibre(PlaceText),
+    }
+}
 
 /// A place to look at.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// In mm.
     pub at_mm: [f32; 3],
     /// How wide the vessel is there, in mm.
     pub width_mm: f64,
-    /// What there is to say of it, in a few words.
-    pub label: String,
+    /// What there is to say of it.
+    pub label: PlaceLabel,
+}
+
+messages! {
+    /// What a remedy is called.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum RemedyLabel {
+        /// Another rate.
+        "verdict-reduce-to" ReduceTo {
+            /// The rate in percent.
+            percent: f64 [1],
+        } => "Reduce to {percent:.1} %",
+        /// Another unit.
+        "verdict-read-in" ReadIn {
+            /// Which.
+            unit: Unit,
+        } => "Read in {unit}",
+        /// Of a wall the lumen.
+        "verdict-take-lumen" TakeLumen => "Take the lumen",
+        /// Holes are filled.
+        "verdict-fill" Fill => "Fill",
+        /// Surfaces that meet are split.
+        "verdict-split" Split => "Split",
+        /// Smoothing makes no triangles cross.
+        "verdict-no-crossings" NoCrossings => "No crossings",
+    } or {
+        /// Settings of the filter that have a name.
+        Smoothing(Preset),
+    }
 }
 
 /// Something that would help.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Remedy {
     /// What it is called.
-    pub words: String,
+    pub label: RemedyLabel,
     /// What is to be changed.
     pub change: Remedied,
 }
@@ -36,29 +180,29 @@ pub enum Remedied {
 }
 
 /// Something to say of a result.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// One or two sentences.
-    pub text: String,
+    /// What it is.
+    pub what: FindingKind,
     /// Whether a trial had better not rest on the result; else it is a note.
     pub is_grave: bool,
-    /// Where it is; null where it is everywhere or nowhere.
+    /// Where it is; `None` where it is everywhere or nowhere.
     pub place: Option<Place>,
     /// What would help.
     pub remedies: Vec<Remedy>,
 }
 
 impl Finding {
-    pub(super) fn grave(text: String) -> Self {
-        Self { text, is_grave: true, place: None, remedies: Vec::new() }
+    pub(super) fn grave(what: impl Into<FindingKind>) -> Self {
+        Self { what: what.into(), is_grave: true, place: None, remedies: Vec::new() }
     }
 
-    pub(super) fn note(text: String) -> Self {
-        Self { is_grave: false, ..Self::grave(text) }
+    pub(super) fn note(what: impl Into<FindingKind>) -> Self {
+        Self { is_grave: false, ..Self::grave(what) }
     }
 
-    pub(super) fn at(self, at_mm: [f32; 3], width_mm: f64, label: String) -> Self {
-        Self { place: Some(Place { at_mm, width_mm, label }), ..self }
+    pub(super) fn at(self, at_mm: [f32; 3], width_mm: f64, label: impl Into<PlaceLabel>) -> Self {
+        Self { place: Some(Place { at_mm, width_mm, label: label.into() }), ..self }
     }
 
     pub(super) fn helped_by(mut self, remedy: Option<Remedy>) -> Self {
@@ -67,26 +211,48 @@ impl Finding {
     }
 }
 
+messages! {
+    /// A verdict in a few words.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Head {
+        /// A trial may rest on the result.
+        "verdict-safe" Safe => "Safe to simulate on",
+        /// Nothing is wrong, as far as it is known.
+        "verdict-nothing-wrong" NothingWrong => "Nothing wrong was found",
+        /// The measuring has stopped.
+        "verdict-not-measured" NotMeasured => "Not measured",
+        /// The measuring goes on.
+        "verdict-coming" Coming => "Being measured...",
+        /// There are grave findings.
+        "verdict-to-look-at" ToLookAt {
+            /// How many.
+            count: usize,
+        } => (count, "One thing to look at", "{count} things to look at"),
+    }
+}
+
 /// The verdict on a result.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// In a few words.
-    pub head: String,
-    /// Whether a trial may rest on it; null while that is not known.
+    pub head: Head,
+    /// Whether a trial may rest on it; `None` while that is not known.
     pub is_safe: Option<bool>,
-    /// What is said of the vessels; null where they are not measured.
-    pub calibre: Option<String>,
+    /// What is said of the vessels; `None` where they are not measured.
+    pub calibre: Option<CalibreSummary>,
     /// Grave ones first, in the order of their weight.
     pub findings: Vec<Finding>,
 }
 
 impl Verdict {
-    /// The head, and what is weightiest: a sentence each.
-    pub fn in_short(&self) -> String {
-        let grave = self.findings.first().filter(|finding| finding.is_grave).map(|finding| &finding.text);
-        match grave.or(self.calibre.as_ref()) {
-            Some(text) => format!("{}. {text}", self.head.trim_end_matches('.')),
-            None => format!("{}.", self.head.trim_end_matches('.')),
+    /// The head, and what is weightiest: a sentence each, as `say` says them.
+    pub fn in_short(&self, say: impl Fn(&dyn Message) -> String) -> String {
+        let grave = self.findings.first().filter(|finding| finding.is_grave).map(|finding| say(&finding.what));
+        let head = say(&self.head);
+        let head = head.trim_end_matches('.');
+        match grave.or_else(|| Some(say(self.calibre.as_ref()?))) {
+            Some(text) => format!("{head}. {text}"),
+            None => format!("{head}."),
         }
     }
 }

@@ -1,16 +1,16 @@
 //! What of a result is to be said, and how much it weighs.
 
 use super::super::pinch::Pinch;
+use super::super::progressive::Shortfall;
 use super::super::report::Report;
+use super::super::run::Pipeline;
 use super::super::settings::{Keep, Mending, Preset, Settings, Smoothing, Target};
 use super::super::shape::Shape;
-use super::finding::{Finding, Remedied, Remedy, Verdict};
+use super::finding::{Finding, FindingKind, Head, PlaceLabel, Remedied, Remedy, RemedyLabel, Verdict};
 use lumen_io::{ImportReport, Unit, UnusualSize, Warning};
-use lumen_language::decimal;
-use lumen_language::{say, tell};
 use lumen_mesh::mending::{FaultCounts, FaultKind, FaultPlace};
-use lumen_vessel::certificate::{BranchCalibre, Certificate, Verdict as Calibre};
-use lumen_vessel::summary::{in_order, place, sentence};
+use lumen_vessel::certificate::{BranchCalibre, CalibreError, Certificate, Verdict as Calibre};
+use lumen_vessel::summary::{in_order, place, summary};
 
 /// What becomes of that which is not known of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,10 +34,12 @@ pub struct Known<'a> {
     pub has_units: bool,
     /// The numbers, if they are those of the settings.
     pub report: Option<&'a Report>,
+    /// Why the target was not met, if it was not.
+    pub shortfall: Option<&'a Shortfall>,
     /// The vessel that is pinched or lost, if one is: it may be known before the numbers.
     pub pinch: Option<&'a Pinch>,
     /// What became of the vessels, or why there are none.
-    pub calibre: Option<&'a Result<Certificate, String>>,
+    pub calibre: Option<&'a Result<Certificate, CalibreError>>,
     /// The highest rate that is safe, in percent, where more is taken away.
     pub safe_percent: Option<f64>,
     /// What is wrong with the file, and where, if that is known.
@@ -63,28 +65,29 @@ impl Verdict {
         findings.extend(calibre(known));
         let of_file = known.import.warnings.iter().filter(|warning| !matches!(warning, Warning::Size(_)));
         findings.extend(
-            of_file.map(|warning| Finding { is_grave: *warning == Warning::NoInside, ..Finding::note(tell(warning)) }),
+            of_file
+                .map(|warning| Finding { is_grave: *warning == Warning::NoInside, ..Finding::note(warning.clone()) }),
         );
         findings.sort_by_key(|finding| !finding.is_grave);
         let grave = findings.iter().filter(|finding| finding.is_grave).count();
         let is_known = known.report.is_some() && known.calibre.is_some();
         let is_measured = matches!(known.calibre, Some(Ok(found)) if found.verdict == Calibre::Kept);
         let head = match grave {
-            0 if is_known && is_measured => say!("verdict-safe"),
-            0 if is_known || known.rest == Rest::NotAsked => say!("verdict-nothing-wrong"),
-            0 if known.rest == Rest::Stopped => say!("verdict-not-measured"),
-            0 => say!("verdict-coming"),
-            count => say!("verdict-to-look-at", count = count),
+            0 if is_known && is_measured => Head::Safe,
+            0 if is_known || known.rest == Rest::NotAsked => Head::NothingWrong,
+            0 if known.rest == Rest::Stopped => Head::NotMeasured,
+            0 => Head::Coming,
+            count => Head::ToLookAt { count },
         };
         let is_safe = if grave > 0 { Some(false) } else { is_known.then_some(is_measured) };
-        Self { head, is_safe, calibre: known.calibre.map(sentence), findings }
+        Self { head, is_safe, calibre: known.calibre.map(summary), findings }
     }
 
-    /// On a run that is over.
-    pub fn of_run(report: &Report, import: &ImportReport, has_units: bool) -> Self {
-        let found = report.calibre.as_ref().map(|calibre| match (&calibre.refused, &report.branches) {
-            (None, Some(branches)) => Ok(Certificate::new(branches.clone(), calibre.tolerance_percent)),
-            (refused, _) => Err(refused.clone().unwrap_or_default()),
+    /// On a run that is over: `report` is of what `pipeline` has made.
+    pub fn of_run(pipeline: &Pipeline, report: &Report, import: &ImportReport, has_units: bool) -> Self {
+        let found = pipeline.certified().map(|found| match found {
+            Ok(found) => Ok(found.certificate.clone()),
+            Err(why) => Err(why.clone()),
         });
         let entering = report.after_connectivity.triangles;
         let takes_more = |percent: &f64| report.output.triangles < rate(*percent).triangles(entering);
@@ -96,6 +99,7 @@ impl Verdict {
             import,
             has_units,
             report: Some(report),
+            shortfall: pipeline.reduced().and_then(|reduced| reduced.level.shortfall.as_ref()),
             pinch,
             calibre: found.as_ref(),
             safe_percent: report.safe.as_ref().and_then(|safe| safe.percent).filter(takes_more),
@@ -111,16 +115,16 @@ pub fn rate(percent: f64) -> Target {
 }
 
 /// Other settings for a remedy, if they are others.
-fn remedy(known: &Known<'_>, words: &str, change: impl FnOnce(&mut Settings)) -> Option<Remedy> {
+fn remedy(known: &Known<'_>, label: RemedyLabel, change: impl FnOnce(&mut Settings)) -> Option<Remedy> {
     let mut settings = known.settings.clone();
     change(&mut settings);
     let is_other = settings != *known.settings;
-    is_other.then(|| Remedy { words: words.to_owned(), change: Remedied::Settings(Box::new(settings)) })
+    is_other.then(|| Remedy { label, change: Remedied::Settings(Box::new(settings)) })
 }
 
 /// The smoothing that suits the surface, where another is set.
 fn suit(known: &Known<'_>) -> Option<Remedy> {
-    remedy(known, &Preset::Auto.label(), |settings| {
+    remedy(known, RemedyLabel::Smoothing(Preset::Auto), |settings| {
         let preserve_volume = settings.smoothing.preserve_volume;
         settings.smoothing = Smoothing { preserve_volume, ..Preset::Auto.smoothing() };
     })
@@ -129,16 +133,13 @@ fn suit(known: &Known<'_>) -> Option<Remedy> {
 /// The highest rate that is safe, where more is taken away.
 fn less(known: &Known<'_>) -> Option<Remedy> {
     let percent = known.safe_percent?;
-    remedy(known, &say!("verdict-reduce-to", percent = decimal(percent, 1)), |settings| settings.target = rate(percent))
+    remedy(known, RemedyLabel::ReduceTo { percent }, |settings| settings.target = rate(percent))
 }
 
 fn size(known: &Known<'_>, found: &UnusualSize) -> Finding {
-    let mut finding = Finding::grave(tell(found));
+    let mut finding = Finding::grave(found.clone());
     if known.has_units {
-        let read = |&unit: &Unit| Remedy {
-            words: say!("verdict-read-in", unit = unit.to_string()),
-            change: Remedied::Unit(unit),
-        };
+        let read = |&unit: &Unit| Remedy { label: RemedyLabel::ReadIn { unit }, change: Remedied::Unit(unit) };
         finding.remedies = found.units().iter().map(read).collect();
     }
     finding
@@ -148,11 +149,11 @@ fn size(known: &Known<'_>, found: &UnusualSize) -> Finding {
 fn faults(known: &Known<'_>) -> Vec<Finding> {
     let Some((counts, places)) = known.faults else { return Vec::new() };
     let asked = known.settings.mending;
-    let helped = |words: &str, change: &dyn Fn(&mut Mending)| {
+    let helped = |label: RemedyLabel, change: &dyn Fn(&mut Mending)| {
         let mut mending = asked;
         change(&mut mending);
         let is_other = mending != asked;
-        remedy(known, words, |settings| {
+        remedy(known, label, |settings| {
             settings.mending = mending;
             // A piece that is kept by its number may be another one then.
             if matches!(settings.keep, Keep::Component(_)) {
@@ -163,22 +164,22 @@ fn faults(known: &Known<'_>) -> Vec<Finding> {
     };
     let mut findings = Vec::new();
     if let Some(wall) = counts.wall.filter(|_| !asked.lumen) {
-        let text = say!("verdict-wall", thickness = decimal(wall.thickness_mm, 2));
-        findings.push(Finding::grave(text).helped_by(helped(&say!("verdict-take-lumen"), &|asked| asked.lumen = true)));
+        let lumen = helped(RemedyLabel::TakeLumen, &|asked| asked.lumen = true);
+        findings.push(Finding::grave(FindingKind::Wall { thickness: wall.thickness_mm }).helped_by(lumen));
     }
     let of = |kind| places.iter().find(move |place| place.kind == kind);
     let largest = counts.largest_hole_mm.filter(|&mm| asked.fill_mm.is_none_or(|limit| limit < mm));
     if let Some((mm, place)) = largest.zip(of(FaultKind::Hole)) {
-        let text = say!("verdict-holes", count = counts.holes, diameter = decimal(mm, 1));
-        let fill = helped(&say!("verdict-fill"), &|asked| asked.fill_mm = Some(Mending::filling(mm)));
-        findings.push(Finding::note(text).at(place.at_mm, mm, say!("verdict-place-hole")).helped_by(fill));
+        let what = FindingKind::Holes { count: counts.holes, diameter: mm };
+        let fill = helped(RemedyLabel::Fill, &|asked| asked.fill_mm = Some(Mending::filling(mm)));
+        findings.push(Finding::note(what).at(place.at_mm, mm, PlaceLabel::Hole).helped_by(fill));
     }
     let crowded = counts.non_manifold_edges + counts.non_manifold_vertices;
     if crowded > 0 && !asked.split {
-        let text = say!("verdict-crowded", count = crowded);
-        let finding = Finding::note(text).helped_by(helped(&say!("verdict-split"), &|asked| asked.split = true));
+        let split = helped(RemedyLabel::Split, &|asked| asked.split = true);
+        let finding = Finding::note(FindingKind::Crowded { count: crowded }).helped_by(split);
         findings.push(match of(FaultKind::Edge).or_else(|| of(FaultKind::Vertex)) {
-            Some(place) => finding.at(place.at_mm, f64::from(place.size_mm), say!("verdict-place-here")),
+            Some(place) => finding.at(place.at_mm, f64::from(place.size_mm), PlaceLabel::Here),
             None => finding,
         });
     }
@@ -187,46 +188,46 @@ fn faults(known: &Known<'_>) -> Vec<Finding> {
 
 fn pinch(known: &Known<'_>) -> Option<Finding> {
     let Some(pinch) = known.pinch else {
-        let text = known.report.and_then(Report::pinch_warning)?;
+        let what = known.report.and_then(Report::pinch_warning)?;
         let found = known.report?.narrowing?;
-        let finding = Finding::grave(text).at(found.at_mm, found.diameter_before_mm, say!("verdict-place-narrowed"));
+        let finding = Finding::grave(what).at(found.at_mm, found.diameter_before_mm, PlaceLabel::Narrowed);
         return Some(finding.helped_by(less(known)));
     };
-    let (before, percent) = (decimal(pinch.diameter_before_mm, 1), decimal(pinch.from_percent, 1));
-    let (text, label) = if pinch.diameter_after_mm > 0.0 {
-        (say!("verdict-pinched-first", before = before, percent = percent), say!("verdict-place-pinched"))
+    let (before, percent) = (pinch.diameter_before_mm, pinch.from_percent);
+    let (what, label) = if pinch.diameter_after_mm > 0.0 {
+        (FindingKind::PinchedFirst { before, percent }, PlaceLabel::Pinched)
     } else {
-        (say!("verdict-lost-first", before = before, percent = percent), say!("verdict-place-lost"))
+        (FindingKind::LostFirst { before, percent }, PlaceLabel::Lost)
     };
-    let finding = Finding::grave(text).at(pinch.at_mm, pinch.diameter_before_mm, label);
+    let finding = Finding::grave(what).at(pinch.at_mm, pinch.diameter_before_mm, label);
     Some(finding.helped_by(less(known)))
 }
 
 fn of_report(known: &Known<'_>, report: &Report) -> Vec<Finding> {
     let mut findings = Vec::new();
-    if let Some(text) = report.smoothing_warning() {
+    if let Some(what) = report.smoothing_warning() {
         let lumen = report.smoothed_shape.as_ref().and_then(|shape| shape.smallest_lumen);
-        let finding = Finding::grave(text).helped_by(suit(known));
+        let finding = Finding::grave(what).helped_by(suit(known));
         findings.push(match lumen {
-            Some(lumen) => finding.at(lumen.at_mm, lumen.diameter_mm, say!("verdict-place-shut")),
+            Some(lumen) => finding.at(lumen.at_mm, lumen.diameter_mm, PlaceLabel::Shut),
             None => finding,
         });
     }
     let crossing = |shape: &Option<Shape>| shape.as_ref().map_or(0, |shape| shape.self_intersecting_faces);
     let (now, before) = (crossing(&report.output_shape), crossing(&report.smoothed_shape));
     if now > 0 {
-        let text = match before {
-            0 => say!("verdict-crossing", count = now),
-            _ => say!("verdict-crossing-before", count = now, before = before),
+        let what = match before {
+            0 => FindingKind::Crossing { count: now },
+            _ => FindingKind::CrossingBefore { count: now, before },
         };
-        let guard = remedy(known, &say!("verdict-no-crossings"), |settings| settings.smoothing.guard = true);
-        findings.push(Finding::grave(text).helped_by(guard));
+        let guard = remedy(known, RemedyLabel::NoCrossings, |settings| settings.smoothing.guard = true);
+        findings.push(Finding::grave(what).helped_by(guard));
     }
-    findings.extend(report.volume_warning().map(|text| Finding::grave(text).helped_by(suit(known))));
+    findings.extend(report.volume_warning().map(|what| Finding::grave(what).helped_by(suit(known))));
     findings.extend(report.mending_warnings().into_iter().map(Finding::note));
-    findings.extend(report.shortfall.clone().map(Finding::note));
+    findings.extend(known.shortfall.map(|shortfall| Finding::note(shortfall.message())));
     if report.pass_band_missed {
-        findings.push(Finding::note(say!("verdict-few-iterations")));
+        findings.push(Finding::note(FindingKind::FewIterations));
     }
     findings.extend(report.volume_held_warning().map(Finding::note));
     findings
@@ -238,7 +239,7 @@ fn calibre(known: &Known<'_>) -> Option<Finding> {
     let worst = in_order(certificate).into_iter().next()?;
     let by_smoothing = certificate.branches.iter().any(|branch| branch.verdict_smoothed == Calibre::Changed);
     let help = if by_smoothing { suit(known) } else { None };
-    let finding = Finding::grave(sentence(found));
+    let finding = Finding::grave(summary(found));
     let finding = match worst.reduced.largest_change {
         Some(change) => finding.at(change.at_mm, width(worst, change.abscissa_mm), place(worst, &change)),
         None => finding,

@@ -14,11 +14,13 @@ use serde::{Deserialize, Serialize};
 use web_time::Instant;
 
 use self::verdict::verdict;
+pub use self::verdict::{ComparisonVerdict, PathVerdict};
 use super::course::{Course, TrialError};
 use super::session::Trial;
 use super::summary::Summary;
 use super::wall::Wall;
 use lumen_mesh::{TriMesh, shuffled};
+use lumen_message::{Message as _, Told};
 use lumen_pipeline::lumen::PINCHED;
 use lumen_pipeline::results::fingerprint;
 use lumen_pipeline::task::milliseconds;
@@ -36,7 +38,7 @@ pub const SHUFFLES: u64 = 3;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TrialComparison {
     /// One sentence.
-    pub verdict: String,
+    pub verdict: Told,
     /// Inserted length in mm at each sample.
     #[serde(with = "lumen_transfer::bulk")]
     pub inserted_mm: Vec<f32>,
@@ -164,7 +166,7 @@ impl TrialComparison {
         // Judged as far as the runs in other orders went.
         let judged = if noise.orders[0] > 0 { &deviation_mm[..noise_mm.len()] } else { &deviation_mm[..] };
         Self {
-            verdict: verdict(&summaries, [judged, &noise_mm].map(largest), noise.orders),
+            verdict: verdict(&summaries, [judged, &noise_mm].map(largest), noise.orders).told(),
             inserted_mm: rows[0].iter().zip(rows[1]).map(|(_, b)| b.inserted_mm as f32).collect(),
             deviation_mm,
             noise_mm,

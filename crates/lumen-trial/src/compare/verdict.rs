@@ -1,38 +1,117 @@
 //! What is said of a comparison, in one sentence.
 
 use crate::summary::Summary;
-use lumen_language::decimal;
-use lumen_language::say;
+use lumen_message::messages;
 use lumen_pipeline::settings::reduction_percent;
+
+messages! {
+    /// How a reduced surface compares with the unreduced one.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum ComparisonVerdict {
+        /// The wire arrives on the reduced surface; on the unreduced one that is chance.
+        "trial-verdict-chance-yes" ChanceYes {
+            /// Triangles that were removed, in percent.
+            gone: f64 [0],
+            /// Orders of the triangles with which it arrives.
+            arrives: usize,
+            /// Orders that were tried.
+            all: usize,
+            /// How far the ways differ.
+            path: PathVerdict,
+        } => "At {gone:.0} % this wire arrives, but whether it does is chance: on the unreduced surface it arrives \
+              with {arrives} of {all} orders of the triangles; {path}.",
+        /// The wire does not arrive on the reduced surface; on the unreduced one that is chance.
+        "trial-verdict-chance-no" ChanceNo {
+            /// Triangles that were removed, in percent.
+            gone: f64 [0],
+            /// Orders of the triangles with which it arrives.
+            arrives: usize,
+            /// Orders that were tried.
+            all: usize,
+            /// How far the ways differ.
+            path: PathVerdict,
+        } => "At {gone:.0} % this wire does not arrive, but whether it does is chance: on the unreduced surface it \
+              arrives with {arrives} of {all} orders of the triangles; {path}.",
+        /// It arrives on both.
+        "trial-verdict-both" Both {
+            /// Triangles that were removed, in percent.
+            gone: f64 [0],
+            /// How far the ways differ.
+            path: PathVerdict,
+        } => "At {gone:.0} % this wire arrives; {path}.",
+        /// It arrives on neither.
+        "trial-verdict-neither" Neither {
+            /// Triangles that were removed, in percent.
+            gone: f64 [0],
+            /// How far the ways differ.
+            path: PathVerdict,
+        } => "This wire arrives on neither surface under this input; at {gone:.0} % {path}.",
+        /// It arrives on the reduced one alone.
+        "trial-verdict-reduced" Reduced {
+            /// Triangles that were removed, in percent.
+            gone: f64 [0],
+            /// How far the ways differ.
+            path: PathVerdict,
+        } => "At {gone:.0} % this wire arrives; under the same input it does not on the unreduced surface, and {path}.",
+        /// It arrives on the unreduced one alone.
+        "trial-verdict-unreduced" Unreduced {
+            /// Triangles that were removed, in percent.
+            gone: f64 [0],
+            /// How far the ways differ.
+            path: PathVerdict,
+        } => "At {gone:.0} % this wire does not arrive, and on the unreduced surface it does; {path}.",
+    }
+}
+
+messages! {
+    /// How far the ways of the tip differ, as a clause.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum PathVerdict {
+        /// Noise was not measured.
+        "trial-path" Alone {
+            /// The largest deviation in mm.
+            most: f32 [1],
+        } => "its tip path differs by {most:.1} mm at most",
+        /// They differ by more than noise.
+        "trial-path-more" More {
+            /// The largest deviation in mm.
+            most: f32 [1],
+            /// The largest noise in mm.
+            noise: f32 [1],
+        } => "its tip path differs by {most:.1} mm at most, while the unreduced surface differs from itself by up to \
+              {noise:.1} mm with its triangles in another order",
+        /// They differ by no more than noise.
+        "trial-path-noise" Noise {
+            /// The largest deviation in mm.
+            most: f32 [1],
+            /// The largest noise in mm.
+            noise: f32 [1],
+        } => "its tip path differs by {most:.1} mm at most, no more than noise, as the unreduced surface differs from \
+              itself by up to {noise:.1} mm with its triangles in another order",
+    }
+}
 
 /// What is to be said, with the largest deviation and the largest noise in mm, and the orders that were tried.
 pub(super) fn verdict(
     [reduced, original]: &[Summary; 2],
     [most, noise]: [f32; 2],
     [orders, arrived]: [usize; 2],
-) -> String {
+) -> ComparisonVerdict {
     let gone = reduction_percent(original.triangles, reduced.triangles);
-    let (is_more, most, noise) = (most > noise, decimal(most, 1), decimal(noise, 1));
-    let path = match (orders, is_more) {
-        (0, _) => say!("trial-path", most = most),
-        (_, true) => say!("trial-path-more", most = most, noise = noise),
-        (_, false) => say!("trial-path-noise", most = most, noise = noise),
+    let path = match (orders, most > noise) {
+        (0, _) => PathVerdict::Alone { most },
+        (_, true) => PathVerdict::More { most, noise },
+        (_, false) => PathVerdict::Noise { most, noise },
     };
-    let gone = decimal(gone, 0);
     let all = orders + 1;
     let arrives = arrived + usize::from(original.success);
-    if (1..all).contains(&arrives) {
-        return if reduced.success {
-            say!("trial-verdict-chance-yes", gone = gone, arrives = arrives, all = all, path = path)
-        } else {
-            say!("trial-verdict-chance-no", gone = gone, arrives = arrives, all = all, path = path)
-        };
-    }
     match (reduced.success, original.success) {
-        (true, true) => say!("trial-verdict-both", gone = gone, path = path),
-        (false, false) => say!("trial-verdict-neither", gone = gone, path = path),
-        (true, false) => say!("trial-verdict-reduced", gone = gone, path = path),
-        (false, true) => say!("trial-verdict-unreduced", gone = gone, path = path),
+        (true, _) if (1..all).contains(&arrives) => ComparisonVerdict::ChanceYes { gone, arrives, all, path },
+        (false, _) if (1..all).contains(&arrives) => ComparisonVerdict::ChanceNo { gone, arrives, all, path },
+        (true, true) => ComparisonVerdict::Both { gone, path },
+        (false, false) => ComparisonVerdict::Neither { gone, path },
+        (true, false) => ComparisonVerdict::Reduced { gone, path },
+        (false, true) => ComparisonVerdict::Unreduced { gone, path },
     }
 }
 
@@ -42,7 +121,7 @@ mod tests {
 
     fn said(arrive: [bool; 2], differ: [f32; 2], orders: [usize; 2]) -> String {
         let summary = |success, triangles| Summary { success, triangles, ..Summary::default() };
-        verdict(&[summary(arrive[0], 100), summary(arrive[1], 1000)], differ, orders)
+        verdict(&[summary(arrive[0], 100), summary(arrive[1], 1000)], differ, orders).to_string()
     }
 
     #[test]

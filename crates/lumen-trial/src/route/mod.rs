@@ -7,14 +7,13 @@ mod propose;
 mod tests;
 mod way;
 
-use thiserror::Error;
+use std::fmt;
 
-pub use place_name::{PlaceName, WayEnd};
+pub use place_name::{PlaceLabel, PlaceName, TargetLabel, WayEnd};
 pub use propose::{Proposals, Target, phantom_task};
 pub use way::{CrossSection, OnRoute, Route, RoutePoint, Routes};
 
-use lumen_language::decimal;
-use lumen_language::say;
+use lumen_message::{ToValue, Value, messages};
 
 /// The radius that half of a way's length is narrower than: its pieces have a radius and a length each.
 fn usual_radius(mut pieces: Vec<(f64, f64)>) -> f64 {
@@ -28,67 +27,89 @@ fn usual_radius(mut pieces: Vec<(f64, f64)>) -> f64 {
     pieces.iter().find(is_beyond).map_or(0.0, |piece| piece.0)
 }
 
-/// What a branch is called in a message, as [`Branch::name`](lumen_vessel::Branch::name) is in English.
-pub(super) fn called(branch: u32) -> String {
-    say!("trial-branch-named", number = (branch + 1).to_string())
-}
-
 /// A place in mm, as it stands in a message.
-fn place([x, y, z]: [f32; 3]) -> String {
-    say!("trial-place", x = decimal(x, 1), y = decimal(y, 1), z = decimal(z, 1))
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At(pub [f32; 3]);
+
+impl fmt::Display for At {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.text().fmt(f)
+    }
 }
 
-/// What is said of a lumen that is thinner than the wire, with both diameters, the place and how far it is along the route.
-fn too_thin([wire_mm, lumen_mm]: [f64; 2], at: [f32; 3], arc_mm: f64) -> String {
-    let (wire, lumen, along) = (decimal(wire_mm, 2), decimal(lumen_mm, 2), decimal(arc_mm, 0));
-    say!("trial-too-thin", wire = wire, lumen = lumen, at = place(at), along = along)
+impl ToValue for At {
+    fn to_value(&self) -> Value {
+        self.text().to_value()
+    }
 }
 
-/// Why there is no route.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum RouteError {
-    /// The wire would begin outside.
-    #[error("{}", say!("trial-entry-outside", at = place(*at), distance = decimal(*distance_mm, 1)))]
-    EntryOutside {
-        /// The entry in mm.
-        at: [f32; 3],
-        /// Its distance from the wall in mm.
-        distance_mm: f32,
-    },
-    /// The target cannot be reached from inside.
-    #[error("{}", say!("trial-target-outside", at = place(*at), distance = decimal(*distance_mm, 1)))]
-    TargetOutside {
-        /// The target in mm.
-        at: [f32; 3],
-        /// Its distance from the wall in mm.
-        distance_mm: f32,
-    },
-    /// No lumen leads from the one to the other.
-    #[error("{}", say!("trial-no-way", at = place(*at), gap = decimal(*gap_mm, 1)))]
-    NoWay {
-        /// Where the part of the lumen with the entry comes nearest to the other, in mm.
-        at: [f32; 3],
-        /// From there to the other part, in mm.
-        gap_mm: f32,
-    },
-    /// Entry and target are the same place of the centreline.
-    #[error("{}", say!("trial-too-short", length = decimal(*length_mm, 1)))]
-    TooShort {
-        /// Distance along the vessel in mm.
-        length_mm: f64,
-    },
-    /// The wire does not fit.
-    #[error("{}", too_thin([*wire_mm, *lumen_mm], *at, *arc_mm))]
-    TooThin {
-        /// Diameter of the wire in mm.
-        wire_mm: f64,
-        /// Diameter of the lumen in mm.
-        lumen_mm: f64,
-        /// Where, in mm.
-        at: [f32; 3],
-        /// Arc length along the route in mm.
-        arc_mm: f64,
-    },
+impl At {
+    fn text(self) -> AtText {
+        let Self([x, y, z]) = self;
+        AtText::Point { x, y, z }
+    }
+}
+
+messages! {
+    /// A place.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum AtText {
+        /// By its coordinates in mm.
+        "trial-place" Point {
+            /// The first.
+            x: f32 [1],
+            /// The second.
+            y: f32 [1],
+            /// The third.
+            z: f32 [1],
+        } => "({x:.1}, {y:.1}, {z:.1})",
+    }
+}
+
+messages! {
+    /// Why there is no route.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum RouteError {
+        /// The wire would begin outside.
+        "trial-entry-outside" EntryOutside {
+            /// The entry in mm.
+            at: At,
+            /// Its distance from the wall in mm.
+            distance_mm: f32 [1],
+        } => "the entry {at} lies outside of the vessel, {distance_mm:.1} mm from its wall",
+        /// The target cannot be reached from inside.
+        "trial-target-outside" TargetOutside {
+            /// The target in mm.
+            at: At,
+            /// Its distance from the wall in mm.
+            distance_mm: f32 [1],
+        } => "the target {at} lies outside of the vessel, {distance_mm:.1} mm from its wall",
+        /// No lumen leads from the one to the other.
+        "trial-no-way" NoWay {
+            /// Where the part of the lumen with the entry comes nearest to the other, in mm.
+            at: At,
+            /// From there to the other part, in mm.
+            gap_mm: f32 [1],
+        } => "there is no open way from the entry to the target: \
+              the lumen ends at {at}, {gap_mm:.1} mm from where the target's begins",
+        /// Entry and target are the same place of the centreline.
+        "trial-too-short" TooShort {
+            /// Distance along the vessel in mm.
+            length_mm: f64 [1],
+        } => "entry and target are {length_mm:.1} mm apart: too near for a route",
+        /// The wire does not fit.
+        "trial-too-thin" TooThin {
+            /// Diameter of the wire in mm.
+            wire_mm: f64 [2],
+            /// Diameter of the lumen in mm.
+            lumen_mm: f64 [2],
+            /// Where, in mm.
+            at: At,
+            /// Arc length along the route in mm.
+            arc_mm: f64 [0],
+        } => "the lumen is too thin for a wire of {wire_mm:.2} mm: it is {lumen_mm:.2} mm wide at {at}, \
+              {arc_mm:.0} mm along the route; less smoothing keeps thin vessels wider",
+    }
 }
 
 impl RouteError {
@@ -98,7 +119,7 @@ impl RouteError {
             Self::EntryOutside { at, .. }
             | Self::TargetOutside { at, .. }
             | Self::NoWay { at, .. }
-            | Self::TooThin { at, .. } => Some(*at),
+            | Self::TooThin { at, .. } => Some(at.0),
             Self::TooShort { .. } => None,
         }
     }

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::called;
-use lumen_language::decimal;
-use lumen_language::say;
+use lumen_message::messages;
+use lumen_vessel::BranchName;
 
 /// What is at the end of a way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,7 +16,7 @@ pub enum WayEnd {
     Closed,
 }
 
-/// What a place is called: said anew each time that it is shown, in the language of then.
+/// What a place is called.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum PlaceName {
     /// The one that a sample brings.
@@ -43,38 +42,82 @@ pub enum PlaceName {
 }
 
 impl PlaceName {
-    /// "branch 3, 9.0 mm", in the language that is spoken.
-    pub fn label(self) -> String {
+    /// "branch 3, 9.0 mm".
+    pub fn label(self) -> PlaceLabel {
         match self {
-            Self::Own => say!("trial-own"),
-            Self::Entry { branch, diameter_mm } => format!("{}, {} mm", called(branch), decimal(diameter_mm, 1)),
+            Self::Own => PlaceLabel::Own,
+            Self::Entry { branch, diameter_mm } => {
+                PlaceLabel::Entry { branch: BranchName::of_place(branch), width: diameter_mm }
+            }
             Self::Target { branch, end, diameter_mm, away_mm } => {
-                let branch = called(branch);
+                let branch = BranchName::of_place(branch);
                 let name = match end {
-                    WayEnd::Narrow => say!("trial-target-room", branch = branch),
-                    WayEnd::Open => say!("trial-target-open", branch = branch),
-                    WayEnd::Closed => say!("trial-target-closed", branch = branch),
+                    WayEnd::Narrow => TargetLabel::Narrow { branch },
+                    WayEnd::Open => TargetLabel::Open { branch },
+                    WayEnd::Closed => TargetLabel::Closed { branch },
                 };
-                let (width, away) = (decimal(diameter_mm, 1), decimal(away_mm, 0));
-                say!("trial-target-away", name = name, width = width, away = away)
+                PlaceLabel::Target { name, width: diameter_mm, away: away_mm }
             }
         }
+    }
+}
+
+messages! {
+    /// A place where a wire could enter or go, as lists show it.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum PlaceLabel {
+        /// The one that a sample brings.
+        "trial-own" Own => "the sample's own",
+        /// Where it could enter.
+        "trial-entry-wide" Entry {
+            /// The branch.
+            branch: BranchName,
+            /// Diameter of the lumen there, in mm.
+            width: f64 [1],
+        } => "{branch}, {width:.1} mm",
+        /// Where it could go.
+        "trial-target-away" Target {
+            /// The end.
+            name: TargetLabel,
+            /// Diameter of the lumen there, in mm.
+            width: f64 [1],
+            /// Length of the way there, in mm.
+            away: f64 [0],
+        } => "{name}, {width:.1} mm, {away:.0} mm away",
+    }
+}
+
+messages! {
+    /// The end of a way.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum TargetLabel {
+        /// The vessel goes on.
+        "trial-target-room" Narrow {
+            /// The branch.
+            branch: BranchName,
+        } => "{branch}, as far as there is room",
+        /// The vessel is cut off.
+        "trial-target-open" Open {
+            /// The branch.
+            branch: BranchName,
+        } => "{branch}, open end",
+        /// The vessel is closed.
+        "trial-target-closed" Closed {
+            /// The branch.
+            branch: BranchName,
+        } => "{branch}, closed end",
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lumen_language::{Language, built_in, speak};
 
     #[test]
-    fn a_place_is_called_in_the_language_of_the_moment() {
+    fn a_place_is_called_by_its_branch_and_its_width() {
         let entry = PlaceName::Entry { branch: 2, diameter_mm: 9.04 };
         let target = PlaceName::Target { branch: 0, end: WayEnd::Open, diameter_mm: 4.25, away_mm: 120.4 };
-        assert_eq!(entry.label(), "branch 3, 9.0 mm");
-        assert_eq!(target.label(), "branch 1, open end, 4.2 mm, 120 mm away");
-        speak(Language::German, built_in(Language::German).unwrap());
-        assert_eq!(entry.label(), "Ast 3, 9,0 mm");
-        speak(Language::English, &[]);
+        assert_eq!(entry.label().to_string(), "branch 3, 9.0 mm");
+        assert_eq!(target.label().to_string(), "branch 1, open end, 4.2 mm, 120 mm away");
     }
 }

@@ -139,5 +139,5 @@ fn a_pinched_vessel_ends_where_it_is_pinched_and_a_narrow_one_goes_on() {
     near(route.smallest_radius_mm, 0.3, 0.06);
     assert!((route.points[route.smallest_at].at.z - 20.0).abs() < 0.3);
     let shut = Tree::new(&waisted(1e-4)).unwrap().route(from, to).unwrap_err();
-    assert!(matches!(shut, RouteError::NoWay { at, .. } if (at[2] - 20.0).abs() < 1.5), "{shut}");
+    assert!(matches!(shut, RouteError::NoWay { at, .. } if (at.0[2] - 20.0).abs() < 1.5), "{shut}");
 }

@@ -5,7 +5,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{RouteError, usual_radius};
+use super::{At, RouteError, usual_radius};
 use lumen_vessel::{Ball, Located, NONE, Place, Tree, arcs, centreline, direction, power};
 
 /// Number of stations.
@@ -85,11 +85,11 @@ impl Routes for Tree {
         let outside = |at: Vec3| (at.to_array(), self.space.index.nearest(at).map_or(f32::INFINITY, |n| n.distance));
         let from = ball_at(self, entry).ok_or_else(|| {
             let (at, distance_mm) = outside(entry);
-            RouteError::EntryOutside { at, distance_mm }
+            RouteError::EntryOutside { at: At(at), distance_mm }
         })?;
         let to = ball_at(self, target).ok_or_else(|| {
             let (at, distance_mm) = outside(target);
-            RouteError::TargetOutside { at, distance_mm }
+            RouteError::TargetOutside { at: At(at), distance_mm }
         })?;
         let ways = self.graph.ways(from);
         if ways.length[to as usize].is_infinite() {
@@ -168,7 +168,7 @@ fn gap(tree: &Tree, from: u32, to: u32) -> RouteError {
             }
         }
     }
-    RouteError::NoWay { at: best.1.to_array(), gap_mm: best.0.max(0.0) }
+    RouteError::NoWay { at: At(best.1.to_array()), gap_mm: best.0.max(0.0) }
 }
 
 /// The centreline through these balls, and a little on at both ends.
@@ -334,7 +334,7 @@ impl Route {
             Some(point) => Err(RouteError::TooThin {
                 wire_mm: diameter_mm,
                 lumen_mm: 2.0 * point.radius,
-                at: point.at.as_vec3().to_array(),
+                at: At(point.at.as_vec3().to_array()),
                 arc_mm: point.arc_mm,
             }),
         }

@@ -14,7 +14,7 @@ use super::felt::Felt;
 use super::frame::{Progress, Touch};
 use super::log::Log;
 use super::meter::{Meter, SinceRow};
-use super::missed::MissedFork;
+use super::missed::{MissedFork, MissedForkText};
 use super::press::outward;
 use super::report::StepKind;
 use super::setup::{Input, Setup};
@@ -344,7 +344,7 @@ impl Trial {
     }
 
     /// The fork that it missed and has not taken rightly since, as a clause; `None` where it missed none.
-    pub(super) fn missed_fork(&self) -> Option<String> {
+    pub(super) fn missed_fork(&self) -> Option<MissedForkText> {
         self.state.missed.map(|missed| missed.words(&self.course.tree, &self.course.route))
     }
 

@@ -69,7 +69,7 @@ impl Trial {
             is_wrong_branch: state.is_off,
             is_looped: state.is_looped,
             progress: state.progress,
-            doing: if self.is_steered { state.autopilot.words() } else { String::new() },
+            doing: self.is_steered.then(|| state.autopilot.task()),
             steps_per_second: 0.0,
             is_behind: false,
         }

@@ -3,10 +3,8 @@
 mod elements;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use lumen_language::say;
-use lumen_language::{Key, exact};
+use lumen_message::messages;
 use lumen_vessel::phantom::Sample;
 
 /// A guidewire.
@@ -82,14 +80,55 @@ const SHORTEST: f64 = 0.05;
 /// The most that a wire may be bent from one element to the next, in degrees.
 const SHARPEST: f64 = 90.0;
 
-/// A number that makes no wire.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error("{}", say!("trial-wire-impossible", what = what.say(), value = exact(*value)))]
-pub struct WireError {
-    /// Which number.
-    pub what: Key,
-    /// It.
-    pub value: f64,
+messages! {
+    /// A number that makes no wire.
+    #[derive(Clone, Debug, PartialEq)]
+    pub enum WireError {
+        /// It is out of range, or does not go with the others.
+        "trial-wire-impossible" Impossible {
+            /// Which number.
+            what: WireNumber,
+            /// It.
+            value: f64,
+        } => "the wire's {what} of {value} is not possible",
+    }
+}
+
+messages! {
+    /// A number of a wire.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum WireNumber {
+        /// Outer diameter.
+        "trial-wire-diameter" Diameter => "diameter",
+        /// Bending stiffness of the shaft.
+        "trial-wire-shaft-stiffness" ShaftStiffness => "stiffness of the shaft",
+        /// Bending stiffness at the tip.
+        "trial-wire-tip-stiffness" TipStiffness => "stiffness of the tip",
+        /// Torsional stiffness over bending stiffness.
+        "trial-wire-torsion-ratio" TorsionRatio => "torsion ratio",
+        /// Length of the wire.
+        "trial-wire-length" Length => "length",
+        /// Density of the material.
+        "trial-wire-density" Density => "density",
+        /// Length of an element at the tip.
+        "trial-wire-tip-element" TipElement => "element at the tip",
+        /// Length of an element of the shaft.
+        "trial-wire-shaft-element" ShaftElement => "element of the shaft",
+        /// Length that is as soft as the tip.
+        "trial-wire-soft-part" SoftPart => "soft part",
+        /// From the tip to where it is as stiff as the shaft.
+        "trial-wire-taper" Taper => "taper",
+        /// Length of the bent tip.
+        "trial-wire-bend" Bend => "bend",
+        /// Angle by which the tip is bent.
+        "trial-wire-bend-angle" BendAngle => "angle of the bend",
+        /// Length of the straight end beyond the bend.
+        "trial-wire-straight-end" StraightEnd => "straight end",
+        /// Coefficient of friction while it sticks.
+        "trial-wire-static-friction" StaticFriction => "static friction",
+        /// Coefficient of friction while it slides.
+        "trial-wire-kinetic-friction" KineticFriction => "kinetic friction",
+    }
 }
 
 impl Wire {
@@ -146,28 +185,28 @@ impl Wire {
     /// Names the number.
     pub fn check(&self) -> Result<(), WireError> {
         let positive = [
-            (Key("trial-wire-diameter"), self.diameter_mm, 10.0),
-            (Key("trial-wire-shaft-stiffness"), self.shaft_ei, 1e5),
-            (Key("trial-wire-tip-stiffness"), self.tip_ei, 1e5),
-            (Key("trial-wire-torsion-ratio"), self.torsion_ratio, 100.0),
-            (Key("trial-wire-length"), self.length_mm, 10_000.0),
-            (Key("trial-wire-density"), self.density, 1e-6),
+            (WireNumber::Diameter, self.diameter_mm, 10.0),
+            (WireNumber::ShaftStiffness, self.shaft_ei, 1e5),
+            (WireNumber::TipStiffness, self.tip_ei, 1e5),
+            (WireNumber::TorsionRatio, self.torsion_ratio, 100.0),
+            (WireNumber::Length, self.length_mm, 10_000.0),
+            (WireNumber::Density, self.density, 1e-6),
         ];
         let elements = [
-            (Key("trial-wire-tip-element"), self.elements_mm[0], 20.0),
-            (Key("trial-wire-shaft-element"), self.elements_mm[1], 20.0),
+            (WireNumber::TipElement, self.elements_mm[0], 20.0),
+            (WireNumber::ShaftElement, self.elements_mm[1], 20.0),
         ];
         let others = [
-            (Key("trial-wire-soft-part"), self.soft_mm, 10_000.0),
-            (Key("trial-wire-taper"), self.taper_mm, 10_000.0),
-            (Key("trial-wire-bend"), self.bend_mm, 100.0),
-            (Key("trial-wire-bend-angle"), self.bend_degrees, 360.0),
-            (Key("trial-wire-straight-end"), self.straight_end_mm, 100.0),
-            (Key("trial-wire-static-friction"), self.friction[0], 2.0),
-            (Key("trial-wire-kinetic-friction"), self.friction[1], 2.0),
+            (WireNumber::SoftPart, self.soft_mm, 10_000.0),
+            (WireNumber::Taper, self.taper_mm, 10_000.0),
+            (WireNumber::Bend, self.bend_mm, 100.0),
+            (WireNumber::BendAngle, self.bend_degrees, 360.0),
+            (WireNumber::StraightEnd, self.straight_end_mm, 100.0),
+            (WireNumber::StaticFriction, self.friction[0], 2.0),
+            (WireNumber::KineticFriction, self.friction[1], 2.0),
         ];
-        let wrong = |&(what, value, most): &(Key, f64, f64), least: f64| {
-            (!(least..=most).contains(&value)).then_some(WireError { what, value })
+        let wrong = |&(what, value, most): &(WireNumber, f64, f64), least: f64| {
+            (!(least..=most).contains(&value)).then_some(WireError::Impossible { what, value })
         };
         let found = positive.iter().find_map(|number| wrong(number, 1e-9));
         let found = found.or_else(|| others.iter().find_map(|number| wrong(number, 0.0)));
@@ -176,11 +215,11 @@ impl Wire {
             return Err(error);
         }
         if self.length_mm < 20.0 * self.elements_mm[0].max(self.elements_mm[1]) {
-            return Err(WireError { what: Key("trial-wire-length"), value: self.length_mm });
+            return Err(WireError::Impossible { what: WireNumber::Length, value: self.length_mm });
         }
         let bent = (self.bend_mm - self.straight_end_mm).max(self.elements_mm[0]);
         if self.bend_degrees * self.elements_mm[0] > SHARPEST * bent {
-            return Err(WireError { what: Key("trial-wire-bend-angle"), value: self.bend_degrees });
+            return Err(WireError::Impossible { what: WireNumber::BendAngle, value: self.bend_degrees });
         }
         Ok(())
     }

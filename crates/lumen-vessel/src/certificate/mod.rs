@@ -22,7 +22,6 @@
 
 mod basis;
 mod branch;
-mod on_surface;
 mod stretch;
 mod unit;
 
@@ -31,37 +30,28 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 pub use basis::Basis;
-pub use on_surface::{Change, OnSurface, Spread, Standing};
 pub use unit::CalibreError;
 pub(super) use unit::checked;
 
+use super::BranchName;
+pub use super::on_surface::{Change, OnSurface, Spread, SpreadText, Standing};
 use super::variation::{Kind, Variation};
-use lumen_language::Key;
-use lumen_language::say;
+use lumen_message::messages;
 
 /// The change in percent that a vessel is allowed, unless it is said otherwise.
 pub const TOLERANCE_PERCENT: f64 = 2.0;
 
-/// What is found of a branch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// Nowhere more change than the tolerance.
-    Kept,
-    /// More change than the tolerance.
-    Changed,
-    /// The vessel can nowhere be measured.
-    NotMeasured,
-}
-
-impl Verdict {
-    /// As tables show it.
-    pub fn label(self) -> Key {
-        match self {
-            Self::Kept => Key("vessels-verdict-kept"),
-            Self::Changed => Key("vessels-verdict-changed"),
-            Self::NotMeasured => Key("vessels-verdict-not-measured"),
-        }
+messages! {
+    /// What is found of a branch.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Verdict {
+        /// Nowhere more change than the tolerance.
+        "vessels-verdict-kept" Kept => "kept",
+        /// More change than the tolerance.
+        "vessels-verdict-changed" Changed => "changed",
+        /// The vessel can nowhere be measured.
+        "vessels-verdict-not-measured" NotMeasured => "not measured",
     }
 }
 
@@ -156,9 +146,9 @@ impl Certificate {
 }
 
 impl BranchCalibre {
-    /// What it is called in the language that is spoken; `name` is English.
-    pub fn label(&self) -> String {
-        say!("vessels-branch", number = self.number.to_string())
+    /// What it is called; `name` is the same in English.
+    pub fn label(&self) -> BranchName {
+        BranchName::Numbered { number: self.number }
     }
 
     /// The stretch that is most narrower or wider than on either side.

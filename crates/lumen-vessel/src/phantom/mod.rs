@@ -22,8 +22,8 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use field::Field;
-use lumen_language::say;
 use lumen_mesh::{TriMesh, components};
+use lumen_message::messages;
 use lumen_volume::MarchingCubes;
 pub use vessel::{Station, Vessel};
 
@@ -72,11 +72,11 @@ impl Sample {
         }
     }
 
-    /// The name in menus, in the language that is spoken.
-    pub fn label(self) -> String {
+    /// The name in menus.
+    pub fn label(self) -> SampleName {
         match self {
-            Self::Aorta => say!("panel-sample-aorta"),
-            Self::Coronary => say!("panel-sample-coronary"),
+            Self::Aorta => SampleName::Aorta,
+            Self::Coronary => SampleName::Coronary,
         }
     }
 
@@ -131,31 +131,40 @@ impl FromStr for Sample {
     }
 }
 
-/// Why a sample could not be made.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum PhantomError {
-    /// The count is out of range.
-    #[error("{}", say!(
-        "errors-sample-range",
-        asked = .asked.to_string(),
-        least = MIN_TRIANGLES.to_string(),
-        most = MAX_TRIANGLES.to_string()
-    ))]
-    TrianglesOutOfRange {
-        /// The count that was asked for.
-        asked: usize,
-    },
-    /// No grid that was tried comes within 1 % of the count.
-    #[error("{}", say!("errors-sample-grid", asked = .asked.to_string(), nearest = .nearest.to_string()))]
-    NotReached {
-        /// The count that was asked for.
-        asked: usize,
-        /// The nearest count found.
-        nearest: usize,
-    },
-    /// The caller broke off.
-    #[error("{}", say!("errors-cancelled"))]
-    Cancelled,
+messages! {
+    /// Why a sample could not be made.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub enum PhantomError {
+        /// The count is out of range.
+        "errors-sample-range" TrianglesOutOfRange {
+            /// The count that was asked for.
+            asked: usize,
+            /// The fewest.
+            least: usize,
+            /// The most.
+            most: usize,
+        } => "{asked} triangles are outside the range of {least} to {most}",
+        /// No grid that was tried comes within 1 % of the count.
+        "errors-sample-grid" NotReached {
+            /// The count that was asked for.
+            asked: usize,
+            /// The nearest count found.
+            nearest: usize,
+        } => "no grid gives {asked} triangles to within 1 %; the nearest gives {nearest}",
+        /// The caller broke off.
+        "errors-cancelled" Cancelled => "cancelled",
+    }
+}
+
+messages! {
+    /// The name of a sample in menus.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum SampleName {
+        /// Of [`Sample::Aorta`].
+        "panel-sample-aorta" Aorta => "Abdominal aorta",
+        /// Of [`Sample::Coronary`].
+        "panel-sample-coronary" Coronary => "Coronary arteries",
+    }
 }
 
 /// The vessels of a sample, parents before branches, in mm.
@@ -187,7 +196,7 @@ pub fn generate_with(
     progress: &mut dyn FnMut(f32) -> ControlFlow<()>,
 ) -> Result<TriMesh, PhantomError> {
     if !(MIN_TRIANGLES..=MAX_TRIANGLES).contains(&triangles) {
-        return Err(PhantomError::TrianglesOutOfRange { asked: triangles });
+        return Err(PhantomError::TrianglesOutOfRange { asked: triangles, least: MIN_TRIANGLES, most: MAX_TRIANGLES });
     }
     let default = sample.default_triangles();
     // A surface sampled s times as finely has s^2 times as many triangles.

@@ -174,7 +174,10 @@ fn progress_never_falls_and_ends_at_one_and_cancels() {
 #[test]
 fn counts_out_of_range_are_refused_with_the_number() {
     for asked in [0, MIN_TRIANGLES - 1, MAX_TRIANGLES + 1] {
-        assert_eq!(generate(Sample::Aorta, asked), Err(PhantomError::TrianglesOutOfRange { asked }));
+        assert_eq!(
+            generate(Sample::Aorta, asked),
+            Err(PhantomError::TrianglesOutOfRange { asked, least: MIN_TRIANGLES, most: MAX_TRIANGLES })
+        );
     }
 }
 

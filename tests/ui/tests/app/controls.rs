@@ -161,7 +161,7 @@ fn the_panel_says_how_far_is_safe_and_goes_there() {
 pub(crate) fn safe_percent(harness: &mut Harness<'_, LumenApp>) -> f64 {
     for _ in 0..4000 {
         let measured = harness.state().state().document.as_ref().and_then(|document| document.measured.as_ref());
-        if let Some(safe) = measured.and_then(|measured| measured.report.safe.clone()) {
+        if let Some(safe) = measured.and_then(|measured| measured.safe.clone()) {
             harness.run_steps(2);
             return safe.percent.unwrap();
         }

@@ -131,7 +131,7 @@ fn a_surface_that_ends_the_program_is_not_brought_back_again() {
     let kept = died(kept);
     let (mut harness, memory) = page(DESKTOP, kept);
     settle(&mut harness);
-    assert_eq!(name(&harness), Sample::Aorta.label());
+    assert_eq!(name(&harness), Sample::Aorta.label().to_string());
     let said =
         "bad.stl was open before. The program has ended twice while it was being opened, so it is kept here no longer.";
     assert!(notice(&harness).starts_with(said), "{}", notice(&harness));
@@ -180,7 +180,7 @@ fn the_bytes_of_another_file_do_not_come_back_under_a_name() {
     let text = memory.borrow().kept.clone().unwrap().text;
     let (mut harness, memory) = page(DESKTOP, Kept { text, surface: Some(("first.stl".to_owned(), vessel(5000))) });
     settle(&mut harness);
-    assert_eq!(name(&harness), Sample::Aorta.label());
+    assert_eq!(name(&harness), Sample::Aorta.label().to_string());
     assert!(notice(&harness).starts_with("second.stl was open before."), "{}", notice(&harness));
     assert!(memory.borrow().kept.as_ref().unwrap().surface.is_none());
 }
@@ -253,7 +253,7 @@ fn what_no_version_has_written_is_passed_over() {
     let rate = |text: &str| {
         let (mut harness, _) = page(DESKTOP, Kept { text: Some(text.to_owned()), surface: None });
         settle(&mut harness);
-        assert_eq!(name(&harness), Sample::Aorta.label(), "{text}");
+        assert_eq!(name(&harness), Sample::Aorta.label().to_string(), "{text}");
         harness.state().state().settings.target
     };
     assert_eq!(rate(&written), Target::Reduction(700));

@@ -167,7 +167,7 @@ fn the_scan_is_let_go_with_its_surface() {
 fn choose_sample(harness: &mut Harness<'_, LumenApp>) {
     harness.get_by_label("Sample").click();
     harness.run_steps(3);
-    harness.get_by_label(&Sample::Aorta.label()).click();
+    harness.get_by_label(&Sample::Aorta.label().to_string()).click();
     harness.run_steps(3);
 }
 

@@ -120,7 +120,7 @@ fn a_link_to_a_sample_counts_more_than_the_file_that_comes_back() {
     memory.borrow_mut().events.push_front(link(SharedSurface::Sample(Sample::Aorta), None, half()));
     harness.run_steps(2);
     settle(&mut harness);
-    assert_eq!(harness.state().state().document.as_ref().unwrap().name, Sample::Aorta.label());
+    assert_eq!(harness.state().state().document.as_ref().unwrap().name, Sample::Aorta.label().to_string());
     assert_eq!(notice(&harness), "This is what the link belongs to: you see the same.");
 }
 

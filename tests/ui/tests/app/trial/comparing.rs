@@ -9,6 +9,7 @@ use lumen::phantom::{Sample, generate};
 use lumen::trial::setup::Entry;
 use lumen::trial::stopwatch::StationResult;
 use lumen::trial::summary::Summary;
+use lumen_ui_tests::told::told;
 use lumen_ui_tests::told::{
     DESKTOP, asked, at_entry, frame, id_of_start, now, on, press, put_on, ready, refused, retarget, says, start, tell,
 };
@@ -25,7 +26,7 @@ fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() 
     // Table I of the paper.
     assert_eq!(mesh.triangles.len(), 74_307);
     let comparison = TrialComparison {
-        verdict: "At 90 % this wire arrives; its tip path differs by 0.3 mm at most.".to_owned(),
+        verdict: told("At 90 % this wire arrives; its tip path differs by 0.3 mm at most."),
         inserted_mm: vec![0.0, 50.0, 100.0],
         deviation_mm: vec![0.0, 0.3, 0.1],
         tip: vec![[0.0; 3], [0.0, 0.0, 50.0]],
@@ -36,7 +37,7 @@ fn the_comparison_asks_for_the_surface_before_reduction_and_shows_its_verdict() 
     };
     let compared = TrialEvent::Compared { id: *id, comparison: Box::new(comparison.clone()) };
     tell(&mut harness, &memory, [compared]);
-    assert!(says(&harness, &comparison.verdict) && says(&harness, "3.05 mm, was 3.21 mm"));
+    assert!(says(&harness, &comparison.verdict.to_string()) && says(&harness, "3.05 mm, was 3.21 mm"));
 }
 
 #[test]
@@ -51,7 +52,7 @@ fn a_comparison_can_be_cancelled_alone_and_ends_with_its_trial() {
     assert_eq!(asked(&memory), [TrialCommand::Cancel { id }]);
     assert!(says(&harness, "12.3 cm"), "the trial stands");
     // What the engine had told before it heard of that.
-    let late = TrialComparison { verdict: "Too late.".to_owned(), ..TrialComparison::default() };
+    let late = TrialComparison { verdict: told("Too late."), ..TrialComparison::default() };
     tell(&mut harness, &memory, [TrialEvent::Compared { id, comparison: Box::new(late) }]);
     assert!(!says(&harness, "Too late."));
     press(&mut harness, compare);

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use lumen_language::decimal;
-use lumen_language::say;
+use lumen_message::messages;
 
 /// Why a station does not count, or that it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,9 +36,24 @@ pub struct Spread {
 
 impl Spread {
     /// As "1.50 (1.00 to 2.00)".
-    pub fn text(&self) -> String {
-        let [mean, least, largest] = [self.mean, self.least, self.largest].map(|value| decimal(value, 2));
-        say!("vessels-spread", mean = mean, least = least, largest = largest)
+    pub fn text(&self) -> SpreadText {
+        SpreadText::MeanAndRange { mean: self.mean, least: self.least, largest: self.largest }
+    }
+}
+
+messages! {
+    /// A [`Spread`] as tables show it.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum SpreadText {
+        /// The mean, with the least and the largest in brackets.
+        "vessels-spread" MeanAndRange {
+            /// Mean.
+            mean: f64 [2],
+            /// Least.
+            least: f64 [2],
+            /// Largest.
+            largest: f64 [2],
+        } => "{mean:.2} ({least:.2} to {largest:.2})",
     }
 }
 
