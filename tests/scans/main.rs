@@ -26,7 +26,7 @@ type Files = Vec<(&'static str, Vec<u8>)>;
 /// Waits for the other tests that measure.
 fn alone() -> MutexGuard<'static, ()> {
     // The first sentence that is said takes the messages apart, which takes memory that no file has asked for.
-    lumen::language::text("errors-file-empty");
+    lumen::language::text("errors-no-result");
     // One that failed has said so already.
     MEASURED.lock().unwrap_or_else(PoisonError::into_inner)
 }

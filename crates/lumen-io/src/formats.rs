@@ -106,12 +106,15 @@ pub(super) struct FileKind {
     /// Whether what its axes are stands in the text before its numbers; else its reader finds it.
     pub(super) axes_in_head: bool,
     /// By what of its content a file is told to be one.
-    pub(super) signs: &'static [(Sign, fn(&[u8]) -> bool)],
+    pub(super) signs: &'static [(Sign, IsKind)],
     /// Parses a file whose numbers are in a unit, with positions relative to an origin.
     pub(super) parse: Parser,
     /// How many triangles a file seems to hold, without reading it.
     pub(super) triangles: fn(&[u8]) -> u64,
 }
+
+/// Whether bytes have a sign of a kind of file.
+pub(super) type IsKind = fn(&[u8]) -> bool;
 
 /// What parses a file.
 pub(super) type Parser = for<'a> fn(&'a [u8], Unit, DVec3, &'a Pace) -> ParserFuture<'a>;

@@ -101,7 +101,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     problem::VtkProblem::MESSAGES,
     #[cfg(feature = "scans")]
     volume::ScanError::MESSAGES,
-    #[cfg(feature = "scans")]
+    #[cfg(all(feature = "scans", not(target_arch = "wasm32")))]
     volume::Unreadable::MESSAGES,
 ];
 

@@ -27,8 +27,6 @@ const UNEVEN: f64 = 0.05;
 /// By so much a direction may differ between slices of a series, and by so many mm two slices of one place.
 const SAME: f64 = 1e-3;
 
-/// That a file of a series does not say where its slices are.
-
 /// A slice of the volume.
 struct Slice<'f, 'a> {
     file: &'f File<'a>,
