@@ -14,9 +14,8 @@ trap 'rm -rf "$work"' EXIT
 
 # Times, and where files lie.
 plain() {
-  sed -E -e "s#$data/##g" -e "s#$work/##g" \
-    -e '/_ms"|"ms"|_seconds"|"version"|"lumen"|_per_second|^time|^memory|, ms|^ *(mending|connectivity|smoothing|decimation|deviation|measures|level|total|reading).* ms/d' \
-    -e 's/[0-9]+(\.[0-9]+)? (ms|s)\b/T/g'
+  sed -E -e "s#$data/##g" -e "s#$work/##g" -e '/"(stages|times|step)_?(ms)?": \{/,/\}/d' \
+    -e '/_ms"|"ms"|_seconds"|"version"|_per_second/d' -e 's/[0-9]+(\.[0-9]+)? +(ms|s)\b/T/g' -e 's/ +T$/ T/'
 }
 
 # digest NAME COMMAND...: of what the command prints, its exit status and the file it writes.
