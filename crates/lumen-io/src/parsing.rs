@@ -24,6 +24,7 @@ pub(super) async fn parse(
     let kind = detect(bytes, name)?;
     let unit = options.unit.unwrap_or(kind.unit);
     let pace = Pace::new(yielder, bytes.len());
+    pace.rest(0.0).await;
     let mut raw = (kind.parse)(bytes, unit, DVec3::ZERO, &pace).await?;
     if let Some(origin) = far::origin_for(&raw, unit) {
         // Once more, relative to a place within the surface; never both at once.
