@@ -102,10 +102,10 @@ mod tests {
     }
 
     /// `mesh` with vessels of these widths.
-    fn spared(mesh: &TriMesh, method: Method, widths: Vec<f32>) -> ProgressiveMesh {
+    fn spared(mesh: &TriMesh, method: Method, widths: &[f32]) -> ProgressiveMesh {
         let topology = Topology::new(mesh.positions.len(), &mesh.triangles);
         let settings = Decimation { method, ..Decimation::default() };
-        let holds = Holds { widths: Some(&widths), ..Holds::default() };
+        let holds = Holds { widths: Some(widths), ..Holds::default() };
         let levels = at_once(decimate_in_slices(mesh, &topology, &settings, holds, &Yielder::never())).progressive;
         levels.assert_well_formed();
         levels
@@ -127,7 +127,7 @@ mod tests {
                 let thick = level.triangles.iter().filter(|t| level.positions[t[0] as usize].x > 10.0).count();
                 (thick as f64 / (level.triangles.len() - thick) as f64).ln() / 8f64.ln()
             };
-            let found = [exponent(&levels_of(&mesh, method)), exponent(&spared(&mesh, method, widths.clone()))];
+            let found = [exponent(&levels_of(&mesh, method)), exponent(&spared(&mesh, method, &widths))];
             assert!((found[0] - plain).abs() < 0.08 && (found[1] - root).abs() < 0.08, "{method:?}: {found:?}");
         }
     }
@@ -138,7 +138,7 @@ mod tests {
         for method in Method::ALL {
             let plain = levels_of(&mesh, method);
             for width in [0.7, f32::INFINITY, f32::NAN, 0.0] {
-                assert!(spared(&mesh, method, vec![width; mesh.positions.len()]) == plain, "{method:?}, {width}");
+                assert!(spared(&mesh, method, &vec![width; mesh.positions.len()]) == plain, "{method:?}, {width}");
             }
         }
     }
@@ -148,11 +148,12 @@ mod tests {
         let mesh = joined(&[icosphere(4, 3.0, Vec3::ZERO), tube(24, 60, 40.0, |z| 1.0 + 0.05 * z)]);
         let widths: Vec<f32> = mesh.positions.iter().map(|p| 1.0 + 0.05 * p.z.max(0.0)).collect();
         for method in Method::ALL {
-            let here = spared(&mesh, method, widths.clone());
+            let here = spared(&mesh, method, &widths);
             for scale in [1024.0, 1.0 / 1024.0] {
                 let mut scaled = mesh.clone();
                 scaled.positions.iter_mut().for_each(|p| *p *= scale);
-                let there = spared(&scaled, method, widths.iter().map(|width| width * scale).collect());
+                let wider: Vec<f32> = widths.iter().map(|width| width * scale).collect();
+                let there = spared(&scaled, method, &wider);
                 assert!(there.triangles == here.triangles && there.parents == here.parents, "{method:?} at {scale}");
                 let errors: Vec<f32> = here.errors.iter().map(|error| error * scale).collect();
                 assert!(there.errors == errors, "what is told is in mm");
