@@ -2,7 +2,7 @@
 //! what it can hold.
 //!
 //! Detection, dialogs, menus, estimates, help texts and the types that packages declare are made from it. The row of a format
-//! stands in the format's own file. One more format is that file, its `mod` line, and its lines here: in [`KINDS`], and where
+//! stands in the format's own file. One more format is that file, its `mod` line, and its lines here: in `KINDS`, and where
 //! it is written in [`Format`].
 
 use std::pin::Pin;

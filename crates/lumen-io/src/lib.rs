@@ -123,7 +123,7 @@ pub fn write(mesh: &TriMesh, normals: Option<&[Vec3]>, format: Format) -> Result
     write_output(&Output { normals, ..Output::new(mesh) }, format)
 }
 
-/// As [`write`], with arrays and axes beside. Arrays that the format has no place for are not written ([`left_out`]).
+/// As [`write()`], with arrays and axes beside. Arrays that the format has no place for are not written ([`left_out`]).
 ///
 /// # Errors
 /// [`WriteError`] as there, and when an array has another length than the surface.

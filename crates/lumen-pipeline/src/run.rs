@@ -9,7 +9,7 @@
 //!
 //! [`Pipeline::set`] drops what a change of settings makes stale; [`Pipeline::advance`] works on the first stage that is
 //! missing. A change of the reduction rate alone costs a level and its deviation. Both go by the rows of the stages: a new one
-//! has a name in [`stage`](super::stage), a slot in [`Results`], and in `stages/` a line and a file with its row.
+//! has a name in [`stage`](super::stage), a slot in `Results`, and in `stages/` a line and a file with its row.
 
 use std::sync::Arc;
 

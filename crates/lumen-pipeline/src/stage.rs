@@ -1,6 +1,6 @@
 //! The stages of the pipeline, in their order.
 //!
-//! What a stage needs, what of the settings decides it, what it leaves and what it does says its [`Row`], in its file in
+//! What a stage needs, what of the settings decides it, what it leaves and what it does says its `Row`, in its file in
 //! `stages/`. What [`run`](super::run) does by itself (what is stale after a change, what comes next) follows from these.
 
 use serde::{Deserialize, Serialize};

@@ -4,10 +4,10 @@
 //!    little ahead, and feed slowly while it looks another way. Where the route goes straight on, leave the tip as it is:
 //!    a bent tip lies on one side of the lumen, and would turn for ever to look at the middle.
 //! 2. When the tip is off the route, when it has not come on for a while, or when the wire has turned back on itself:
-//!    withdraw along the route by one of [`BY`], and a little more while the tip does not look where it should.
+//!    withdraw along the route by one of `BY`, and a little more while the tip does not look where it should.
 //! 3. Try again, at the fastest feed that a hand gives. The first time at a place, come to it with the tip turned from
 //!    the wrong branch towards the right one; then as in 1, turned more and more to the one side or the other by
-//!    [`OFFSETS`]. After [`ATTEMPTS`] give up.
+//!    `OFFSETS`. After `ATTEMPTS` give up.
 //!
 //! The tip reaches no farther to the side than its bend is long: a branch on the far side of a wide lumen, from where the
 //! shaft lies, takes many tries, or a wire with a longer bend.

@@ -1,4 +1,4 @@
-//! Scans and masks: bytes to [`Grid`], one file a format.
+//! Scans and masks: bytes to `Grid`, one file a format.
 //!
 //! A volume may stand in several files: a header and its numbers, or a series of slices. So what is read is a list of named
 //! files ([`Part`]); a header that names another gets it from that list. Which file is what is decided by the content.

@@ -195,7 +195,7 @@ const TOLD: usize = 200;
 const RIM: usize = 96;
 
 impl Faults {
-    /// Where they are in `mesh`, in which they were found: of each kind the first [`TOLD`], the largest holes first.
+    /// Where they are in `mesh`, in which they were found: of each kind the first `TOLD`, the largest holes first.
     pub fn places(&self, mesh: &TriMesh) -> Vec<FaultPlace> {
         let at = |v: u32| mesh.positions[v as usize];
         let edges = self.non_manifold_edges.iter().take(TOLD).map(|&[a, b]| FaultPlace {

@@ -47,7 +47,7 @@ pub struct Contact {
     pub(super) gap: f64,
     /// Where the rod was then.
     pub(super) at: DVec3,
-    /// The multiplier: the normal force in N at the end of the last step, or what [`Self::update_multiplier`] has made of it
+    /// The multiplier: the normal force in N at the end of the last step, or what `Self::update_multiplier` has made of it
     /// in this one.
     pub multiplier: f64,
     /// The same, at the beginning of the step.

@@ -15,10 +15,10 @@
 //! stands beside it, does not have that property: steps that stand in make the ball smaller by a part of a voxel, and
 //! smoothing gives that back, though the calibre is the same.
 //!
-//! A change counts where the vessel can be measured: see [`zones`](super::zones) for ends and forks; where the cut
+//! A change counts where the vessel can be measured: see `zones` for ends and forks; where the cut
 //! closes on the opened surface; and where the vessel is at least two mean edges wide. Where the others are open or
 //! folded in the plane, there is no saying, nor where the plane has another loop on them though the wall has not moved
-//! (see [`section`](super::section)). Where they have no vessel any more, the change is -100 %.
+//! (see `section`). Where they have no vessel any more, the change is -100 %.
 
 mod basis;
 mod branch;
