@@ -9,18 +9,10 @@ pub(super) fn written(number: f64, language: Language) -> String {
 
 /// The digits before the point of a number as Rust writes it in groups of three.
 pub(super) fn in_groups(number: &str, language: Language) -> String {
-    let (sign, rest) = number.strip_prefix('-').map_or(("", number), |rest| ("-", rest));
-    let (whole, decimals) = rest.split_once('.').unwrap_or((rest, ""));
-    let mut text = sign.to_owned();
-    for (i, digit) in whole.chars().enumerate() {
-        if i > 0 && (whole.len() - i).is_multiple_of(3) {
-            text.push(language.group_mark());
-        }
-        text.push(digit);
-    }
-    if !decimals.is_empty() {
-        text.push(language.decimal_mark());
-        text += decimals;
-    }
-    text
+    let mark = |c| match c {
+        ',' => language.group_mark(),
+        '.' => language.decimal_mark(),
+        digit => digit,
+    };
+    lumen_message::grouped(number).chars().map(mark).collect()
 }
