@@ -43,11 +43,15 @@ pub fn app_in_full(size: [f32; 2]) -> (Harness<'static, LumenApp>, Rc<RefCell<Me
     app_on((platform, memory), size, 0.25)
 }
 
-/// [`app_at`] where what moves by itself is welcome.
+/// [`app_at`] where what moves by itself is welcome. The engine waits for the first step of the test: the harness is built
+/// with frames of its own, in which the motion at the start could end.
 pub fn moving_app(size: [f32; 2], step_dt: f32) -> (Harness<'static, LumenApp>, Rc<RefCell<Memory>>) {
     let (platform, memory) = platform();
     memory.borrow_mut().likes_motion = true;
-    app_on((platform, memory), size, step_dt)
+    memory.borrow_mut().runs = false;
+    let (harness, memory) = app_on((platform, memory), size, step_dt);
+    memory.borrow_mut().runs = true;
+    (harness, memory)
 }
 
 /// The same on a phone, held upright in the hand.
