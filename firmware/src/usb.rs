@@ -136,25 +136,25 @@ impl RequestHandler for Reports {
 struct Events;
 
 impl Events {
-    fn let_go() {
-        DEVICE.lock(|device| device.borrow_mut().let_go());
+    fn release() {
+        DEVICE.lock(|device| device.borrow_mut().release());
     }
 }
 
 impl Handler for Events {
     fn enabled(&mut self, _: bool) {
-        Self::let_go();
+        Self::release();
     }
 
     fn reset(&mut self) {
-        Self::let_go();
+        Self::release();
     }
 
     fn configured(&mut self, _: bool) {
-        Self::let_go();
+        Self::release();
     }
 
     fn suspended(&mut self, _: bool) {
-        Self::let_go();
+        Self::release();
     }
 }

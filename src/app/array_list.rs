@@ -10,7 +10,7 @@ use super::options::{Colours, ViewOptions};
 use super::row::{remark, row};
 use super::views::Views;
 use crate::mesh::ArrayInfo;
-use crate::mesh::arrays::{Kind, On};
+use crate::mesh::arrays::{Association, Kind};
 use crate::say;
 
 /// The arrays, and which of them the surface is coloured by.
@@ -42,7 +42,7 @@ pub(super) fn list(ui: &mut Ui, document: &Document, views: &Views, asked: &mut 
 
 /// What an array is, in a line.
 fn described(info: &ArrayInfo) -> String {
-    let on = if info.on == On::Point { "vertices" } else { "triangles" };
+    let on = if info.on == Association::Point { "vertices" } else { "triangles" };
     let (name, kind) = (&info.name, info.scalar.name());
     let text = match (info.kind, info.components) {
         (Kind::Label, _) if info.labels.is_empty() => {

@@ -97,11 +97,11 @@ pub(super) fn label_legend(painter: &Painter, inner: Rect, info: &ArrayInfo, col
 pub(super) mod tests {
     use super::*;
     use crate::mesh::Array;
-    use crate::mesh::arrays::{On, Scalar, Values};
+    use crate::mesh::arrays::{Association, Scalar, Values};
 
     /// What is told of an array `Pressure` of these numbers, one a vertex.
     pub(in crate::app) fn info(scalar: Scalar, numbers: &[f64]) -> ArrayInfo {
-        Array::new("Pressure", On::Point, 1, Values::of(scalar, numbers.iter().copied())).info()
+        Array::new("Pressure", Association::Point, 1, Values::of(scalar, numbers.iter().copied())).info()
     }
 
     #[test]

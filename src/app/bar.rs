@@ -298,7 +298,7 @@ fn more(ui: &mut Ui, state: &State, views: &Views, shown: Shown<'_>, ask: &mut i
 }
 
 /// The most lines that a notice takes in the bar below.
-const MOST_LINES: usize = 5;
+const MAX_LINES: usize = 5;
 
 /// What stands at the right of the bar below, the rightmost first: what always holds, then the rate and the triangles of what
 /// is shown.
@@ -317,7 +317,7 @@ pub(super) fn notice(ui: &Ui, state: &State, views: &Views, is_narrow: bool, wid
     let colour = if notice.is_error { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
     let lay_out = |width: f32| {
         let mut job = LayoutJob::simple(notice.text.clone(), TextStyle::Body.resolve(ui.style()), colour, width);
-        job.wrap.max_rows = MOST_LINES;
+        job.wrap.max_rows = MAX_LINES;
         ui.fonts_mut(|fonts| fonts.layout_job(job))
     };
     let told = lay_out(width);

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use crate::engine::{Averaged, Calibre, Carried, Deviated, FaultsFound, Opened, Reduced, Source};
+use crate::engine::{Averaged, Calibre, Deviated, FaultsFound, LevelArrays, Opened, Reduced, Source};
 use crate::io::{Axes, Format, ImportReport};
 use crate::mesh::{Bounds, TriMesh, compacted};
 use crate::pipeline::classes::Classes;
@@ -104,7 +104,7 @@ pub struct Document {
     /// More of the deviation of the level of the newest settings of which that is known.
     deviated: Option<Box<Deviated>>,
     /// What the file says of the level of the newest settings of which that is known.
-    carried: Option<Box<Carried>>,
+    carried: Option<Box<LevelArrays>>,
     /// How often a level was looked up.
     #[cfg(test)]
     pub lookups: u32,
@@ -273,7 +273,7 @@ impl Document {
     }
 
     /// Takes what the file says of a level.
-    pub fn set_carried(&mut self, carried: Box<Carried>) {
+    pub fn set_carried(&mut self, carried: Box<LevelArrays>) {
         self.carried = Some(carried);
         self.revision.measured += 1;
     }

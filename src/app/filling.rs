@@ -15,7 +15,7 @@ pub(super) trait Filling {
     fn refuse(&mut self);
 
     /// Frees the memory of the device where nothing needs it. Called each frame.
-    fn let_go(&mut self, state: &State, views: &mut Views);
+    fn release(&mut self, state: &State, views: &mut Views);
 
     /// Shows the views in the rest of `ui`.
     fn fill(&mut self, ui: &mut Ui, state: &State, views: &mut Views, is_narrow: bool) -> Vec<Action>;

@@ -70,7 +70,7 @@ mod tests {
     use crate::app::theme;
 
     /// What is needed for text: WCAG 2.2, success criterion 1.4.3.
-    const LEAST: f32 = 4.5;
+    const MIN_CONTRAST: f32 = 4.5;
 
     fn opaque(colour: Color32) -> Colour {
         let [r, g, b, a] = colour.to_array();
@@ -92,7 +92,7 @@ mod tests {
             for colour in [visuals.text_color(), visuals.weak_text_color()] {
                 for ground in grounds {
                     let found = contrast(opaque(colour), ground);
-                    assert!(found >= LEAST, "{colour:?} on the background {ground:?}: {found}");
+                    assert!(found >= MIN_CONTRAST, "{colour:?} on the background {ground:?}: {found}");
                 }
             }
             // Between letter and halo nothing of what is below is seen, be it bone, dark red or black.
@@ -100,14 +100,14 @@ mod tests {
                 [visuals.hyperlink_color, visuals.error_fg_color, visuals.weak_text_color(), visuals.text_color()];
             for colour in marks {
                 let found = contrast(opaque(colour), opaque(around(colour)));
-                assert!(found >= LEAST, "{colour:?}: {found}");
+                assert!(found >= MIN_CONTRAST, "{colour:?}: {found}");
             }
         }
         // Whatever is written in some day.
         for i in 0..18_u16.pow(3) {
             let [r, g, b] = [i % 18, i / 18 % 18, i / 324].map(|step| (step * 15) as u8);
             let colour = Color32::from_rgb(r, g, b);
-            assert!(contrast(opaque(colour), opaque(around(colour))) >= LEAST, "{colour:?}");
+            assert!(contrast(opaque(colour), opaque(around(colour))) >= MIN_CONTRAST, "{colour:?}");
         }
     }
 

@@ -96,14 +96,14 @@ pub struct Restarts {
 
 impl Restarts {
     /// The most restarts within [`Self::SPAN_S`].
-    pub const MOST: usize = 3;
+    pub const MAX: usize = 3;
     /// Seconds in which they are counted.
     pub const SPAN_S: f64 = 60.0;
 
     /// Counts a restart at `now_s`, by any clock that goes forwards; says whether it may be.
     pub fn may(&mut self, now_s: f64) -> bool {
         self.at_s.retain(|&at_s| now_s - at_s < Self::SPAN_S);
-        let may = self.at_s.len() < Self::MOST;
+        let may = self.at_s.len() < Self::MAX;
         if may {
             self.at_s.push(now_s);
         }

@@ -19,7 +19,7 @@ use crate::say;
 
 /// Height of what is seen around a fault, in times its size, and in mm at least.
 const AROUND: f32 = 6.0;
-const LEAST_MM: f32 = 5.0;
+const MIN_MM: f32 = 5.0;
 /// What can be mended, from top to bottom.
 const ORDER: [&str; 4] = ["fill-holes", "weld", "split", "lumen"];
 
@@ -119,7 +119,7 @@ fn show_button(
     {
         let fault = Some(FaultShown { kind, index: next as u16 });
         asked.push(Action::Show(ViewOptions { fault, ..options }));
-        let height_mm = (AROUND * place.size_mm).max(LEAST_MM);
+        let height_mm = (AROUND * place.size_mm).max(MIN_MM);
         asked.push(Action::GoTo { at_mm: place.at_mm, height_mm, label: label(place) });
     }
     position

@@ -8,7 +8,7 @@ const ZOOM: f32 = 1.4;
 /// For how long a key is shown, in seconds.
 const SHOWN_S: f64 = 1.6;
 /// Keys that are shown at once.
-const MOST: usize = 4;
+const MAX_KEYS: usize = 4;
 /// Radius of the halo, in points.
 const HALO: f32 = 22.0;
 /// Height of the status bar, above which keys are shown, with some room, in points.
@@ -62,7 +62,7 @@ impl Presenter {
             }
             self.pressed.retain(|pressed| input.time - pressed.at_s < SHOWN_S);
         });
-        let surplus = self.pressed.len().saturating_sub(MOST);
+        let surplus = self.pressed.len().saturating_sub(MAX_KEYS);
         self.pressed.drain(..surplus);
     }
 

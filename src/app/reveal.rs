@@ -27,7 +27,7 @@ pub enum Reveal {
     #[default]
     Auto,
     /// Yes.
-    On,
+    Association,
     /// No.
     Off,
 }
@@ -37,7 +37,7 @@ impl Reveal {
     pub(super) fn holds(self, document: &Document) -> bool {
         match self {
             Self::Auto => document.opened.triangles.len() <= BY_ITSELF,
-            Self::On => true,
+            Self::Association => true,
             Self::Off => false,
         }
     }

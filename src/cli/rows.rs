@@ -1,7 +1,7 @@
 //! What several subcommands print: a line for each number.
 
 use crate::mesh::ArrayInfo;
-use crate::mesh::arrays::{Kind, On};
+use crate::mesh::arrays::{Association, Kind};
 use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::shape::Shape;
 
@@ -13,7 +13,7 @@ pub(super) fn row(what: &str, how_much: impl std::fmt::Display) {
 /// A row for each array: its name, what it is on, its type, and its range.
 pub(super) fn array_rows(arrays: &[ArrayInfo]) {
     for ArrayInfo { name, on, kind, scalar, components, range, .. } in arrays {
-        let on = if *on == On::Point { "point" } else { "triangle" };
+        let on = if *on == Association::Point { "point" } else { "triangle" };
         let kind = if *kind == Kind::Label { ", labels" } else { "" };
         let range =
             range.map_or("no finite value".to_owned(), |[least, most]| format!("{} to {}", plain(least), plain(most)));

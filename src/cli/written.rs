@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 
 use crate::io::Axes;
 use crate::mesh::Array;
-use crate::mesh::arrays::{On, Values};
+use crate::mesh::arrays::{Association, Values};
 use crate::pipeline::run::Pipeline;
 
 /// The options that say so.
@@ -105,7 +105,7 @@ impl WrittenOptions {
         if let (true, Some(found)) = (self.with.contains(&With::Deviation), pipeline.deviations())
             && let Some(comparison) = &found.from_smoothed
         {
-            arrays.push(Array::new("deviation_mm", On::Point, 1, Values::from_floats(&comparison.map)));
+            arrays.push(Array::new("deviation_mm", Association::Point, 1, Values::from_floats(&comparison.map)));
         }
         arrays
     }

@@ -173,7 +173,7 @@ mod tests {
     use std::thread;
 
     use super::*;
-    use crate::haptics::haply::{MOST_N, WATCHDOG_MS, id};
+    use crate::haptics::haply::{MAX_N, WATCHDOG_MS, id};
 
     /// More than a busy machine keeps a thread waiting.
     const LONG: Duration = Duration::from_secs(20);
@@ -232,7 +232,7 @@ mod tests {
         port.send(id::FORCE, &force).unwrap();
         let is_felt = (0..20).any(|_| {
             report(&mut port).unwrap();
-            told.recv_timeout(LONG).unwrap() == MOST_N
+            told.recv_timeout(LONG).unwrap() == MAX_N
         });
         assert!(is_felt);
         // Not told again, it ends, though the service is answered all along.

@@ -1,5 +1,5 @@
 //! A haptic device on a thread of its own, at the device's pace: reports in and out, and the trial's hand at the other side of
-//! an [`Exchange`].
+//! an [`HapticChannel`].
 
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,7 +10,7 @@ use super::haply::HaplyPort;
 use super::hid::{Found, HidPort, OpenError, find, open};
 use super::speech;
 use crate::app::{Devices, Listing};
-use crate::engine::trial::Exchange;
+use crate::engine::trial::HapticChannel;
 use crate::haptics::descriptor::ModelError;
 use crate::haptics::device::HapticDevice;
 use crate::haptics::identity::Identity;
@@ -93,7 +93,7 @@ struct Served {
 
 impl Served {
     /// Serves a device until this is dropped: its hand is the one of `exchange`.
-    fn new(choice: Choice, exchange: Exchange) -> Self {
+    fn new(choice: Choice, exchange: HapticChannel) -> Self {
         let (commands, inbox) = channel();
         let name = choice.name();
         let status = Arc::new(Mutex::new(DeviceStatus { name: name.clone(), ..DeviceStatus::default() }));
@@ -157,7 +157,7 @@ fn find_again(identity: &Identity, descriptor: &[u8], force: Option<&[u8]>) -> O
 fn keep_serving<P: Port>(
     mut port: P,
     identity: &Identity,
-    exchange: &Exchange,
+    exchange: &HapticChannel,
     inbox: &Receiver<DeviceCommand>,
     told: &Mutex<DeviceStatus>,
     again: impl Fn(&[u8], Option<&[u8]>) -> Option<P>,
@@ -188,7 +188,7 @@ fn keep_serving<P: Port>(
 
 /// The desktop's devices, of which one is served.
 pub(super) struct HapticDevices {
-    exchange: Exchange,
+    exchange: HapticChannel,
     choices: Vec<Choice>,
     /// Why the system lists none.
     problem: Option<OpenError>,
@@ -201,7 +201,7 @@ pub(super) struct HapticDevices {
 
 impl HapticDevices {
     /// None is served; whose hand is on the wire, `exchange` says.
-    pub(super) fn new(exchange: Exchange) -> Self {
+    pub(super) fn new(exchange: HapticChannel) -> Self {
         Self { exchange, choices: Vec::new(), problem: None, chosen: None, served: None, has_changed: false }
     }
 
@@ -270,12 +270,12 @@ impl Devices for HapticDevices {
 struct Server<P> {
     port: P,
     service: Service,
-    exchange: Exchange,
+    exchange: HapticChannel,
     since: Instant,
 }
 
 impl<P: Port> Server<P> {
-    fn new(port: P, identity: Identity, exchange: Exchange) -> Result<Self, ServeError> {
+    fn new(port: P, identity: Identity, exchange: HapticChannel) -> Result<Self, ServeError> {
         let device = HapticDevice::from_port(identity, &port)?;
         Ok(Self { port, service: Service::new(device), exchange, since: Instant::now() })
     }
@@ -385,7 +385,7 @@ mod tests {
 
     #[test]
     fn the_virtual_device_is_served_and_its_hand_moves_the_wire() {
-        let exchange = Exchange::default();
+        let exchange = HapticChannel::default();
         let served = Served::new(Choice::Virtual, exchange.clone());
         assert!(until(|| served.status().axes.len() == 2));
         let status = served.status();
@@ -400,7 +400,7 @@ mod tests {
 
     #[test]
     fn what_is_listed_is_called_as_the_language_of_the_moment_has_it() {
-        let mut devices = HapticDevices::new(Exchange::default());
+        let mut devices = HapticDevices::new(HapticChannel::default());
         devices.speak();
         assert_eq!(devices.changed(), None, "nothing was listed");
         devices.look();
@@ -416,7 +416,7 @@ mod tests {
 
     #[test]
     fn a_mapping_is_learnt_by_a_push_and_a_turn() {
-        let served = Served::new(Choice::Virtual, Exchange::default());
+        let served = Served::new(Choice::Virtual, HapticChannel::default());
         served.ask(DeviceCommand::Learn);
         assert!(until(|| served.status().asks == Some(Ask::Push)));
         served.ask(DeviceCommand::Want([0.0, -4.0]));
@@ -441,7 +441,7 @@ mod tests {
                 is_there.then(|| Cable(Arc::clone(&cable)))
             };
             let first = Cable(Arc::clone(&cable));
-            keep_serving(first, &Identity::default(), &Exchange::default(), &inbox, &told, again)
+            keep_serving(first, &Identity::default(), &HapticChannel::default(), &inbox, &told, again)
         });
         let now = || status.lock().unwrap().clone();
         commands.send(DeviceCommand::Arm).unwrap();

@@ -13,7 +13,7 @@ use crate::haptics::port::{InputReport, Port, PortError};
 use crate::say;
 
 /// The longest input report that is read, with its id.
-const MOST_BYTES: usize = 4096;
+const MAX_BYTES: usize = 4096;
 
 /// A device that can be opened.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -142,7 +142,7 @@ impl HidPort {
         descriptor.truncate(length);
         // What makes no sense is told by whoever takes it for a device.
         let has_ids = parse(&descriptor).is_ok_and(|model| model.has_ids());
-        Ok(Self { device, descriptor, has_ids, buffer: vec![0; MOST_BYTES] })
+        Ok(Self { device, descriptor, has_ids, buffer: vec![0; MAX_BYTES] })
     }
 
     fn with_id(id: u8, data: &[u8]) -> Vec<u8> {

@@ -24,7 +24,7 @@ use crate::app::{
     Waker,
 };
 use crate::engine::scan::ScanLink;
-use crate::engine::trial::{Exchange, TrialLink};
+use crate::engine::trial::{HapticChannel, TrialLink};
 use crate::engine::{Engine, Link, TrialEngine};
 use crate::language::Language;
 
@@ -46,7 +46,7 @@ impl Desktop {
         let (sender, events) = channel();
         let waker = Waker::new(ctx);
         let link = ThreadLink::new(waker.clone(), Engine::new);
-        let exchange = Exchange::default();
+        let exchange = HapticChannel::default();
         let hand = exchange.clone();
         let trial = ThreadLink::new(waker.clone(), move || TrialEngine::with_hand(hand.clone()));
         let scans = scans::Line::new(waker.clone());

@@ -3,16 +3,16 @@
 //! A vector is its magnitude. What is on triangles is shown at their vertices: the mean of the triangles around, weighted
 //! by area, of labels the one with most area.
 
-use crate::mesh::arrays::On;
+use crate::mesh::arrays::Association;
 use crate::mesh::{Array, Blend, triangle_area};
 use crate::pipeline::results::Reduced;
 
 /// For each array a number for each vertex of the level, one array after the other.
 pub(super) fn by_vertex(arrays: &[Array], reduced: &Reduced) -> Vec<f32> {
-    let around = arrays.iter().any(|array| array.on == On::Triangle).then(|| around(reduced));
+    let around = arrays.iter().any(|array| array.on == Association::Triangle).then(|| around(reduced));
     let mut numbers = Vec::with_capacity(arrays.len() * reduced.mesh.positions.len());
     for array in arrays {
-        let at_vertices = around.as_ref().filter(|_| array.on == On::Triangle).map(|blend| blend.of(array));
+        let at_vertices = around.as_ref().filter(|_| array.on == Association::Triangle).map(|blend| blend.of(array));
         let array = at_vertices.as_ref().unwrap_or(array);
         numbers.extend((0..array.len()).map(|v| array.magnitude(v) as f32));
     }
@@ -51,8 +51,8 @@ mod tests {
         let north: Vec<f32> =
             (0..mesh.triangles.len()).map(|t| f32::from(u8::from(mesh.corners(t)[0].z > 0.0))).collect();
         let arrays = vec![
-            Array::new("Place", On::Point, 3, Values::from_floats(&vectors)),
-            Array::new("North", On::Triangle, 1, Values::from_floats(&north)),
+            Array::new("Place", Association::Point, 3, Values::from_floats(&vectors)),
+            Array::new("North", Association::Triangle, 1, Values::from_floats(&north)),
         ];
         let settings =
             Settings { smoothing: Preset::None.smoothing(), target: Target::Reduction(500), ..Settings::default() };

@@ -11,7 +11,7 @@ use std::time::Duration;
 use web_time::Instant;
 
 use super::arrays;
-use super::found::{Calibre, Carried, Deviated, FaultsFound, Reduced};
+use super::found::{Calibre, Deviated, FaultsFound, LevelArrays, Reduced};
 use super::message::{Event, Work};
 use super::progress::tell_progress;
 use super::record::Origin;
@@ -202,7 +202,7 @@ impl Current {
         let carried = self.pipeline.level_arrays().zip(self.pipeline.reduced());
         if let Some((arrays, reduced)) = carried.filter(|(arrays, _)| !arrays.is_empty()) {
             let (generation, values) = (self.generation, arrays::by_vertex(arrays, reduced));
-            events.push_back(Event::Carried(Box::new(Carried { generation, values })));
+            events.push_back(Event::LevelArrays(Box::new(LevelArrays { generation, values })));
         }
     }
 

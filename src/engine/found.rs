@@ -61,7 +61,7 @@ pub struct Calibre {
 
 /// What the file says of the vertices and triangles of a level, as it is shown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Carried {
+pub struct LevelArrays {
     /// That of the settings.
     pub generation: u64,
     /// For each array of the import report a number for each vertex of the level, one array after the other: its value,

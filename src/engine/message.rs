@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::found::{Averaged, Calibre, Carried, Compared, Deviated, Differed, FaultsFound, Opened, Reduced};
+use super::found::{Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Reduced};
 use super::source::Source;
 use super::surfaces::surface;
 use crate::io::{Axes, Format};
@@ -230,7 +230,7 @@ pub enum Event {
     /// More of the deviation of the level that the settings ask for; after its numbers.
     Deviated(Box<Deviated>),
     /// What the file says of the level that the settings ask for; only where it says something.
-    Carried(Box<Carried>),
+    LevelArrays(Box<LevelArrays>),
     /// What the level that the settings ask for makes of the vessels; it is measured in the background.
     Certified(Box<Calibre>),
     /// The work was stopped; these settings, and their results, are in force.

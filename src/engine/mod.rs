@@ -34,7 +34,7 @@ mod surfaces;
 pub mod trial;
 
 pub use self::current::PATIENCE;
-pub use self::found::{Averaged, Calibre, Carried, Compared, Deviated, Differed, FaultsFound, Opened, Reduced};
+pub use self::found::{Averaged, Calibre, Compared, Deviated, Differed, FaultsFound, LevelArrays, Opened, Reduced};
 pub use self::link::Link;
 pub use self::machine::{Machine, SLICE};
 pub use self::message::{Command, Event, Frame, Work};

@@ -5,7 +5,7 @@ use crate::pipeline::filter::Filter;
 use crate::pipeline::response::{SmoothingResponse, eigenvalue};
 use crate::pipeline::settings::Smoothing;
 use crate::say;
-use crate::vessel::certificate::{BranchCalibre, OnSurface, Standing};
+use crate::vessel::certificate::{BranchCalibre, OnSurface, StationStatus};
 
 /// What a curve is drawn in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,7 +133,7 @@ pub(super) fn radius(branch: &BranchCalibre) -> Option<Plot> {
 /// A curve for each stretch that is measured; the first has the name.
 fn pieces(branch: &BranchCalibre, of: &OnSurface, name: &str, ink: Ink) -> Vec<Curve> {
     let point = |i: usize| {
-        let is_vessel = matches!(branch.standings[i], Standing::Counts | Standing::Thin);
+        let is_vessel = matches!(branch.standings[i], StationStatus::Counts | StationStatus::Thin);
         Some([f64::from(branch.abscissas_mm[i]), f64::from(of.radii_mm[i].filter(|_| is_vessel)?)])
     };
     let points: Vec<Option<[f64; 2]>> = (0..branch.standings.len()).map(point).collect();

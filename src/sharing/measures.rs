@@ -9,7 +9,7 @@ use crate::say;
 use crate::vessel::BranchName;
 
 /// The most measures of a file that are read.
-const MOST: usize = 500;
+const MAX_MEASURES: usize = 500;
 /// The most letters of a name.
 pub const LONGEST_NAME: usize = 60;
 
@@ -166,7 +166,7 @@ impl Measure {
 
 /// Whether these measures of a file can be shown.
 pub(super) fn are_sound(measures: &[Measure]) -> bool {
-    measures.len() <= MOST && measures.iter().all(Measure::is_sound)
+    measures.len() <= MAX_MEASURES && measures.iter().all(Measure::is_sound)
 }
 
 fn place(at: [f32; 3]) -> DVec3 {

@@ -2,7 +2,7 @@
 
 use lumen::io::{Axes, Format, ImportOptions, Imported, Output, WriteError, in_english, left_out, read, write_output};
 use lumen::mesh::Array;
-use lumen::mesh::arrays::{Kind, On, Scalar, Values};
+use lumen::mesh::arrays::{Association, Kind, Scalar, Values};
 
 use crate::samples::{LEGACY_TEXT, VTP_TEXT, tetrahedra};
 use crate::{alone, read_measured};
@@ -11,7 +11,13 @@ fn open(bytes: &[u8]) -> Imported {
     read(bytes, "a.obj", &ImportOptions::default()).unwrap()
 }
 
-fn array(name: &str, on: On, scalar: Scalar, components: usize, numbers: impl IntoIterator<Item = f64>) -> Array {
+fn array(
+    name: &str,
+    on: Association,
+    scalar: Scalar,
+    components: usize,
+    numbers: impl IntoIterator<Item = f64>,
+) -> Array {
     Array::new(name, on, components, Values::of(scalar, numbers))
 }
 
@@ -20,7 +26,7 @@ fn numbers(array: &Array) -> Vec<f64> {
 }
 
 /// The numbers of the array of that name.
-fn named(arrays: &[Array], name: &str, on: On) -> Vec<f64> {
+fn named(arrays: &[Array], name: &str, on: Association) -> Vec<f64> {
     numbers(arrays.iter().find(|array| array.name == name && array.on == on).expect("there is such an array"))
 }
 
@@ -43,8 +49,8 @@ fn every_type() -> Vec<Array> {
         let name = |on| format!("{} on <{on}> & \"more\" %20", scalar.name());
         let numbers = || (0..12).map(f64::from);
         [
-            array(&name("p"), On::Point, scalar, 1, numbers()),
-            array(&name("t"), On::Triangle, scalar, 2, numbers().chain(numbers())),
+            array(&name("p"), Association::Point, scalar, 1, numbers()),
+            array(&name("t"), Association::Triangle, scalar, 2, numbers().chain(numbers())),
         ]
     };
     ALL.into_iter().flat_map(of).collect()
@@ -71,27 +77,27 @@ fn ply_takes_tuples_apart_and_puts_them_together() {
     let mesh = tetrahedra(3);
     let twelve = || (0..12).map(f64::from);
     let arrays = [
-        array("Wall shear", On::Point, Scalar::F64, 3, (0..36).map(|i| f64::from(i) / 7.0)),
-        array("RGBA", On::Point, Scalar::U8, 4, (0..48).map(f64::from)),
-        array("x", On::Point, Scalar::F32, 1, twelve()),
-        array("Region", On::Triangle, Scalar::I64, 1, twelve()),
-        array("Far", On::Triangle, Scalar::U64, 1, twelve().map(|i| i * 1e15)),
-        array("RGB", On::Triangle, Scalar::U8, 3, (0..36).map(f64::from)),
+        array("Wall shear", Association::Point, Scalar::F64, 3, (0..36).map(|i| f64::from(i) / 7.0)),
+        array("RGBA", Association::Point, Scalar::U8, 4, (0..48).map(f64::from)),
+        array("x", Association::Point, Scalar::F32, 1, twelve()),
+        array("Region", Association::Triangle, Scalar::I64, 1, twelve()),
+        array("Far", Association::Triangle, Scalar::U64, 1, twelve().map(|i| i * 1e15)),
+        array("RGB", Association::Triangle, Scalar::U8, 3, (0..36).map(f64::from)),
     ];
     let output = Output { arrays: &arrays, axes: Axes::Lps, normals: None, mesh: &mesh };
     let Imported { mesh: back, arrays: found, report } = open(&write_output(&output, Format::Ply).unwrap());
     assert_eq!((back, report.axes), (mesh.clone(), Axes::Lps));
-    let names: Vec<(&str, On, Scalar, usize)> =
+    let names: Vec<(&str, Association, Scalar, usize)> =
         found.iter().map(|array| (&*array.name, array.on, array.values.scalar(), array.components)).collect();
     assert_eq!(
         names,
         [
-            ("Wall_shear", On::Point, Scalar::F64, 3),
-            ("RGBA", On::Point, Scalar::U8, 4),
-            ("x_", On::Point, Scalar::F32, 1),
-            ("Region", On::Triangle, Scalar::I32, 1),
-            ("Far", On::Triangle, Scalar::F64, 1),
-            ("RGB", On::Triangle, Scalar::U8, 3),
+            ("Wall_shear", Association::Point, Scalar::F64, 3),
+            ("RGBA", Association::Point, Scalar::U8, 4),
+            ("x_", Association::Point, Scalar::F32, 1),
+            ("Region", Association::Triangle, Scalar::I32, 1),
+            ("Far", Association::Triangle, Scalar::F64, 1),
+            ("RGB", Association::Triangle, Scalar::U8, 3),
         ]
     );
     assert!(arrays.iter().zip(&found).all(|(one, other)| numbers(one) == numbers(other)));
@@ -103,13 +109,13 @@ fn glb_has_attributes_of_vertices_alone() {
     let mesh = tetrahedra(3);
     let twelve = || (0..12).map(f64::from);
     let arrays = [
-        array("Pressure \"a\"", On::Point, Scalar::F64, 1, twelve()),
-        array("Flow", On::Point, Scalar::F32, 3, (0..36).map(f64::from)),
-        array("Group", On::Point, Scalar::I32, 1, twelve().map(|i| i - 3.0)),
-        array("Kind", On::Point, Scalar::U8, 1, twelve()),
-        array("COLOR_0", On::Point, Scalar::U8, 3, (0..36).map(f64::from)),
-        array("Face", On::Triangle, Scalar::I32, 1, twelve()),
-        array("Id", On::Point, Scalar::I64, 1, twelve().map(|i| i + 1e9)),
+        array("Pressure \"a\"", Association::Point, Scalar::F64, 1, twelve()),
+        array("Flow", Association::Point, Scalar::F32, 3, (0..36).map(f64::from)),
+        array("Group", Association::Point, Scalar::I32, 1, twelve().map(|i| i - 3.0)),
+        array("Kind", Association::Point, Scalar::U8, 1, twelve()),
+        array("COLOR_0", Association::Point, Scalar::U8, 3, (0..36).map(f64::from)),
+        array("Face", Association::Triangle, Scalar::I32, 1, twelve()),
+        array("Id", Association::Point, Scalar::I64, 1, twelve().map(|i| i + 1e9)),
     ];
     let output = Output { arrays: &arrays, ..Output::new(&mesh) };
     let Imported { arrays: found, report, .. } = open(&write_output(&output, Format::Glb).unwrap());
@@ -122,7 +128,7 @@ fn glb_has_attributes_of_vertices_alone() {
         ("COLOR_0", Scalar::U8),
     ] {
         let back = found.iter().find(|array| array.name == name).expect(name);
-        assert_eq!((back.values.scalar(), numbers(back)), (scalar, named(&arrays, name, On::Point)), "{name}");
+        assert_eq!((back.values.scalar(), numbers(back)), (scalar, named(&arrays, name, Association::Point)), "{name}");
     }
     assert_eq!(found.len(), 5);
     assert_eq!(
@@ -136,19 +142,19 @@ fn obj_has_colours_and_groups() {
     let text = "v 0 0 0 1 0 0\nv 90 0 0 0 1 0\nv 90 90 0 0 0 1\nv 0 90 0 .5 .5 .5\ng one\nf 1 2 3\ng two\nf 1 3 4\n\
         g one\nf 2 3 4\nf 1 2\n";
     let Imported { mesh, arrays, .. } = open(text.as_bytes());
-    assert_eq!(named(&arrays, "Groups", On::Triangle), [1.0, 2.0, 1.0]);
+    assert_eq!(named(&arrays, "Groups", Association::Triangle), [1.0, 2.0, 1.0]);
     let output = Output { arrays: &arrays, ..Output::new(&mesh) };
     let back = open(&write_output(&output, Format::Obj).unwrap());
-    let colours = named(&arrays, "RGB", On::Point);
+    let colours = named(&arrays, "RGB", Association::Point);
     assert_eq!((&colours[3..6], back.arrays.len()), (&[0.0, 1.0, 0.0][..], 1));
-    assert_eq!(named(&back.arrays, "RGB", On::Point), colours);
+    assert_eq!(named(&back.arrays, "RGB", Association::Point), colours);
     // Not every vertex has a colour.
     assert!(open(text.replace(" .5 .5 .5", "").as_bytes()).arrays.iter().all(|array| array.name == "Groups"));
 }
 
 #[test]
 fn an_array_of_another_length_is_not_written() {
-    let short = [array("Short", On::Triangle, Scalar::F32, 1, [1.0])];
+    let short = [array("Short", Association::Triangle, Scalar::F32, 1, [1.0])];
     let mesh = tetrahedra(1);
     let output = Output { arrays: &short, ..Output::new(&mesh) };
     let error = write_output(&output, Format::Vtk).unwrap_err();
@@ -179,7 +185,7 @@ fn cells_are_counted_in_the_order_of_vtk() {
     ]
     .concat();
     let Imported { arrays, report, .. } = open(vtp.as_bytes());
-    assert_eq!(named(&arrays, "cell <id", On::Triangle), [40.0, 40.0, 20.0, 30.0]);
+    assert_eq!(named(&arrays, "cell <id", Association::Triangle), [40.0, 40.0, 20.0, 30.0]);
     assert!(
         in_english(&report.warnings).contains(&"The array \"names\" is left out: it holds text.".to_owned()),
         "{:?}",
@@ -193,10 +199,10 @@ fn cells_are_counted_in_the_order_of_vtk() {
         SCALARS pair unsigned_char 2\nLOOKUP_TABLE table\n1 2 3 4 5 6 7 8\nLOOKUP_TABLE table 1\n0 0 0 1\nTEXTURE_COORDINATES \
         t 2 float\n0 0 1 1 0 0 1 1\nCOLOR_SCALARS c 3\n0 0 1 1 0 0 1 1 0 0 0 1\nsome rest\n";
     let Imported { arrays, report, .. } = open(legacy.as_bytes());
-    assert_eq!(named(&arrays, "cell id", On::Triangle), [40.0, 40.0, 20.0, 30.0]);
-    assert_eq!(named(&arrays, "more", On::Triangle)[..4], [4.0; 4]);
-    assert_eq!(named(&arrays, "pair", On::Point), (1..9).map(f64::from).collect::<Vec<_>>());
-    assert_eq!(named(&arrays, "v", On::Point)[3..6], [0.0, 1.0, 0.0]);
+    assert_eq!(named(&arrays, "cell id", Association::Triangle), [40.0, 40.0, 20.0, 30.0]);
+    assert_eq!(named(&arrays, "more", Association::Triangle)[..4], [4.0; 4]);
+    assert_eq!(named(&arrays, "pair", Association::Point), (1..9).map(f64::from).collect::<Vec<_>>());
+    assert_eq!(named(&arrays, "v", Association::Point)[3..6], [0.0, 1.0, 0.0]);
     assert_eq!(arrays.len(), 5, "{:?}", report.arrays);
     let last = "The array \"some\" is left out: it and what follows are not understood.";
     assert!(in_english(&report.warnings).iter().any(|warning| warning == last), "{:?}", report.warnings);
@@ -214,10 +220,10 @@ fn what_is_welded_takes_the_mean_and_what_is_cut_keeps_its_value() {
     let Imported { mesh, arrays, report } = open(text.as_bytes());
     assert_eq!((mesh.positions.len(), mesh.triangles.len(), report.degenerate_triangles), (5, 3, 1));
     // The last vertex lies where the first does, and no face uses it.
-    assert_eq!(named(&arrays, "heat", On::Point), [1.0, 3.0, 3.0, 6.0, 5.0]);
-    assert_eq!(named(&arrays, "part", On::Point), [7.0, 7.0, 7.0, 7.0, 9.0]);
-    assert_eq!(named(&arrays, "flow", On::Point), [1.0, 2.0, 4.0, 5.0, 5.0, 6.0, 8.0, 9.0, 0.0, 0.0]);
-    assert_eq!(named(&arrays, "side", On::Triangle), [-1.0, -1.0, -2.0]);
+    assert_eq!(named(&arrays, "heat", Association::Point), [1.0, 3.0, 3.0, 6.0, 5.0]);
+    assert_eq!(named(&arrays, "part", Association::Point), [7.0, 7.0, 7.0, 7.0, 9.0]);
+    assert_eq!(named(&arrays, "flow", Association::Point), [1.0, 2.0, 4.0, 5.0, 5.0, 6.0, 8.0, 9.0, 0.0, 0.0]);
+    assert_eq!(named(&arrays, "side", Association::Triangle), [-1.0, -1.0, -2.0]);
 }
 
 #[test]
@@ -237,7 +243,7 @@ fn broken_arrays_leave_the_surface_whole() {
     let second = "NumberOfPolys=\"1\"><PointData><DataArray type=\"Float32\" Name=\"a\" format=\"ascii\">5 6 7\
         </DataArray></PointData>";
     let Imported { arrays, .. } = open(VTP_TEXT.replace("NumberOfPolys=\"1\">", second).as_bytes());
-    assert_eq!(named(&arrays, "a", On::Point), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    assert_eq!(named(&arrays, "a", Association::Point), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
     for (from, to, why) in [
         ("Name=\"a\" format=\"ascii\">1 2 3 4<", "Name=\"a\" format=\"binary\">AAAA<", "its data are damaged"),
         ("type=\"Float32\" Name=\"a\"", "type=\"Bit\" Name=\"a\"", "of a type that is not read"),

@@ -1,7 +1,7 @@
 //! No file makes the reader panic, hang or take memory that a header merely claims, and what is written reads back.
 
 use lumen::io::{Format, ImportOptions, Imported, ReadError, import_mesh, read, write};
-use lumen::mesh::arrays::On;
+use lumen::mesh::arrays::Association;
 use lumen::mesh::{TriMesh, Vec3};
 use proptest::prelude::*;
 
@@ -37,7 +37,7 @@ fn read_anything(bytes: &[u8], name: &str) -> Result<(), TestCaseError> {
             prop_assert!(mesh.positions.iter().all(|p| p.is_finite()));
             prop_assert!(!mesh.triangles.is_empty() && report.area_mm2.is_finite());
             for array in &arrays {
-                let rows = if array.on == On::Point { mesh.positions.len() } else { mesh.triangles.len() };
+                let rows = if array.on == Association::Point { mesh.positions.len() } else { mesh.triangles.len() };
                 prop_assert_eq!(array.values.len(), rows * array.components);
             }
             // A byte makes a corner at most, a corner a triangle.

@@ -3,7 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use lumen::io::{Format, Output, write, write_output};
-use lumen::mesh::arrays::{On, Scalar, Values};
+use lumen::mesh::arrays::{Association, Scalar, Values};
 use lumen::mesh::{Array, TriMesh, Vec3};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
@@ -14,7 +14,7 @@ pub(crate) fn valid() -> Vec<(&'static str, Vec<u8>)> {
     let binary = |format| write(&mesh, Some(&normals), format).expect("a valid mesh");
     let ids = Values::from_bytes(Scalar::U16, (0..24).collect());
     let flow = Values::from_floats(&[0.5; 36]);
-    let arrays = [Array::new("Id", On::Triangle, 1, ids), Array::new("Flow", On::Point, 3, flow)];
+    let arrays = [Array::new("Id", Association::Triangle, 1, ids), Array::new("Flow", Association::Point, 3, flow)];
     let carrying = |format| {
         let output = Output { arrays: &arrays, ..Output::new(&mesh) };
         write_output(&output, format).expect("arrays of its length")
@@ -207,8 +207,8 @@ fn xz(block: &[u8]) -> Vec<u8> {
     let unpadded = block_head.len() + chunk.len();
     let index = checked(padded(vec![0, 1, unpadded as u8, block.len() as u8]));
     let backward = [&(index.len() as u32 / 4 - 1).to_le_bytes()[..], &flags].concat();
-    let foot = [&crc32(&backward).to_le_bytes()[..], &backward, b"YZ"].concat();
-    [head, block_head, padded(chunk), index, foot].concat()
+    let projection = [&crc32(&backward).to_le_bytes()[..], &backward, b"YZ"].concat();
+    [head, block_head, padded(chunk), index, projection].concat()
 }
 
 /// The checksum of .xz headers (ISO 3309), bit by bit.

@@ -85,8 +85,8 @@ fn figures_six_and_seven_have_their_panels_and_their_words() {
         assert!(margin.iter().all(|pixel| *pixel == [255; 3]), "white paper");
         let heading = part(picture, [0.02, 0.01], [0.5, 0.04]);
         assert!(ink(&heading) > 0.01, "a heading is written: {}", ink(&heading));
-        let foot = part(picture, [0.02, 0.96], [0.6, 0.03]);
-        assert!(ink(&foot) > 0.005, "a foot is written: {}", ink(&foot));
+        let projection = part(picture, [0.02, 0.96], [0.6, 0.03]);
+        assert!(ink(&projection) > 0.005, "a foot is written: {}", ink(&projection));
     }
     // The middles of the six panels; none is blank, no two are alike.
     let middle = |picture: &Picture, column: usize, row: usize| {

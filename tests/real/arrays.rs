@@ -8,19 +8,19 @@ use std::path::Path;
 use libtest_mimic::{Failed, Trial};
 use lumen::io::{ImportOptions, Imported, read};
 use lumen::mesh::ArrayInfo;
-use lumen::mesh::arrays::{Kind, On, Scalar};
+use lumen::mesh::arrays::{Association, Kind, Scalar};
 
 /// Name, what it is on, kind, type, components, range.
-type Fact = (&'static str, On, Kind, Scalar, usize, [f64; 2]);
+type Fact = (&'static str, Association, Kind, Scalar, usize, [f64; 2]);
 
-const FACE: Fact = ("ModelFaceID", On::Triangle, Kind::Label, Scalar::I32, 1, [0.0, 6.0]);
+const FACE: Fact = ("ModelFaceID", Association::Triangle, Kind::Label, Scalar::I32, 1, [0.0, 6.0]);
 const HEIGHT: Fact =
-    ("Height", On::Point, Kind::Continuous, Scalar::F32, 1, [12.454_676_628_112_793, 35.238_010_406_494_14]);
+    ("Height", Association::Point, Kind::Continuous, Scalar::F32, 1, [12.454_676_628_112_793, 35.238_010_406_494_14]);
 const HEIGHT_TEXT: Fact =
-    ("Height", On::Point, Kind::Continuous, Scalar::F32, 1, [12.454_700_469_970_703, 35.237_998_962_402_344]);
+    ("Height", Association::Point, Kind::Continuous, Scalar::F32, 1, [12.454_700_469_970_703, 35.237_998_962_402_344]);
 
 fn facts() -> Vec<(&'static str, Vec<Fact>)> {
-    let continuous = |name, scalar, range| (name, On::Point, Kind::Continuous, scalar, 1, range);
+    let continuous = |name, scalar, range| (name, Association::Point, Kind::Continuous, scalar, 1, range);
     let mut facts = vec![
         (
             "formats/cowHead.vtp",
@@ -30,7 +30,7 @@ fn facts() -> Vec<(&'static str, Vec<Fact>)> {
             "real/aorta-surface-branch-split.vtp",
             vec![
                 continuous("Scalars_", Scalar::F32, [0.0, 0.0]),
-                ("GroupIds", On::Point, Kind::Label, Scalar::I32, 1, [0.0, 3.0]),
+                ("GroupIds", Association::Point, Kind::Label, Scalar::I32, 1, [0.0, 3.0]),
                 continuous("ClippingArray", Scalar::F64, [-2.745_488_587_559_85e-7, 2_174.453_237_134_945_5]),
             ],
         ),
@@ -38,7 +38,7 @@ fn facts() -> Vec<(&'static str, Vec<Fact>)> {
         ("real/vampy_artery_C0015.vtp", vec![]),
         (
             "real/vmr_kawasaki_aorta_coronaries.vtp",
-            vec![("ModelFaceID", On::Triangle, Kind::Label, Scalar::I32, 1, [1.0, 17.0])],
+            vec![("ModelFaceID", Association::Triangle, Kind::Label, Scalar::I32, 1, [1.0, 17.0])],
         ),
         ("formats/fran_cut.vtk", vec![]),
         ("formats/legacy_ascii_v42.vtk", vec![FACE, HEIGHT_TEXT]),

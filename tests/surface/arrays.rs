@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lumen::io::import_mesh;
-use lumen::mesh::arrays::{On, Scalar, Values};
+use lumen::mesh::arrays::{Association, Scalar, Values};
 use lumen::mesh::{Array, TriMesh, Vec3, triangle_area};
 use lumen::phantom::{Sample, generate};
 use lumen::pipeline::run::Pipeline;
@@ -21,7 +21,7 @@ fn slab(mesh: &TriMesh, t: usize) -> f64 {
     f64::from((corners[0].z + corners[1].z + corners[2].z) / 60.0).floor()
 }
 
-fn column(name: &str, on: On, scalar: Scalar, numbers: impl Iterator<Item = f64>) -> Array {
+fn column(name: &str, on: Association, scalar: Scalar, numbers: impl Iterator<Item = f64>) -> Array {
     let mut values = Values::new(scalar);
     numbers.for_each(|x| values.push(x));
     Array::new(name, on, 1, values)
@@ -33,17 +33,17 @@ fn pipeline(settings: Settings) -> Pipeline {
     let places = || mesh.positions.iter();
     let triangles = || 0..mesh.triangles.len();
     let arrays = vec![
-        column("Field", On::Point, Scalar::F64, places().map(|&p| field(p))),
-        column("Slab", On::Point, Scalar::I16, places().map(|p| f64::from(p.z / 20.0).floor())),
+        column("Field", Association::Point, Scalar::F64, places().map(|&p| field(p))),
+        column("Slab", Association::Point, Scalar::I16, places().map(|p| f64::from(p.z / 20.0).floor())),
         column(
             "Field",
-            On::Triangle,
+            Association::Triangle,
             Scalar::F32,
             triangles().map(|t| mesh.corners(t).map(field).iter().sum::<f64>() / 3.0),
         ),
-        column("Slab", On::Triangle, Scalar::I8, triangles().map(|t| slab(&mesh, t))),
+        column("Slab", Association::Triangle, Scalar::I8, triangles().map(|t| slab(&mesh, t))),
         // One that is too short stays behind.
-        column("Short", On::Point, Scalar::F32, [1.0].into_iter()),
+        column("Short", Association::Point, Scalar::F32, [1.0].into_iter()),
     ];
     Pipeline::new(Arc::new(mesh), settings).with_samples(2_000).with_arrays(arrays)
 }
@@ -146,7 +146,7 @@ fn a_border_between_labels_stays_where_it_is_where_that_is_asked_for() {
     let cut = |(i, j)| [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]];
     let mesh = Arc::new(TriMesh { positions, triangles: cells().flat_map(cut).collect() });
     let labels = cells().flat_map(|(i, _)| [f64::from(u8::from(i >= 17)); 2]);
-    let array = column("RegionId", On::Triangle, Scalar::I32, labels);
+    let array = column("RegionId", Association::Triangle, Scalar::I32, labels);
     for method in Method::ALL {
         let across = |keep_labels: bool| {
             let plain = settings(method, 900, Preset::None);

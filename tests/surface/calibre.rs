@@ -6,7 +6,7 @@ use lumen::mesh::{Vec3, components};
 use lumen::phantom::{Sample, Vessel, generate, vessels};
 use lumen::task::{Yielder, at_once};
 use lumen::vessel::Subject;
-use lumen::vessel::certificate::{Certificate, Standing, TOLERANCE_PERCENT};
+use lumen::vessel::certificate::{Certificate, StationStatus, TOLERANCE_PERCENT};
 
 type Point = [f64; 3];
 
@@ -20,8 +20,8 @@ fn beside(p: Point, line: &[(Point, f64)]) -> (f64, f64) {
         let ((a, one), (b, other)) = (pair[0], pair[1]);
         let along: f64 = (0..3).map(|i| (p[i] - a[i]) * (b[i] - a[i])).sum();
         let part = (along / distance(a, b).powi(2).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let foot = [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
-        (distance(p, foot), one + (other - one) * part)
+        let projection = [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
+        (distance(p, projection), one + (other - one) * part)
     };
     line.windows(2).map(of).fold((f64::INFINITY, 0.0), |least, next| if next.0 < least.0 { next } else { least })
 }
@@ -53,7 +53,7 @@ fn check(sample: Sample, triangles: usize, voxel: f64) {
         .flat_map(|branch| {
             let one = |i: usize| {
                 let p = Vec3::from(branch.at_mm[i]).as_dvec3().to_array();
-                (p, branch.standings[i] == Standing::Counts, branch.opened.radii_mm[i])
+                (p, branch.standings[i] == StationStatus::Counts, branch.opened.radii_mm[i])
             };
             (0..branch.at_mm.len()).map(one)
         })

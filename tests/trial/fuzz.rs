@@ -25,9 +25,9 @@ const AUDITED: u64 = 20;
 /// Steps in a row without a way on that are too many.
 const STUCK: u64 = 50;
 
-struct Chance(u64);
+struct SplitMix64(u64);
 
-impl Chance {
+impl SplitMix64 {
     /// 0 to 1.
     fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
@@ -49,16 +49,16 @@ fn fuzz(sample: Sample, wire: &str, rate: u32, steps: u64) {
     let (mut simulation, _) = course.place(&setup).unwrap();
     let audit = Audit::new(&mesh);
     let radius = setup.wire.radius();
-    let mut chance = Chance(0x2545_f491_4f6c_dd1d ^ u64::from(rate));
+    let mut random = SplitMix64(0x2545_f491_4f6c_dd1d ^ u64::from(rate));
     let (mut input, mut deepest, mut longest) = (Input::default(), 0.0f64, 0.0f64);
     let (mut held, mut held_on) = (0u64, 0u64);
     for step in 0..steps {
-        if step % 50 == 0 || chance.next() < 0.01 {
+        if step % 50 == 0 || random.next() < 0.01 {
             // Mostly in, sometimes out, now and then beyond what is allowed or no number at all.
-            let feed = if chance.next() < 0.7 { 50.0 * chance.next() } else { -50.0 * chance.next() };
-            let roll = (chance.next() - 0.5) * 26.0;
+            let feed = if random.next() < 0.7 { 50.0 * random.next() } else { -50.0 * random.next() };
+            let roll = (random.next() - 0.5) * 26.0;
             input = Input { feed: feed as f32, roll: roll as f32 };
-            if chance.next() < 0.02 {
+            if random.next() < 0.02 {
                 input = Input { feed: f32::NAN, roll: 1e30 };
             }
         }

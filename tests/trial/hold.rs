@@ -2,9 +2,9 @@
 
 use crate::steps::{in_an_s, in_the_aorta};
 use lumen::trial::STEP;
-use lumen::trial::hold::{Grip, Hold};
 use lumen::trial::report::StepKind;
 use lumen::trial::session::{ROW_STEPS, Trial};
+use lumen::trial::virtual_coupling::{CouplingGains, VirtualCoupling};
 
 /// A step as the hand saw it.
 struct Step {
@@ -17,7 +17,7 @@ struct Step {
 /// A trial in the hand of somebody.
 struct Held {
     trial: Trial,
-    hold: Hold,
+    hold: VirtualCoupling,
     /// The hand's work, in N mm along the wire and about it.
     work: [f64; 2],
     steps: Vec<Step>,
@@ -25,7 +25,7 @@ struct Held {
 
 impl Held {
     fn new(trial: Trial) -> Self {
-        Self { trial, hold: Hold::default(), work: [0.0; 2], steps: Vec::new() }
+        Self { trial, hold: VirtualCoupling::default(), work: [0.0; 2], steps: Vec::new() }
     }
 
     /// A step in which the hand moves so far, in mm and radians.
@@ -67,7 +67,7 @@ fn nothing_jumps_while_elements_are_born_and_contacts_change() {
         held.go([20.0, 1.0], 1.5);
         let push = held.steps.iter().map(|step| step.reaction[0].abs()).fold(0.0, f64::max);
         assert!(held.trial.simulation().count() > 20 && push > 1e-3, "{name}: nothing was met, {push} N");
-        for (i, grip) in [Grip::FEED, Grip::ROLL].into_iter().enumerate() {
+        for (i, grip) in [CouplingGains::FEED, CouplingGains::ROLL].into_iter().enumerate() {
             let felt = jump(held.steps.iter().map(|step| step.felt[i]));
             let raw = jump(held.steps.iter().map(|step| step.reaction[i]));
             let own = grip.stiffness * STEP * [20.0, 3.0][i];

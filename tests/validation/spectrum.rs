@@ -14,11 +14,11 @@ use lumen::io::import_mesh;
 use lumen::phantom::{Sample, generate};
 use lumen::trial::STEP;
 use lumen::trial::course::Course;
-use lumen::trial::hold::{Grip, Hold};
 use lumen::trial::report::{StepKind, StepReport};
 use lumen::trial::session::{ROW_STEPS, Trial};
 use lumen::trial::setup::{Entry, Input, Setup};
 use lumen::trial::simulation::Simulation;
+use lumen::trial::virtual_coupling::{CouplingGains, VirtualCoupling};
 use lumen::trial::wall::Wall;
 use lumen::trial::wire::Wire;
 
@@ -92,7 +92,7 @@ struct Told {
 }
 
 impl Told {
-    fn note(&mut self, hold: &Hold, report: &StepReport) {
+    fn note(&mut self, hold: &VirtualCoupling, report: &StepReport) {
         let (felt, guide) = (hold.felt(), [report.push_n, report.torque_n_mm]);
         for i in 0..2 {
             self.felt[i].push(felt[i]);
@@ -131,7 +131,7 @@ fn a_free_wire_is_felt_by_the_hand_s_own_motion_and_what_the_rows_make_of_it() {
     let entry = Entry { at: [4.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0] };
     let wire = Wire::preset("workhorse").unwrap();
     let mut simulation = Simulation::new(&wire, wire.friction, &entry, 0.0, Some(wall)).unwrap();
-    let (mut hold, mut told, mut input) = (Hold::default(), Told::default(), Input::default());
+    let (mut hold, mut told, mut input) = (VirtualCoupling::default(), Told::default(), Input::default());
     let place = |step: u64| SPEED * STEP * step as f64 + SWAY * (TAU * SWAY_HZ * STEP * step as f64).sin();
     let (begun, nodes) = (PIECE as u64, simulation.count());
     for step in 0..begun + 5 * PIECE as u64 {
@@ -149,7 +149,7 @@ fn a_free_wire_is_felt_by_the_hand_s_own_motion_and_what_the_rows_make_of_it() {
     assert!(simulation.count() > nodes + 20, "elements are born");
 
     // From row to row f goes on by `g (2 c - c before - f)`, g = K T / (B + K T): its wave over that of c.
-    let Grip { stiffness, drag, .. } = Grip::FEED;
+    let CouplingGains { stiffness, drag, .. } = CouplingGains::FEED;
     let row = STEP * ROW_STEPS as f64;
     let part = stiffness * row / (drag + stiffness * row);
     let turn = TAU * SWAY_HZ * row;
@@ -189,7 +189,7 @@ fn what_is_felt_in_the_aorta_has_no_more_above_50_hz_than_rows_leave() {
     let mut setup = Setup { wire: Wire::preset("stiff").unwrap(), ..Setup::default() };
     let course = Course::new(&mesh, Some(Sample::Aorta), &mut setup).unwrap();
     let mut trial = Trial::new(Arc::new(course), setup).unwrap();
-    let (mut hold, mut told) = (Hold::default(), Told::default());
+    let (mut hold, mut told) = (VirtualCoupling::default(), Told::default());
     // By hand at constant speeds: 20 mm/s and 1 rad/s, from the first second on until the wire is where it should go.
     let mut unbalanced = 0_u32;
     for step in 0..9 * PIECE as u64 {

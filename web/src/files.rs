@@ -149,11 +149,11 @@ pub(crate) fn save(name: &str, bytes: &[u8]) -> Result<(), JsValue> {
     link.click();
 
     // The download begins after the click has been handled; its copy of the file is let go a little later.
-    let let_go = Closure::once_into_js(move || {
+    let release = Closure::once_into_js(move || {
         // It fails only for an address that is none.
         let _ = Url::revoke_object_url(&address);
     });
-    window.set_timeout_with_callback_and_timeout_and_arguments_0(let_go.unchecked_ref(), 10_000)?;
+    window.set_timeout_with_callback_and_timeout_and_arguments_0(release.unchecked_ref(), 10_000)?;
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A graphics context can be lost at any time (the driver is reset, the browser's own process for it dies, a telephone
 //! wants its memory back), and neither canvas nor device comes back from that. So eframe is taken down and started
-//! again on a fresh canvas with the same app, at most [`Restarts::MOST`] times in a minute; after that the page says so
+//! again on a fresh canvas with the same app, at most [`Restarts::MAX`] times in a minute; after that the page says so
 //! and waits for the user, with all that was open still there.
 
 use std::cell::{Cell, RefCell};

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use lumen::engine::scan::{ScanCommand, ScanEvent};
-use lumen::engine::trial::{Exchange, TrialCommand, TrialEvent, is_frame};
+use lumen::engine::trial::{HapticChannel, TrialCommand, TrialEvent, is_frame};
 use lumen::engine::{Command, Engine, Event, TrialEngine};
 use lumen::transfer::Message;
 use lumen_worker::serve::{Beside, run, scope};
@@ -76,7 +76,7 @@ pub fn worker_main(job: &str) -> Result<(), JsValue> {
     match job {
         Pipeline::NAME => run(|_| Ok((Engine::new(), None))),
         Trial::NAME => run(|again| {
-            let (exchange, again) = (Exchange::default(), Rc::clone(again));
+            let (exchange, again) = (HapticChannel::default(), Rc::clone(again));
             // A Worker that cannot be brought back has no engine that could be held.
             let hands = Hands::new(scope()?, exchange.clone(), move || drop(again.soon()));
             let beside: Beside = Box::new(move |data| data.as_string().map(|line| hands.hear(&line)));

@@ -15,8 +15,8 @@ pub const LONGEST: usize = 65_535;
 /// The longest report in bits: no system takes a longer one than 65535 bytes.
 pub const LONGEST_REPORT: u64 = 65_535 * 8;
 const DEEPEST: usize = 64;
-const MOST_FIELDS: usize = 4096;
-const MOST_PUSHED: usize = 64;
+const MAX_FIELDS: usize = 4096;
+const MAX_PUSHED: usize = 64;
 
 messages! {
     /// What is wrong with a device's reports.
@@ -57,7 +57,7 @@ messages! {
 }
 
 /// More fields or deeper collections than are read.
-pub(super) const MANY: ModelError = ModelError::Many { fields: MOST_FIELDS, depth: DEEPEST };
+pub(super) const MANY: ModelError = ModelError::Many { fields: MAX_FIELDS, depth: DEEPEST };
 
 /// A number as an item has it: without a sign, and how many bits it has.
 #[derive(Clone, Copy, Debug, Default)]
@@ -185,7 +185,7 @@ impl Parser {
             0x74 => self.globals.size = bits,
             0x84 => self.id = u8::try_from(bits).ok().filter(|id| *id != 0).ok_or(ModelError::Id { id: bits })?,
             0x94 => self.globals.count = bits,
-            0xA4 if self.pushed.len() < MOST_PUSHED => self.pushed.push(self.globals.clone()),
+            0xA4 if self.pushed.len() < MAX_PUSHED => self.pushed.push(self.globals.clone()),
             0xA4 => return Err(MANY),
             0xB4 => {
                 if let Some(globals) = self.pushed.pop() {
@@ -212,7 +212,7 @@ impl Parser {
     }
 
     fn begin(&mut self, kind: u32) -> Result<(), ModelError> {
-        if self.open.len() >= DEEPEST || self.model.collections.len() >= MOST_FIELDS {
+        if self.open.len() >= DEEPEST || self.model.collections.len() >= MAX_FIELDS {
             return Err(MANY);
         }
         let usage = self.locals.usages(self.globals.page).get(0).unwrap_or(Usage::new(self.globals.page, 0));
@@ -242,7 +242,7 @@ impl Parser {
             collection,
         };
         self.fields += 1;
-        if self.fields > MOST_FIELDS {
+        if self.fields > MAX_FIELDS {
             return Err(MANY);
         }
         item.add_to(&mut self.model)

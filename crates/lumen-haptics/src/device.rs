@@ -11,7 +11,7 @@ use super::force::cartesian::Cartesian;
 use super::force::ffbeast::Ffbeast;
 use super::force::logitech::Logitech;
 use super::force::pid::PidDriver;
-use super::force::{AxisForce, Coupling, ForceDriver, ForceError, Reply, Request, Wish};
+use super::force::{AxisForce, Coupling, ForceCommand, ForceDriver, ForceError, Reply, Request};
 use super::haply;
 use super::identity::Identity;
 use super::known;
@@ -284,10 +284,10 @@ impl HapticDevice {
     /// Says what resists at `now_ms`. Without that for [`STALE_MS`](super::safety::STALE_MS) there is no force.
     pub fn resist(&mut self, now_ms: f64, resistance: &Resistance) {
         self.guard.renew(now_ms);
-        let wish = self.wish(now_ms, resistance);
-        match (self.guard.pass(&wish, now_ms), &mut self.driver) {
-            (Some(wish), Some(driver)) => {
-                driver.wish(&wish);
+        let command = self.command(now_ms, resistance);
+        match (self.guard.pass(&command, now_ms), &mut self.driver) {
+            (Some(command), Some(driver)) => {
+                driver.command(&command);
                 self.is_still = false;
             }
             (None, Some(_)) if !self.is_still => self.be_still(),
@@ -295,7 +295,7 @@ impl HapticDevice {
         }
     }
 
-    fn wish(&mut self, now_ms: f64, resistance: &Resistance) -> Wish {
+    fn command(&mut self, now_ms: f64, resistance: &Resistance) -> ForceCommand {
         let mappings = [self.mapping().feed, self.mapping().roll];
         let has_coupling = self.driver.as_ref().is_some_and(|driver| driver.has_coupling());
         std::array::from_fn(|which| {

@@ -32,7 +32,7 @@ pub mod id {
 pub const HALF_WAY: [f64; 2] = [200.0, PI];
 
 /// What a force of 32767 is, in N, of which no more than the cap ([`safety`](super::safety)) is asked for.
-pub const MOST_N: f64 = 5.0;
+pub const MAX_N: f64 = 5.0;
 
 /// ms after which a force that was not told again is none.
 pub const WATCHDOG_MS: f64 = 100.0;
@@ -186,7 +186,7 @@ impl Translator {
     /// Takes a force report at `now_ms`; whether it was one.
     pub fn feel(&mut self, now_ms: f64, id: u8, data: &[u8]) -> bool {
         let (id::FORCE, &[x0, x1, y0, y1, z0, z1]) = (id, data) else { return false };
-        let newtons = |bytes| f64::from(i16::from_le_bytes(bytes)) / FULL * MOST_N;
+        let newtons = |bytes| f64::from(i16::from_le_bytes(bytes)) / FULL * MAX_N;
         self.force = Vector { x: newtons([x0, x1]), y: newtons([y0, y1]), z: newtons([z0, z1]) };
         self.told_ms = now_ms;
         true
@@ -271,8 +271,8 @@ mod tests {
             ["x", "y", "z"].map(|axis| force["vector"][axis].as_f64().unwrap())
         };
         let [x, y, z] = force(translator.say(50.0).unwrap());
-        assert_eq!([x, y], [0.0, -MOST_N]);
-        assert!((z - 0.4 * MOST_N).abs() < 1e-3);
+        assert_eq!([x, y], [0.0, -MAX_N]);
+        assert!((z - 0.4 * MAX_N).abs() < 1e-3);
         assert_eq!(force(translator.say(110.0).unwrap()), [0.0; 3], "it was not told again");
         assert_eq!(force(translator.farewell().unwrap()), [0.0; 3]);
     }

@@ -8,7 +8,7 @@ use super::identity::Identity;
 use super::mapping::{Mapping, Mode};
 
 /// Devices that are remembered; the one that was chosen for the longest ago goes first.
-const MOST: usize = 32;
+const MAX_DEVICES: usize = 32;
 
 /// FNV-1a.
 fn hash(bytes: &[u8]) -> u64 {
@@ -53,7 +53,7 @@ impl KnownMappings {
         if !key.is_empty() && fits(&mapping, axes) {
             self.forget(key);
             self.0.push((key.to_owned(), mapping));
-            self.0.drain(..self.0.len().saturating_sub(MOST));
+            self.0.drain(..self.0.len().saturating_sub(MAX_DEVICES));
         }
     }
 
@@ -106,6 +106,6 @@ mod tests {
         known.remember("", 2, by(0, 1.0));
         assert!(!known.has("c") && !known.has(""));
         (0..100).for_each(|i| known.remember(&i.to_string(), 2, by(0, 1.0)));
-        assert!(known.0.len() == MOST && known.has("99") && !known.has("b"));
+        assert!(known.0.len() == MAX_DEVICES && known.has("99") && !known.has("b"));
     }
 }

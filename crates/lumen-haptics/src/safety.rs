@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::force::{Coupling, Wish};
+use super::force::{Coupling, ForceCommand};
 
 /// ms after which a wish that was not renewed is none.
 pub const STALE_MS: f64 = 100.0;
@@ -50,7 +50,7 @@ pub struct Guard {
     halt: Option<Halt>,
     is_paused: bool,
     /// What was last let through, and when.
-    passed: Option<(Wish, f64)>,
+    passed: Option<(ForceCommand, f64)>,
     renewed_ms: f64,
 }
 
@@ -99,12 +99,12 @@ impl Guard {
 
     /// What of a wish the device may hear at `now_ms`; `None` for a stop. A wish that is no number ends it until it is armed
     /// again.
-    pub fn pass(&mut self, wish: &Wish, now_ms: f64) -> Option<Wish> {
+    pub fn pass(&mut self, command: &ForceCommand, now_ms: f64) -> Option<ForceCommand> {
         if self.halt.is_some() || self.is_paused || self.is_stale(now_ms) {
             self.passed = None;
             return None;
         }
-        let is_number = wish.iter().all(|of| {
+        let is_number = command.iter().all(|of| {
             let coupling = of.coupling.unwrap_or_default();
             let all = [of.force, of.limit, coupling.centre, coupling.stiffness, coupling.damping];
             all.into_iter().all(f64::is_finite)
@@ -117,9 +117,9 @@ impl Guard {
         let cap = cap.clamp(0.0, 1.0);
         let (before, dt) = match self.passed {
             Some((before, at)) => (before, ((now_ms - at) / 1000.0).clamp(0.0, 0.05)),
-            None => (Wish::default(), 0.0),
+            None => (ForceCommand::default(), 0.0),
         };
-        let mut passed = *wish;
+        let mut passed = *command;
         for (of, before) in passed.iter_mut().zip(&before) {
             let toward = |to: f64, from: f64, rate: f64| from + (to - from).clamp(-rate * dt, rate * dt);
             of.limit = toward(of.limit.clamp(0.0, cap), before.limit, slew);
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use crate::force::AxisForce;
 
-    fn wish(force: f64) -> Wish {
+    fn command(force: f64) -> ForceCommand {
         [AxisForce { force, coupling: None, limit: 1.0 }; 2]
     }
 
@@ -153,7 +153,7 @@ mod tests {
         let each = (from..to).map(f64::from);
         each.map(|now| {
             guard.renew(now);
-            guard.pass(&wish(force), now).map(|wish| wish[0].force)
+            guard.pass(&command(force), now).map(|command| command[0].force)
         })
         .collect()
     }
@@ -178,7 +178,7 @@ mod tests {
         assert!((turned[0] - 0.496).abs() < 1e-9 && turned[399] == -0.5);
         // A host that comes back after a while jumps by no more than 50 ms would have allowed.
         guard.renew(860.0);
-        assert!(guard.pass(&wish(1.0), 860.0).unwrap()[0].force <= -0.5 + 4.0 * 0.05 + 1e-9);
+        assert!(guard.pass(&command(1.0), 860.0).unwrap()[0].force <= -0.5 + 4.0 * 0.05 + 1e-9);
     }
 
     #[test]
@@ -208,8 +208,8 @@ mod tests {
         let mut guard = Guard::new(Limits::default());
         guard.arm();
         run(&mut guard, 0, 100, 1.0);
-        assert!(guard.pass(&wish(1.0), 99.0 + STALE_MS).is_some());
-        assert!(guard.pass(&wish(1.0), 100.0 + STALE_MS).is_none());
+        assert!(guard.pass(&command(1.0), 99.0 + STALE_MS).is_some());
+        assert!(guard.pass(&command(1.0), 100.0 + STALE_MS).is_none());
         assert_eq!(guard.halted(), None, "it goes on once the trial does");
     }
 }

@@ -123,7 +123,7 @@ pub(super) fn stated(bytes: &[u8]) -> Axes {
 mod tests {
     use super::*;
     use crate::{Format, ImportOptions, Output, import_mesh, read, write, write_output};
-    use lumen_mesh::arrays::{On, Values};
+    use lumen_mesh::arrays::{Association, Values};
     use lumen_mesh::shapes::icosphere;
 
     #[test]
@@ -133,7 +133,7 @@ mod tests {
         let before = mesh.clone();
         let mut normals = vec![Vec3::X; 3];
         let array = |name: &str| {
-            Array::new(name, On::Point, 3, Values::from_floats(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]))
+            Array::new(name, Association::Point, 3, Values::from_floats(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]))
         };
         let mut arrays = [array("Flow"), array("RGB")];
         Axes::Lps.turn(Axes::Ras, &mut mesh, &mut normals, &mut arrays).unwrap();
@@ -165,7 +165,7 @@ mod tests {
         let six: Vec<f64> = symmetric.iter().map(|&[r, c]| tensor.row(r)[c]).collect();
         let array = |values: &[f64]| {
             let floats: Vec<f32> = values.iter().map(|&x| x as f32).collect();
-            Array::new("Stress", On::Point, values.len(), Values::from_floats(&floats))
+            Array::new("Stress", Association::Point, values.len(), Values::from_floats(&floats))
         };
         let mut arrays = [array(&rows), array(&six)];
         Axes::Lps.turn(Axes::Ras, &mut mesh, &mut [], &mut arrays).unwrap();

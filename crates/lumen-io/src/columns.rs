@@ -8,12 +8,12 @@ use std::collections::HashMap;
 
 use super::text::quoted;
 use super::warnings::{ArrayProblem, Warning};
-use lumen_mesh::arrays::{Array, On, Values};
+use lumen_mesh::arrays::{Array, Association, Values};
 
 /// Sentences that are told one by one; beyond these, how many more there are.
 const TOLD: usize = 8;
 /// Arrays of a file that are taken: more than these no list can show, and no vessel has.
-const MOST: usize = 1000;
+const MAX_ARRAYS: usize = 1000;
 /// What an array without a name is called: without one, PLY and VTK could not hold it.
 const UNNAMED: &str = "array";
 
@@ -25,7 +25,7 @@ pub(super) struct Columns {
     cells: usize,
     list: Vec<Column>,
     /// Where each name stands in the list.
-    places: HashMap<(On, String), usize>,
+    places: HashMap<(Association, String), usize>,
     /// What is said of the first that are left out.
     left_out: Vec<Warning>,
     /// How many more are.
@@ -34,26 +34,26 @@ pub(super) struct Columns {
 
 struct Column {
     name: String,
-    on: On,
+    on: Association,
     components: usize,
     values: Values,
 }
 
 impl Columns {
     /// Adds what the part under way has of an array: whole tuples, for all its points or cells.
-    pub(super) fn add(&mut self, on: On, name: &str, components: usize, values: Values) {
+    pub(super) fn add(&mut self, on: Association, name: &str, components: usize, values: Values) {
         if components == 0 || values.is_empty() || is_normal(name, components, &values) {
             return;
         }
         let name = if name.trim().is_empty() { UNNAMED } else { name };
-        let before = components.saturating_mul(if on == On::Point { self.points } else { self.cells });
+        let before = components.saturating_mul(if on == Association::Point { self.points } else { self.cells });
         let key = (on, name.to_owned());
-        let is_full = self.list.len() == MOST;
+        let is_full = self.list.len() == MAX_ARRAYS;
         match self.places.get(&key).map(|&place| &mut self.list[place]) {
             // A file may have a million of them: what is not told is not put into words.
             None if is_full && self.left_out.len() == TOLD => self.more += 1,
             None if is_full => {
-                self.leave_out(name, ArrayProblem::Beyond { most: MOST });
+                self.leave_out(name, ArrayProblem::Beyond { most: MAX_ARRAYS });
             }
             None if before == 0 => {
                 self.list.push(Column { name: name.to_owned(), on, components, values });
@@ -95,7 +95,7 @@ impl Columns {
         let (points, cells, list) = (self.points, self.cells, std::mem::take(&mut self.list));
         let mut arrays = Vec::with_capacity(list.len());
         for Column { name, on, components, values } in list {
-            if values.len() == components.saturating_mul(if on == On::Point { points } else { cells }) {
+            if values.len() == components.saturating_mul(if on == Association::Point { points } else { cells }) {
                 arrays.push(Array::new(name, on, components, values));
             } else {
                 self.leave_out(&name, ArrayProblem::NotEverywhere);
@@ -132,21 +132,21 @@ mod tests {
     #[test]
     fn an_array_is_one_where_every_part_has_it() {
         let mut columns = Columns::default();
-        columns.add(On::Point, "all", 1, zeros(Scalar::F32, 2));
-        columns.add(On::Point, "first", 2, zeros(Scalar::F32, 4));
-        columns.add(On::Triangle, "all", 1, zeros(Scalar::I64, 1));
-        columns.add(On::Point, "Normals_", 3, zeros(Scalar::F32, 6));
+        columns.add(Association::Point, "all", 1, zeros(Scalar::F32, 2));
+        columns.add(Association::Point, "first", 2, zeros(Scalar::F32, 4));
+        columns.add(Association::Triangle, "all", 1, zeros(Scalar::I64, 1));
+        columns.add(Association::Point, "Normals_", 3, zeros(Scalar::F32, 6));
         columns.end_part(2, 1);
-        columns.add(On::Point, "all", 1, zeros(Scalar::F32, 3));
-        columns.add(On::Triangle, "all", 1, zeros(Scalar::I32, 4));
-        columns.add(On::Point, "second", 1, zeros(Scalar::F32, 3));
+        columns.add(Association::Point, "all", 1, zeros(Scalar::F32, 3));
+        columns.add(Association::Triangle, "all", 1, zeros(Scalar::I32, 4));
+        columns.add(Association::Point, "second", 1, zeros(Scalar::F32, 3));
         columns.leave_out("names", ArrayProblem::Text);
         columns.end_part(3, 4);
         let (arrays, warnings) = columns.finish();
         let sentences = in_english(&warnings);
         assert_eq!(
             arrays.iter().map(|array| (&*array.name, array.on, array.len())).collect::<Vec<_>>(),
-            [("all", On::Point, 5)]
+            [("all", Association::Point, 5)]
         );
         assert_eq!(
             sentences,
@@ -172,9 +172,9 @@ mod tests {
     #[test]
     fn no_more_are_taken_than_can_be_shown() {
         let mut columns = Columns::default();
-        (0..100_000).for_each(|i| columns.add(On::Point, &format!("a{i}"), 1, zeros(Scalar::U8, 1)));
+        (0..100_000).for_each(|i| columns.add(Association::Point, &format!("a{i}"), 1, zeros(Scalar::U8, 1)));
         columns.end_part(1, 0);
-        columns.add(On::Point, "a7", 1, zeros(Scalar::U8, 1));
+        columns.add(Association::Point, "a7", 1, zeros(Scalar::U8, 1));
         columns.end_part(1, 0);
         let (arrays, warnings) = columns.finish();
         let sentences = in_english(&warnings);

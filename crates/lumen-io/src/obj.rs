@@ -14,15 +14,15 @@ use glam::DVec3;
 
 use super::error::ReadError;
 use super::formats::{Arrays, FileKind, MediaType, Sign, Written};
+use super::memory_budget::MemoryBudget;
 use super::output::Output;
 use super::pace::Pace;
 use super::polygons::Faces;
 use super::problem::TextProblem;
 use super::raw::RawSurface;
-use super::room::Room;
 use super::text;
 use super::unit::Unit;
-use lumen_mesh::arrays::{On, Scalar, Values};
+use lumen_mesh::arrays::{Association, Scalar, Values};
 use lumen_mesh::{Array, Vec3};
 
 /// Lines between two looks at the clock.
@@ -166,14 +166,14 @@ impl Reader {
         raw.skipped.points = self.points;
         let mut arrays = Vec::new();
         if self.colours.len() == 3 * raw.positions.len() {
-            arrays.push(Array::new("RGB", On::Point, 3, self.colours));
+            arrays.push(Array::new("RGB", Association::Point, 3, self.colours));
         }
         // The cell of a triangle is its group here.
         if raw.cells.iter().any(|group| raw.cells.first() != Some(group)) {
             let numbers = Values::of(Scalar::I32, (0..=self.groups.numbers.len()).map(|group| group as f64));
-            arrays.push(Array::new("Groups", On::Triangle, 1, numbers));
+            arrays.push(Array::new("Groups", Association::Triangle, 1, numbers));
         }
-        raw.carry((arrays, Vec::new()), Room::of(file));
+        raw.carry((arrays, Vec::new()), MemoryBudget::of(file));
         Ok(raw)
     }
 }
@@ -232,7 +232,7 @@ impl<'a> Lines<'a> {
 /// The one array that is written, a colour behind the coordinates: the first that can be one.
 fn colour_of(arrays: &[Array]) -> Option<&Array> {
     let is_named = |array: &Array| array.name.starts_with("RGB") || array.name.starts_with("COLOR_");
-    let has_shape = |array: &Array| array.on == On::Point && matches!(array.components, 3 | 4);
+    let has_shape = |array: &Array| array.on == Association::Point && matches!(array.components, 3 | 4);
     arrays.iter().find(|array| is_named(array) && has_shape(array))
 }
 

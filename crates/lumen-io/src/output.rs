@@ -2,7 +2,7 @@
 
 use super::Axes;
 use super::error::WriteError;
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 use lumen_mesh::{Array, TriMesh, Vec3};
 
 /// What is written.
@@ -41,7 +41,7 @@ impl<'a> Output<'a> {
             return Err(WriteError::NotFinite { vertex });
         }
         for array in arrays {
-            let rows = if array.on == On::Point { vertices } else { mesh.triangles.len() };
+            let rows = if array.on == Association::Point { vertices } else { mesh.triangles.len() };
             if array.values.len() != rows * array.components {
                 return Err(WriteError::ArrayLength { name: array.name.clone(), tuples: array.len(), rows });
             }

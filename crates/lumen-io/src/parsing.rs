@@ -5,9 +5,9 @@ use glam::DVec3;
 use super::axes::{self, Axes};
 use super::detect::detect;
 use super::error::ReadError;
+use super::memory_budget::MemoryBudget;
 use super::pace::Pace;
 use super::raw::RawSurface;
-use super::room::Room;
 use super::{ImportOptions, Unit, far};
 use lumen_mesh::task::Yielder;
 
@@ -33,7 +33,7 @@ pub(super) async fn parse(
         pace.rest(0.0).await;
         raw = (kind.parse)(bytes, unit, origin, &pace).await?;
     }
-    Room::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
+    MemoryBudget::of(bytes.len()).check(raw.label, raw.positions.len(), raw.triangles.len())?;
     let axes = if kind.axes_in_head { axes::stated(bytes) } else { raw.axes };
     Ok((raw, unit, axes))
 }

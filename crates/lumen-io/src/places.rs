@@ -3,7 +3,7 @@
 use super::Format;
 use super::formats::Arrays;
 use lumen_mesh::Array;
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 use lumen_message::messages;
 
 /// Each array, and whether `format` has a place for it.
@@ -87,7 +87,7 @@ pub fn left_out(arrays: &[Array], format: Format) -> Option<LeftOut> {
     if names.is_empty() {
         return None;
     }
-    let of_triangles = homeless().all(|array| array.on == On::Triangle);
+    let of_triangles = homeless().all(|array| array.on == Association::Triangle);
     let (label, count, names) = (format.label(), names.len(), names.join(", "));
     Some(match format.written().arrays {
         Arrays::Vertices(_) if of_triangles => LeftOut::OfTriangles { format: label, count, names },
@@ -105,10 +105,10 @@ mod tests {
     #[test]
     fn what_a_format_leaves_out_is_one_sentence() {
         let zeros = |scalar| Values::from_bytes(scalar, vec![0; 96]);
-        let height = Array::new("Height", On::Point, 1, zeros(Scalar::F32));
-        let face = Array::new("Face", On::Triangle, 1, zeros(Scalar::I32));
-        let colour = Array::new("RGB", On::Point, 3, zeros(Scalar::F32));
-        let tensor = Array::new("Stress", On::Point, 9, zeros(Scalar::F64));
+        let height = Array::new("Height", Association::Point, 1, zeros(Scalar::F32));
+        let face = Array::new("Face", Association::Triangle, 1, zeros(Scalar::I32));
+        let colour = Array::new("RGB", Association::Point, 3, zeros(Scalar::F32));
+        let tensor = Array::new("Stress", Association::Point, 9, zeros(Scalar::F64));
         let all = [height, face, colour, tensor];
         for format in [Format::Vtp, Format::Vtk, Format::Ply] {
             assert_eq!(left_out(&all, format), None);

@@ -5,11 +5,11 @@ use glam::DVec3;
 use super::Axes;
 use super::columns::left_out;
 use super::error::ReadError;
+use super::memory_budget::MemoryBudget;
 use super::polygons::Faces;
 use super::report::Skipped;
-use super::room::Room;
 use super::warnings::{ArrayProblem, Warning};
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 use lumen_mesh::{Array, Vec3};
 
 /// What a format's file hands over: the triangles as they stand there.
@@ -75,13 +75,15 @@ impl RawSurface {
 
     /// Takes arrays along as far as there is room for them, those of the file's cells to the triangles cut from these, and
     /// says what is left out.
-    pub(super) fn carry(&mut self, (arrays, left_out): (Vec<Array>, Vec<Warning>), room: Room) {
+    pub(super) fn carry(&mut self, (arrays, left_out): (Vec<Array>, Vec<Warning>), room: MemoryBudget) {
         self.warnings.extend(left_out);
         let mut bytes = 0;
         for array in arrays {
             let (rows, fits) = match array.on {
-                On::Point => (self.positions.len(), array.len() == self.positions.len()),
-                On::Triangle => (self.cells.len(), self.cells.iter().all(|&cell| (cell as usize) < array.len())),
+                Association::Point => (self.positions.len(), array.len() == self.positions.len()),
+                Association::Triangle => {
+                    (self.cells.len(), self.cells.iter().all(|&cell| (cell as usize) < array.len()))
+                }
             };
             let of_row = array.components as u64 * array.values.scalar().size() as u64;
             let larger = bytes + of_row.saturating_mul(rows.max(array.len()) as u64);
@@ -91,7 +93,7 @@ impl RawSurface {
                 self.warnings.push(self::left_out(&array.name, ArrayProblem::Memory));
             } else {
                 bytes = larger;
-                self.arrays.push(if array.on == On::Point { array } else { array.gathered(&self.cells) });
+                self.arrays.push(if array.on == Association::Point { array } else { array.gathered(&self.cells) });
             }
         }
     }

@@ -7,7 +7,7 @@
 
 use hashbrown::hash_table::{Entry, HashTable};
 
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 use lumen_mesh::task::Yielder;
 use lumen_mesh::{Array, Blend, TriMesh, Vec3, compacted, used_vertices};
 
@@ -111,7 +111,9 @@ impl Rows {
         let points = Blend::of_groups(used.len(), &rows, |_| 1.0);
         arrays
             .iter()
-            .map(|array| if array.on == On::Point { points.of(array) } else { array.gathered(&self.triangles) })
+            .map(
+                |array| if array.on == Association::Point { points.of(array) } else { array.gathered(&self.triangles) },
+            )
             .collect()
     }
 }

@@ -17,7 +17,7 @@ pub const LABELS: usize = 256;
 /// What an array has a tuple for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum On {
+pub enum Association {
     /// Each vertex.
     Point,
     /// Each triangle.
@@ -40,7 +40,7 @@ pub struct Array {
     /// As the file has it.
     pub name: String,
     /// What it has a tuple for.
-    pub on: On,
+    pub on: Association,
     /// Whether a mean can be taken.
     pub kind: Kind,
     /// Numbers of a tuple, at least 1.
@@ -51,7 +51,7 @@ pub struct Array {
 
 impl Array {
     /// An array; its kind follows from the values and the name.
-    pub fn new(name: impl Into<String>, on: On, components: usize, values: Values) -> Self {
+    pub fn new(name: impl Into<String>, on: Association, components: usize, values: Values) -> Self {
         let name = name.into();
         let kind = if components == 1 && is_label(&name, &values) { Kind::Label } else { Kind::Continuous };
         Self { name, on, kind, components: components.max(1), values }
@@ -133,7 +133,7 @@ pub struct ArrayInfo {
     /// As the file has it.
     pub name: String,
     /// What it has a tuple for.
-    pub on: On,
+    pub on: Association,
     /// Whether a mean can be taken.
     pub kind: Kind,
     /// The type of its numbers.
@@ -159,8 +159,8 @@ pub fn infos(arrays: &[Array]) -> Vec<ArrayInfo> {
 /// When one is not there.
 pub fn gathered(arrays: &[Array], vertices: &[u32], triangles: &[u32]) -> Vec<Array> {
     let rows = |array: &Array| match array.on {
-        On::Point => array.gathered(vertices),
-        On::Triangle => array.gathered(triangles),
+        Association::Point => array.gathered(vertices),
+        Association::Triangle => array.gathered(triangles),
     };
     arrays.iter().map(rows).collect()
 }
@@ -200,23 +200,24 @@ mod tests {
 
     #[test]
     fn few_whole_numbers_and_identifiers_are_labels() {
-        let kind = |name, components, numbers| Array::new(name, On::Point, components, numbers).kind;
+        let kind = |name, components, numbers| Array::new(name, Association::Point, components, numbers).kind;
         let many = || Values::of(Scalar::I32, (0..300).map(f64::from));
         assert_eq!(kind("Part", 1, Values::of(Scalar::U8, (0..256).map(f64::from))), Kind::Label);
         assert_eq!(kind("Intensity", 1, many()), Kind::Continuous);
         assert_eq!(kind("GlobalNodeID", 1, many()), Kind::Label);
         assert_eq!(kind("Part", 1, Values::of(Scalar::F32, [1.0, 2.0])), Kind::Continuous);
-        let signs = Array::new("Side", On::Point, 1, Values::of(Scalar::I16, [2.0, -1.0, 2.0, 0.0]));
+        let signs = Array::new("Side", Association::Point, 1, Values::of(Scalar::I16, [2.0, -1.0, 2.0, 0.0]));
         assert_eq!((signs.info().labels, signs.info().range), (vec![-1.0, 0.0, 2.0], Some([-1.0, 2.0])));
         assert_eq!(kind("RGB", 3, Values::of(Scalar::U8, [1.0, 2.0, 3.0])), Kind::Continuous);
     }
 
     #[test]
     fn tuples_are_gathered_whole_and_ranges_are_of_magnitudes() {
-        let vectors = Array::new("Speed", On::Point, 2, Values::of(Scalar::F64, [3.0, 4.0, 0.0, 1.0, f64::NAN, 0.0]));
+        let vectors =
+            Array::new("Speed", Association::Point, 2, Values::of(Scalar::F64, [3.0, 4.0, 0.0, 1.0, f64::NAN, 0.0]));
         assert_eq!((vectors.len(), vectors.range()), (3, Some([1.0, 5.0])));
         let gathered = vectors.gathered(&[1, 0, 1]);
         assert_eq!((gathered.len(), gathered.magnitude(1), gathered.values.get(5)), (3, 5.0, 1.0));
-        assert_eq!(Array::new("None", On::Triangle, 1, Values::of(Scalar::F32, [f64::NAN])).range(), None);
+        assert_eq!(Array::new("None", Association::Triangle, 1, Values::of(Scalar::F32, [f64::NAN])).range(), None);
     }
 }

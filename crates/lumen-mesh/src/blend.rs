@@ -5,7 +5,7 @@
 //! that comes first wins, so that two vertices welded keep the first one's, as in VTK's `vtkCleanPolyData`. A row of one
 //! source keeps its bits. Sums are in f64, in the order of the sources.
 
-use super::arrays::{Array, Kind, On, Values};
+use super::arrays::{Array, Association, Kind, Values};
 
 /// For each row to be made, the rows that it is made of.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -92,13 +92,13 @@ impl Blend {
         let components = array.components;
         let mut values = Values::new(array.values.scalar());
         values.reserve(self.len() * components);
-        let mut ballot = Ballot::default();
+        let mut votes = MajorityVote::default();
         for row in 0..self.len() {
             match (self.sources(row), array.kind) {
                 ([], _) => (0..components).for_each(|_| values.push(0.0)),
                 (&[(source, _)], _) => values.push_from(&array.values, source as usize * components, components),
                 (sources, Kind::Label) => {
-                    let winner = ballot.winner(sources, &array.values);
+                    let winner = votes.winner(sources, &array.values);
                     values.push_from(&array.values, winner as usize, 1);
                 }
                 (sources, Kind::Continuous) => {
@@ -118,18 +118,18 @@ impl Blend {
 
 /// What the arrays become: those on vertices by `vertices`, those on triangles by `triangles`.
 pub fn blended(arrays: &[Array], vertices: &Blend, triangles: &Blend) -> Vec<Array> {
-    let of = |array: &Array| if array.on == On::Point { vertices.of(array) } else { triangles.of(array) };
+    let of = |array: &Array| if array.on == Association::Point { vertices.of(array) } else { triangles.of(array) };
     arrays.iter().map(of).collect()
 }
 
 /// The counting of votes; keeps its list from row to row.
 #[derive(Default)]
-struct Ballot {
+struct MajorityVote {
     /// A label, the place of the vote in the row, who gave it, and its weight.
     votes: Vec<(u64, u32, u32, f32)>,
 }
 
-impl Ballot {
+impl MajorityVote {
     /// The first source with the label that has most weight.
     fn winner(&mut self, sources: &[(u32, f32)], labels: &Values) -> u32 {
         self.votes.clear();
@@ -153,7 +153,7 @@ mod tests {
     use crate::arrays::Scalar;
 
     fn array(scalar: Scalar, components: usize, numbers: &[f64]) -> Array {
-        Array::new("a", On::Point, components, Values::of(scalar, numbers.iter().copied()))
+        Array::new("a", Association::Point, components, Values::of(scalar, numbers.iter().copied()))
     }
 
     fn numbers(array: &Array) -> Vec<f64> {
@@ -191,7 +191,7 @@ mod tests {
     fn labels_beyond_what_a_double_holds_keep_their_bits() {
         let words = [(1u64 << 60) + 1, (1 << 60) + 3, (1 << 60) + 3];
         let values = Values::from_bytes(Scalar::U64, words.iter().flat_map(|word| word.to_le_bytes()).collect());
-        let label = Array::new("Id", On::Triangle, 1, values);
+        let label = Array::new("Id", Association::Triangle, 1, values);
         let blend = Blend::of_groups(1, &[0, 0, 0], |_| 1.0);
         assert_eq!(blend.of(&label).values.bytes(), words[1].to_le_bytes());
     }

@@ -4,13 +4,13 @@
 
 use glam::{DVec3, Vec3, Vec4};
 
-use super::closest_point::Foot;
+use super::closest_point::TriangleProjection;
 use super::four::{Point, Segment, rounding};
 use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
 
 /// The nearest point of a surface to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointFoot {
+pub struct PointProjection {
     /// Number of the triangle.
     pub triangle: u32,
     /// The nearest point in mm.
@@ -25,11 +25,11 @@ pub struct PointFoot {
 
 /// The nearest point of a surface to the inside of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SegmentFoot {
+pub struct SegmentProjection {
     /// Where on the segment: 0 at its start, 1 at its end.
     pub along: f64,
     /// On the surface.
-    pub foot: PointFoot,
+    pub projection: PointProjection,
 }
 
 /// Relative allowance for the rounding of coordinates to f32 when squared distances to boxes are compared.
@@ -48,17 +48,17 @@ impl Leaf {
 
 impl SurfaceIndex {
     /// The nearest point to `p` that is at most `within` mm away. `hint` is the slot of an answer near by.
-    pub fn foot(&self, p: DVec3, within: f64, hint: u32) -> Option<PointFoot> {
-        let mut best: Option<(Foot, u32)> = None;
+    pub fn project_point(&self, p: DVec3, within: f64, hint: u32) -> Option<PointProjection> {
+        let mut best: Option<(TriangleProjection, u32)> = None;
         let mut squared = within * within;
         let (point, rounding) = (Point::new(p.as_vec3()), rounding(p));
         let hint = if (hint as usize) < self.leaves.len() { hint } else { self.leaf_towards(&point) };
         let mut offer = |slot: u32, leaf: &Leaf, squared: &mut f64| {
-            let foot = leaf.foot(p);
-            let is_first = |best: &(Foot, u32)| leaf.triangle < self.leaves[best.1 as usize].triangle;
-            if foot.squared < *squared || (foot.squared == *squared && best.as_ref().is_none_or(is_first)) {
-                *squared = foot.squared;
-                best = Some((foot, slot));
+            let projection = leaf.project_point(p);
+            let is_first = |best: &(TriangleProjection, u32)| leaf.triangle < self.leaves[best.1 as usize].triangle;
+            if projection.squared < *squared || (projection.squared == *squared && best.as_ref().is_none_or(is_first)) {
+                *squared = projection.squared;
+                best = Some((projection, slot));
             }
         };
         if let Some(leaf) = self.leaves.get(hint as usize) {
@@ -82,23 +82,23 @@ impl SurfaceIndex {
                 }
             },
         );
-        let (foot, slot) = best?;
+        let (projection, slot) = best?;
         let leaf = &self.leaves[slot as usize];
-        let (point, barycentric) = leaf.at(foot.v, foot.w);
-        Some(PointFoot { triangle: leaf.triangle, point, distance: foot.squared.sqrt(), barycentric, slot })
+        let (point, barycentric) = leaf.at(projection.v, projection.w);
+        Some(PointProjection { triangle: leaf.triangle, point, distance: projection.squared.sqrt(), barycentric, slot })
     }
 
     /// The nearest point of one leaf's triangle to `p`; `slot` is that of an answer.
-    pub fn foot_in(&self, slot: u32, p: DVec3) -> Option<PointFoot> {
+    pub fn project_point_in(&self, slot: u32, p: DVec3) -> Option<PointProjection> {
         let leaf = self.leaves.get(slot as usize)?;
-        let foot = leaf.foot(p);
-        let (point, barycentric) = leaf.at(foot.v, foot.w);
-        Some(PointFoot { triangle: leaf.triangle, point, distance: foot.squared.sqrt(), barycentric, slot })
+        let projection = leaf.project_point(p);
+        let (point, barycentric) = leaf.at(projection.v, projection.w);
+        Some(PointProjection { triangle: leaf.triangle, point, distance: projection.squared.sqrt(), barycentric, slot })
     }
 
     /// The nearest point to the segment from `a` to `b` that is less than `within` mm from its inside. Points that are
-    /// nearest to its ends may be missed: [`Self::foot`] finds them.
-    pub fn segment_foot(&self, a: DVec3, b: DVec3, within: f64) -> Option<SegmentFoot> {
+    /// nearest to its ends may be missed: [`Self::project_point`] finds them.
+    pub fn project_segment(&self, a: DVec3, b: DVec3, within: f64) -> Option<SegmentProjection> {
         let mut best: Option<(Approach, u32)> = None;
         let mut squared = within * within;
         let segment = Segment::new(a, b);
@@ -124,17 +124,19 @@ impl SurfaceIndex {
         let (Approach { along, squared, v, w }, slot) = best?;
         let leaf = &self.leaves[slot as usize];
         let (point, barycentric) = leaf.at(v, w);
-        let foot = PointFoot { triangle: leaf.triangle, point, distance: squared.sqrt(), barycentric, slot };
-        Some(SegmentFoot { along, foot })
+        let projection =
+            PointProjection { triangle: leaf.triangle, point, distance: squared.sqrt(), barycentric, slot };
+        Some(SegmentProjection { along, projection })
     }
 
     /// The same for one leaf's triangle; `slot` is that of an answer.
-    pub fn segment_foot_in(&self, slot: u32, a: DVec3, b: DVec3, within: f64) -> Option<SegmentFoot> {
+    pub fn project_segment_in(&self, slot: u32, a: DVec3, b: DVec3, within: f64) -> Option<SegmentProjection> {
         let leaf = self.leaves.get(slot as usize)?;
         let Approach { along, squared, v, w } = approach(a, b, leaf, within * within)?;
         let (point, barycentric) = leaf.at(v, w);
-        let foot = PointFoot { triangle: leaf.triangle, point, distance: squared.sqrt(), barycentric, slot };
-        Some(SegmentFoot { along, foot })
+        let projection =
+            PointProjection { triangle: leaf.triangle, point, distance: squared.sqrt(), barycentric, slot };
+        Some(SegmentProjection { along, projection })
     }
 
     /// The planes of up to four leaves, if there are any.
@@ -297,18 +299,18 @@ mod tests {
             let (a, b) = (DVec3::from_array(a), DVec3::from_array(b));
             let mesh = icosphere(level, 5.0, Vec3::new(1.0, 0.5, 0.0));
             let index = SurfaceIndex::new(&mesh.positions, &mesh.triangles);
-            let ends = [a, b].map(|p| index.foot(p, f64::INFINITY, u32::MAX).unwrap().distance);
+            let ends = [a, b].map(|p| index.project_point(p, f64::INFINITY, u32::MAX).unwrap().distance);
             for (p, d) in [a, b].into_iter().zip(ends) {
                 prop_assert!((d - f64::from(index.nearest(p.as_vec3()).unwrap().distance)).abs() < 1e-5);
             }
-            let nearer = index.segment_foot(a, b, ends[0].min(ends[1]) - 1e-9);
-            let found = nearer.map_or(ends[0].min(ends[1]), |found| found.foot.distance);
+            let nearer = index.project_segment(a, b, ends[0].min(ends[1]) - 1e-9);
+            let found = nearer.map_or(ends[0].min(ends[1]), |found| found.projection.distance);
             let expected = sampled(&mesh, a, b);
             // Between two samples the distance falls by less than half of their distance.
             prop_assert!(found <= expected + 1e-5, "{found} {expected}");
             prop_assert!(found >= expected - (b - a).length() / 800.0 - 1e-5, "{found} {expected}");
-            if let Some(SegmentFoot { along, foot }) = nearer {
-                prop_assert!(((a + (b - a) * along).distance(foot.point) - foot.distance).abs() < 1e-9);
+            if let Some(SegmentProjection { along, projection }) = nearer {
+                prop_assert!(((a + (b - a) * along).distance(projection.point) - projection.distance).abs() < 1e-9);
             }
         }
     }
@@ -318,11 +320,11 @@ mod tests {
         let straight = tube(64, 100, 40.0, |_| 3.0);
         let index = SurfaceIndex::new(&straight.positions, &straight.triangles);
         let (a, b) = (DVec3::new(-2.7, 0.0, 20.0), DVec3::new(2.7, 0.0, 20.0));
-        let end = index.foot(a, f64::INFINITY, u32::MAX).unwrap().distance;
-        assert!(index.segment_foot(a, b, end - 1e-6).is_none());
+        let end = index.project_point(a, f64::INFINITY, u32::MAX).unwrap().distance;
+        assert!(index.project_segment(a, b, end - 1e-6).is_none());
         let waisted = tube(64, 100, 40.0, |z| 3.0 - (-(z - 20.0) * (z - 20.0) / 4.0).exp());
         let index = SurfaceIndex::new(&waisted.positions, &waisted.triangles);
-        let found = index.segment_foot(DVec3::new(1.5, 0.0, 15.0), DVec3::new(1.5, 0.0, 25.0), 2.0).unwrap();
-        assert!((found.along - 0.5).abs() < 0.02 && (found.foot.distance - 0.5).abs() < 0.01, "{found:?}");
+        let found = index.project_segment(DVec3::new(1.5, 0.0, 15.0), DVec3::new(1.5, 0.0, 25.0), 2.0).unwrap();
+        assert!((found.along - 0.5).abs() < 0.02 && (found.projection.distance - 0.5).abs() < 0.01, "{found:?}");
     }
 }

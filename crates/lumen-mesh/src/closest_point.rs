@@ -18,7 +18,7 @@ const NO_FACE: f64 = 1e-10;
 
 /// Where on a triangle the closest point lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foot {
+pub struct TriangleProjection {
     /// Squared distance in mm2.
     pub squared: f64,
     /// Barycentric coordinate of the second corner.
@@ -27,7 +27,7 @@ pub struct Foot {
     pub(super) w: f64,
 }
 
-impl Foot {
+impl TriangleProjection {
     fn at(ap: DVec3, ab: DVec3, ac: DVec3, v: f64, w: f64) -> Self {
         Self { squared: (ap - ab * v - ac * w).length_squared(), v, w }
     }
@@ -35,11 +35,12 @@ impl Foot {
 
 /// Distance of `p` from a triangle in mm.
 pub fn distance_to_triangle(p: Vec3, corners: [Vec3; 3]) -> f64 {
-    let foot = if is_sliver(corners) { foot_on_sliver(p, corners) } else { foot_on_triangle(p, corners) };
-    foot.squared.sqrt()
+    let projection =
+        if is_sliver(corners) { closest_point_on_sliver(p, corners) } else { closest_point_on_triangle(p, corners) };
+    projection.squared.sqrt()
 }
 
-/// Whether the triangle needs [`foot_on_sliver`].
+/// Whether the triangle needs [`closest_point_on_sliver`].
 pub(super) fn is_sliver(corners: [Vec3; 3]) -> bool {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     !is_wider(b - a, c - a, SLIVER)
@@ -47,11 +48,11 @@ pub(super) fn is_sliver(corners: [Vec3; 3]) -> bool {
 
 /// The closest point of a triangle that is no sliver.
 #[inline]
-pub fn foot_on_triangle(p: impl Into<DVec3>, corners: [Vec3; 3]) -> Foot {
+pub fn closest_point_on_triangle(p: impl Into<DVec3>, corners: [Vec3; 3]) -> TriangleProjection {
     let a = corners[0].as_dvec3();
     let (ap, ab, ac) = (p.into() - a, corners[1].as_dvec3() - a, corners[2].as_dvec3() - a);
     let (v, w) = region(ap, ab, ac);
-    Foot::at(ap, ab, ac, v, w)
+    TriangleProjection::at(ap, ab, ac, v, w)
 }
 
 /// `v` and `w` by the region in which the query lies; the names are Ericson's.
@@ -91,15 +92,15 @@ fn region(ap: DVec3, ab: DVec3, ac: DVec3) -> (f64, f64) {
 
 /// The closest point of any triangle, however thin, down to a single point.
 #[cold]
-pub(super) fn foot_on_sliver(p: impl Into<DVec3>, corners: [Vec3; 3]) -> Foot {
+pub(super) fn closest_point_on_sliver(p: impl Into<DVec3>, corners: [Vec3; 3]) -> TriangleProjection {
     let a = corners[0].as_dvec3();
     let (ap, ab, ac) = (p.into() - a, corners[1].as_dvec3() - a, corners[2].as_dvec3() - a);
     let t = along(ap - ab, ac - ab);
-    let mut best = Foot::at(ap, ab, ac, along(ap, ab), 0.0);
+    let mut best = TriangleProjection::at(ap, ab, ac, along(ap, ab), 0.0);
     let mut consider = |v: f64, w: f64| {
-        let foot = Foot::at(ap, ab, ac, v, w);
-        if foot.squared < best.squared {
-            best = foot;
+        let projection = TriangleProjection::at(ap, ab, ac, v, w);
+        if projection.squared < best.squared {
+            best = projection;
         }
     };
     consider(0.0, along(ap, ac));
@@ -147,9 +148,10 @@ mod tests {
             (Vec3::new(1.0, 1.0, -7.0), [0.25, 1.0 / 3.0], 49.0),
         ];
         for (p, [v, w], squared) in cases {
-            for foot in [foot_on_triangle(p, TRIANGLE), foot_on_sliver(p, TRIANGLE)] {
-                let error = (foot.v - v).abs().max((foot.w - w).abs()).max((foot.squared - squared).abs());
-                assert!(error < 1e-12, "{p}: {foot:?}");
+            for projection in [closest_point_on_triangle(p, TRIANGLE), closest_point_on_sliver(p, TRIANGLE)] {
+                let error =
+                    (projection.v - v).abs().max((projection.w - w).abs()).max((projection.squared - squared).abs());
+                assert!(error < 1e-12, "{p}: {projection:?}");
             }
         }
     }
@@ -160,12 +162,12 @@ mod tests {
         let middle = (a + b) / 2.0;
         for corners in [[a, b, middle], [middle, a, b], [b, middle, a], [a, a, b], [a, b, a], [b, a, a]] {
             assert!(is_sliver(corners));
-            let over = foot_on_sliver(Vec3::new(2.5, 4.0, 1.0), corners);
+            let over = closest_point_on_sliver(Vec3::new(2.5, 4.0, 1.0), corners);
             assert!((over.squared - 9.0).abs() < 1e-12, "{corners:?}: {over:?}");
-            let beyond = foot_on_sliver(Vec3::new(7.0, 1.0, 4.0), corners);
+            let beyond = closest_point_on_sliver(Vec3::new(7.0, 1.0, 4.0), corners);
             assert!((beyond.squared - 25.0).abs() < 1e-12, "{corners:?}: {beyond:?}");
         }
-        assert!((foot_on_sliver(a + Vec3::Z, [a; 3]).squared - 1.0).abs() < 1e-12);
+        assert!((closest_point_on_sliver(a + Vec3::Z, [a; 3]).squared - 1.0).abs() < 1e-12);
     }
 
     #[test]
@@ -173,8 +175,12 @@ mod tests {
         for thinness in [1e-2f32, 1e-4, 1e-6, 1e-8, 1e-12] {
             let corners = [Vec3::ZERO, Vec3::X * 10.0, Vec3::new(5.0, 10.0 * thinness, 0.0)];
             let p = Vec3::new(5.0, 3.0 * thinness, 2.0);
-            let foot = if is_sliver(corners) { foot_on_sliver(p, corners) } else { foot_on_triangle(p, corners) };
-            assert!((foot.squared.sqrt() - 2.0).abs() < 1e-8, "{thinness}: {foot:?}");
+            let projection = if is_sliver(corners) {
+                closest_point_on_sliver(p, corners)
+            } else {
+                closest_point_on_triangle(p, corners)
+            };
+            assert!((projection.squared.sqrt() - 2.0).abs() < 1e-8, "{thinness}: {projection:?}");
         }
     }
 
@@ -188,7 +194,7 @@ mod tests {
         fn both_ways_agree_and_nothing_is_closer(p in point(), corners in prop::array::uniform3(point()),
                                                  s in 0.0f64..1.0, t in 0.0f64..1.0) {
             prop_assume!(!is_sliver(corners));
-            let (one, other) = (foot_on_triangle(p, corners), foot_on_sliver(p, corners));
+            let (one, other) = (closest_point_on_triangle(p, corners), closest_point_on_sliver(p, corners));
             prop_assert!((one.squared.sqrt() - other.squared.sqrt()).abs() < 1e-9);
             let (v, w) = if s + t <= 1.0 { (s, t) } else { (1.0 - s, 1.0 - t) };
             let [a, b, c] = corners.map(Vec3::as_dvec3);

@@ -208,7 +208,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::closest_point::{foot_on_sliver, is_sliver};
+    use crate::closest_point::{closest_point_on_sliver, is_sliver};
     use crate::planes::plane;
 
     fn leaf(corners: [Vec3; 3]) -> Leaf {
@@ -217,7 +217,7 @@ mod tests {
 
     /// The least distance of many points of a segment from a triangle.
     fn sampled(a: DVec3, b: DVec3, corners: [Vec3; 3]) -> f64 {
-        let at = |i: i32| foot_on_sliver(a.lerp(b, f64::from(i) / 200.0), corners).squared.sqrt();
+        let at = |i: i32| closest_point_on_sliver(a.lerp(b, f64::from(i) / 200.0), corners).squared.sqrt();
         (0..=200).map(at).fold(f64::INFINITY, f64::min)
     }
 
@@ -242,7 +242,7 @@ mod tests {
                 leaf([a, b, third].map(|corner| far + corner * 10f32.powi(small[i])))
             }).collect();
             let (p, q) = (far.as_dvec3() + p.as_dvec3(), far.as_dvec3() + q.as_dvec3());
-            let exact: Vec<f64> = leaves.iter().map(|leaf| leaf.foot(p).squared).collect();
+            let exact: Vec<f64> = leaves.iter().map(|leaf| leaf.project_point(p).squared).collect();
             let to_segment: Vec<f64> = leaves.iter().map(|leaf| sampled(p, q, leaf.corners)).collect();
             let planes: [Vec4; 4] = std::array::from_fn(|i| leaves.get(i).map_or(Vec4::ZERO, |leaf| plane(leaf.corners)));
             for i in 0..count {
@@ -257,7 +257,7 @@ mod tests {
                 let near = Segment::new(p, q).nearer(&leaves, (to_segment[i] * to_segment[i]) as f32);
                 for (k, leaf) in leaves.iter().enumerate().filter(|&(k, _)| to_segment[k] <= to_segment[i]) {
                     // What is nearest to an end need not be found.
-                    let of_ends = [p, q].map(|end| foot_on_sliver(end, leaf.corners).squared.sqrt());
+                    let of_ends = [p, q].map(|end| closest_point_on_sliver(end, leaf.corners).squared.sqrt());
                     let is_inside = to_segment[k] < of_ends[0].min(of_ends[1]) - 1e-6;
                     prop_assert!(!is_inside || near >> k & 1 > 0, "{i} {k} {near:b} {to_segment:?}");
                 }

@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// A point of one surface that is far from another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Beyond {
+pub struct FarPoint {
     /// The point, in mm.
     pub point: Vec3,
     /// Its distance from the other surface in mm; never more than the truth.
@@ -40,7 +40,7 @@ pub struct Beyond {
 
 /// Whether triangles of one surface lie within a bound of another, piece by piece.
 #[derive(Clone, Debug)]
-pub struct Reach {
+pub struct HausdorffBound {
     /// A piece whose points are all within this is settled.
     within: f64,
     /// A point that is farther than this is beyond.
@@ -61,12 +61,12 @@ struct Piece {
 /// What is known of a piece.
 enum Verdict {
     Within,
-    Beyond(Beyond),
+    FarPoint(FarPoint),
     /// Neither yet; the triangle nearest to its middle, and how near that is.
     Open(Leaf, f64),
 }
 
-impl Reach {
+impl HausdorffBound {
     /// Nothing tested yet; `bound` in mm, above 0.
     pub fn new(bound: f64) -> Self {
         Self { within: bound, beyond: bound * (1.0 - TOLERANCE), pieces: Vec::new(), last: None, by: None }
@@ -85,12 +85,12 @@ impl Reach {
 
     /// Settles up to `work` pieces: `Ready(None)` where the triangle is within the bound of `surface`, or a point of
     /// it that is farther than the bound less [`TOLERANCE`].
-    pub fn advance(&mut self, surface: &SurfaceIndex, work: usize) -> Poll<Option<Beyond>> {
+    pub fn advance(&mut self, surface: &SurfaceIndex, work: usize) -> Poll<Option<FarPoint>> {
         for _ in 0..work.max(1) {
             let Some(piece) = self.pieces.pop() else { return Poll::Ready(None) };
             match self.judge(&piece, surface) {
                 Verdict::Within => {}
-                Verdict::Beyond(found) => {
+                Verdict::FarPoint(found) => {
                     self.pieces.push(piece);
                     return Poll::Ready(Some(found));
                 }
@@ -115,7 +115,7 @@ impl Reach {
             None => surface.nearest(query),
         };
         let Some(found) = found else {
-            return Verdict::Beyond(Beyond { point: query, distance: f64::INFINITY });
+            return Verdict::FarPoint(FarPoint { point: query, distance: f64::INFINITY });
         };
         self.last = Some(found);
         let leaf = surface.leaves[found.slot as usize];
@@ -123,9 +123,9 @@ impl Reach {
         // The query is the middle but for rounding.
         let aside = middle.distance(query.as_dvec3());
         let found = f64::from(found.distance);
-        let beyond = Beyond { point: query, distance: (found * (1.0 - F32_ROUNDING) - aside).max(0.0) };
+        let beyond = FarPoint { point: query, distance: (found * (1.0 - F32_ROUNDING) - aside).max(0.0) };
         if beyond.distance > self.beyond {
-            return Verdict::Beyond(beyond);
+            return Verdict::FarPoint(beyond);
         }
         let distance = found * (1.0 + F32_ROUNDING) + aside;
         let radius = piece.radius(middle);
@@ -134,7 +134,7 @@ impl Reach {
         }
         let size = middle.abs().max_element();
         if radius <= ((self.within - self.beyond) / 2.0).max(size * ROUNDING) {
-            return Verdict::Beyond(beyond);
+            return Verdict::FarPoint(beyond);
         }
         Verdict::Open(leaf, distance)
     }
@@ -203,7 +203,7 @@ impl Piece {
 
     /// Whether all of the piece is within the bound, squared, of one triangle.
     fn is_within(&self, leaf: &Leaf, bound: f64) -> bool {
-        self.corners().iter().all(|&p| leaf.foot(p).squared <= bound)
+        self.corners().iter().all(|&p| leaf.project_point(p).squared <= bound)
     }
 
     fn push(&mut self, p: DVec3) {
@@ -280,9 +280,9 @@ mod tests {
     use crate::shapes::{icosphere, sagitta, square};
 
     /// The first triangle of `a` that is beyond `bound` of `b`, and the pieces that it took to say so.
-    fn beyond(a: &TriMesh, b: &TriMesh, bound: f64) -> (Option<Beyond>, usize) {
+    fn beyond(a: &TriMesh, b: &TriMesh, bound: f64) -> (Option<FarPoint>, usize) {
         let index = SurfaceIndex::new(&b.positions, &b.triangles);
-        let mut reach = Reach::new(bound);
+        let mut reach = HausdorffBound::new(bound);
         let mut pieces = 0;
         for t in 0..a.triangles.len() {
             reach.begin(a.corners(t));

@@ -138,8 +138,8 @@ impl Shrinking {
         }
         let before = self.radius;
         for _ in 0..STEPS {
-            let foot = leaf.foot(self.centre().as_vec3());
-            let to = a + (b - a) * foot.v + (c - a) * foot.w - self.p;
+            let projection = leaf.project_point(self.centre().as_vec3());
+            let to = a + (b - a) * projection.v + (c - a) * projection.w - self.p;
             let depth = to.dot(self.inward);
             let squared = to.length_squared();
             let faces = depth > 0.0 && depth * depth >= FACING[0] * FACING[0] * squared;

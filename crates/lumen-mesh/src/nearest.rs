@@ -9,7 +9,7 @@
 
 use glam::{Vec3, Vec4};
 
-use super::closest_point::{Foot, foot_on_sliver, foot_on_triangle};
+use super::closest_point::{TriangleProjection, closest_point_on_sliver, closest_point_on_triangle};
 use super::planes::plane;
 
 /// Room for the nodes still to visit: at most three per level, and [`IndexBuild`](super::IndexBuild) makes at most 32 levels.
@@ -105,15 +105,19 @@ impl Leaf {
     pub(super) const ALL_SIDES: u8 = 0b111;
 
     #[inline]
-    pub(super) fn foot(&self, p: impl Into<glam::DVec3>) -> Foot {
-        if self.is_sliver { foot_on_sliver(p, self.corners) } else { foot_on_triangle(p, self.corners) }
+    pub(super) fn project_point(&self, p: impl Into<glam::DVec3>) -> TriangleProjection {
+        if self.is_sliver {
+            closest_point_on_sliver(p, self.corners)
+        } else {
+            closest_point_on_triangle(p, self.corners)
+        }
     }
 }
 
 /// The best answer so far.
 #[derive(Clone, Copy)]
 struct Best {
-    foot: Foot,
+    projection: TriangleProjection,
     triangle: u32,
     slot: u32,
 }
@@ -123,19 +127,21 @@ impl Best {
 
     /// Nothing yet; only what is at most as far will do.
     fn within(squared: f64) -> Self {
-        Self { foot: Foot { squared, v: 0.0, w: 0.0 }, triangle: u32::MAX, slot: Self::NO_SLOT }
+        Self { projection: TriangleProjection { squared, v: 0.0, w: 0.0 }, triangle: u32::MAX, slot: Self::NO_SLOT }
     }
 
     #[inline]
-    fn offer(&mut self, foot: Foot, triangle: u32, slot: u32) {
-        if foot.squared < self.foot.squared || (foot.squared == self.foot.squared && triangle < self.triangle) {
-            *self = Self { foot, triangle, slot };
+    fn offer(&mut self, projection: TriangleProjection, triangle: u32, slot: u32) {
+        if projection.squared < self.projection.squared
+            || (projection.squared == self.projection.squared && triangle < self.triangle)
+        {
+            *self = Self { projection, triangle, slot };
         }
     }
 
     #[inline]
     fn cut_off(&self) -> f32 {
-        (self.foot.squared * BOX_MARGIN) as f32
+        (self.projection.squared * BOX_MARGIN) as f32
     }
 }
 
@@ -150,7 +156,7 @@ impl SurfaceIndex {
         self.leaves.is_empty()
     }
 
-    /// Lets [`Self::segment_foot`] look at fewer sides: `sides` has those of the first triangles, bit 0 that from the
+    /// Lets [`Self::project_segment`] look at fewer sides: `sides` has those of the first triangles, bit 0 that from the
     /// first corner to the second, and so on. A side of two triangles is enough in one of them.
     pub fn keep_sides(&mut self, sides: &[u8]) {
         for leaf in &mut self.leaves {
@@ -158,7 +164,7 @@ impl SurfaceIndex {
         }
     }
 
-    /// Lets [`Self::foot`] and [`Self::segment_foot`] look at planes before triangles: sooner where the surface is hollow
+    /// Lets [`Self::project_point`] and [`Self::project_segment`] look at planes before triangles: sooner where the surface is hollow
     /// about what is asked for, as a lumen is about a wire; 16 bytes a leaf.
     pub fn keep_planes(&mut self) {
         self.planes = self.leaves.iter().map(|leaf| plane(leaf.corners)).chain([Vec4::ZERO; 3]).collect();
@@ -183,7 +189,7 @@ impl SurfaceIndex {
     pub fn nearest_from(&self, p: Vec3, last: &Nearest) -> Option<Nearest> {
         let mut best = Best::within(f64::INFINITY);
         if let Some(leaf) = self.leaves.get(last.slot as usize) {
-            best.offer(leaf.foot(p), leaf.triangle, last.slot);
+            best.offer(leaf.project_point(p), leaf.triangle, last.slot);
         }
         self.answer(self.search(p, best, -1.0))
     }
@@ -196,7 +202,7 @@ impl SurfaceIndex {
 
     /// Whether some point of the surface is at most `distance` mm from `p`. Ends at the first one found.
     pub fn is_within(&self, p: Vec3, distance: f32) -> bool {
-        bounded(distance).is_some_and(|bound| self.search(p, bound, bound.foot.squared).slot != Best::NO_SLOT)
+        bounded(distance).is_some_and(|bound| self.search(p, bound, bound.projection.squared).slot != Best::NO_SLOT)
     }
 
     /// Lowers `best` to the nearest triangle, or stops at one whose squared distance is at most `enough`.
@@ -218,9 +224,9 @@ impl SurfaceIndex {
             if count > 0 {
                 for slot in child..child + u32::from(count) {
                     let leaf = &self.leaves[slot as usize];
-                    best.offer(leaf.foot(p), leaf.triangle, slot);
+                    best.offer(leaf.project_point(p), leaf.triangle, slot);
                 }
-                if best.foot.squared <= enough && best.slot != Best::NO_SLOT {
+                if best.projection.squared <= enough && best.slot != Best::NO_SLOT {
                     return best;
                 }
                 cut_off = best.cut_off();
@@ -247,7 +253,7 @@ impl SurfaceIndex {
     fn answer(&self, best: Best) -> Option<Nearest> {
         let leaf = self.leaves.get(best.slot as usize)?;
         let [a, b, c] = leaf.corners.map(Vec3::as_dvec3);
-        let Foot { squared, v, w } = best.foot;
+        let TriangleProjection { squared, v, w } = best.projection;
         let u = (1.0 - v - w).max(0.0);
         Some(Nearest {
             triangle: leaf.triangle,
@@ -283,8 +289,12 @@ mod tests {
     fn brute_force(mesh: &TriMesh, p: Vec3) -> (f64, u32) {
         let all = (0..mesh.triangles.len()).map(|t| {
             let corners = mesh.corners(t);
-            let foot = if is_sliver(corners) { foot_on_sliver(p, corners) } else { foot_on_triangle(p, corners) };
-            (foot.squared, t as u32)
+            let projection = if is_sliver(corners) {
+                closest_point_on_sliver(p, corners)
+            } else {
+                closest_point_on_triangle(p, corners)
+            };
+            (projection.squared, t as u32)
         });
         all.fold((f64::INFINITY, u32::MAX), |least, next| if next.0 < least.0 { next } else { least })
     }

@@ -16,9 +16,9 @@ use super::nearest::Leaf;
 use super::topology::{EdgeUse, Topology, opposite};
 
 /// Vertices that a patch is looked at by, at most.
-const MOST: usize = 512;
+const MAX_VERTICES: usize = 512;
 /// Places of the table that finds a vertex of the patch: a power of two, a quarter of them filled at most.
-const PLACES: usize = 4 * MOST;
+const PLACES: usize = 4 * MAX_VERTICES;
 /// By what a vertex is multiplied for its place in the table: 2^32 over the golden ratio (Knuth).
 const HASH: u32 = 0x9E37_79B1;
 /// By what places in the plane may be off, as a part of the rectangle's size: ten times the rounding of f32.
@@ -129,7 +129,7 @@ impl Patch {
     const FREE: Entry = Entry { vertex: u32::MAX, corner: u32::MAX };
 
     pub(super) fn new() -> Self {
-        Self { view: View::default(), corners: Vec::with_capacity(MOST), table: vec![Self::FREE; PLACES] }
+        Self { view: View::default(), corners: Vec::with_capacity(MAX_VERTICES), table: vec![Self::FREE; PLACES] }
     }
 
     /// Whether none of `leaves`, whose extent is `extent`, runs into a triangle that [`Self::has`], for certain. They are
@@ -165,7 +165,7 @@ impl Patch {
             }
             // Any vertex adds fewer than are left over.
             let around = topology.edge_uses(corner.vertex);
-            if around.len() + self.corners.len() > MOST || around.iter().any(|&edge| edge != Self::TWO) {
+            if around.len() + self.corners.len() > MAX_VERTICES || around.iter().any(|&edge| edge != Self::TWO) {
                 return false;
             }
             for &t in topology.triangles(corner.vertex) {

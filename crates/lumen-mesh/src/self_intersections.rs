@@ -12,7 +12,7 @@ use glam::{Vec3, Vec4};
 use super::TriMesh;
 use super::branches::{Branch, Branches};
 use super::crossing::{Face, cross};
-use super::hubs::{Hubs, half_way_box};
+use super::high_valence::{HighValenceVertices, half_way_box};
 use super::nearest::{Leaf, Node, STACK, SurfaceIndex};
 use super::patch::{Extent, Patch};
 use super::topology::Topology;
@@ -47,7 +47,7 @@ pub struct Crossing {
     was_asked: Vec<AtomicBool>,
     /// The search goes from one to the next.
     branches: Branches,
-    hubs: Hubs,
+    high_valence: HighValenceVertices,
 }
 
 impl Crossing {
@@ -55,7 +55,7 @@ impl Crossing {
     pub fn none(index: &SurfaceIndex, triangles: &[[u32; 3]]) -> Self {
         let none = || (0..triangles.len()).map(|_| AtomicBool::new(false)).collect();
         let branches = Branches::of(index, GROUP);
-        Self { does: none(), was_asked: none(), branches, hubs: Hubs::of(index, triangles) }
+        Self { does: none(), was_asked: none(), branches, high_valence: HighValenceVertices::of(index, triangles) }
     }
 
     /// Those that do, ascending.
@@ -158,12 +158,12 @@ impl Search<'_> {
             *looks += 1;
             mark_pair(surface.mesh, leaf, other, crossing);
         };
-        let hubs = &crossing.hubs;
-        let of_no_hub_of_ours = |node, lanes: u32| lanes & !hubs.shared(node, vertices);
+        let high_valence = &crossing.high_valence;
+        let of_no_hub_of_ours = |node, lanes: u32| lanes & !high_valence.shared(node, vertices);
         index.overlapping(a.min(b).min(c), a.max(b).max(c), of_no_hub_of_ours, |slots| {
             index.leaves[slots].iter().filter(|other| other.triangle > leaf.triangle).for_each(&mut look);
         });
-        for corner in hubs.corners(vertices) {
+        for corner in high_valence.corners(vertices) {
             let (min, max) = half_way_box(leaf.corners, corner);
             // What lacks the hub was found above, or finds this one.
             let is_of_it = |other: &&Leaf| triangles[other.triangle as usize].contains(&vertices[corner]);
@@ -268,8 +268,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::chance::Chance;
     use crate::shapes::{icosphere, joined, square};
+    use crate::split_mix::SplitMix64;
 
     /// Sorts and drops what is there twice.
     fn distinct(mut faces: Vec<u32>) -> Vec<u32> {
@@ -330,8 +330,8 @@ mod tests {
     /// Thousands of triangles over vertices of a box: half of all pairs overlap.
     #[test]
     fn triangles_that_all_run_into_each_other_take_a_flag_each() {
-        let mut chance = Chance::new(1);
-        let mut next = || (chance.bits() >> 40) as u32;
+        let mut random = SplitMix64::new(1);
+        let mut next = || (random.bits() >> 40) as u32;
         let positions: Vec<Vec3> =
             (0..2000).map(|_| Vec3::from([next(), next(), next()].map(|x| x as f32 * 1e-6))).collect();
         let triangles = (0..2000).map(|_| [next() % 2000, next() % 2000, next() % 2000]);

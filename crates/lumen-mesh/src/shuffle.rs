@@ -3,20 +3,20 @@
 //! Where results depend on that order, by sums and by which of two equals comes first, this shows by how much.
 
 use super::TriMesh;
-use crate::chance::Chance;
+use crate::split_mix::SplitMix64;
 
 /// The surface with its vertices and triangles in an order that `seed` decides, each triangle from a corner that it
 /// decides on.
 #[must_use]
 pub fn shuffled(mesh: &TriMesh, seed: u64) -> TriMesh {
-    let mut chance = Chance::new(seed);
-    let vertices = order(&mut chance, mesh.positions.len());
-    let triangles = order(&mut chance, mesh.triangles.len());
+    let mut random = SplitMix64::new(seed);
+    let vertices = order(&mut random, mesh.positions.len());
+    let triangles = order(&mut random, mesh.triangles.len());
     let mut place = vec![0u32; vertices.len()];
     vertices.iter().enumerate().for_each(|(to, &from)| place[from as usize] = to as u32);
     let triangle = |&t: &u32| {
         let mut corners = mesh.triangles[t as usize].map(|v| place[v as usize]);
-        corners.rotate_left(below(&mut chance, 3));
+        corners.rotate_left(below(&mut random, 3));
         corners
     };
     TriMesh {
@@ -26,15 +26,15 @@ pub fn shuffled(mesh: &TriMesh, seed: u64) -> TriMesh {
 }
 
 /// From 0 to less than `count`, all about as often.
-fn below(chance: &mut Chance, count: usize) -> usize {
-    (chance.bits() % count.max(1) as u64) as usize
+fn below(random: &mut SplitMix64, count: usize) -> usize {
+    (random.bits() % count.max(1) as u64) as usize
 }
 
 /// All numbers below `count`, each once (Fisher and Yates).
-fn order(chance: &mut Chance, count: usize) -> Vec<u32> {
+fn order(random: &mut SplitMix64, count: usize) -> Vec<u32> {
     let mut order: Vec<u32> = (0..count as u32).collect();
     for last in (1..count).rev() {
-        order.swap(last, below(chance, last + 1));
+        order.swap(last, below(random, last + 1));
     }
     order
 }

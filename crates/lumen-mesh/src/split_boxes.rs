@@ -8,7 +8,7 @@
 use glam::{DVec3, Vec3};
 
 /// Boxes that a surface may have at most, unless it has more triangles.
-const MOST: usize = 1_600_000;
+const MAX_BOXES: usize = 1_600_000;
 /// Boxes of one triangle at most.
 const PIECES: usize = 16;
 /// A triangle is cut where its box has more than this times its area.
@@ -46,7 +46,7 @@ fn pieces([a, b, c]: [Vec3; 3], size: Vec3, triangles: usize) -> usize {
     if half_area <= LOOSE * area {
         return 1;
     }
-    let most = PIECES.min(MOST / triangles.max(1)).max(1);
+    let most = PIECES.min(MAX_BOXES / triangles.max(1)).max(1);
     // A half of the root: beyond that, more boxes cost what smaller ones save.
     ((half_area / area).sqrt() / 2.0).clamp(1.0, most as f64) as usize
 }

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use super::progressive::MADE;
 use super::task::{Yielder, blocks};
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 use lumen_mesh::parallel;
 use lumen_mesh::{Array, Blend, Nearest, SurfaceIndex, Topology, TriMesh, Vec3, blended, triangle_area, used_vertices};
 
@@ -53,10 +53,11 @@ pub async fn carry(
     yielder: &Yielder,
 ) -> Vec<Array> {
     let nodes = used_vertices(from.vertex_of_node.len(), triangles);
-    let has = |on: On| from.arrays.iter().any(|array| array.on == on);
-    let wanted = |on: On, count: usize| if has(on) { count } else { 0 };
+    let has = |on: Association| from.arrays.iter().any(|array| array.on == on);
+    let wanted = |on: Association, count: usize| if has(on) { count } else { 0 };
     // How many points are looked for on the one surface and on the other.
-    let (on_one, on_other) = (wanted(On::Point, nodes.len()), wanted(On::Triangle, from.mesh.triangles.len()));
+    let (on_one, on_other) =
+        (wanted(Association::Point, nodes.len()), wanted(Association::Triangle, from.mesh.triangles.len()));
     let all = (on_one + on_other) as f32;
     let (vertices, heirs) = (Blend::with_capacity(nodes.len(), nodes.len()), Vec::new());
     let mut carrying = Carrying { from, level, index, nodes, vertices, heirs };

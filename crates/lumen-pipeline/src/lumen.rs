@@ -22,7 +22,7 @@ use lumen_mesh::{InnerRadii, Sides, SurfaceIndex, Topology, TriMesh, Vec3};
 pub const PINCHED: f32 = 0.5;
 
 /// Samples at most, the narrowest first.
-const MOST: usize = 20_000;
+const MAX_SAMPLES: usize = 20_000;
 /// A ball's radius must agree with the median around it to this factor, to be a sample.
 const AGREE: f32 = 1.4;
 /// A vessel of less than so many mean edges in diameter counts as drawn shut by smoothing: reduction cannot lose it.
@@ -99,9 +99,9 @@ pub async fn samples_in_slices(
         yielder.rest(end as f32 / chosen.len() as f32).await;
     }
     // The narrowest, where they are too many.
-    if found.len() > MOST {
+    if found.len() > MAX_SAMPLES {
         found.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
-        found.truncate(MOST);
+        found.truncate(MAX_SAMPLES);
     }
     found
 }

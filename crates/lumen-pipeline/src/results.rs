@@ -27,7 +27,7 @@ use lumen_vessel::certificate::{Basis, CalibreError, Certificate};
 pub(super) struct Results {
     pub(super) settings: Settings,
     /// Mending.
-    pub(super) mended: Option<Arc<Entering>>,
+    pub(super) mended: Option<Arc<MendedSurface>>,
     /// The pieces of that: the same whichever of them are kept.
     pub(super) connectivity: Option<Arc<Connectivity>>,
     /// Connectivity.
@@ -86,7 +86,7 @@ const KEPT_INDEX: usize = if usize::BITS < 64 { 4_000_000 } else { usize::MAX };
 
 impl Indices {
     /// A level of `finest` triangles at its finest is measured: what only it has asked for is given up.
-    pub(super) fn let_go(&mut self, finest: usize) {
+    pub(super) fn release(&mut self, finest: usize) {
         self.let_go_beyond(finest, KEPT_INDEX);
     }
 
@@ -100,7 +100,7 @@ impl Indices {
 
 /// The surface that goes through the other stages: as it was opened, or mended.
 #[derive(Clone, Debug)]
-pub struct Entering {
+pub struct MendedSurface {
     /// The surface: the opened one itself where mending changed nothing.
     pub mesh: Arc<TriMesh>,
     /// Its arrays.

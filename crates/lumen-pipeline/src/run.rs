@@ -20,7 +20,8 @@ use super::connectivity::Connectivity;
 use super::deviation::INTERACTIVE_SAMPLES;
 use super::progressive::ProgressiveMesh;
 use super::results::{
-    Certified, Deviations, Entering, LevelMeasures, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes, Surface,
+    Certified, Deviations, LevelMeasures, MendedSurface, Reduced, Results, Smoothed, SmoothedMeasures, StageTimes,
+    Surface,
 };
 use super::safe::Safe;
 use super::settings::{Keep, Settings, SettingsError};
@@ -29,7 +30,7 @@ use super::stage::{PerStage, Stage, Wanted, stale};
 use super::stages::Run;
 use super::store::Store;
 use super::task::{Budget, Progress, milliseconds};
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 use lumen_mesh::mending::Faults;
 use lumen_mesh::{Array, TriMesh};
 use lumen_vessel::certificate::{Basis, CalibreError};
@@ -74,7 +75,9 @@ impl Pipeline {
     #[must_use]
     pub fn with_arrays(mut self, mut arrays: Vec<Array>) -> Self {
         let TriMesh { positions, triangles } = &*self.store.opened;
-        arrays.retain(|array| array.len() == if array.on == On::Point { positions.len() } else { triangles.len() });
+        arrays.retain(|array| {
+            array.len() == if array.on == Association::Point { positions.len() } else { triangles.len() }
+        });
         self.store.arrays = Arc::new(arrays);
         self
     }
@@ -244,7 +247,7 @@ impl Pipeline {
     }
 
     /// The surface that goes through the other stages: as it was opened, or mended.
-    pub fn entering(&self) -> Option<&Arc<Entering>> {
+    pub fn entering(&self) -> Option<&Arc<MendedSurface>> {
         self.store.now.mended.as_ref()
     }
 

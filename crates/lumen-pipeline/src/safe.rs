@@ -10,7 +10,7 @@
 //!
 //! Branches that smoothing itself has changed by more are told, and do not count: no rate would be safe for them. A
 //! branch of which a tenth can no longer be measured counts as changed, but for places where the plane has another loop
-//! though the wall has not moved (`Standing::Ambiguous`): of these there is nothing to say, neither for nor against.
+//! though the wall has not moved (`StationStatus::Ambiguous`): of these there is nothing to say, neither for nor against.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use super::settings::{Target, reduction_percent};
 use super::task::Yielder;
 use lumen_mesh::TriMesh;
 use lumen_message::{Signed, messages};
-use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, Standing, Verdict};
+use lumen_vessel::certificate::{Basis, BranchCalibre, CalibreError, StationStatus, Verdict};
 use lumen_vessel::{BranchName, Subject};
 
 /// The rates that are looked at, in tenths of a percent; the first is the smoothed surface itself.
@@ -283,8 +283,8 @@ impl Search {
 
 /// Whether so much of what was measured of a branch is measured no more that there is no saying it is kept.
 fn is_lost(first: &BranchCalibre, now: &BranchCalibre) -> bool {
-    let was_counted = first.standings.iter().zip(&now.standings).filter(|of| *of.0 == Standing::Counts);
-    let still = was_counted.filter(|of| matches!(of.1, Standing::Counts | Standing::Ambiguous)).count();
+    let was_counted = first.standings.iter().zip(&now.standings).filter(|of| *of.0 == StationStatus::Counts);
+    let still = was_counted.filter(|of| matches!(of.1, StationStatus::Counts | StationStatus::Ambiguous)).count();
     (still as f64) < MEASURED * first.stations_counted as f64
 }
 
@@ -297,9 +297,9 @@ mod tests {
     fn what_can_no_longer_be_measured_is_lost_but_for_places_without_a_saying() {
         let with = |counts: usize, ambiguous: usize, open: usize| {
             let mut branch = branch(1, Some(0.5));
-            branch.standings = vec![Standing::Counts; counts];
-            branch.standings.extend(vec![Standing::Ambiguous; ambiguous]);
-            branch.standings.extend(vec![Standing::NotClosed; open]);
+            branch.standings = vec![StationStatus::Counts; counts];
+            branch.standings.extend(vec![StationStatus::Ambiguous; ambiguous]);
+            branch.standings.extend(vec![StationStatus::NotClosed; open]);
             branch.stations_counted = counts;
             branch
         };

@@ -6,7 +6,7 @@ use super::draw::{Draw, DrawContext, Phase, Pipelines};
 use super::pipeline::{ADD, Destination, PipelineParts, scene_shader};
 use super::scene::SceneLayout;
 
-/// The format of what the wire takes away: its optical depth over the largest, `MOST_DEPTH` in the shaders.
+/// The format of what the wire takes away: its optical depth over the largest, `MAX_DEPTH` in the shaders.
 pub(super) const SHADOW: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 impl Draw for GpuWire {

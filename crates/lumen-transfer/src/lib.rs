@@ -92,7 +92,7 @@ pub fn encode<B, E>(
     mut copy: impl FnMut(&[u8]) -> Result<B, E>,
 ) -> Result<(String, Vec<B>), E> {
     let (mut line, mut buffers, mut failure) = (Vec::new(), Vec::new(), None);
-    let beside = Beside(|array: &[u8]| {
+    let beside = BufferFormatter(|array: &[u8]| {
         let buffer = copy(array).map_err(|error| failure = Some(error));
         buffers.push(buffer.map_err(|()| io::ErrorKind::Other)?);
         Ok(buffers.len() as u64 - 1)
@@ -108,9 +108,9 @@ pub fn encode<B, E>(
 }
 
 /// Writes JSON, and in place of bytes the number that it gets for them.
-struct Beside<F>(F);
+struct BufferFormatter<F>(F);
 
-impl<F: FnMut(&[u8]) -> io::Result<u64>> Formatter for Beside<F> {
+impl<F: FnMut(&[u8]) -> io::Result<u64>> Formatter for BufferFormatter<F> {
     fn write_byte_array<W: ?Sized + io::Write>(&mut self, line: &mut W, array: &[u8]) -> io::Result<()> {
         let index = (self.0)(array)?;
         self.write_u64(line, index)

@@ -23,7 +23,7 @@ use lumen_message::messages;
 pub const FEED: f64 = 20.0;
 /// Speed of the feed where it is tried again, in mm/s: most of the time goes by there, and at 20 and 40 mm/s more
 /// forks are missed.
-const AGAIN: f64 = Input::MOST_FEED as f64;
+const AGAIN: f64 = Input::MAX_FEED as f64;
 /// Speed of withdrawal in mm/s.
 const BACK: f64 = 30.0;
 /// Feed and withdrawal while the tip looks the wrong way, in mm/s.
@@ -35,7 +35,7 @@ const AHEAD: (f64, f64) = (4.0, 1.5);
 /// Cosine between the route's way here and ahead above which it goes straight on: ten degrees.
 const STRAIGHT: f64 = 0.985;
 /// The sine of less than four degrees is no side.
-const LEAST_SIDE: f64 = 0.07;
+const MIN_SIDE: f64 = 0.07;
 /// The tip looks the wrong way beyond this, in radians, and the right way again within this.
 const WRONG: f64 = 1.0;
 const RIGHT: f64 = 0.5;
@@ -203,7 +203,7 @@ impl Autopilot {
         let wanted = to.normalize_or(here.direction).reject_from(seen.shaft);
         let side = seen.side.reject_from(seen.shaft);
         // An offset means to try another way.
-        if wanted.length() < LEAST_SIDE && offset == 0.0 || side.length() < 1e-3 {
+        if wanted.length() < MIN_SIDE && offset == 0.0 || side.length() < 1e-3 {
             return 0.0;
         }
         let angle = libm::atan2(seen.shaft.dot(side.cross(wanted)), side.dot(wanted)) + offset;

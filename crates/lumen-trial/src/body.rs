@@ -23,13 +23,13 @@ const ROUNDS: usize = 6;
 /// Where the next correction would be less than this, in mm, this one is the last. What is left over is a force of
 /// a contact's penalty times it in each contact: it must be small against what a floppy wire presses with, or
 /// nothing slides as it should.
-const SETTLED: f64 = 3e-6;
+const CONVERGED_CORRECTION: f64 = 3e-6;
 /// At this, in mm, a step can still be taken as done.
-const ALMOST: f64 = 2e-2;
+const ACCEPTED_CORRECTION: f64 = 2e-2;
 /// Artificial damping, which is drag of each node when something snaps: the least, in N s/mm.
 const DAMPING: f64 = 1e-6;
 /// By what it grows when that is too little, and falls when it was enough.
-const HARDER: f64 = 4.0;
+const DAMPING_GROWTH: f64 = 4.0;
 /// Dampings that are tried in a step.
 const ATTEMPTS: usize = 12;
 /// The damping above which what is fixed waits: else it would be torn away from what cannot follow.
@@ -102,7 +102,7 @@ impl Body {
     }
 
     fn attempts(&mut self, dt: f64, count: usize, prepare: impl Fn(&mut Rod)) -> StepKind {
-        let mut damping = self.damping / HARDER;
+        let mut damping = self.damping / DAMPING_GROWTH;
         if damping < DAMPING {
             damping = 0.0;
         }
@@ -125,7 +125,7 @@ impl Body {
                     _ => StepKind::Braked,
                 };
             }
-            damping = (damping * HARDER).max(DAMPING);
+            damping = (damping * DAMPING_GROWTH).max(DAMPING);
             self.rod.undo();
             self.contacts.undo();
             self.detect(count);
@@ -163,17 +163,17 @@ impl Body {
                 }
                 // The one after a whole one would be shorter by as much again, at least.
                 let shorter = if is_whole && before.is_finite() { (moved / before).min(1.0) } else { 1.0 };
-                if moved * shorter < SETTLED {
+                if moved * shorter < CONVERGED_CORRECTION {
                     break;
                 }
             }
             self.contacts.note_forces(&self.rod);
             self.detect(count);
             let is_deep = self.depth > DEPTH * radius;
-            if moved < ALMOST && !is_deep && (round > 0 || !self.has_let_go) {
+            if moved < ACCEPTED_CORRECTION && !is_deep && (round > 0 || !self.has_let_go) {
                 return true;
             }
-            if moved < ALMOST && is_deep {
+            if moved < ACCEPTED_CORRECTION && is_deep {
                 // It rests too deep: the forces that it needs are more than the corrections may find at once.
                 self.contacts.update_multipliers();
             }
@@ -218,7 +218,7 @@ impl Body {
             self.rod.advance(part);
             let after = self.potential(dt, damping);
             // What rounding leaves of the potential is no reason to stop.
-            if moved * part < SETTLED || after <= before + FALL * part * fall + 1e-12 * before.abs() {
+            if moved * part < CONVERGED_CORRECTION || after <= before + FALL * part * fall + 1e-12 * before.abs() {
                 *potential = Some(after);
                 return (moved * part, is_settled && part == 1.0);
             }

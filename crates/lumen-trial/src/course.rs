@@ -12,7 +12,7 @@ use super::setup::{Entry, Setup};
 use super::simulation::Simulation;
 use super::wall::Wall;
 use super::wire::Wire;
-use lumen_mesh::chance::Chance;
+use lumen_mesh::split_mix::SplitMix64;
 use lumen_mesh::{TriMesh, Vec3};
 use lumen_message::messages;
 use lumen_pipeline::results::fingerprint;
@@ -144,12 +144,12 @@ impl Course {
         if !is_inside(&entry) {
             return Err(PlacementError::Outside.into());
         }
-        let mut chance = Chance::new(setup.seed);
+        let mut random = SplitMix64::new(setup.seed);
         let is_varied = setup.seed != 0;
         let part = |x: f64| if is_varied { x } else { 0.0 };
-        let (angle, out, tilt, tilted) = (chance.unit(), chance.unit(), chance.unit(), chance.unit());
-        let roll = part(std::f64::consts::TAU * chance.unit());
-        let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * chance.unit() - 1.0))));
+        let (angle, out, tilt, tilted) = (random.unit(), random.unit(), random.unit(), random.unit());
+        let roll = part(std::f64::consts::TAU * random.unit());
+        let friction = setup.wire.friction.map(|mu| mu * (1.0 + part(VARIED.2 * (2.0 * random.unit() - 1.0))));
         let way = DVec3::from(entry.direction.map(f64::from)).try_normalize().ok_or(PlacementError::Direction)?;
         let across = way.any_orthonormal_vector();
         let turned = |angle: f64| rotation(way, std::f64::consts::TAU * angle) * across;

@@ -6,7 +6,7 @@ use super::wire::WireError;
 use lumen_message::{grouped, messages};
 
 /// The largest load in N/mm; a setup has loads in f32.
-const MOST_LOAD: f32 = 0.1;
+const MAX_LOAD: f32 = 0.1;
 
 messages! {
     /// Why a wire cannot be put where it should be.
@@ -42,8 +42,8 @@ messages! {
 
 /// Refuses a load of so many N on each mm that is more than a wire can bear, less than none, or no number.
 pub(super) fn check_load(n_per_mm: f64) -> Result<(), PlacementError> {
-    let is_possible = (0.0..=f64::from(MOST_LOAD)).contains(&n_per_mm);
-    if is_possible { Ok(()) } else { Err(PlacementError::Load { load: n_per_mm as f32, most: MOST_LOAD }) }
+    let is_possible = (0.0..=f64::from(MAX_LOAD)).contains(&n_per_mm);
+    if is_possible { Ok(()) } else { Err(PlacementError::Load { load: n_per_mm as f32, most: MAX_LOAD }) }
 }
 
 /// The rotation by `angle` radians about `axis`, of length 1. glam's own goes through the platform's sine.

@@ -68,14 +68,14 @@ pub struct Input {
 
 impl Input {
     /// The fastest feed in mm/s.
-    pub const MOST_FEED: f32 = 50.0;
+    pub const MAX_FEED: f32 = 50.0;
     /// The fastest roll in rad/s: two turns a second.
-    pub const MOST_ROLL: f32 = 4.0 * std::f32::consts::PI;
+    pub const MAX_ROLL: f32 = 4.0 * std::f32::consts::PI;
 
     /// The input within what is allowed; what is no number is 0, and nought has no sign.
     #[must_use]
     pub fn limited(self) -> Self {
         let within = |x: f32, most: f32| if x.is_finite() { x.clamp(-most, most) + 0.0 } else { 0.0 };
-        Self { feed: within(self.feed, Self::MOST_FEED), roll: within(self.roll, Self::MOST_ROLL) }
+        Self { feed: within(self.feed, Self::MAX_FEED), roll: within(self.roll, Self::MAX_ROLL) }
     }
 }

@@ -20,7 +20,7 @@ use super::wire::Wire;
 /// Length outside the guide at the start, in elements.
 const FIRST: usize = 2;
 /// The least part of an element that a cell has: what is still inside the guide hardly bends.
-const LEAST_CELL: f64 = 0.02;
+const MIN_CELL: f64 = 0.02;
 /// A step is balanced where Newton's second law is missed by less than this part of all that presses on the wall and the
 /// guide, and by less than this many N where nothing does.
 const SETTLED: (f64, f64) = (0.05, 1e-5);
@@ -76,7 +76,9 @@ impl Simulation {
             let reach = grid[FIRST];
             let ends = [mouth, mouth + way * (reach + radius_mm)];
             for p in ends {
-                let distance_mm = index.foot(p, f64::INFINITY, u32::MAX).map_or(f64::INFINITY, |foot| foot.distance);
+                let distance_mm = index
+                    .project_point(p, f64::INFINITY, u32::MAX)
+                    .map_or(f64::INFINITY, |projection| projection.distance);
                 if distance_mm < radius_mm * 1.02 {
                     return Err(PlacementError::Tight { distance_mm, radius_mm });
                 }
@@ -139,7 +141,7 @@ impl Simulation {
             }
             let half = |a: usize, b: usize| f64::midpoint(self.grid[a], self.grid[b]);
             let (from, to) = (half(i - 1, i), half(i, i + 1));
-            let part = ((to.min(inserted) - from) / (to - from)).max(LEAST_CELL);
+            let part = ((to.min(inserted) - from) / (to - from)).max(MIN_CELL);
             rod.sections[i].cell = part * (to - from);
             rod.sections[i].rest = self.sections[i].rest.map(|rest| rest * part);
         }

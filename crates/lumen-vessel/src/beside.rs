@@ -9,14 +9,14 @@
 
 use glam::{DVec3, Vec3};
 
-use super::certificate::{BranchCalibre, Standing};
+use super::certificate::{BranchCalibre, StationStatus};
 use super::{Place, power};
 use lumen_mesh::{Outline, cut};
 use lumen_message::messages;
 
 /// A place on a branch's centreline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Beside<'a> {
+pub struct BranchPlace<'a> {
     /// The branch.
     pub branch: &'a BranchCalibre,
     /// Arc length from its first point, in mm.
@@ -28,7 +28,7 @@ pub struct Beside<'a> {
     /// Radius of the vessel as opened, in mm.
     pub radius_mm: f64,
     /// What the place lies at.
-    pub standing: Standing,
+    pub standing: StationStatus,
 }
 
 /// The cross-section of a vessel.
@@ -75,7 +75,7 @@ messages! {
 ///
 /// # Errors
 /// When no branch has a centreline.
-pub fn beside(branches: &[BranchCalibre], p: DVec3) -> Result<Beside<'_>, NotMeasured> {
+pub fn beside(branches: &[BranchCalibre], p: DVec3) -> Result<BranchPlace<'_>, NotMeasured> {
     let mut best: Option<(f64, &BranchCalibre, usize, f64)> = None;
     for branch in branches {
         for i in 0..branch.at_mm.len() {
@@ -98,20 +98,20 @@ pub fn beside(branches: &[BranchCalibre], p: DVec3) -> Result<Beside<'_>, NotMea
 }
 
 /// The place on a branch at an arc length in mm, or at the end that is nearer; `None` where it has no stations.
-pub fn along(branch: &BranchCalibre, abscissa_mm: f64) -> Option<Beside<'_>> {
+pub fn along(branch: &BranchCalibre, abscissa_mm: f64) -> Option<BranchPlace<'_>> {
     if branch.at_mm.is_empty() || branch.abscissas_mm.len() != branch.at_mm.len() {
         return None;
     }
     let (at, i) = at_arc(branch, abscissa_mm);
     let radius_mm = radius(branch, i);
     let chord = at_arc(branch, abscissa_mm + radius_mm).0 - at_arc(branch, abscissa_mm - radius_mm).0;
-    Some(Beside {
+    Some(BranchPlace {
         branch,
         abscissa_mm: abscissa_mm.clamp(0.0, branch.abscissas_mm.last().map_or(0.0, |&arc| f64::from(arc))),
         at,
         direction: chord.normalize_or(DVec3::Z),
         radius_mm,
-        standing: branch.standings.get(i).copied().unwrap_or(Standing::Counts),
+        standing: branch.standings.get(i).copied().unwrap_or(StationStatus::Counts),
     })
 }
 
@@ -124,7 +124,7 @@ pub fn along(branch: &BranchCalibre, abscissa_mm: f64) -> Option<Beside<'_>> {
 pub fn cross_section(
     positions: &[Vec3],
     triangles: &[[u32; 3]],
-    place: &Beside<'_>,
+    place: &BranchPlace<'_>,
 ) -> Result<CrossSection, NotMeasured> {
     let (at, normal) = (place.at, place.direction);
     let sections = cut(positions, triangles, at, normal).into_iter().filter_map(|outline| {
@@ -186,7 +186,7 @@ impl ForkAngle<'_> {
 
 /// The way of a branch from where it is a vessel of its own.
 fn way(branch: &BranchCalibre) -> Result<DVec3, NotMeasured> {
-    let is_own = |standing: &Standing| !matches!(standing, Standing::Fork);
+    let is_own = |standing: &StationStatus| !matches!(standing, StationStatus::Fork);
     let first = branch.standings.iter().position(is_own).ok_or(NotMeasured::Short)?;
     let arc = f64::from(branch.abscissas_mm[first]);
     let chord = at_arc(branch, arc + 2.0 * radius(branch, first)).0 - station(branch, first);
@@ -195,7 +195,7 @@ fn way(branch: &BranchCalibre) -> Result<DVec3, NotMeasured> {
 
 /// The way back along a branch from where it ends as a vessel of its own.
 fn way_back(branch: &BranchCalibre) -> Result<DVec3, NotMeasured> {
-    let is_own = |standing: &Standing| !matches!(standing, Standing::Fork);
+    let is_own = |standing: &StationStatus| !matches!(standing, StationStatus::Fork);
     let last = branch.standings.iter().rposition(is_own).ok_or(NotMeasured::Short)?;
     let arc = f64::from(branch.abscissas_mm[last]);
     let chord = at_arc(branch, arc - 2.0 * radius(branch, last)).0 - station(branch, last);
@@ -286,7 +286,7 @@ mod tests {
         let mesh = tube(48, 60, 40.0, |_| 3.0);
         let branches = branches(&mesh);
         assert_eq!(fork(&branches, DVec3::ZERO).unwrap_err(), NotMeasured::NoFork);
-        let place = Beside { direction: DVec3::X, ..beside(&branches, DVec3::Z * 20.0).unwrap() };
+        let place = BranchPlace { direction: DVec3::X, ..beside(&branches, DVec3::Z * 20.0).unwrap() };
         let along = cross_section(&mesh.positions, &mesh.triangles, &place);
         assert_eq!(along.unwrap_err(), NotMeasured::NotClosed);
         assert!(NotMeasured::NotClosed.to_string().contains("open"));

@@ -27,7 +27,7 @@ fn at(branch: &BranchCalibre, i: usize) -> DVec3 {
 
 /// The numbers of the stations that count.
 fn counted(branch: &BranchCalibre) -> impl Iterator<Item = usize> + '_ {
-    (0..branch.standings.len()).filter(|&i| branch.standings[i] == Standing::Counts)
+    (0..branch.standings.len()).filter(|&i| branch.standings[i] == StationStatus::Counts)
 }
 
 /// The surface around what `inside` holds, as a grid of whole points in or out would have it: with stair-steps.
@@ -88,10 +88,10 @@ fn a_narrowed_branch_is_named_and_its_change_is_what_it_was_narrowed_by() {
     for p in &mut narrowed.positions {
         let from = p.as_dvec3() - joint;
         let part = from.dot(way) / way.length_squared();
-        let foot = joint + way * part;
-        if p.as_dvec3().distance(foot) < 2.5 && part * way.length() > 8.0 {
+        let projection = joint + way * part;
+        if p.as_dvec3().distance(projection) < 2.5 && part * way.length() > 8.0 {
             let much = 0.05 * ((part * way.length() - 8.0) / 4.0).min(1.0);
-            *p = foot.lerp(p.as_dvec3(), 1.0 - much).as_vec3();
+            *p = projection.lerp(p.as_dvec3(), 1.0 - much).as_vec3();
         }
     }
     let found = certificate([&mesh, &mesh, &narrowed]);

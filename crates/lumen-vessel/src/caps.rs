@@ -36,7 +36,7 @@ const AHEAD: f64 = 2.0;
 const UP_TO: f64 = 0.98;
 
 /// A branch's centreline that reaches the caps.
-pub(super) struct Led {
+pub(super) struct ExtendedLine {
     pub(super) points: Vec<Place>,
     /// By how many mm it is longer at its first point.
     pub(super) before_mm: f64,
@@ -45,9 +45,9 @@ pub(super) struct Led {
 }
 
 /// The points of a branch with those on to the caps at its closed ends.
-pub(super) fn led_to_caps(space: &Space, branches: &[Branch], branch: &Branch) -> Led {
+pub(super) fn extended_to_caps(space: &Space, branches: &[Branch], branch: &Branch) -> ExtendedLine {
     let is_free = |end: usize| branch.ends[end] == End::Closed && !is_beside_another(branches, branch, end);
-    let mut led = Led { points: branch.points.clone(), before_mm: 0.0, caps: [None; 2] };
+    let mut led = ExtendedLine { points: branch.points.clone(), before_mm: 0.0, caps: [None; 2] };
     for end in [1, 0].into_iter().filter(|&end| is_free(end)) {
         if end == 0 {
             led.points.reverse();

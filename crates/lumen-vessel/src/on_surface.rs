@@ -7,7 +7,7 @@ use lumen_message::messages;
 /// Why a station does not count, or that it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Standing {
+pub enum StationStatus {
     /// It counts.
     Counts,
     /// Within a radius of an open end, or two of a cap.
@@ -89,7 +89,7 @@ pub struct OnSurface {
     pub changes_percent: Vec<Option<f32>>,
 }
 
-impl Standing {
+impl StationStatus {
     /// As files have it.
     pub fn label(self) -> &'static str {
         match self {

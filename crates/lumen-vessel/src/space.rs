@@ -119,10 +119,11 @@ impl Space {
     pub fn ascend(&self, ball: Ball, nearest: Nearest, mut visit: impl FnMut(Ball)) -> (Ball, Nearest) {
         let (mut ball, mut nearest) = (ball, nearest);
         for _ in 0..MOVES {
-            let Some((next, foot)) = self.across(ball, &nearest).or_else(|| self.out_of_crevice(ball, &nearest)) else {
+            let Some((next, projection)) = self.across(ball, &nearest).or_else(|| self.out_of_crevice(ball, &nearest))
+            else {
                 break;
             };
-            (ball, nearest) = (next, foot);
+            (ball, nearest) = (next, projection);
             visit(ball);
         }
         (ball, nearest)
@@ -159,7 +160,7 @@ impl Space {
         if self.index.is_within(centre, ball.radius * (1.0 + GAIN)) || self.leaves(ball.centre, centre) {
             return None;
         }
-        self.ball(centre, Some(nearest)).filter(|(next, foot)| self.is_before(next.centre, foot))
+        self.ball(centre, Some(nearest)).filter(|(next, projection)| self.is_before(next.centre, projection))
     }
 
     /// The middle between a point of the wall with this outward normal, of length 1, and the wall behind.
@@ -173,8 +174,8 @@ impl Space {
         }
         let (mut ball, mut nearest) = (ball, nearest);
         for _ in 0..MOVES {
-            let Some((next, foot)) = self.across(ball, &nearest) else { break };
-            (ball, nearest) = (next, foot);
+            let Some((next, projection)) = self.across(ball, &nearest) else { break };
+            (ball, nearest) = (next, projection);
         }
         Some((ball, nearest))
     }
@@ -184,11 +185,11 @@ impl Space {
         let (start, nearest) = self.ball(p.as_vec3(), None)?;
         let (mut best, mut nearest) = (start, nearest);
         for _ in 0..MOVES {
-            let Some((next, foot)) = self.across(best, &nearest) else { break };
+            let Some((next, projection)) = self.across(best, &nearest) else { break };
             if next.centre.distance(start.centre) > 0.35 * start.radius {
                 break;
             }
-            (best, nearest) = (next, foot);
+            (best, nearest) = (next, projection);
         }
         Some(best)
     }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::caps::{Led, led_to_caps};
+use super::caps::{ExtendedLine, extended_to_caps};
 use super::centreline::{Place, arcs, direction};
 use super::tree::Tree;
 
@@ -46,7 +46,7 @@ impl Stations {
         let mut stations = Self::default();
         for branch in tree.branches() {
             let first = stations.all.len();
-            let Led { points, before_mm, caps } = led_to_caps(&tree.space, tree.branches(), branch);
+            let ExtendedLine { points, before_mm, caps } = extended_to_caps(&tree.space, tree.branches(), branch);
             along(&points, &mut stations.all);
             stations.of.push(first..stations.all.len());
             stations.before_mm.push(before_mm);

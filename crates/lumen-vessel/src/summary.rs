@@ -210,7 +210,7 @@ mod tests {
     use super::fixtures::certificate;
     use super::*;
     use crate::TreeError;
-    use crate::certificate::Standing;
+    use crate::certificate::StationStatus;
 
     fn sentence(found: &Result<Certificate, CalibreError>) -> String {
         summary(found).to_string()
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn a_verdict_that_rests_on_little_says_so() {
         let mut found = certificate(&[Some(0.5)]).unwrap();
-        found.branches[0].standings = vec![Standing::Thin; 10];
+        found.branches[0].standings = vec![StationStatus::Thin; 10];
         found.branches[0].stations_counted = 2;
         assert!(sentence(&Ok(found.clone())).contains("That is said of 20 % of their length"));
         found.branches[0].stations_counted = 3;

@@ -19,17 +19,17 @@
 use serde::{Deserialize, Serialize};
 
 use super::calibre::circle;
-use super::on_surface::{OnSurface, Standing};
+use super::on_surface::{OnSurface, StationStatus};
 use lumen_message::messages;
 
 /// The least degree by diameter of a stretch: below that a narrowing is called minimal (CAD-RADS 2.0, 2022).
-pub const LEAST: f64 = 0.25;
+pub const MIN_DEGREE: f64 = 0.25;
 /// A stretch ends where the diameter is within this part of the reference.
 const WITHIN: f64 = 0.05;
 /// How far the line looks on either side, in diameters.
 const WINDOW: f64 = 8.0;
 /// The most stations that a line is laid through.
-const MOST: usize = 33;
+const MAX_STATIONS: usize = 33;
 /// What stands for a side begins and ends so many diameters beyond the end of a stretch.
 const SIDE: (f64, f64) = (0.5, 2.5);
 /// The fewest stations of a side, and of a stretch.
@@ -134,7 +134,7 @@ messages! {
 pub(super) struct Along<'a> {
     pub(super) abscissas_mm: &'a [f32],
     pub(super) at_mm: &'a [[f32; 3]],
-    pub(super) standings: &'a [Standing],
+    pub(super) standings: &'a [StationStatus],
     pub(super) opened: &'a OnSurface,
     pub(super) reduced: &'a OnSurface,
 }
@@ -151,11 +151,11 @@ pub(super) fn variations(along: Along<'_>) -> Vec<Variation> {
     for kind in [Kind::Narrower, Kind::Wider] {
         let mut next = 0;
         while next < all.len() {
-            if departure(kind, ratio(next)) < LEAST / 2.0 {
+            if departure(kind, ratio(next)) < MIN_DEGREE / 2.0 {
                 next += 1;
                 continue;
             }
-            let end = (next..all.len()).find(|&i| departure(kind, ratio(i)) < LEAST / 2.0).unwrap_or(all.len());
+            let end = (next..all.len()).find(|&i| departure(kind, ratio(i)) < MIN_DEGREE / 2.0).unwrap_or(all.len());
             let most = |a: &usize, b: &usize| departure(kind, ratio(*a)).total_cmp(&departure(kind, ratio(*b)));
             if let Some(peak) = (next..end).max_by(most) {
                 let stretch = stretch(&all, &usual, kind, peak);
@@ -184,7 +184,7 @@ struct Sample {
 
 impl Sample {
     fn new(along: Along<'_>, i: usize) -> Option<Self> {
-        let is_vessel = matches!(along.standings[i], Standing::Counts | Standing::Thin);
+        let is_vessel = matches!(along.standings[i], StationStatus::Counts | StationStatus::Thin);
         let radius = along.opened.radii_mm[i].filter(|_| is_vessel)?;
         let (at, diameter) = (f64::from(along.abscissas_mm[i]), 2.0 * f64::from(radius));
         let alone = alone(along.opened, i).unwrap_or(diameter);
@@ -224,7 +224,7 @@ fn usual(all: &[Sample]) -> Vec<f64> {
 
 /// Height at `at` and slope of the line through diameters by the repeated median.
 fn repeated_median(near: &[Sample], at: f64) -> [f64; 2] {
-    let count = near.len().min(MOST);
+    let count = near.len().min(MAX_STATIONS);
     let some: Vec<&Sample> = (0..count).map(|i| &near[i * near.len() / count]).collect();
     let slope_from = |a: &Sample| {
         let others = some.iter().filter(|b| b.at != a.at);
@@ -256,7 +256,7 @@ fn stretch(all: &[Sample], usual: &[f64], kind: Kind, peak: usize) -> Option<Var
     let degree = departure(kind, part);
     // What goes on to where the vessel can no longer be measured may be its end or a fork.
     let is_between = first > 0 && last + 1 < all.len();
-    if degree < LEAST || last - first + 1 < FEWEST || !is_between {
+    if degree < MIN_DEGREE || last - first + 1 < FEWEST || !is_between {
         return None;
     }
     // Between two stations the diameter crosses the mark in a straight line.

@@ -31,7 +31,7 @@ pub use reduced::{PREVIEW_POINTS, preview_step, reduced_in_slices};
 pub use samples::{SampleType, Samples};
 pub use selection::{NamedThreshold, PRESETS, Preset, PresetName, Presets, Selection};
 pub use slice::{Axis, Slice, slice};
-pub use surface::{MOST_TRIANGLES, region_of, surface, surface_in_slices};
+pub use surface::{MAX_TRIANGLES, region_of, surface, surface_in_slices};
 pub use survey::{BINS, Label, Survey, survey, survey_in_slices};
 pub use window::{WINDOWS, Window, WindowName};
 

@@ -170,7 +170,7 @@ impl Selected {
 
 /// How near to a voxel the surface comes, as a part of the way to the next: where a value is the threshold itself, as whole
 /// numbers often are, all vertices around that voxel would be one, and thin vessels fall together.
-const LEAST: f64 = 2e-4;
+const MIN_FRACTION: f64 = 2e-4;
 
 impl Mask for Selected {
     const CLOSED: bool = false;
@@ -201,7 +201,7 @@ impl Mask for Selected {
         let (here, there) = (samples.stored(self.index(point)), samples.stored(self.index(next)));
         let along = (bound - here) / (there - here);
         // Beside a number that is none there is nothing to interpolate.
-        if (0.0..=1.0).contains(&along) { along.clamp(LEAST, 1.0 - LEAST) } else { 0.5 }
+        if (0.0..=1.0).contains(&along) { along.clamp(MIN_FRACTION, 1.0 - MIN_FRACTION) } else { 0.5 }
     }
 }
 

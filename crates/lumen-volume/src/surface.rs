@@ -11,10 +11,10 @@ use lumen_mesh::TriMesh;
 use lumen_mesh::task::{Yielder, at_once};
 
 /// The most triangles that a surface is made of: with what the import stage takes for each, 1.6 GB.
-pub const MOST_TRIANGLES: usize = 12_000_000;
+pub const MAX_TRIANGLES: usize = 12_000_000;
 
 /// The most points of a slice, for each of which the way over the grid takes some 22 bytes.
-const MOST_OF_A_SLICE: usize = 1 << 26;
+const MAX_OF_A_SLICE: usize = 1 << 26;
 
 /// The surface of a selection: LPS millimetres, triangles counter-clockwise seen from outside, open where the selection meets
 /// the faces of the volume or of the box. A vertex lies where values interpolated along its grid edge reach the threshold, or
@@ -36,8 +36,8 @@ pub fn region_of(grid: &Grid, region: Option<Region>) -> Result<Region, VolumeEr
     let region = region.unwrap_or_else(|| Region::all(geometry)).within(geometry);
     let region = region.ok_or(VolumeError::OutsideBox { size: geometry.size })?;
     let [i, j, _] = region.size();
-    if i.saturating_mul(j) > MOST_OF_A_SLICE {
-        return Err(VolumeError::SliceTooLarge { points: i.saturating_mul(j), limit: MOST_OF_A_SLICE });
+    if i.saturating_mul(j) > MAX_OF_A_SLICE {
+        return Err(VolumeError::SliceTooLarge { points: i.saturating_mul(j), limit: MAX_OF_A_SLICE });
     }
     Ok(region)
 }
@@ -52,7 +52,7 @@ pub async fn surface_in_slices(
     region: Region,
     yielder: &Yielder,
 ) -> Result<TriMesh, VolumeError> {
-    limited(grid, selection, region, MOST_TRIANGLES, yielder).await
+    limited(grid, selection, region, MAX_TRIANGLES, yielder).await
 }
 
 async fn limited(

@@ -9,7 +9,7 @@ use lumen_mesh::task::{Yielder, at_once, blocks};
 /// Bars of a histogram.
 pub const BINS: usize = 256;
 /// The most labels that a mask has beside 0; what has more values is a scan, as one of 8 bits is.
-const MOST_LABELS: usize = 64;
+const MAX_LABELS: usize = 64;
 /// Numbers that are looked at between two looks at the clock.
 const STRETCH: usize = 1 << 18;
 
@@ -102,7 +102,7 @@ fn collect<S: Sample>(stored: &[S], [low, high]: &mut [f64; 2], values: &mut Opt
                 });
             }
             known[last].1 += 1;
-            if known.len() > MOST_LABELS + 1 {
+            if known.len() > MAX_LABELS + 1 {
                 *values = None;
             }
         }

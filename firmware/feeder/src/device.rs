@@ -81,7 +81,7 @@ impl Device {
     }
 
     /// The USB was reset, put to sleep or unplugged: no force, and nothing that was told counts any more.
-    pub fn let_go(&mut self) {
+    pub fn release(&mut self) {
         self.effects.forget();
         self.turn = Turn::new();
     }
@@ -99,7 +99,7 @@ impl Device {
     /// The host at the end of `line` has left: no force, where it was its own.
     pub fn leaves(&mut self, line: Line) {
         if self.turn.is_of(line) {
-            self.let_go();
+            self.release();
         }
     }
 
@@ -203,7 +203,7 @@ mod tests {
             assert!(device.take(id::OPERATION, &[1, 1, 1]).is_err(), "{ended:?}: there is no effect any more");
         }
         let mut device = pushing();
-        device.let_go();
+        device.release();
         assert_eq!(device.advance(&WELL), [0.0; 2]);
         assert_eq!(device.playing(), [2, 0b01100]);
     }

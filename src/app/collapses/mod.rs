@@ -18,7 +18,7 @@ use crate::app::state::State;
 use crate::app::theme;
 use crate::language::{Key, decimal, inner, tell};
 use crate::pipeline::classes::Class;
-use crate::pipeline::decimation::{Fate, Ways};
+use crate::pipeline::decimation::{CollapseStatus, Ways};
 use crate::pipeline::one_collapse::OneCollapse;
 use crate::pipeline::progressive::NEVER;
 use crate::pipeline::settings::{Decimation, Method, Target};
@@ -338,8 +338,15 @@ fn answer(node: u32, ways: &Ways, document: &Document, decimation: &Decimation) 
         let why = if ways.class == Class::Complex { say!("views-stays-by-rule") } else { say!("views-stays-crowded") };
         return vec![[vertex, why, goes].join(" ")];
     }
-    let kinds = [Fate::Open, Fate::Eased, Fate::OffLine, Fate::Link, Fate::Flip, Fate::Sliver];
-    let count = |kind: Fate| ways.to.iter().filter(|(_, fate)| *fate == kind).count();
+    let kinds = [
+        CollapseStatus::Open,
+        CollapseStatus::Eased,
+        CollapseStatus::OffLine,
+        CollapseStatus::Link,
+        CollapseStatus::Flip,
+        CollapseStatus::Sliver,
+    ];
+    let count = |kind: CollapseStatus| ways.to.iter().filter(|(_, fate)| *fate == kind).count();
     let parts: Vec<String> =
         kinds.into_iter().filter(|&kind| count(kind) > 0).map(|kind| way(kind, count(kind))).collect();
     let neighbours = say!("views-ways", count = ways.to.len(), ways = parts.join(", "));
@@ -355,22 +362,24 @@ fn answer(node: u32, ways: &Ways, document: &Document, decimation: &Decimation) 
 }
 
 /// How many ways are of a kind.
-fn way(kind: Fate, count: usize) -> String {
+fn way(kind: CollapseStatus, count: usize) -> String {
     match kind {
-        Fate::Open => say!("views-way-open", count = count),
-        Fate::Eased => say!("views-way-eased", count = count),
-        Fate::OffLine => say!("views-way-off-line", count = count),
-        Fate::Link => say!("views-way-link", count = count),
-        Fate::Flip => say!("views-way-flip", count = count),
-        Fate::Sliver => say!("views-way-sliver", count = count),
+        CollapseStatus::Open => say!("views-way-open", count = count),
+        CollapseStatus::Eased => say!("views-way-eased", count = count),
+        CollapseStatus::OffLine => say!("views-way-off-line", count = count),
+        CollapseStatus::Link => say!("views-way-link", count = count),
+        CollapseStatus::Flip => say!("views-way-flip", count = count),
+        CollapseStatus::Sliver => say!("views-way-sliver", count = count),
     }
 }
 
 /// The colour of a way.
-fn colour(ui: &Ui, fate: Fate) -> Color32 {
+fn colour(ui: &Ui, fate: CollapseStatus) -> Color32 {
     match fate {
-        Fate::Open => ui.visuals().hyperlink_color,
-        Fate::Eased => ui.visuals().warn_fg_color,
-        Fate::OffLine | Fate::Link | Fate::Flip | Fate::Sliver => ui.visuals().error_fg_color,
+        CollapseStatus::Open => ui.visuals().hyperlink_color,
+        CollapseStatus::Eased => ui.visuals().warn_fg_color,
+        CollapseStatus::OffLine | CollapseStatus::Link | CollapseStatus::Flip | CollapseStatus::Sliver => {
+            ui.visuals().error_fg_color
+        }
     }
 }

@@ -5,7 +5,7 @@ use egui::{ComboBox, Rect, RichText, Role, Sense, Ui, vec2};
 
 use super::action::Action as OfComparison;
 use super::arrangement::Arrangement;
-use super::comparison::{Cell, Comparison, MOST, Outcome};
+use super::comparison::{Cell, Comparison, MAX_COMPARED, Outcome};
 use super::difference::Difference;
 use crate::app::action::Action;
 use crate::app::assist::name;
@@ -34,7 +34,7 @@ pub(super) fn bar(
         let add = ui.add_enabled(can_add, egui::Button::new(add));
         name(&add, Role::Button, &say!("compare-add-long"));
         let why_not =
-            if comparison.cells().len() >= MOST { say!("compare-full") } else { say!("compare-there-already") };
+            if comparison.cells().len() >= MAX_COMPARED { say!("compare-full") } else { say!("compare-there-already") };
         if add.on_hover_text(say!("compare-add-help")).on_disabled_hover_text(why_not).clicked() {
             ask(OfComparison::Add);
         }

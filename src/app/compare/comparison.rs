@@ -12,7 +12,7 @@ use crate::pipeline::report::Report;
 use crate::pipeline::settings::{Keep, Settings};
 
 /// The most settings that are compared at a time.
-pub const MOST: usize = 6;
+pub const MAX_COMPARED: usize = 6;
 
 /// What the pipeline made at one setting.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,10 +117,10 @@ impl Comparison {
         }
     }
 
-    /// Compares these settings, at most [`MOST`]. What is known of one of them already is kept.
+    /// Compares these settings, at most [`MAX_COMPARED`]. What is known of one of them already is kept.
     pub fn set(&mut self, settings: impl IntoIterator<Item = Settings>) {
         let mut known = std::mem::take(&mut self.cells);
-        for settings in settings.into_iter().take(MOST) {
+        for settings in settings.into_iter().take(MAX_COMPARED) {
             match known.iter().position(|cell| cell.settings == settings) {
                 Some(at) => self.cells.push(known.swap_remove(at)),
                 None => self.push(settings),
@@ -136,7 +136,7 @@ impl Comparison {
 
     /// Whether `settings` can be added: there is room, and they are not compared already.
     pub fn can_add(&self, settings: &Settings) -> bool {
-        self.cells.len() < MOST && !self.cells.iter().any(|cell| cell.settings.gives_same(settings))
+        self.cells.len() < MAX_COMPARED && !self.cells.iter().any(|cell| cell.settings.gives_same(settings))
     }
 
     /// Compares `settings` too, if they can be added.
@@ -321,13 +321,13 @@ mod tests {
     fn there_are_six_at_most_and_none_twice() {
         let mut comparison = Comparison::default();
         comparison.set([paper::figure_6(Keep::Largest), paper::figure_7(Keep::Largest)].concat());
-        assert_eq!(comparison.cells().len(), MOST);
+        assert_eq!(comparison.cells().len(), MAX_COMPARED);
         let first = comparison.cells()[0].clone();
         comparison.remove(comparison.cells()[5].id);
         comparison.add(&first.settings);
         assert_eq!(comparison.cells().len(), 5);
         comparison.add(&paper::reduced(42, Keep::Largest));
-        assert!(comparison.cells().len() == MOST && !comparison.can_add(&Settings::default()));
+        assert!(comparison.cells().len() == MAX_COMPARED && !comparison.can_add(&Settings::default()));
         comparison.set([first.settings.clone()]);
         assert_eq!(comparison.cells(), [first], "what is known is kept");
     }

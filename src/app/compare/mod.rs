@@ -21,7 +21,7 @@ mod words;
 
 pub use self::action::Action;
 pub use self::arrangement::Arrangement;
-pub use self::comparison::{Cell, Comparison, MOST, Made, Outcome};
+pub use self::comparison::{Cell, Comparison, MAX_COMPARED, Made, Outcome};
 pub use self::difference::Difference;
 pub(super) use self::scene::{CompareScene, Shot};
 pub(super) use self::view::CompareView;

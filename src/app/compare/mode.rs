@@ -68,7 +68,7 @@ impl Filling for CompareView {
         self.give_up();
     }
 
-    fn let_go(&mut self, state: &State, views: &mut Views) {
+    fn release(&mut self, state: &State, views: &mut Views) {
         if !state.comparison.is_open() {
             self.leave(views);
         }

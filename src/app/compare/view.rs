@@ -23,7 +23,7 @@ use crate::render::{Camera, ColourMap, Style};
 use crate::say;
 
 /// A picture is at least this high, in points; a grid that does not fit scrolls.
-const LEAST_PICTURE: f32 = 132.0;
+const MIN_PICTURE: f32 = 132.0;
 /// The view: what of it stands in GPU memory.
 #[derive(Default)]
 pub(in crate::app) struct CompareView {
@@ -176,7 +176,7 @@ impl CompareView {
         let columns = columns(count, is_narrow);
         let rows = count.div_ceil(columns);
         let width = area.width() / columns as f32;
-        let least = cell::caption_height(width) + LEAST_PICTURE * comparison.arrangement.rows() as f32;
+        let least = cell::caption_height(width) + MIN_PICTURE * comparison.arrangement.rows() as f32;
         let height = (area.height() / rows as f32).floor().max(least);
         let source =
             egui::containers::scroll_area::ScrollSource { mouse_wheel: !self.over_picture, ..Default::default() };

@@ -96,7 +96,7 @@ pub enum Trial {
     #[default]
     Off,
     /// With the wire in the hand.
-    On,
+    Association,
     /// With the autopilot.
     Autopilot,
 }
@@ -223,7 +223,7 @@ impl Lesson {
             "trial" => {
                 step.trial = match value {
                     "off" => Trial::Off,
-                    "on" => Trial::On,
+                    "on" => Trial::Association,
                     "autopilot" => Trial::Autopilot,
                     _ => return Err(wrong()),
                 }

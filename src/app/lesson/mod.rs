@@ -215,7 +215,7 @@ fn options(now: ViewOptions, show: &[Show]) -> ViewOptions {
         raking: shows(Show::Raking),
         lines: shows(Show::Lines),
         before: shows(Show::Before),
-        reveal: if shows(Show::Split) { Reveal::On } else { Reveal::Off },
+        reveal: if shows(Show::Split) { Reveal::Association } else { Reveal::Off },
         deviation,
         colours: maps.into_iter().find(|(what, _)| shows(*what)).map_or(Colours::None, |(_, colours)| colours),
         ..now

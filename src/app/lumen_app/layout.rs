@@ -203,7 +203,7 @@ impl LumenApp {
                     self.recovery.look(&mut self.views.camera);
                 }
                 for filling in self.panels.filling_mut() {
-                    filling.let_go(&self.state, &mut self.views);
+                    filling.release(&self.state, &mut self.views);
                 }
                 match self.panels.filling_of_mut(mode) {
                     Some(filling) => filling.fill(ui, &self.state, &mut self.views, self.is_narrow),

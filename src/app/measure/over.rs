@@ -22,7 +22,7 @@ const HANDLE: f32 = 36.0;
 /// Length of its arrow to either side.
 const ARROW: f32 = 26.0;
 /// Below this many points a mm the way of the plane is not to be seen, and it is dragged up and down.
-const LEAST: f32 = 0.15;
+const MIN_POINTS_A_MM: f32 = 0.15;
 
 /// What a view shows.
 pub(in crate::app) struct Seen<'a> {
@@ -159,7 +159,7 @@ impl Measuring {
         let Placed { at, way, range_mm: [low, high], .. } = clip.place(document, seen.keep)?;
         let middle = canvas.at(at).filter(|middle| seen.rect.contains(*middle))?;
         let per_mm = canvas.at(at + way).map_or(Vec2::ZERO, |next| next - middle);
-        let is_seen = per_mm.length() > LEAST;
+        let is_seen = per_mm.length() > MIN_POINTS_A_MM;
         let shown = if is_seen { per_mm.normalized() } else { vec2(0.0, -1.0) };
         let square = Rect::from_center_size(middle, Vec2::splat(theme::row(ui.ctx(), HANDLE)));
         let response = ui.interact(square, ui.scope_id().with(("clip", seen.index)), Sense::drag());

@@ -20,7 +20,7 @@ use crate::sharing::measures::Measure;
 
 /// Height of what is seen of a measure that is looked at, in its own size, and at least in mm.
 const SEEN: f32 = 4.0;
-const LEAST_SEEN_MM: f32 = 12.0;
+const MIN_SEEN_MM: f32 = 12.0;
 
 /// Shows the controls; on a phone they take the place of the panel.
 pub(super) fn show(ui: &mut Ui, measuring: &Measuring, now: Now<'_>, asked: &mut Vec<Action>) {
@@ -160,7 +160,7 @@ fn one(ui: &mut Ui, i: usize, measure: &Measure, is_chosen: bool, asked: &mut Ve
         name(&look, Role::Button, &say!("measure-show-named", name = &measure.name));
         if look.clicked() {
             let (at, reach) = measure.extent();
-            let height_mm = (SEEN * reach).max(LEAST_SEEN_MM);
+            let height_mm = (SEEN * reach).max(MIN_SEEN_MM);
             asked.push(Action::Measure(Asked::Look(i)));
             asked.push(Action::LookAt { at_mm: at.into(), height_mm });
         }

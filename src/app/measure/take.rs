@@ -13,7 +13,7 @@ use crate::mesh::Vec3;
 use crate::say;
 use crate::sharing::measures::{Found, Measure};
 use crate::vessel::beside::{beside, cross_section, fork};
-use crate::vessel::certificate::Standing;
+use crate::vessel::certificate::StationStatus;
 
 impl Measuring {
     /// What a tool finds at these places, as many as it takes; or in a sentence why nothing.
@@ -63,7 +63,7 @@ fn section(subject: &Subject<'_>, document: &Document, at: DVec3) -> Result<Foun
         widths_mm: section.widths_mm.map(|width| width as f32),
         outline_mm: section.outline.points.iter().map(|p| p.as_vec3().into()).collect(),
         vessel: place.branch.name.clone(),
-        at_fork: place.standing == Standing::Fork,
+        at_fork: place.standing == StationStatus::Fork,
     })
 }
 

@@ -114,9 +114,9 @@ impl Filling for ScanPanel {
         self.view.refuse();
     }
 
-    fn let_go(&mut self, _: &State, _: &mut Views) {
+    fn release(&mut self, _: &State, _: &mut Views) {
         if !self.scans.is_open() {
-            self.view.let_go();
+            self.view.release();
         }
     }
 

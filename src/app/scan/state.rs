@@ -117,12 +117,12 @@ impl Scans {
     /// Hears which surface is open: a scan is kept as long as it is the one that was made of it.
     pub fn surface_opened(&mut self, source: Option<&Source>, link: &mut ScanLink) {
         if self.kept.take_if(|kept| !is_of(kept, source)).is_some() {
-            self.let_go(link);
+            self.release(link);
         }
     }
 
     /// Frees what the engine has, unless that is to be another scan's.
-    fn let_go(&self, link: &mut ScanLink) {
+    fn release(&self, link: &mut ScanLink) {
         if self.open.is_none() && self.opening.is_none() {
             link.send(ScanCommand::Close);
         }
@@ -184,7 +184,7 @@ impl Scans {
             (Action::Slices(options), Some(kept)) => kept.options = options,
             (Action::Keep(false), Some(_)) => {
                 self.kept = None;
-                self.let_go(link);
+                self.release(link);
             }
             _ => {}
         }

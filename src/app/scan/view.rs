@@ -35,7 +35,7 @@ impl ScanView {
     }
 
     /// Lets go of all that stands on the device.
-    pub(super) fn let_go(&mut self) {
+    pub(super) fn release(&mut self) {
         (self.scene, self.slice, self.fitted, self.is_refused) = (None, None, None, false);
     }
 

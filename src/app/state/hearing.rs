@@ -100,7 +100,7 @@ impl State {
                     document.set_deviated(deviated);
                 }
             }
-            Event::Carried(carried) => {
+            Event::LevelArrays(carried) => {
                 if let Some(document) = self.document.as_mut().filter(|_| self.engine == Engine::Loaded) {
                     document.set_carried(carried);
                 }

@@ -101,7 +101,7 @@ impl Trial {
         let mut preparing = match std::mem::take(&mut open.stage) {
             Stage::Off(_) => Preparing::default(),
             Stage::Preparing(preparing) => Preparing { fraction: 0.0, ..preparing },
-            Stage::On(session) => Preparing { before: Some(session), ..Preparing::default() },
+            Stage::Association(session) => Preparing { before: Some(session), ..Preparing::default() },
         };
         let subject = Subject { mesh: mesh.clone(), levels, of: taken_from(document) };
         preparing.coming.push(Coming { id, subject });

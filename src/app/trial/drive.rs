@@ -9,9 +9,9 @@ use crate::say;
 use crate::trial::setup::Input;
 
 /// Feed by a key, and with Shift, in mm/s.
-const FEED: [f32; 2] = [15.0, Input::MOST_FEED];
+const FEED: [f32; 2] = [15.0, Input::MAX_FEED];
 /// Roll by a key, and with Shift, in rad/s: half a turn a second, and two.
-const ROLL: [f32; 2] = [std::f32::consts::PI, Input::MOST_ROLL];
+const ROLL: [f32; 2] = [std::f32::consts::PI, Input::MAX_ROLL];
 /// Height of a pad, in points.
 const PAD: f32 = 56.0;
 
@@ -66,7 +66,7 @@ impl Hand {
 
     /// The window's clock begins anew, and the fingers were on another canvas.
     pub(super) fn restart_clock(&mut self) {
-        self.pads.let_go();
+        self.pads.release();
         self.told_s = f64::NEG_INFINITY;
     }
 }
@@ -88,7 +88,7 @@ impl Pads {
     fn input(&mut self, ctx: &Context, keys: Keys, gamepad: Option<Gamepad>) -> Input {
         let is_seen = ctx.input(|input| input.raw.focused && input.viewport().visible() != Some(false));
         if !is_seen || keys == Keys::Sheet {
-            self.let_go();
+            self.release();
             return Input::default();
         }
         let (mut feed, mut roll) = (0.0, 0.0);
@@ -108,8 +108,8 @@ impl Pads {
         }
         // Slow near the middle, fast at the end.
         let eased = |x: f32| x * x.abs();
-        feed += eased(self.feed) * Input::MOST_FEED;
-        roll += eased(self.roll) * Input::MOST_ROLL;
+        feed += eased(self.feed) * Input::MAX_FEED;
+        roll += eased(self.roll) * Input::MAX_ROLL;
         if let Some(pad) = gamepad {
             let reach = usize::from(pad.fast);
             feed += eased(pad.feed) * FEED[reach];
@@ -119,7 +119,7 @@ impl Pads {
     }
 
     /// Takes the hand off the pads: that it comes off while nobody looks is not heard.
-    fn let_go(&mut self) {
+    fn release(&mut self) {
         *self = Self { is_let_go: true, ..Self::default() };
     }
 

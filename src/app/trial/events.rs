@@ -97,7 +97,7 @@ impl Trial {
         let session = Box::new(Session { subject, ready, at_entry: None, run: Run::new(id) });
         let log = if preparing.coming.is_empty() {
             let log = preparing.log.take();
-            open.stage = Stage::On(session);
+            open.stage = Stage::Association(session);
             log
         } else {
             preparing.before = Some(session);
@@ -125,7 +125,7 @@ impl Trial {
             let refused = refused.map(|coming| coming.subject.mesh.clone());
             preparing.coming.retain(|coming| coming.id > id);
             if preparing.coming.is_empty() {
-                open.stage = preparing.before.take().map_or(Stage::Off(refused), Stage::On);
+                open.stage = preparing.before.take().map_or(Stage::Off(refused), Stage::Association);
             }
             open.flight = problem.at;
             self.problem = Some(problem);

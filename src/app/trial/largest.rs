@@ -3,7 +3,7 @@
 use crate::trial::frame::{Frame, Touch};
 
 /// The end of a bar while forces are small, in N: a floppy wire presses with less.
-const LEAST_SCALE: f64 = 0.001;
+const MIN_SCALE: f64 = 0.001;
 
 /// The largest forces so far, in N.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,7 +37,7 @@ impl Largest {
 
 /// Where a bar ends for forces of up to `peak`: the next of 0.001, 0.002, 0.005, 0.01, ... N.
 fn scale(peak: f32) -> f32 {
-    let mut scale = LEAST_SCALE;
+    let mut scale = MIN_SCALE;
     for growth in [2.0, 2.5, 2.0].into_iter().cycle().take(24) {
         if scale as f32 >= peak {
             break;

@@ -198,9 +198,9 @@ impl Filling for TrialPanel {
         self.view.refuse();
     }
 
-    fn let_go(&mut self, _: &State, _: &mut Views) {
+    fn release(&mut self, _: &State, _: &mut Views) {
         if !(self.trial.is_open() || self.trial.tables.needs_views()) {
-            self.view.let_go();
+            self.view.release();
         }
     }
 

@@ -104,7 +104,7 @@ fn state(ui: &mut Ui, shown: &Open) {
             progress(ui, preparing.fraction, ui.available_width(), &say!("trial-preparing"));
             ui.label(say!("trial-finding"));
         }
-        Stage::On(session) => {
+        Stage::Association(session) => {
             let run = &session.run;
             let Some(frame) = &run.frame else {
                 ui.label(say!("trial-at-entry"));

@@ -8,7 +8,7 @@ use super::action::{Action, DeviceAsk, RumbleAsk};
 use super::device::why;
 use crate::app::platform::SHAKE_MS;
 use crate::app::row::remark;
-use crate::haptics::force::{AxisForce, Wish};
+use crate::haptics::force::{AxisForce, ForceCommand};
 use crate::haptics::safety::{Guard, Halt, Limits};
 use crate::haptics::service::DeviceCommand;
 use crate::say;
@@ -36,10 +36,10 @@ pub(super) fn passed(guard: &mut Guard, step: &mut Option<u64>, now_ms: f64, fel
         guard.renew(now_ms);
     }
     let force = felt.unwrap_or(Felt { step: 0, force: [0.0; 2] }).force;
-    let wish: Wish =
+    let command: ForceCommand =
         std::array::from_fn(|i| AxisForce { force: force[i].abs() * FACTOR[i], coupling: None, limit: 1.0 });
     guard.pause(felt.is_none());
-    let passed = guard.pass(&wish, now_ms);
+    let passed = guard.pass(&command, now_ms);
     let strength = passed.map_or(0.0, |passed| passed[0].force.max(passed[1].force));
     if strength < FAINT { 0.0 } else { strength }
 }

@@ -249,9 +249,9 @@ fn closed(mesh: &TriMesh) -> TriMesh {
 
 /// How far along the way each node is, 0 to 1: by the nearest of some of its points.
 fn along(nodes: &[Vec3], way: &[[f32; 3]]) -> Vec<f32> {
-    const MOST: usize = 96;
+    const MAX_POINTS: usize = 96;
     let last = way.len().saturating_sub(1);
-    let steps = last.clamp(1, MOST);
+    let steps = last.clamp(1, MAX_POINTS);
     let some: Vec<Vec3> = (0..=steps).filter_map(|i| way.get(i * last / steps)).map(|&p| p.into()).collect();
     let nearest = |p: &Vec3| {
         let away = |i: &usize| some[*i].distance_squared(*p);

@@ -80,7 +80,7 @@ pub enum Stage {
     /// The wall and the route are being found.
     Preparing(Preparing),
     /// The wire is in the vessel.
-    On(Box<Session>),
+    Association(Box<Session>),
 }
 
 impl Default for Stage {
@@ -221,11 +221,11 @@ impl Trial {
 
     /// The trial whose wire is in the vessel.
     fn session_on(&self) -> Option<&Session> {
-        if let Stage::On(session) = self.stage()? { Some(session) } else { None }
+        if let Stage::Association(session) = self.stage()? { Some(session) } else { None }
     }
 
     pub(super) fn session_on_mut(&mut self) -> Option<&mut Session> {
-        if let Stage::On(session) = self.stage_mut()? { Some(session) } else { None }
+        if let Stage::Association(session) = self.stage_mut()? { Some(session) } else { None }
     }
 
     /// The trial that is shown: the one that is on, or that stands until the next is ready.
@@ -237,7 +237,7 @@ impl Trial {
         match self.stage_mut()? {
             Stage::Off(_) => None,
             Stage::Preparing(preparing) => preparing.before.as_deref_mut(),
-            Stage::On(session) => Some(session),
+            Stage::Association(session) => Some(session),
         }
     }
 
@@ -364,7 +364,7 @@ impl Stage {
         match self {
             Self::Off(_) => None,
             Self::Preparing(preparing) => preparing.before.as_deref(),
-            Self::On(session) => Some(session),
+            Self::Association(session) => Some(session),
         }
     }
 }

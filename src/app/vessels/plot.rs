@@ -6,7 +6,7 @@ use egui_plot::{AxisHints, HoverPosition, Line, LineStyle, Plot, PlotPoint, Plot
 use crate::app::still_plot::{still, tick};
 use crate::language::{decimal, tell};
 use crate::say;
-use crate::vessel::certificate::{BranchCalibre, OnSurface, Standing};
+use crate::vessel::certificate::{BranchCalibre, OnSurface, StationStatus};
 
 /// How the radius on each surface is drawn.
 struct Strokes {
@@ -106,13 +106,14 @@ fn range(branch: &BranchCalibre) -> Option<(f64, f64)> {
 
 /// Whether a branch is one vessel at station `i`.
 fn is_vessel(branch: &BranchCalibre, i: usize) -> bool {
-    matches!(branch.standings[i], Standing::Counts | Standing::Thin)
+    matches!(branch.standings[i], StationStatus::Counts | StationStatus::Thin)
 }
 
 /// The radii of one surface, times `factor`: a piece for each stretch that is measured.
 fn pieces(branch: &BranchCalibre, of: &OnSurface, factor: f64) -> Vec<PlotPoints<'static>> {
-    let is_measured =
-        |i: &usize| matches!(branch.standings[*i], Standing::Counts | Standing::Thin) && of.radii_mm[*i].is_some();
+    let is_measured = |i: &usize| {
+        matches!(branch.standings[*i], StationStatus::Counts | StationStatus::Thin) && of.radii_mm[*i].is_some()
+    };
     let stations: Vec<usize> = (0..branch.abscissas_mm.len()).collect();
     let runs = stations.chunk_by(|a, b| is_measured(a) == is_measured(b)).filter(|run| is_measured(&run[0]));
     runs.map(|run| {

@@ -4,7 +4,7 @@ use crate::app::state::State;
 use crate::language::{Key, decimal, signed, tell};
 use crate::pipeline::safe::Safe;
 use crate::say;
-use crate::vessel::certificate::{BranchCalibre, Certificate, OnSurface, Standing, Verdict};
+use crate::vessel::certificate::{BranchCalibre, Certificate, OnSurface, StationStatus, Verdict};
 
 /// Heads of the columns, and what they say.
 pub(super) const COLUMNS: [(Key, Key); 9] = [
@@ -64,13 +64,13 @@ pub(super) fn why_not_measured(branch: &BranchCalibre) -> Option<Key> {
     if branch.verdict != Verdict::NotMeasured {
         return None;
     }
-    let count = |standing: Standing| branch.standings.iter().filter(|&&other| other == standing).count();
+    let count = |standing: StationStatus| branch.standings.iter().filter(|&&other| other == standing).count();
     let reasons = [
-        (Standing::Thin, Key("vessels-too-thin")),
-        (Standing::NotClosed, Key("vessels-not-closed")),
-        (Standing::Ambiguous, Key("vessels-ambiguous")),
-        (Standing::Fork, Key("vessels-at-forks")),
-        (Standing::End, Key("vessels-at-ends")),
+        (StationStatus::Thin, Key("vessels-too-thin")),
+        (StationStatus::NotClosed, Key("vessels-not-closed")),
+        (StationStatus::Ambiguous, Key("vessels-ambiguous")),
+        (StationStatus::Fork, Key("vessels-at-forks")),
+        (StationStatus::End, Key("vessels-at-ends")),
     ];
     // What could have been measured first.
     reasons.into_iter().find(|&(standing, _)| count(standing) > 0).map(|(_, why)| why)

@@ -259,7 +259,7 @@ impl Views {
 
     /// Shows both in one picture.
     pub(super) fn reveal(&mut self) {
-        self.options.reveal = Reveal::On;
+        self.options.reveal = Reveal::Association;
     }
 
     /// Whether the surface is shown as it was opened beside the level.
@@ -275,7 +275,7 @@ impl Views {
     /// Shows both in one picture, or no longer.
     pub(super) fn toggle_reveal(&mut self, document: Option<&Document>) {
         let is_on = document.is_some_and(|document| self.options.reveal.holds(document));
-        self.options.reveal = if is_on { Reveal::Off } else { Reveal::On };
+        self.options.reveal = if is_on { Reveal::Off } else { Reveal::Association };
     }
 
     /// Lets something else say where the camera goes: it flies there.

@@ -15,7 +15,7 @@ use crate::task::{Budget, Progress, Running};
 use crate::volume::{Grid, Survey, survey_in_slices};
 
 /// Files of which more are a series, each of which is read whole.
-const MOST_HEADS: usize = 4;
+const MAX_HEADS: usize = 4;
 /// Bytes that are read at a time.
 const PIECE: usize = 1 << 20;
 /// Bytes that are unpacked between two looks at the clock.
@@ -137,7 +137,7 @@ impl Opening {
     /// Looks at the beginnings of the files.
     fn begin(&self, shelf: &mut dyn Shelf) -> Result<Stage, String> {
         let gathering = Stage::Gathering { whole: Vec::new(), current: Vec::new() };
-        if self.files.len() > MOST_HEADS {
+        if self.files.len() > MAX_HEADS {
             return Ok(gathering);
         }
         let beginnings: Result<Vec<_>, _> = self.files.iter().map(|file| piece(shelf, file, 0, HEAD)).collect();

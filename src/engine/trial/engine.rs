@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::grasp::Exchange;
+use super::haptic_channel::HapticChannel;
 use super::jobs::Jobs;
 use super::message::{TrialCommand, TrialEvent, TrialReady};
 use super::shown::Shown;
@@ -19,7 +19,7 @@ pub struct TrialEngine {
     pub(super) shown: Option<Shown>,
     pub(super) jobs: Jobs,
     events: VecDeque<TrialEvent>,
-    exchange: Option<Exchange>,
+    exchange: Option<HapticChannel>,
 }
 
 impl TrialEngine {
@@ -30,7 +30,7 @@ impl TrialEngine {
 
     /// Without a trial; the wire of each that comes is held by whoever is at the other side of `exchange`, beside keys and
     /// pads.
-    pub fn with_hand(exchange: Exchange) -> Self {
+    pub fn with_hand(exchange: HapticChannel) -> Self {
         Self { exchange: Some(exchange), ..Self::default() }
     }
 

@@ -7,7 +7,7 @@
 //!   measurements and comparisons.
 
 mod engine;
-mod grasp;
+mod haptic_channel;
 mod jobs;
 mod message;
 mod pace;
@@ -17,6 +17,6 @@ mod start;
 mod tests;
 
 pub use self::engine::TrialEngine;
-pub use self::grasp::{Exchange, HandFeels, STALE};
+pub use self::haptic_channel::{HandFeels, HapticChannel, STALE};
 pub use self::message::{HAND, RouteShown, TrialCommand, TrialEvent, TrialLink, TrialReady, is_frame};
 pub use crate::trial::compare::TrialComparison;

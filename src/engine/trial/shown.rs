@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use lumen_message::Message as _;
 
-use super::grasp::{Exchange, Grasp};
+use super::haptic_channel::{Grasp, HapticChannel};
 use super::message::{HAND, TrialEvent};
 use super::pace::Pace;
 use crate::language::{decimal, tell};
@@ -54,7 +54,7 @@ impl Mover {
     }
 
     /// Who steers does so no longer.
-    fn let_go(&mut self) {
+    fn release(&mut self) {
         if *self == Self::Steering {
             *self = Self::Hand;
         }
@@ -80,7 +80,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    pub(super) fn new(id: u64, trial: Trial, exchange: Option<Exchange>) -> Self {
+    pub(super) fn new(id: u64, trial: Trial, exchange: Option<HapticChannel>) -> Self {
         Self {
             id,
             trial: Box::new(trial),
@@ -132,7 +132,7 @@ impl Shown {
         if on {
             self.mover = Mover::Steering;
         } else {
-            self.mover.let_go();
+            self.mover.release();
         }
     }
 
@@ -185,7 +185,7 @@ impl Shown {
     /// What was to begin anew could not: it goes on, but in the hand of whoever asked.
     fn hand_over(&mut self) {
         self.trial.set_autopilot(false);
-        self.mover.let_go();
+        self.mover.release();
         (self.is_paused, self.is_told) = (false, false);
     }
 

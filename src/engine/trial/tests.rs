@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::engine::TrialEngine;
-use super::grasp::Exchange;
+use super::haptic_channel::HapticChannel;
 use super::message::{HAND, TrialCommand, TrialEvent};
 use super::pace::BEHIND;
 use crate::mesh::{TriMesh, Vec3};
@@ -252,7 +252,7 @@ fn a_refusal_tells_the_place_where_the_wire_does_not_fit() {
 
 #[test]
 fn a_device_s_hand_moves_the_wire_and_feels_it_and_one_that_is_silent_does_neither() {
-    let exchange = Exchange::default();
+    let exchange = HapticChannel::default();
     let mut engine = TrialEngine::with_hand(exchange.clone());
     engine.handle(TrialCommand::Start { id: 1, mesh: aorta(), sample: Some(Sample::Aorta), setup: Setup::default() });
     let length = |engine: &TrialEngine| engine.shown.as_ref().unwrap().trial().simulation().inserted();
@@ -286,7 +286,7 @@ fn a_device_s_hand_moves_the_wire_and_feels_it_and_one_that_is_silent_does_neith
     assert!((length(&engine) - stood).abs() < 1.0, "{} mm", length(&engine) - stood);
     // Silent: the wire stands, and what it did before does not come back.
     exchange.moves([30.0, 0.0]);
-    std::thread::sleep(2 * super::grasp::STALE);
+    std::thread::sleep(2 * super::haptic_channel::STALE);
     let stood = length(&engine);
     run(&mut engine, 0.5, None);
     assert!((length(&engine) - stood).abs() < 1e-9 && exchange.feels().is_none());

@@ -1,5 +1,5 @@
 //! The Worker's end of a haptic device: opens it, takes its reports in, sends those that are due, and is the hand at the other
-//! side of the engine's [`Exchange`].
+//! side of the engine's [`HapticChannel`].
 //!
 //! A report that comes is taken in and answered at once; a timer looks after the device while it is silent. One request is
 //! under way at a time, as devices want it. Devices on a serial line are [`serial`]'s. Where the browser has no WebHID in
@@ -11,7 +11,7 @@ mod talk;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use lumen::engine::trial::Exchange;
+use lumen::engine::trial::HapticChannel;
 use lumen::haptics::device::HapticDevice;
 use lumen::haptics::feeder;
 use lumen::haptics::force::Request;
@@ -47,7 +47,7 @@ pub(crate) struct Hands(Rc<Inner>);
 
 struct Inner {
     scope: DedicatedWorkerGlobalScope,
-    exchange: Exchange,
+    exchange: HapticChannel,
     /// Brings the engine back: a wire at rest waits for no clock.
     wake: Box<dyn Fn()>,
     served: RefCell<Option<Served>>,
@@ -93,7 +93,7 @@ enum Line {
 
 impl Hands {
     /// Of the Worker `scope`, at the other side of `exchange`; `wake` brings the engine back.
-    pub(crate) fn new(scope: DedicatedWorkerGlobalScope, exchange: Exchange, wake: impl Fn() + 'static) -> Self {
+    pub(crate) fn new(scope: DedicatedWorkerGlobalScope, exchange: HapticChannel, wake: impl Fn() + 'static) -> Self {
         Self(Rc::new(Inner {
             scope,
             exchange,
@@ -144,7 +144,7 @@ impl Hands {
             return Ok(());
         }
         self.0.again.set(false);
-        self.let_go();
+        self.release();
         self.0.wanted.replace(choice.clone());
         let number = self.0.number.get() + 1;
         self.0.number.set(number);
@@ -317,7 +317,7 @@ impl Hands {
             let has_force = device.is_some_and(|device| device.has_force());
             if has_force && hands.0.number.get() == number && hands.0.served.borrow().is_some() {
                 let wanted = hands.0.wanted.borrow().clone();
-                hands.let_go();
+                hands.release();
                 // As in `plugged_in`.
                 let _ = hands.serve(wanted);
             }
@@ -419,7 +419,7 @@ impl Hands {
     }
 
     /// Stops serving, and leaves the device without a force.
-    fn let_go(&self) {
+    fn release(&self) {
         *self.0.look.borrow_mut() = None;
         let Some(Served { service: mut of, line, .. }) = self.0.served.take() else {
             let is_relayed = matches!(&*self.0.wanted.borrow(), Some(Choice::Paired { .. })) && api::hid().is_none();
@@ -451,7 +451,7 @@ impl Hands {
 
     /// The device is no longer served, and why.
     fn end(&self, name: &str, why: String) {
-        self.let_go();
+        self.release();
         self.0.number.set(self.0.number.get() + 1);
         self.tell(Some(DeviceStatus { name: name.to_owned(), ended: Some(why), ..DeviceStatus::default() }));
     }

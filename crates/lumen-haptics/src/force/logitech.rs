@@ -4,7 +4,7 @@
 //! A wheel plays its last command until another comes, without end. So it is given no force that could move it once the
 //! host is silent, but friction in proportion to the force: that resists a hand, and cannot push.
 
-use super::Wish;
+use super::ForceCommand;
 use super::single::{SingleDriver, SingleForce};
 
 /// A command's length; it has no id.
@@ -14,12 +14,12 @@ const NO_CENTRING: [u8; BYTES] = [0xF5, 0, 0, 0, 0, 0, 0];
 /// All effects end.
 const OFF: [u8; BYTES] = [0xF3, 0, 0, 0, 0, 0, 0];
 /// The strongest friction.
-const MOST: f64 = 7.0;
-const LEAST_MS: f64 = 4.0;
+const MAX_FRICTION: f64 = 7.0;
+const MIN_MS: f64 = 4.0;
 
 /// The command for friction of 0 to 1 in both directions: into the second slot, and played.
 pub fn friction(part: f64) -> [u8; BYTES] {
-    let strength = if part.is_nan() { 0 } else { (part.clamp(0.0, 1.0) * MOST).round() as u8 };
+    let strength = if part.is_nan() { 0 } else { (part.clamp(0.0, 1.0) * MAX_FRICTION).round() as u8 };
     if strength == 0 { [0x20, 0, 0, 0, 0, 0, 0] } else { [0x21, 0x02, strength, 0, strength, 0, 0] }
 }
 
@@ -36,7 +36,7 @@ pub type Logitech = SingleDriver<Wheel>;
 impl Logitech {
     /// Braked by what is wished for feed, 0, or for roll, 1.
     pub fn new(axis: usize) -> Self {
-        Self::by(Wheel { axis: axis.min(1), is_prepared: false }, LEAST_MS, None, OFF.to_vec())
+        Self::by(Wheel { axis: axis.min(1), is_prepared: false }, MIN_MS, None, OFF.to_vec())
     }
 }
 
@@ -44,8 +44,8 @@ impl SingleForce for Wheel {
     const ID: u8 = 0;
     type Force = f64;
 
-    fn force(&self, wish: &Wish) -> f64 {
-        let of = wish[self.axis];
+    fn force(&self, command: &ForceCommand) -> f64 {
+        let of = command[self.axis];
         of.force.abs().min(of.limit)
     }
 
@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn a_force_of_either_sign_brakes_and_a_stop_ends_it() {
         let mut driver = Logitech::new(1);
-        let wish = |force| [AxisForce::default(), AxisForce { force, coupling: None, limit: 0.6 }];
+        let command = |force| [AxisForce::default(), AxisForce { force, coupling: None, limit: 0.6 }];
         let mut sent = Vec::new();
         let mut turn = |driver: &mut Logitech, now| {
             if let Some(Request::Send { data, .. }) = driver.next(now) {
@@ -83,7 +83,7 @@ mod tests {
             }
         };
         turn(&mut driver, 0.0);
-        driver.wish(&wish(-0.9));
+        driver.command(&command(-0.9));
         turn(&mut driver, 1.0);
         turn(&mut driver, 6.0);
         turn(&mut driver, 12.0);

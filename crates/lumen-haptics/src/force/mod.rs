@@ -35,7 +35,7 @@ pub struct AxisForce {
 }
 
 /// What both axes are to do: feed and roll.
-pub type Wish = [AxisForce; 2];
+pub type ForceCommand = [AxisForce; 2];
 
 /// A report that is to be sent or got.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -91,7 +91,7 @@ pub enum ForceError {
 /// What moves a device's motors.
 pub trait ForceDriver: Send {
     /// Says what the motors are to do from now on, until it is said again or [`ForceDriver::stop`] comes.
-    fn wish(&mut self, wish: &Wish);
+    fn command(&mut self, command: &ForceCommand);
 
     /// All force ends: the next report says so, whatever else was to come.
     fn stop(&mut self);

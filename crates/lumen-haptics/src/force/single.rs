@@ -1,7 +1,7 @@
 //! A force that one report says by itself: it is sent when it changes, again where the device asks for that, and taken back
 //! until the taking back has arrived.
 
-use super::{ForceDriver, ForceError, Reply, Request, Wish};
+use super::{ForceCommand, ForceDriver, ForceError, Reply, Request};
 
 /// Failures in a row after which the device counts as gone.
 const PATIENCE: u32 = 5;
@@ -14,7 +14,7 @@ pub trait SingleForce: Send {
     type Force: Copy + Send;
 
     /// What it is to be told of what is wished.
-    fn force(&self, wish: &Wish) -> Self::Force;
+    fn force(&self, command: &ForceCommand) -> Self::Force;
 
     /// The report that says so.
     fn report(&self, force: Self::Force) -> Vec<u8>;
@@ -38,8 +38,8 @@ impl<D: SingleForce> SingleDriver<D> {
 }
 
 impl<D: SingleForce> ForceDriver for SingleDriver<D> {
-    fn wish(&mut self, wish: &Wish) {
-        self.line.wish(self.device.force(wish));
+    fn command(&mut self, command: &ForceCommand) {
+        self.line.command(self.device.force(command));
     }
 
     fn stop(&mut self) {
@@ -104,7 +104,7 @@ impl<W: Copy> SingleReport<W> {
         }
     }
 
-    fn wish(&mut self, force: W) {
+    fn command(&mut self, force: W) {
         self.wished = Some(force);
         self.must_stop = false;
     }

@@ -12,7 +12,7 @@ use ::gltf::json::accessor::ComponentType;
 use serde::Deserialize;
 
 use lumen_mesh::Array;
-use lumen_mesh::arrays::{Kind, On, Scalar, Values};
+use lumen_mesh::arrays::{Association, Kind, Scalar, Values};
 
 /// The most bits of a whole number that a float holds exactly, as its largest value.
 const EXACT: f64 = 16_777_216.0;
@@ -31,7 +31,7 @@ pub(super) struct Attribute<'a> {
 impl<'a> Attribute<'a> {
     /// The attribute that an array is written as, if it has a place.
     pub(super) fn of(array: &'a Array) -> Option<Self> {
-        let has_shape = array.on == On::Point && array.components <= 4;
+        let has_shape = array.on == Association::Point && array.components <= 4;
         let scalar = if has_shape { written_as(array) } else { None }?;
         Some(Self { array, scalar })
     }

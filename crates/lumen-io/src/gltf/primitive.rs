@@ -11,21 +11,21 @@ use glam::{DMat4, DVec3};
 
 use super::super::columns::Columns;
 use super::super::error::{Feature, ReadError};
+use super::super::memory_budget::MemoryBudget;
 use super::super::pace::{NUMBERS, Pace};
 use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
-use super::super::room::Room;
 use super::super::warnings::ArrayProblem;
 use super::arrays::array_name;
 use super::buffers::Buffers;
 use super::{FORMAT, malformed};
-use lumen_mesh::arrays::{On, Scalar, Values};
+use lumen_mesh::arrays::{Association, Scalar, Values};
 
 /// What has been read so far.
 pub(super) struct Collected<'a> {
     pub(super) raw: RawSurface,
     /// A mesh may be placed many times over by a few bytes each; this is as much as a file may grow by that.
-    pub(super) room: Room,
+    pub(super) room: MemoryBudget,
     /// The attributes that are arrays, and the bytes that they take.
     pub(super) columns: Columns,
     pub(super) array_bytes: u64,
@@ -63,7 +63,7 @@ impl Collected<'_> {
                 let arrays = names.into_iter().flatten().filter_map(|(name, &at)| Some((array_name(name)?, at)));
                 for (name, accessor) in arrays {
                     match self.values(root, buffers, Index::new(accessor), count).await {
-                        Ok((components, values)) => self.columns.add(On::Point, name, components, values),
+                        Ok((components, values)) => self.columns.add(Association::Point, name, components, values),
                         Err(why) => self.columns.leave_out(name, why),
                     }
                 }

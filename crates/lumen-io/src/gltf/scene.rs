@@ -6,10 +6,10 @@ use glam::{DMat3, DMat4, DQuat, DVec3};
 use super::super::Unit;
 use super::super::columns::Columns;
 use super::super::error::{Feature, ReadError};
+use super::super::memory_budget::MemoryBudget;
 use super::super::pace::Pace;
 use super::super::problem::GltfProblem;
 use super::super::raw::RawSurface;
-use super::super::room::Room;
 use super::arrays::Names;
 use super::buffers::Buffers;
 use super::primitive::Collected;
@@ -25,7 +25,7 @@ pub(super) async fn read_scene(
     origin: DVec3,
     pace: &Pace,
 ) -> Result<RawSurface, ReadError> {
-    let room = Room::of(file_length);
+    let room = MemoryBudget::of(file_length);
     room.check_parts(FORMAT, json.iter().filter(|&&byte| byte == b'{').count())?;
     pace.rest(0.0).await;
     // The crate parses the JSON at once. Of a GLB that is some kilobytes, of a text mostly one long string: a few tens of

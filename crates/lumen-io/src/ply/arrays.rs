@@ -6,12 +6,12 @@
 //! doubles elsewhere. Lists are no arrays.
 
 use super::super::columns::Columns;
+use super::super::memory_budget::MemoryBudget;
 use super::super::numbers::Scalar;
-use super::super::room::Room;
 use super::super::warnings::ArrayProblem;
 use super::header::Property;
 use lumen_mesh::Array;
-use lumen_mesh::arrays::{On, Values};
+use lumen_mesh::arrays::{Association, Values};
 
 const COLOURS: [&str; 4] = ["red", "green", "blue", "alpha"];
 
@@ -24,13 +24,19 @@ pub(super) struct Extras {
 
 impl Extras {
     /// Whether there are any among the properties of vertices or faces.
-    pub(super) fn are_in(properties: &[Property], on: On) -> bool {
+    pub(super) fn are_in(properties: &[Property], on: Association) -> bool {
         properties.iter().any(|property| is_extra(property, on))
     }
 
     /// What is to be kept of an element of `rows` rows at most, if it is one of vertices or faces; what there is no room
     /// for is noted.
-    pub(super) fn new(properties: &[Property], on: Option<On>, rows: u64, room: Room, columns: &mut Columns) -> Self {
+    pub(super) fn new(
+        properties: &[Property],
+        on: Option<Association>,
+        rows: u64,
+        room: MemoryBudget,
+        columns: &mut Columns,
+    ) -> Self {
         let Some(on) = on.filter(|&on| Self::are_in(properties, on)) else { return Self::default() };
         let mut bytes = 0u64;
         let mut keep = |property: &Property| {
@@ -54,7 +60,7 @@ impl Extras {
     }
 
     /// Hands over the arrays.
-    pub(super) fn add_to(mut self, columns: &mut Columns, on: On, properties: &[Property]) {
+    pub(super) fn add_to(mut self, columns: &mut Columns, on: Association, properties: &[Property]) {
         let mut at = 0;
         while at < self.values.len() {
             let (name, width) = self.tuple(properties, at);
@@ -89,13 +95,13 @@ impl Extras {
 }
 
 /// Whether a property is one that nothing else reads.
-fn is_extra(property: &Property, on: On) -> bool {
+fn is_extra(property: &Property, on: Association) -> bool {
     property.length.is_none() && !taken(on).contains(&property.name.as_str())
 }
 
 /// The names that coordinates and normals have.
-fn taken(on: On) -> &'static [&'static str] {
-    if on == On::Point { &["x", "y", "z", "nx", "ny", "nz"] } else { &["nx", "ny", "nz"] }
+fn taken(on: Association) -> &'static [&'static str] {
+    if on == Association::Point { &["x", "y", "z", "nx", "ny", "nz"] } else { &["nx", "ny", "nz"] }
 }
 
 /// An array as it is written.
@@ -106,7 +112,7 @@ pub(super) struct Written<'a> {
 
 impl<'a> Written<'a> {
     /// The arrays on vertices or on triangles.
-    pub(super) fn on(on: On, arrays: &'a [Array]) -> Vec<Self> {
+    pub(super) fn on(on: Association, arrays: &'a [Array]) -> Vec<Self> {
         let written = |array: &'a Array| Self { array, scalar: written_as(&array.values) };
         arrays.iter().filter(|array| array.on == on).map(written).collect()
     }

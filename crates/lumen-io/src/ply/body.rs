@@ -6,18 +6,18 @@ use glam::DVec3;
 
 use super::super::columns::Columns;
 use super::super::error::ReadError;
+use super::super::memory_budget::MemoryBudget;
 use super::super::numbers::Numbers;
 use super::super::pace::Pace;
 use super::super::polygons::Faces;
 use super::super::problem::PlyProblem;
 use super::super::raw::RawSurface;
-use super::super::room::Room;
 use super::super::warnings::Warning;
 use super::arrays::Extras;
 use super::header::{Element, Encoding, Header, Meaning, Property, has_doubles, meaning};
 use super::malformed;
 use lumen_mesh::Vec3;
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 
 /// Rows between two looks at the clock.
 const BLOCK: u64 = 1 << 14;
@@ -42,7 +42,7 @@ pub(super) async fn read(
 /// What was read so far.
 struct Body {
     origin: DVec3,
-    room: Room,
+    room: MemoryBudget,
     /// An index beyond this can stand for no vertex, and may be too large to be kept as one.
     claimed: u64,
     /// The element that is read, and how many of its rows are.
@@ -61,10 +61,10 @@ impl Body {
     /// Of a file of `file` bytes.
     fn new(header: &Header, file: usize, origin: DVec3) -> Self {
         let vertices = header.elements.iter().filter(|e| e.name == "vertex");
-        let has_extras = |e: &Element| e.name == "face" && Extras::are_in(&e.properties, On::Triangle);
+        let has_extras = |e: &Element| e.name == "face" && Extras::are_in(&e.properties, Association::Triangle);
         Self {
             origin,
-            room: Room::of(file),
+            room: MemoryBudget::of(file),
             claimed: vertices.map(|e| e.count).fold(0, u64::saturating_add),
             element: 0,
             rows: 0,

@@ -5,7 +5,7 @@ use super::super::numbers::Scalar;
 use super::super::problem::{PlyProblem, TextProblem};
 use super::super::text;
 use super::malformed;
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 
 /// The type that a header calls `name`.
 fn scalar_type(name: &str) -> Option<Scalar> {
@@ -159,10 +159,10 @@ pub(super) enum Meaning {
 
 impl Meaning {
     /// What arrays of the element are on.
-    pub(super) fn on(&self) -> Option<On> {
+    pub(super) fn on(&self) -> Option<Association> {
         match self {
-            Self::Vertices(_) => Some(On::Point),
-            Self::Faces(_) => Some(On::Triangle),
+            Self::Vertices(_) => Some(Association::Point),
+            Self::Faces(_) => Some(Association::Triangle),
             Self::Strips(_) | Self::Other => None,
         }
     }

@@ -2,13 +2,14 @@
 
 use super::super::output::Output;
 use super::arrays::Written;
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 
 /// The little-endian binary form.
 pub(super) fn write(output: &Output) -> Vec<u8> {
     let Output { mesh, normals, axes, .. } = *output;
     let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
-    let [on_vertices, on_triangles] = [On::Point, On::Triangle].map(|on| Written::on(on, output.arrays));
+    let [on_vertices, on_triangles] =
+        [Association::Point, Association::Triangle].map(|on| Written::on(on, output.arrays));
     let xyz = |names: [&str; 3]| names.map(|name| format!("property float {name}\n")).concat();
     let properties = |arrays: &[Written]| arrays.iter().map(Written::header).collect::<String>();
     let header = format!(

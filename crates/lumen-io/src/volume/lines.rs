@@ -1,7 +1,7 @@
 //! The lines of a header that is text, with numbers behind it that are none: NRRD's and MetaImage's.
 
 /// Lines of a header at most.
-const MOST: usize = 1000;
+const MAX_LINES: usize = 1000;
 
 /// The lines of a header that begins at `start`, without their ends, each with the place where what is behind it begins. They
 /// end with the bytes, or where there are more than any header has.
@@ -13,5 +13,5 @@ pub(super) fn lines(bytes: &[u8], start: usize) -> impl Iterator<Item = (&[u8], 
         at = bytes.len().min(at + length + 1);
         Some((&rest[..length], at))
     };
-    std::iter::from_fn(next).take(MOST)
+    std::iter::from_fn(next).take(MAX_LINES)
 }

@@ -16,7 +16,7 @@ use lumen_volume::{SampleType, Samples};
 /// The most bytes that the numbers of a volume may take: 512 x 512 x 800 at 16 bit five times over.
 pub(super) const LARGEST: u64 = 1 << 31;
 /// Deflate makes 258 bytes of two bits at most.
-pub(super) const MOST_UNFOLDED: u64 = 1032;
+pub(super) const MAX_UNFOLDED: u64 = 1032;
 /// Numbers that there is room for at once.
 const FIRST_ROOM: usize = 1 << 20;
 
@@ -97,7 +97,7 @@ impl Layout {
     pub(super) fn check_packed(self, packing: Packing, bytes: u64, skipped: u64) -> Result<(), ScanError> {
         let needed = self.bytes().saturating_add(skipped);
         let is_packed = matches!(packing, Packing::Gzip | Packing::Zlib);
-        if is_packed && needed > MOST_UNFOLDED.saturating_mul(bytes) {
+        if is_packed && needed > MAX_UNFOLDED.saturating_mul(bytes) {
             let problem = ScanProblem::Packed { needed, bytes };
             return Err(ScanError::malformed(self.format, problem));
         }

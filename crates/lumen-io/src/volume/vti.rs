@@ -8,7 +8,7 @@ use super::super::axes::Axes;
 use super::super::vtk::{Image, Values, read_image};
 use super::super::warnings::ScanWarning;
 use super::error::ScanError;
-use super::numbers::{LARGEST, Layout, MOST_UNFOLDED};
+use super::numbers::{LARGEST, Layout, MAX_UNFOLDED};
 use super::outline::Scan;
 use lumen_volume::{Geometry, Grid, VolumeError};
 
@@ -16,7 +16,7 @@ const FORMAT: &str = "VTI";
 
 /// Reads a file.
 pub(super) fn read(bytes: &[u8]) -> Result<Scan, ScanError> {
-    let room = LARGEST.min(MOST_UNFOLDED * bytes.len() as u64);
+    let room = LARGEST.min(MAX_UNFOLDED * bytes.len() as u64);
     read_image(bytes, room, |image| scan(&image))?
 }
 

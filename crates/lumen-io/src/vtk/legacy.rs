@@ -7,11 +7,11 @@ use glam::DVec3;
 
 use super::super::axes;
 use super::super::error::ReadError;
+use super::super::memory_budget::MemoryBudget;
 use super::super::numbers::Scalar;
 use super::super::pace::Pace;
 use super::super::problem::VtkProblem;
 use super::super::raw::RawSurface;
-use super::super::room::Room;
 use super::super::text;
 use super::array::Array;
 use super::legacy_data;
@@ -47,7 +47,7 @@ pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<Raw
     }
     cursor.rest_of_line();
     let label = cursor.label();
-    let room = Room::of(bytes.len());
+    let room = MemoryBudget::of(bytes.len());
     let parts = Parts::read(&mut cursor, room).await?;
     let mut surface = Surface::new(label, bytes.len(), origin);
     if let Some((points, count)) = &parts.points {
@@ -66,7 +66,7 @@ pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<Raw
 
 impl<'a> Parts<'a> {
     /// Finds points and cells, up to the first array on either.
-    async fn read(cursor: &mut Cursor<'a>, room: Room) -> Result<Self, ReadError> {
+    async fn read(cursor: &mut Cursor<'a>, room: MemoryBudget) -> Result<Self, ReadError> {
         let mut parts = Self::default();
         while let Some(word) = cursor.word() {
             room.check_parts(cursor.label(), parts.cells.len())?;

@@ -8,16 +8,16 @@
 
 use super::super::columns::Columns;
 use super::super::error::ReadError;
+use super::super::memory_budget::MemoryBudget;
 use super::super::numbers::Scalar;
-use super::super::room::Room;
 use super::super::text::quoted;
 use super::super::warnings::ArrayProblem;
 use super::legacy_text::{Cursor, scalar};
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 
 /// Reads the arrays on so many points and cells.
-pub(super) async fn read(cursor: &mut Cursor<'_>, counts: [u64; 2], room: Room) -> Result<Columns, ReadError> {
-    let mut data = Data { columns: Columns::default(), on: On::Point, counts };
+pub(super) async fn read(cursor: &mut Cursor<'_>, counts: [u64; 2], room: MemoryBudget) -> Result<Columns, ReadError> {
+    let mut data = Data { columns: Columns::default(), on: Association::Point, counts };
     while let Some(word) = cursor.word() {
         room.check_parts(cursor.label(), data.columns.len())?;
         if data.attribute(word, cursor).await.is_none() {
@@ -33,7 +33,7 @@ pub(super) async fn read(cursor: &mut Cursor<'_>, counts: [u64; 2], room: Room) 
 struct Data {
     columns: Columns,
     /// What the attributes are on.
-    on: On,
+    on: Association,
     /// Points and cells of the surface.
     counts: [u64; 2],
 }
@@ -42,8 +42,8 @@ impl Data {
     /// Reads what a keyword begins; `None` where it is not understood.
     async fn attribute(&mut self, word: &[u8], cursor: &mut Cursor<'_>) -> Option<()> {
         match word.to_ascii_lowercase().as_slice() {
-            b"point_data" => self.begin(On::Point, cursor),
-            b"cell_data" => self.begin(On::Triangle, cursor),
+            b"point_data" => self.begin(Association::Point, cursor),
+            b"cell_data" => self.begin(Association::Triangle, cursor),
             b"scalars" => {
                 let (name, kind) = (name(cursor)?, cursor.word()?);
                 let components = match cursor.rest_of_line() {
@@ -94,10 +94,10 @@ impl Data {
 
     /// How many tuples an array has.
     fn count(&self) -> u64 {
-        self.counts[usize::from(self.on == On::Triangle)]
+        self.counts[usize::from(self.on == Association::Triangle)]
     }
 
-    fn begin(&mut self, on: On, cursor: &mut Cursor) -> Option<()> {
+    fn begin(&mut self, on: Association, cursor: &mut Cursor) -> Option<()> {
         self.on = on;
         (cursor.count().ok()? == self.count()).then_some(())
     }

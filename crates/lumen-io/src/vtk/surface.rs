@@ -8,13 +8,13 @@ use glam::DVec3;
 use super::super::Axes;
 use super::super::columns::Columns;
 use super::super::error::{Counted, Elements, Named, ReadError, Unnamed};
+use super::super::memory_budget::MemoryBudget;
 use super::super::numbers::{Numbers, Scalar};
 use super::super::pace::{NUMBERS, Pace};
 use super::super::polygons::Faces;
 use super::super::problem::VtkProblem;
 use super::super::raw::RawSurface;
 use super::super::report::Skipped;
-use super::super::room::Room;
 use super::super::warnings::Warning;
 use super::array::Array;
 use lumen_mesh::Vec3;
@@ -114,7 +114,7 @@ pub(super) struct Surface {
     /// The format, for errors.
     format: &'static str,
     origin: DVec3,
-    room: Room,
+    room: MemoryBudget,
     positions: Vec<Vec3>,
     /// Where the points of the last piece begin.
     base: usize,
@@ -135,7 +135,7 @@ impl Surface {
         Self {
             format,
             origin,
-            room: Room::of(file),
+            room: MemoryBudget::of(file),
             positions: Vec::new(),
             base: 0,
             faces: Faces::default(),

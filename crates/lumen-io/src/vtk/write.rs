@@ -9,7 +9,7 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use super::super::Axes;
 use super::super::error::WriteError;
 use super::super::output::Output;
-use lumen_mesh::arrays::{On, Scalar};
+use lumen_mesh::arrays::{Association, Scalar};
 use lumen_mesh::{Array, Vec3};
 
 /// Bytes of a block before it is compressed: what VTK takes for one.
@@ -41,7 +41,7 @@ pub(super) fn xml(output: &Output) -> Vec<u8> {
     let mut cell_data = String::new();
     for Array { name, on, components, values, .. } in arrays {
         let line = array(xml_name(values.scalar()), &escaped(name), *components, values.bytes());
-        if *on == On::Point { &mut point_data } else { &mut cell_data }.push_str(&line);
+        if *on == Association::Point { &mut point_data } else { &mut cell_data }.push_str(&line);
     }
     let attributes = if normals.is_some() { " Normals=\"Normals\"" } else { "" };
     let section = |name: &str, attributes: &str, lines: String| {
@@ -155,9 +155,11 @@ pub(super) fn legacy(output: &Output) -> Result<Vec<u8>, WriteError> {
     for &[a, b, c] in &mesh.triangles {
         out.extend_from_slice(bytemuck::cast_slice(&[3, a, b, c].map(u32::to_be_bytes)));
     }
-    for (on, keyword, rows) in [(On::Point, "POINT_DATA", vertices), (On::Triangle, "CELL_DATA", triangles)] {
+    for (on, keyword, rows) in
+        [(Association::Point, "POINT_DATA", vertices), (Association::Triangle, "CELL_DATA", triangles)]
+    {
         let arrays: Vec<&Array> = arrays.iter().filter(|array| array.on == on).collect();
-        let normals = normals.filter(|_| on == On::Point);
+        let normals = normals.filter(|_| on == Association::Point);
         if !arrays.is_empty() || normals.is_some() {
             out.extend_from_slice(format!("\n{keyword} {rows}").as_bytes());
         }

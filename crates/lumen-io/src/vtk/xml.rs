@@ -7,13 +7,13 @@ use glam::DVec3;
 
 use super::super::Axes;
 use super::super::error::ReadError;
+use super::super::memory_budget::MemoryBudget;
 use super::super::pace::Pace;
 use super::super::raw::RawSurface;
-use super::super::room::Room;
 use super::surface::Surface;
 use super::xml_arrays::Arrays;
 use super::xml_structure::Structure;
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 
 /// Whether a text begins as VTK's XML files do.
 pub(crate) fn is_xml(text: &[u8]) -> bool {
@@ -24,9 +24,9 @@ pub(crate) fn is_xml(text: &[u8]) -> bool {
 /// Reads a file, with positions relative to `origin`.
 pub(super) async fn read(bytes: &[u8], origin: DVec3, pace: &Pace) -> Result<RawSurface, ReadError> {
     let file = Structure::parse(bytes, pace).await?;
-    let mut arrays = Arrays::new(&file, bytes, Room::of(bytes.len()).unfolded(), pace);
+    let mut arrays = Arrays::new(&file, bytes, MemoryBudget::of(bytes.len()).unfolded(), pace);
     let mut surface = Surface::new(file.format, bytes.len(), origin);
-    if file.pieces.iter().flat_map(|piece| &piece.data).any(|&(on, _)| on == On::Triangle) {
+    if file.pieces.iter().flat_map(|piece| &piece.data).any(|&(on, _)| on == Association::Triangle) {
         surface.note_cells();
     }
     let mut cells = 0u64;

@@ -5,17 +5,17 @@ use std::borrow::Cow;
 use super::super::Axes;
 use super::super::columns::Columns;
 use super::super::error::ReadError;
+use super::super::memory_budget::MemoryBudget;
 use super::super::numbers::Scalar;
 use super::super::pace::{BYTES, Pace};
 use super::super::problem::{TextProblem, VtkProblem};
-use super::super::room::Room;
 use super::super::text;
 use super::super::warnings::ArrayProblem;
 use super::array::{Array, Content};
 use super::encoded::Encoded;
 use super::surface::{Cells, Lengths, Shape, Surface};
 use super::xml_structure::{DataArray, KINDS, Piece, Place, Structure, line_of, malformed};
-use lumen_mesh::arrays::{On, Values};
+use lumen_mesh::arrays::{Association, Values};
 
 /// The numbers behind the structure.
 pub(super) struct Arrays<'a> {
@@ -132,8 +132,8 @@ impl<'a> Arrays<'a> {
         for piece in &structure.pieces {
             let counts = [piece.counts[0], piece.cell_count()];
             for (on, array) in &piece.data {
-                Room::of(self.bytes.len()).check_parts(structure.format, columns.len())?;
-                let rows = counts[usize::from(*on == On::Triangle)];
+                MemoryBudget::of(self.bytes.len()).check_parts(structure.format, columns.len())?;
+                let rows = counts[usize::from(*on == Association::Triangle)];
                 match self.values(array, rows.saturating_mul(array.components)).await {
                     // The components are no more than the numbers there are.
                     Ok(values) => columns.add(*on, &array.name, array.components as usize, values),

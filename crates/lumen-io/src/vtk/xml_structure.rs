@@ -6,14 +6,14 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
 use super::super::error::{Feature, Named, ReadError, Unnamed};
+use super::super::memory_budget::MemoryBudget;
 use super::super::pace::{NUMBERS, Pace};
 use super::super::problem::{Problem, VtkProblem};
-use super::super::room::Room;
 use super::super::text;
 use super::encoded::{Compressor, Encoding};
 use super::no_surface;
 use super::surface::Shape;
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 
 /// What the structure says.
 pub(super) struct Structure<'a> {
@@ -36,7 +36,7 @@ pub(super) struct Piece<'a> {
     /// The arrays of its cells, each with its place in [`KINDS`] and in [`PARTS`].
     cells: Vec<(usize, usize, DataArray<'a>)>,
     /// The arrays on its points and on its cells.
-    pub(super) data: Vec<(On, DataArray<'a>)>,
+    pub(super) data: Vec<(Association, DataArray<'a>)>,
 }
 
 impl<'a> Piece<'a> {
@@ -94,7 +94,7 @@ enum Section {
     Elsewhere,
     FieldData,
     /// Arrays on points or cells.
-    Data(On),
+    Data(Association),
     /// One of [`KINDS`].
     Kind(usize),
 }
@@ -119,7 +119,7 @@ impl<'a> Structure<'a> {
         let start = bytes.len() - text::without_mark(bytes).trim_ascii_start().len();
         let mut file = None;
         let mut section = Section::Elsewhere;
-        let room = Room::of(bytes.len());
+        let room = MemoryBudget::of(bytes.len());
         let mut events = 0;
         loop {
             events += 1;
@@ -253,8 +253,8 @@ impl<'a> DataArray<'a> {
 fn section_named(name: &[u8]) -> Option<Section> {
     match name {
         b"FieldData" => Some(Section::FieldData),
-        b"PointData" => Some(Section::Data(On::Point)),
-        b"CellData" => Some(Section::Data(On::Triangle)),
+        b"PointData" => Some(Section::Data(Association::Point)),
+        b"CellData" => Some(Section::Data(Association::Triangle)),
         _ => KINDS.iter().position(|(_, element, _)| element.as_bytes() == name).map(Section::Kind),
     }
 }

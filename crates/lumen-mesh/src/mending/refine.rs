@@ -12,7 +12,7 @@ const DENSITY: f64 = std::f64::consts::SQRT_2;
 const ROUNDS: usize = 24;
 const TURNS: usize = 100;
 /// The most vertices of a patch.
-const MOST: usize = 50_000;
+const MAX_VERTICES: usize = 50_000;
 
 /// Divides the triangles of `patch`; `lengths` has the mean length in mm of the edges beside each vertex of the rim, and
 /// two vertices of the rim for which `is_taken` are not joined.
@@ -29,7 +29,7 @@ pub(super) fn refine(patch: &mut Patch, lengths: &[f64], is_taken: impl Fn(u32, 
                 let distance = DENSITY * p.distance(middle);
                 distance > length && distance > own
             });
-            if is_far && patch.points.len() < MOST {
+            if is_far && patch.points.len() < MAX_VERTICES {
                 patch.divide(t);
                 lengths.push(length);
                 is_divided = true;

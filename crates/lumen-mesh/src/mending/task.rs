@@ -228,7 +228,7 @@ mod tests {
     use super::super::holes::tests::pierced;
     use super::*;
     use crate::Vec3;
-    use crate::arrays::{On, Values};
+    use crate::arrays::{Association, Values};
     use crate::shapes::{icosphere, tube};
     use crate::task::{Budget, Progress, Running, at_once};
 
@@ -257,8 +257,8 @@ mod tests {
         let heights: Vec<f32> = mesh.positions.iter().map(|p| p.z).collect();
         let numbers: Vec<f32> = (0..mesh.triangles.len()).map(|t| mesh.corners(t)[0].z).collect();
         let arrays = vec![
-            Array::new("z", On::Point, 1, Values::from_floats(&heights)),
-            Array::new("t", On::Triangle, 1, Values::from_floats(&numbers)),
+            Array::new("z", Association::Point, 1, Values::from_floats(&heights)),
+            Array::new("t", Association::Triangle, 1, Values::from_floats(&numbers)),
         ];
         let whole = at_once(mend(mesh.clone(), arrays.clone(), ALL, &Yielder::never()));
         assert_eq!((whole.report.edges_split, whole.report.holes_filled), (1, 1));

@@ -214,14 +214,14 @@ impl Clusters {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chance::Chance;
     use crate::components;
     use crate::shapes::{icosphere, joined, tube};
+    use crate::split_mix::SplitMix64;
 
     /// Every triangle by itself, its corners moved by up to `noise` mm.
     fn soup(mesh: &TriMesh, noise: f32) -> TriMesh {
-        let mut chance = Chance::new(1);
-        let mut random = || (2.0 * chance.unit() - 1.0) as f32;
+        let mut random = SplitMix64::new(1);
+        let mut random = || (2.0 * random.unit() - 1.0) as f32;
         let corners = mesh.triangles.as_flattened().iter().map(|&v| mesh.positions[v as usize]);
         let positions: Vec<Vec3> = corners.map(|p| p + Vec3::new(random(), random(), random()) * noise).collect();
         let triangles = (0..mesh.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();

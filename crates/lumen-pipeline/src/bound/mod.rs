@@ -3,7 +3,7 @@
 //!
 //! A level is *within* the bound when no point of it is farther than the bound from the finest level, and no point of
 //! the finest level is farther from it. That is decided for whole surfaces, not for samples
-//! ([`Reach`](lumen_mesh::Reach)): what is within is so for certain, what is not has a point that is farther than the
+//! ([`HausdorffBound`](lumen_mesh::Reach)): what is within is so for certain, what is not has a point that is farther than the
 //! bound less one part in a thousand.
 //!
 //! The deviation is not monotone in the level: a collapse may mend what another has done. So the search goes from the
@@ -24,7 +24,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use self::history::History;
-use self::trial::{Memory, Surfaces, Witness, distance, ruled_out};
+use self::trial::{Counterexample, Memory, Surfaces, distance, ruled_out};
 use super::progressive::ProgressiveMesh;
 use super::task::Yielder;
 use lumen_mesh::{SurfaceIndex, TriMesh, distance_to_triangle};
@@ -72,11 +72,11 @@ pub async fn bound_in_slices(
     while steps > 0 {
         match ruled_out(&all, steps, bound_mm, &mut memory, &at(steps)).await {
             None => break,
-            Some(Witness::Triangle { birth, distance }) => {
+            Some(Counterexample::Triangle { birth, distance }) => {
                 last = Some(Last::Distance(distance));
                 steps = birth.saturating_sub(1);
             }
-            Some(Witness::Points(mut points)) => {
+            Some(Counterexample::Points(mut points)) => {
                 // A level of no steps is the surface itself.
                 while steps > 0 {
                     steps -= 1;

@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::history::births;
 use crate::progressive::ProgressiveMesh;
 use lumen_mesh::task::{Yielder, blocks};
-use lumen_mesh::{Reach, SurfaceIndex, TriMesh};
+use lumen_mesh::{HausdorffBound, SurfaceIndex, TriMesh};
 
 /// Queries or pieces between two looks at the clock.
 const QUERIES: usize = 64;
@@ -19,7 +19,7 @@ const POINTS: usize = 24;
 
 /// What rules out a level.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Witness {
+pub(super) enum Counterexample {
     /// Points of the finest level that are beyond the bound of this one.
     Points(Vec<Vec3>),
     /// A triangle, part of every level from `birth` steps to this one, with a point that is `distance` mm from the
@@ -67,7 +67,7 @@ pub(super) async fn ruled_out(
     bound: f64,
     memory: &mut Memory,
     yielder: &Yielder,
-) -> Option<Witness> {
+) -> Option<Counterexample> {
     let triangles = all.progressive.triangles_at(steps);
     yielder.rest(0.0).await;
     let index = SurfaceIndex::build(&all.progressive.positions, &triangles, yielder).await;
@@ -96,7 +96,7 @@ struct Level {
 
 impl Level {
     /// Vertices that are gone, the first to go first: they rule out most levels. (Those of the level are on it.)
-    async fn nodes(&self, all: &Surfaces<'_>, yielder: &Yielder) -> Option<Witness> {
+    async fn nodes(&self, all: &Surfaces<'_>, yielder: &Yielder) -> Option<Counterexample> {
         let ProgressiveMesh { positions, node_ends, .. } = all.progressive;
         let alive = node_ends.partition_point(|&end| end >= self.steps);
         let (gone, is_vertex) = (&positions[alive..], &all.is_vertex[alive..]);
@@ -112,11 +112,11 @@ impl Level {
             }
             yielder.rest(0.0).await;
         }
-        (!beyond.is_empty()).then_some(Witness::Points(beyond))
+        (!beyond.is_empty()).then_some(Counterexample::Points(beyond))
     }
 
     /// Some points of the level's triangles; the witness is the oldest triangle that is beyond.
-    async fn points(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Witness> {
+    async fn points(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Counterexample> {
         let mut oldest = Oldest::default();
         for block in blocks(self.triangles.len(), QUERIES / 4) {
             for t in block {
@@ -138,16 +138,16 @@ impl Level {
     }
 
     /// The level's triangles, to the last point.
-    async fn coarse(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Witness> {
+    async fn coarse(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Counterexample> {
         let is_open = |&t: &u32| memory.coarse[t as usize] != self.births[t as usize];
         let order: Vec<u32> = self.index.triangles().filter(is_open).collect();
-        let (mut oldest, mut reach) = (Oldest::default(), Reach::new(self.bound));
+        let (mut oldest, mut reach) = (Oldest::default(), HausdorffBound::new(self.bound));
         for block in order.chunks(QUERIES) {
             for &t in block {
                 let t = t as usize;
                 match settle(&mut reach, self.corners(all, t), all.fine, yielder).await {
                     Settled::Within(_) => memory.coarse[t] = self.births[t],
-                    Settled::Beyond(found) => oldest.offer(self.births[t], found.distance),
+                    Settled::FarPoint(found) => oldest.offer(self.births[t], found.distance),
                 }
             }
             yielder.rest(0.0).await;
@@ -156,13 +156,13 @@ impl Level {
     }
 
     /// The finest level's triangles, to the last point.
-    async fn fine(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Witness> {
+    async fn fine(&self, all: &Surfaces<'_>, memory: &mut Memory, yielder: &Yielder) -> Option<Counterexample> {
         let is_open = |&t: &u32| {
             let (by, birth) = memory.fine[t as usize];
             self.births.get(by as usize) != Some(&birth)
         };
         let order: Vec<u32> = all.fine.triangles().filter(is_open).collect();
-        let mut reach = Reach::new(self.bound);
+        let mut reach = HausdorffBound::new(self.bound);
         for block in order.chunks(QUERIES) {
             for &t in block {
                 let t = t as usize;
@@ -170,7 +170,7 @@ impl Level {
                     Settled::Within(by) => {
                         memory.fine[t] = by.map_or((0, NO_BIRTH), |by| (by, self.births[by as usize]));
                     }
-                    Settled::Beyond(found) => return Some(Witness::Points(vec![found.point])),
+                    Settled::FarPoint(found) => return Some(Counterexample::Points(vec![found.point])),
                 }
             }
             yielder.rest(0.0).await;
@@ -194,8 +194,8 @@ impl Oldest {
         }
     }
 
-    fn witness(self) -> Option<Witness> {
-        self.0.map(|(birth, distance)| Witness::Triangle { birth, distance })
+    fn witness(self) -> Option<Counterexample> {
+        self.0.map(|(birth, distance)| Counterexample::Triangle { birth, distance })
     }
 }
 
@@ -203,11 +203,11 @@ impl Oldest {
 enum Settled {
     /// It is within; of this one triangle, if it was one.
     Within(Option<u32>),
-    Beyond(lumen_mesh::Beyond),
+    FarPoint(lumen_mesh::FarPoint),
 }
 
 /// Whether a triangle is within the bound of a surface.
-async fn settle(reach: &mut Reach, corners: [Vec3; 3], surface: &SurfaceIndex, yielder: &Yielder) -> Settled {
+async fn settle(reach: &mut HausdorffBound, corners: [Vec3; 3], surface: &SurfaceIndex, yielder: &Yielder) -> Settled {
     reach.begin(corners);
     let mut is_whole = true;
     let mut found = reach.advance(surface, 1);
@@ -217,7 +217,7 @@ async fn settle(reach: &mut Reach, corners: [Vec3; 3], surface: &SurfaceIndex, y
         found = reach.advance(surface, QUERIES);
     }
     match found {
-        Poll::Ready(Some(found)) => Settled::Beyond(found),
+        Poll::Ready(Some(found)) => Settled::FarPoint(found),
         _ => Settled::Within(reach.nearest().filter(|_| is_whole)),
     }
 }
@@ -236,7 +236,7 @@ mod tests {
 
     /// What comes of a triangle.
     fn settled(corners: [Vec3; 3], surface: &SurfaceIndex, bound: f64) -> Settled {
-        at_once(settle(&mut Reach::new(bound), corners, surface, &Yielder::never()))
+        at_once(settle(&mut HausdorffBound::new(bound), corners, surface, &Yielder::never()))
     }
 
     #[test]
@@ -260,7 +260,7 @@ mod tests {
                     of_one += 1;
                 }
                 Settled::Within(None) => of_many += 1,
-                Settled::Beyond(_) => panic!("all is {height} mm above the square"),
+                Settled::FarPoint(_) => panic!("all is {height} mm above the square"),
             }
         }
         assert!(of_one > 20 && of_many > 20, "{of_one} {of_many}");

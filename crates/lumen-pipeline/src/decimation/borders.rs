@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::rings::{BORDER, Rings, neighbour};
-use lumen_mesh::arrays::On;
+use lumen_mesh::arrays::Association;
 use lumen_mesh::{Array, Topology, TriMesh};
 
 /// What borders leave a vertex.
@@ -57,8 +57,8 @@ pub(crate) fn labels_of(mesh: &TriMesh, arrays: &[Array]) -> Option<Vec<u32>> {
     let mut labels: Option<Vec<u32>> = None;
     for array in arrays.iter().filter(|array| array.info().labels.len() > 1) {
         let of_triangle = |t: usize| match array.on {
-            On::Triangle => array.values.get(t),
-            On::Point => {
+            Association::Triangle => array.values.get(t),
+            Association::Point => {
                 let [a, b, c] = mesh.triangles[t].map(|v| array.values.get(v as usize));
                 if b == c {
                     b
@@ -108,7 +108,7 @@ mod tests {
     fn of_triangles(values: Vec<f32>) -> Array {
         let mut numbers = Values::new(Scalar::I32);
         values.into_iter().for_each(|value| numbers.push(f64::from(value)));
-        Array::new("RegionId", On::Triangle, 1, numbers)
+        Array::new("RegionId", Association::Triangle, 1, numbers)
     }
 
     /// Whether the triangles of a level lie on one side each, by `side` of a point: negative, positive, or 0 on the border.
@@ -147,7 +147,7 @@ mod tests {
         let of_cells = of_triangles(mesh.triangles.iter().map(|t| f32::from(middle(t) > border)).collect());
         let mut values = Values::new(Scalar::U8);
         heights.iter().for_each(|&z| values.push(f64::from(u8::from(z > border + 0.1))));
-        let of_vertices = Array::new("part", On::Point, 1, values);
+        let of_vertices = Array::new("part", Association::Point, 1, values);
         for (what, array, is_circle) in [("triangles", of_cells, true), ("vertices", of_vertices, false)] {
             let found = labels(array, &mesh);
             for method in Method::ALL {
@@ -185,8 +185,12 @@ mod tests {
     #[test]
     fn what_is_no_label_and_one_label_alone_make_no_border() {
         let mesh = square(2, 2.0, 0.0);
-        let numbers =
-            Array::new("Area", On::Triangle, 1, Values::from_floats(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]));
+        let numbers = Array::new(
+            "Area",
+            Association::Triangle,
+            1,
+            Values::from_floats(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]),
+        );
         assert_eq!(labels_of(&mesh, &[numbers]), None);
         assert_eq!(labels_of(&mesh, &[of_triangles(vec![3.0; 8])]), None);
         let one = decimated(&mesh, Method::Schroeder, Some(&[7; 8]));

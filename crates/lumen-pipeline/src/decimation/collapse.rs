@@ -5,9 +5,9 @@ use glam::Vec3A;
 use super::borders::{Border, border_of, mark};
 use super::guard::{Guard, Planned};
 use super::method::{Candidate, Judged, Method};
+use super::one_ring::{MAX_AROUND, OneRing};
 use super::rings::{Rings, gather, neighbour};
 use super::schedule::Stuck;
-use super::star::{MOST_AROUND, Star};
 use lumen_mesh::{Topology, TriMesh};
 
 /// What a collapse may do to the triangles around it.
@@ -55,8 +55,8 @@ pub(super) struct Surface {
     pub(super) guard: Guard,
     /// By what the distance of each slot counts (`weights.rs`); empty where all count alike.
     pub(super) weights: Vec<f32>,
-    pub(super) star: Star,
-    other: Star,
+    pub(super) star: OneRing,
+    other: OneRing,
     candidates: Vec<Candidate>,
 }
 
@@ -67,15 +67,15 @@ impl Surface {
             method,
             guard: Guard::default(),
             weights: Vec::new(),
-            star: Star::new(),
-            other: Star::new(),
+            star: OneRing::new(),
+            other: OneRing::new(),
             candidates: Vec::new(),
         }
     }
 
     /// Whether too many triangles meet at `v`.
     fn is_hub(&self, v: u32) -> bool {
-        self.rings.around(v).len() > MOST_AROUND
+        self.rings.around(v).len() > MAX_AROUND
     }
 
     /// Why `v` need not be looked at, whatever its surroundings.
@@ -239,7 +239,7 @@ impl Surface {
     /// The distance that a vertex which goes has, by its reach alone, from what it leaves behind; 0 where its planes say
     /// it. `at` is where the vertex stands in the other's star, if both go.
     fn tip(&self, candidate: &Candidate, at: Option<usize>) -> f32 {
-        let reach = |star: &Star, way: Vec3A, j: usize| {
+        let reach = |star: &OneRing, way: Vec3A, j: usize| {
             if star.flatness() >= FLAT { 0.0 } else { TIP * star.distance_to_patch(way, j) }
         };
         let edge = self.star.edge(candidate.to);

@@ -3,8 +3,8 @@
 
 use glam::Vec3A;
 
+use super::one_ring::OneRing;
 use super::rings::Rings;
-use super::star::Star;
 
 /// What the removal of a vertex costs, and where it may go.
 #[derive(Clone, Copy, Debug)]
@@ -47,21 +47,21 @@ pub(super) trait Method {
     fn start(&mut self, slots: usize);
 
     /// Looks at a vertex for the first time, before any is judged. The triangles of the star are worked out.
-    fn meet(&mut self, rings: &Rings, star: &Star, v: u32);
+    fn meet(&mut self, rings: &Rings, star: &OneRing, v: u32);
 
     /// Judges a vertex; if it `is_last`, nothing else has helped, and feature edges no longer count. On the `border` between
     /// labels it may go to those two neighbours alone. The triangles of the star are not worked out.
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged;
+    fn judge(&mut self, rings: &Rings, star: &OneRing, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged;
 
     /// Adds to `candidates` where the vertex, judged just now, may go.
-    fn offer(&mut self, star: &Star, v: u32, judged: &Judged, candidates: &mut Vec<Candidate>);
+    fn offer(&mut self, star: &OneRing, v: u32, judged: &Judged, candidates: &mut Vec<Candidate>);
 
     /// Quality below which no triangle should fall.
     fn fair_quality(&self) -> f32;
 
     /// What poor shape costs for a star, beside the cost of a candidate: times one less the quality of the worst
     /// triangle.
-    fn shape_cost(&self, star: &Star, cost: f32) -> f32;
+    fn shape_cost(&self, star: &OneRing, cost: f32) -> f32;
 
     /// Where a new vertex for `v` and `u`, which is at `way` from it, should be instead of at `place`, to lie in the plane
     /// `normal.x = offset`.

@@ -14,7 +14,7 @@
 //! - passes the link condition (Dey, Edelsbrunner, Guha and Nekhayev 1999): no topology changes, no open end falls
 //!   below three edges (`rings.rs`);
 //! - folds no triangle over and makes no sliver; for a vertex that does not meet the strict limits they are eased, step by
-//!   step, at the price of waiting longer, down to "does not fold" (`star.rs`);
+//!   step, at the price of waiting longer, down to "does not fold" (`one_ring.rs`);
 //! - makes no triangle run into another (`guard/`).
 //!
 //! Borders between labels are held where that is asked for (`borders.rs`).
@@ -29,19 +29,19 @@ mod collapse;
 mod fan;
 mod guard;
 mod method;
+mod one_ring;
 mod order;
 mod quadric;
 mod rings;
 mod schedule;
 mod schroeder;
-mod star;
 mod task;
 mod ways;
 mod weights;
 
 pub(super) use self::borders::labels_of;
 pub use self::task::{Decimated, Holds, decimate_in_slices};
-pub use self::ways::{Fate, Ways};
+pub use self::ways::{CollapseStatus, Ways};
 use super::progressive::ProgressiveMesh;
 use super::settings::Decimation;
 use lumen_mesh::task::{Yielder, at_once};

@@ -17,8 +17,8 @@
 use glam::{DVec3, Vec3A};
 
 use super::method::{Candidate, Judged, Method, distance_to_segment};
+use super::one_ring::OneRing;
 use super::rings::{Rings, SIZE, gather, neighbour};
-use super::star::Star;
 
 /// Weight of the plane that stands on a boundary edge, beside that of a triangle of the same size.
 const BOUNDARY: f64 = 10.0;
@@ -27,7 +27,7 @@ const PULL: f64 = 1e-6;
 /// What a triangle without area adds to the cost of a candidate, as a part of it.
 const SHAPE_COST: f32 = 0.2;
 /// Most of its edge's length that a new vertex moves to keep the volume.
-const MOST_LEVELLED: f64 = 0.5;
+const MAX_LEVELLED: f64 = 0.5;
 /// How far a new vertex may lie from the edge in whose place it comes, in lengths of that edge, before it moves to keep
 /// the volume.
 const REACH: f64 = 1.0;
@@ -146,7 +146,7 @@ impl Method for Quadric {
         self.forms = vec![Form::default(); slots];
     }
 
-    fn meet(&mut self, rings: &Rings, star: &Star, v: u32) {
+    fn meet(&mut self, rings: &Rings, star: &OneRing, v: u32) {
         let mut form = Form::default();
         for i in 0..star.triangles() {
             let normal = star.normal(i).as_dvec3();
@@ -173,7 +173,7 @@ impl Method for Quadric {
         self.forms[v as usize] = form;
     }
 
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged {
+    fn judge(&mut self, rings: &Rings, star: &OneRing, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged {
         let entries = star.entries();
         let is_open = rings.is_open(v);
         let along = is_open.then(|| [0, entries.len() - 1]).or(border);
@@ -212,7 +212,7 @@ impl Method for Quadric {
         judged
     }
 
-    fn offer(&mut self, _: &Star, _: u32, _: &Judged, candidates: &mut Vec<Candidate>) {
+    fn offer(&mut self, _: &OneRing, _: u32, _: &Judged, candidates: &mut Vec<Candidate>) {
         candidates.extend_from_slice(&self.candidates);
     }
 
@@ -220,7 +220,7 @@ impl Method for Quadric {
         0.25
     }
 
-    fn shape_cost(&self, _: &Star, cost: f32) -> f32 {
+    fn shape_cost(&self, _: &OneRing, cost: f32) -> f32 {
         SHAPE_COST * cost
     }
 
@@ -230,7 +230,7 @@ impl Method for Quadric {
         let direction = form.solve(normal)?;
         let step = (f64::from(offset) - normal.dot(place)) / normal.dot(direction);
         let found = place + direction * step;
-        let is_near = (found - place).length() < MOST_LEVELLED * way.length();
+        let is_near = (found - place).length() < MAX_LEVELLED * way.length();
         is_near.then_some(found.as_vec3a())
     }
 

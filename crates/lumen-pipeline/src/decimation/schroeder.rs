@@ -14,8 +14,8 @@
 use glam::Vec3A;
 
 use super::method::{Candidate, Judged, Method, distance_to_segment};
+use super::one_ring::{MAX_AROUND, OneRing};
 use super::rings::{CREASE, Rings, gather, neighbour};
-use super::star::{MOST_AROUND, Star};
 use crate::classes::Class;
 
 /// What a poorly shaped triangle costs, as a part of its ring's size, beside the height swept.
@@ -73,7 +73,7 @@ impl Method for Schroeder {
         self.own = vec![Own::default(); slots];
     }
 
-    fn meet(&mut self, rings: &Rings, star: &Star, v: u32) {
+    fn meet(&mut self, rings: &Rings, star: &OneRing, v: u32) {
         let mut planes = Planes::default();
         let mut area = 0.0;
         for i in 0..star.triangles() {
@@ -94,10 +94,10 @@ impl Method for Schroeder {
         self.own[v as usize] = Own { lost: 0.0, area };
     }
 
-    fn judge(&mut self, rings: &Rings, star: &Star, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged {
+    fn judge(&mut self, rings: &Rings, star: &OneRing, v: u32, is_last: bool, border: Option<[usize; 2]>) -> Judged {
         let entries = star.entries();
         let (planes, own) = (&self.planes[v as usize], self.own[v as usize]);
-        let mut values = [0.0; MOST_AROUND + 4];
+        let mut values = [0.0; MAX_AROUND + 4];
         star.form(&planes.a, planes.b, own.lost, &mut values);
         let square = |j: usize| {
             let other = self.own[neighbour(entries[j]) as usize];
@@ -120,7 +120,7 @@ impl Method for Schroeder {
     }
 
     /// By the mean height over which the star would be swept.
-    fn offer(&mut self, star: &Star, _: u32, judged: &Judged, candidates: &mut Vec<Candidate>) {
+    fn offer(&mut self, star: &OneRing, _: u32, judged: &Judged, candidates: &mut Vec<Candidate>) {
         let allowed = (0..star.entries().len()).filter(|&j| judged.allows(j));
         // Where the hole is patched makes no difference to the distance from the plane.
         let Judged { distance, priority, .. } = *judged;
@@ -131,7 +131,7 @@ impl Method for Schroeder {
         0.15
     }
 
-    fn shape_cost(&self, star: &Star, _: f32) -> f32 {
+    fn shape_cost(&self, star: &OneRing, _: f32) -> f32 {
         SHAPE_COST * star.area().sqrt()
     }
 
@@ -200,7 +200,7 @@ mod tests {
         assert!(rings.link(&mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), mesh.positions.len()));
         let slot = |vertex: u32, rings: &Rings| (0..rings.len() as u32).find(|&v| rings.nodes[v as usize] == vertex);
         let [bent, straight] = [2, 3].map(|vertex| slot(vertex, &rings).unwrap());
-        let (mut method, mut star) = (Schroeder::default(), Star::new());
+        let (mut method, mut star) = (Schroeder::default(), OneRing::new());
         method.start(rings.len());
         for v in 0..rings.len() as u32 {
             star.load(&rings, v);

@@ -1,14 +1,14 @@
 //! Where a vertex of a level could go, and what forbids it: the run's own checks, on the triangles around it.
 //!
-//! Topology is that of `rings.rs` (the link condition), shape that of `star.rs` under the limits of `collapse.rs`. Both need
+//! Topology is that of `rings.rs` (the link condition), shape that of `one_ring.rs` under the limits of `collapse.rs`. Both need
 //! no more than the vertex, its neighbours and theirs. Whether triangles would cross is decided by the whole surface, and is
 //! not looked at here; nor is shape for quadrics, whose places rest on planes that only the run knew.
 
 use super::collapse::STRICTNESS;
 use super::method::Method as _;
+use super::one_ring::{MAX_AROUND, OneRing};
 use super::rings::{Rings, neighbour};
 use super::schroeder::Schroeder;
-use super::star::{MOST_AROUND, Star};
 use crate::classes::{Class, Classes};
 use crate::progressive::ProgressiveMesh;
 use crate::settings::Method;
@@ -16,10 +16,10 @@ use lumen_mesh::{Topology, TriMesh, used_vertices};
 
 /// What becomes of one way for a vertex to go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum CollapseStatus {
     /// Nothing that is looked at forbids it.
     Open,
-    /// As [`Fate::Open`], under limits that have been eased: the vertex waits for that.
+    /// As [`CollapseStatus::Open`], under limits that have been eased: the vertex waits for that.
     Eased,
     /// A boundary vertex goes along its open end, one on a feature edge along that.
     OffLine,
@@ -38,7 +38,7 @@ pub struct Ways {
     pub class: Class,
     /// Its neighbours, in order around it, and what becomes of the way there; none where it stays by rule: a complex
     /// vertex, or one with too many triangles.
-    pub to: Vec<(u32, Fate)>,
+    pub to: Vec<(u32, CollapseStatus)>,
 }
 
 impl Ways {
@@ -58,10 +58,10 @@ impl Ways {
         let mut rings = Rings::new(&mesh);
         rings.link(&mesh, &topology, mesh.positions.len());
         let slot = (0..rings.len() as u32).find(|&slot| rings.nodes[slot as usize] == v && !rings.is_gone(slot))?;
-        if class == Class::Complex || rings.stays(slot) || rings.around(slot).len() > MOST_AROUND {
+        if class == Class::Complex || rings.stays(slot) || rings.around(slot).len() > MAX_AROUND {
             return Some(Self { class, to: Vec::new() });
         }
-        let mut star = Star::new();
+        let mut star = OneRing::new();
         star.load(&rings, slot);
         star.span();
         let last = star.entries().len() - 1;
@@ -77,13 +77,13 @@ impl Ways {
                 Class::Simple | Class::Corner | Class::Complex => true,
             };
             let fate = if !is_along {
-                Fate::OffLine
+                CollapseStatus::OffLine
             } else if !rings.may_collapse(slot, u) {
-                Fate::Link
+                CollapseStatus::Link
             } else if method == Method::Schroeder {
                 shape(&star, j)
             } else {
-                Fate::Open
+                CollapseStatus::Open
             };
             (other, fate)
         };
@@ -92,17 +92,17 @@ impl Ways {
 }
 
 /// The first limits that the triangles keep when the vertex goes to neighbour `j`.
-fn shape(star: &Star, j: usize) -> Fate {
+fn shape(star: &OneRing, j: usize) -> CollapseStatus {
     let keeps = |turn: f32, quality: f32| star.worst_after(star.edge(j), j, turn, quality).is_some();
     let eased = &STRICTNESS[1..];
     if keeps(STRICTNESS[0].turn, Schroeder::default().fair_quality()) {
-        Fate::Open
+        CollapseStatus::Open
     } else if eased.iter().any(|limits| keeps(limits.turn, limits.quality)) {
-        Fate::Eased
+        CollapseStatus::Eased
     } else if eased.last().is_some_and(|limits| keeps(limits.turn, 0.0)) {
-        Fate::Sliver
+        CollapseStatus::Sliver
     } else {
-        Fate::Flip
+        CollapseStatus::Flip
     }
 }
 
@@ -142,7 +142,11 @@ mod tests {
         let mesh = TriMesh { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] };
         for method in Method::ALL {
             let (_, found) = ways(&mesh, Vec3::ZERO, method);
-            assert_eq!(found.to.iter().map(|(_, fate)| *fate).collect::<Vec<_>>(), [Fate::Link; 3], "{method:?}");
+            assert_eq!(
+                found.to.iter().map(|(_, fate)| *fate).collect::<Vec<_>>(),
+                [CollapseStatus::Link; 3],
+                "{method:?}"
+            );
         }
     }
 
@@ -170,7 +174,7 @@ mod tests {
             let at = levels.positions[node as usize];
             // Seen from a wing, the far wing's triangle lies behind the notch.
             let is_wing = at.x == -1.0;
-            assert_eq!(fate == Fate::Flip, is_wing, "{at}: {fate:?}");
+            assert_eq!(fate == CollapseStatus::Flip, is_wing, "{at}: {fate:?}");
         }
     }
 
@@ -181,7 +185,7 @@ mod tests {
         assert_eq!(found.class, Class::Boundary);
         for (node, fate) in found.to {
             let is_rim = levels.positions[node as usize].length() > 2.0;
-            assert_eq!(fate == Fate::OffLine, !is_rim);
+            assert_eq!(fate == CollapseStatus::OffLine, !is_rim);
         }
     }
 }

@@ -129,8 +129,8 @@ mod tests {
             let found = comparison(a, b, Comparing { samples: 10, ..Comparing::default() });
             assert_eq!(found.deviation.max, 3.0);
             let tip = tipped.positions[60].to_array();
-            let foot = [tip[0], tip[1], 0.0];
-            let expected = if std::ptr::eq(a, &tipped) { [tip, foot] } else { [foot, tip] };
+            let projection = [tip[0], tip[1], 0.0];
+            let expected = if std::ptr::eq(a, &tipped) { [tip, projection] } else { [projection, tip] };
             assert_eq!(found.deviation.max_at_mm, expected);
         }
     }

@@ -64,11 +64,11 @@ pub(super) struct Sampler<'a> {
 }
 
 impl Sampler<'_> {
-    /// 1 where the way from the first surface to the second at a sample, whose nearest point on the other is `foot`, leads
+    /// 1 where the way from the first surface to the second at a sample, whose nearest point on the other is `projection`, leads
     /// out of them, else -1.
-    pub(super) fn sign(&self, sample: &Sample, foot: Vec3) -> f32 {
+    pub(super) fn sign(&self, sample: &Sample, projection: Vec3) -> f32 {
         let [a, b, c] = self.side.mesh.corners(sample.triangle as usize).map(Vec3::as_dvec3);
-        let way = (foot.as_dvec3() - sample.point.as_dvec3()) * if self.stream == 0 { 1.0 } else { -1.0 };
+        let way = (projection.as_dvec3() - sample.point.as_dvec3()) * if self.stream == 0 { 1.0 } else { -1.0 };
         if (b - a).cross(c - a).dot(way) < 0.0 { -1.0 } else { 1.0 }
     }
 
@@ -97,7 +97,7 @@ impl Sampler<'_> {
 
 /// Coordinate `axis` of sample `i`, in 0..1.
 fn unit(stream: u64, i: usize, axis: u64) -> f64 {
-    chance::unit_at((stream << 48) + i as u64 * 4 + axis + 1)
+    split_mix::unit_at((stream << 48) + i as u64 * 4 + axis + 1)
 }
 
 #[cfg(test)]

@@ -157,8 +157,12 @@ impl Measured {
                         if wants_map { found.map_or(1.0, |found| sampler.sign(&sample, found.point)) } else { 1.0 };
                     queries.distances.push(distance.copysign(sign));
                     if wants_map {
-                        let foot = found.map(|found| (found.triangle, found.barycentric));
-                        queries.places.push(if side == 0 { foot } else { Some((sample.triangle, sample.weights)) });
+                        let projection = found.map(|found| (found.triangle, found.barycentric));
+                        queries.places.push(if side == 0 {
+                            projection
+                        } else {
+                            Some((sample.triangle, sample.weights))
+                        });
                     }
                 }
                 queries

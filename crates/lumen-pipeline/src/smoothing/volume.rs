@@ -30,7 +30,7 @@ use lumen_mesh::{Topology, TriMesh, measures_within, volume_of};
 pub(crate) const TOLERANCE: f64 = 1e-4;
 
 /// The largest `|m|`.
-const MOST: f64 = 1.0;
+const MAX_M: f64 = 1.0;
 
 /// The largest part of the area that may look the other way than before smoothing. Of 13 vessels at 6 settings each, those
 /// that come back whole have 0.8 % at most, stairs and folds that were smoothed out; torn ones have from 1.1 % on.
@@ -121,7 +121,7 @@ fn place(before: &Before, smoothed: &[Vec3], normals: &[Vec3], field: &[Vec3]) -
     let mut target = before.volume;
     // Where the boundary is no closed curve the volume depends a little on the origin: then it takes a second look.
     for _ in 0..3 {
-        let m = nearest_root(volumes.map(|volume| volume - target)).filter(|m| m.abs() <= MOST)?;
+        let m = nearest_root(volumes.map(|volume| volume - target)).filter(|m| m.abs() <= MAX_M)?;
         let positions = (0..smoothed.len()).map(|v| placed(v, m)).collect();
         let mesh = TriMesh { positions, triangles: before.mesh.triangles.clone() };
         let missing = before.volume - measures_within(&mesh, Some(before.loops)).volume_mm3?;

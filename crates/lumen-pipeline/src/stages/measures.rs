@@ -74,7 +74,7 @@ fn start_level(store: &Store) -> Option<Run> {
         let found = LevelMeasures { shape: measured.shape, narrowing };
         outbox.leave(move |store| {
             store.now.level_measures = Some(Arc::new(found));
-            store.now.indices.let_go(levels.finest.triangles.len());
+            store.now.indices.release(levels.finest.triangles.len());
         });
     }))
 }

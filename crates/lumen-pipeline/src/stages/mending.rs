@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Row, Run};
-use crate::results::Entering;
+use crate::results::MendedSurface;
 use crate::store::Store;
 use lumen_mesh::mending::{Mended, mend};
 
@@ -22,7 +22,7 @@ fn start(store: &Store) -> Option<Run> {
     let (opened, all, settings) = (store.opened.clone(), store.arrays.clone(), store.now.settings.clone());
     Some(Run::fallible(|yielder, outbox| async move {
         settings.check()?;
-        let unchanged = |report| Entering { mesh: opened.clone(), arrays: all.clone(), report };
+        let unchanged = |report| MendedSurface { mesh: opened.clone(), arrays: all.clone(), report };
         let entering = if settings.mending.is_off() {
             unchanged(None)
         } else {
@@ -31,7 +31,7 @@ fn start(store: &Store) -> Option<Run> {
             if mesh == *opened {
                 unchanged(Some(report))
             } else {
-                Entering { mesh: Arc::new(mesh), arrays: Arc::new(arrays), report: Some(report) }
+                MendedSurface { mesh: Arc::new(mesh), arrays: Arc::new(arrays), report: Some(report) }
             }
         };
         outbox.leave(|store| store.now.mended = Some(Arc::new(entering)));

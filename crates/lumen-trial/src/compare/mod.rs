@@ -28,7 +28,7 @@ use lumen_pipeline::task::milliseconds;
 /// Length of a part of the route whose largest forces are compared, in mm.
 const PART: f64 = 5.0;
 /// Forces that differ by less than this are alike, in N.
-const LEAST: f32 = 1e-3;
+const MIN_DIFFERENCE_N: f32 = 1e-3;
 /// Places where forces differ most that are told.
 const PLACES: usize = 5;
 /// Times that the unreduced surface is run against itself.
@@ -143,7 +143,7 @@ impl TrialComparison {
         let rows = [&reduced.log().rows, &original.log().rows];
         let route = &original.course().route;
         let peaks = [reduced, original].map(peaks);
-        let least = |part: usize| noise.peaks.get(part).map_or(LEAST, |noise| noise.max(LEAST));
+        let least = |part: usize| noise.peaks.get(part).map_or(MIN_DIFFERENCE_N, |noise| noise.max(MIN_DIFFERENCE_N));
         let mut forces: Vec<([f32; 3], f32)> = (peaks[0].iter().zip(&peaks[1]).enumerate())
             .filter(|(part, (a, b))| (*a - *b).abs() > least(*part))
             .map(|(part, (a, b))| (plain(route.at((part as f64 + 0.5) * PART).at), a - b))
@@ -151,7 +151,12 @@ impl TrialComparison {
         forces.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         forces.truncate(PLACES);
         let clear = |trial: &Trial, p: DVec3| {
-            trial.course().wall.index().foot(p, f64::INFINITY, u32::MAX).map_or(0.0, |foot| foot.distance)
+            trial
+                .course()
+                .wall
+                .index()
+                .project_point(p, f64::INFINITY, u32::MAX)
+                .map_or(0.0, |projection| projection.distance)
         };
         let widths: Vec<[f64; 2]> =
             route.points.iter().map(|p| [clear(reduced, p.at), clear(original, p.at)]).collect();

@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::law::{Contact, PENALTY};
 use crate::rod::Rod;
 use crate::wall::Wall;
-use lumen_mesh::{PointFoot, SegmentFoot};
+use lumen_mesh::{PointProjection, SegmentProjection};
 
 /// A gap of less than this, in mm, is looked after in the step from its beginning; others once they have closed.
 const REACH: f64 = 0.1;
@@ -94,18 +94,18 @@ pub(super) struct Manifold {
 
 impl Contact {
     /// Is with this foot from now on, with the force that it had.
-    fn meet(&mut self, wall: &Wall, p: DVec3, along: f64, foot: &PointFoot, radius: f64) {
+    fn meet(&mut self, wall: &Wall, p: DVec3, along: f64, projection: &PointProjection, radius: f64) {
         if !self.is_near || (along - self.along).abs() > 0.3 {
             *self = Self::NONE;
         }
         self.is_near = true;
-        self.slot = foot.slot;
+        self.slot = projection.slot;
         self.along = along;
-        self.point = foot.point;
-        self.triangle = foot.triangle;
-        self.smooth = wall.inward(p, foot);
-        self.normal = (p - foot.point).normalize_or(self.smooth);
-        self.gap = foot.distance - radius;
+        self.point = projection.point;
+        self.triangle = projection.triangle;
+        self.smooth = wall.inward(p, projection);
+        self.normal = (p - projection.point).normalize_or(self.smooth);
+        self.gap = projection.distance - radius;
         self.at = p;
     }
 }
@@ -150,20 +150,21 @@ impl Manifold {
         if stands(known.distance - radius, known.at_least(p) - radius, REACH) {
             return known.at_least(p);
         }
-        let Some(foot) = wall.index().foot(p, f64::INFINITY, known.hint) else { return f64::INFINITY };
-        *known = Clearance { distance: foot.distance, from: p, hint: foot.slot };
-        if foot.distance >= radius + REACH {
+        let Some(projection) = wall.index().project_point(p, f64::INFINITY, known.hint) else { return f64::INFINITY };
+        *known = Clearance { distance: projection.distance, from: p, hint: projection.slot };
+        if projection.distance >= radius + REACH {
             *contacts = [Contact::NONE; FACETS];
-            return foot.distance;
+            return projection.distance;
         }
-        let away = (p - foot.point).normalize_or_zero();
+        let away = (p - projection.point).normalize_or_zero();
         let mut same = None;
         for (k, contact) in contacts.iter_mut().enumerate().filter(|(_, contact)| contact.is_near) {
-            let Some(own) = wall.index().foot_in(contact.slot, p).filter(|own| own.distance < radius + REACH) else {
+            let Some(own) = wall.index().project_point_in(contact.slot, p).filter(|own| own.distance < radius + REACH)
+            else {
                 *contact = Contact::NONE;
                 continue;
             };
-            let is_same = own.triangle == foot.triangle || (p - own.point).normalize_or_zero().dot(away) > SAME;
+            let is_same = own.triangle == projection.triangle || (p - own.point).normalize_or_zero().dot(away) > SAME;
             if is_same && same.is_none() {
                 same = Some(k);
             } else if is_same || own.distance >= radius + CORNER {
@@ -179,9 +180,9 @@ impl Manifold {
             if same.is_none() {
                 contacts[k] = Contact::NONE;
             }
-            contacts[k].meet(wall, p, 0.0, &foot, radius);
+            contacts[k].meet(wall, p, 0.0, &projection, radius);
         }
-        foot.distance
+        projection.distance
     }
 
     /// Measures the gap of the inside of an edge. Returns a distance from the wall that it has at least, in mm, unless
@@ -198,23 +199,23 @@ impl Manifold {
         let contacts = &mut self.edges[i];
         let mut least = f64::INFINITY;
         for contact in contacts.iter_mut().filter(|contact| contact.is_near) {
-            match wall.index().segment_foot_in(contact.slot, a, b, radius + EDGE_REACH) {
+            match wall.index().project_segment_in(contact.slot, a, b, radius + EDGE_REACH) {
                 Some(own) => {
-                    contact.meet(wall, a.lerp(b, own.along), own.along, &own.foot, radius);
-                    least = least.min(own.foot.distance);
+                    contact.meet(wall, a.lerp(b, own.along), own.along, &own.projection, radius);
+                    least = least.min(own.projection.distance);
                 }
                 None => *contact = Contact::NONE,
             }
         }
-        let found = if bound < within { wall.index().segment_foot(a, b, within.min(least)) } else { None };
-        let distance = found.map_or(within.max(bound), |found| found.foot.distance).min(least);
+        let found = if bound < within { wall.index().project_segment(a, b, within.min(least)) } else { None };
+        let distance = found.map_or(within.max(bound), |found| found.projection.distance).min(least);
         self.insides[i] = Inside { distance, ends: [a, b] };
-        let Some(SegmentFoot { along, foot }) = found else {
+        let Some(SegmentProjection { along, projection }) = found else {
             let nearest = least - radius;
             leave(contacts, |_, contact| contact.gap <= nearest);
             return least;
         };
-        let away = (a.lerp(b, along) - foot.point).normalize_or_zero();
+        let away = (a.lerp(b, along) - projection.point).normalize_or_zero();
         let is_same = |contact: &Contact| {
             contact.is_near && (contact.along - along).abs() < APART && contact.normal.dot(away) > ONE_SIDE
         };
@@ -225,9 +226,9 @@ impl Manifold {
             if same.is_none() {
                 contacts[k] = Contact::NONE;
             }
-            contacts[k].meet(wall, a.lerp(b, along), along, &foot, radius);
+            contacts[k].meet(wall, a.lerp(b, along), along, &projection, radius);
         }
-        least.min(foot.distance)
+        least.min(projection.distance)
     }
 
     /// How far the wall is at least from a node and the edges beside it, in mm; 0 where that is not known.

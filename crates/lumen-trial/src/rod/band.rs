@@ -221,7 +221,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use lumen_mesh::chance::Chance;
+    use lumen_mesh::split_mix::SplitMix64;
 
     #[test]
     fn a_solution_gives_the_right_hand_side_again() {
@@ -229,8 +229,8 @@ mod tests {
         let mut band = Band::default();
         band.reset(n / 4);
         // Sums of squares of random rows, and a little of the identity, are positive definite.
-        let mut chance = Chance::new(1);
-        let mut random = || chance.unit() - 0.5;
+        let mut random = SplitMix64::new(1);
+        let mut random = || random.unit() - 0.5;
         for node in 0..n / 4 - 2 {
             let mut random = || DVec3::from_array(std::array::from_fn(|_| random()));
             for _ in 0..3 {

@@ -9,9 +9,9 @@ use super::hessian::Hessian;
 use super::state::Rod;
 
 /// The farthest that one search direction moves a node, in mm.
-const MOST_MOVE: f64 = 1.0;
+const MAX_MOVE: f64 = 1.0;
 /// The largest turn of an edge about its tangent in one search direction, in radians.
-const MOST_SPIN: f64 = 0.5;
+const MAX_SPIN: f64 = 0.5;
 
 /// A search direction, as [`Rod::solve`] finds it.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ impl Rod {
                 return Some(Direction { most: 0.0, moved: f64::INFINITY, slope: 0.0 });
             }
             largest = largest.max(moved);
-            most = most.min(MOST_MOVE / moved.max(MOST_MOVE)).min(MOST_SPIN / spin.max(MOST_SPIN));
+            most = most.min(MAX_MOVE / moved.max(MAX_MOVE)).min(MAX_SPIN / spin.max(MAX_SPIN));
         }
         let slope = self.direction.iter().zip(&self.gradient).map(|(way, gradient)| way * gradient).sum();
         Some(Direction { most, moved: largest, slope })

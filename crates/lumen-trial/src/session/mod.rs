@@ -10,11 +10,11 @@ use web_time::Instant;
 use super::STEP;
 use super::autopilot::{Autopilot, DECISION, FEED, Seen};
 use super::course::{Course, TrialError};
-use super::felt::Felt;
 use super::frame::{Progress, Touch};
 use super::log::Log;
 use super::meter::{Meter, SinceRow};
 use super::missed::{MissedFork, MissedForkText};
+use super::peak_force_map::PeakForceMap;
 use super::press::outward;
 use super::report::StepKind;
 use super::setup::{Input, Setup};
@@ -51,7 +51,7 @@ struct State {
     /// Steps that the autopilot has steered.
     steered: u64,
     /// What the wall has felt, by every balanced step up to here.
-    felt: Felt,
+    felt: PeakForceMap,
     rows: usize,
 }
 
@@ -94,7 +94,7 @@ impl Trial {
             progress: Progress::Running,
             meter: Meter::new(&course.route),
             steered: 0,
-            felt: Felt::default(),
+            felt: PeakForceMap::default(),
             rows: 0,
         };
         let log = Log::new(setup.clone(), course.fingerprint);
@@ -354,12 +354,12 @@ impl Trial {
     }
 
     /// What the wall has felt so far.
-    pub fn felt(&self) -> &Felt {
+    pub fn felt(&self) -> &PeakForceMap {
         &self.state.felt
     }
 
     /// The same, to be told.
-    pub fn felt_mut(&mut self) -> &mut Felt {
+    pub fn felt_mut(&mut self) -> &mut PeakForceMap {
         &mut self.state.felt
     }
 }

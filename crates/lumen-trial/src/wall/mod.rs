@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use self::ridges::ridges;
-use lumen_mesh::{PointFoot, SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops};
+use lumen_mesh::{PointProjection, SurfaceIndex, Topology, TriMesh, Vec3, boundary_loops};
 use lumen_pipeline::normals::{Weighting, vertex_normals};
 
 /// A surface to be touched from inside. Its open ends are closed by fans around their middles: what lies beyond is not
@@ -69,14 +69,14 @@ impl Wall {
         &self.index
     }
 
-    /// Into the lumen, where the wire is at `p` and the wall is nearest at `foot`: the interpolated normal, so that
+    /// Into the lumen, where the wire is at `p` and the wall is nearest at `projection`: the interpolated normal, so that
     /// facets are not felt, and the way from the wall where that is another one, at ridges and slivers.
-    pub(super) fn inward(&self, p: DVec3, foot: &PointFoot) -> DVec3 {
-        let corners = self.capped.triangles[foot.triangle as usize];
+    pub(super) fn inward(&self, p: DVec3, projection: &PointProjection) -> DVec3 {
+        let corners = self.capped.triangles[projection.triangle as usize];
         let outward: DVec3 =
-            corners.iter().zip(foot.barycentric).map(|(&v, w)| self.normals[v as usize].as_dvec3() * w).sum();
+            corners.iter().zip(projection.barycentric).map(|(&v, w)| self.normals[v as usize].as_dvec3() * w).sum();
         let smooth = -outward.normalize_or_zero();
-        let Some(away) = (p - foot.point).try_normalize() else { return smooth };
+        let Some(away) = (p - projection.point).try_normalize() else { return smooth };
         let cosine = smooth.dot(away);
         let part = ((cosine - TRUSTED[1]) / (TRUSTED[0] - TRUSTED[1])).clamp(0.0, 1.0);
         away.lerp(smooth, part).normalize_or(away)
@@ -104,7 +104,7 @@ fn capped(mesh: &Arc<TriMesh>, topology: &Topology) -> Arc<TriMesh> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lumen_mesh::SegmentFoot;
+    use lumen_mesh::SegmentProjection;
     use lumen_mesh::shapes::icosphere;
 
     /// Numbers from -1 to 1.
@@ -128,13 +128,13 @@ mod tests {
         for _ in 0..4000 {
             let a = point();
             let b = a + point() * 0.2;
-            let [near_a, near_b] = [a, b].map(|p| whole.foot(p, f64::INFINITY, u32::MAX).unwrap().distance);
+            let [near_a, near_b] = [a, b].map(|p| whole.project_point(p, f64::INFINITY, u32::MAX).unwrap().distance);
             if whole.winding(a.as_vec3(), Vec3::Z) != 1 || whole.winding(b.as_vec3(), Vec3::Z) != 1 {
                 continue;
             }
             let within = near_a.min(near_b) - 1e-9;
-            let [of_all, of_ridges] = [&whole, wall.index().as_ref()].map(|index| index.segment_foot(a, b, within));
-            let distance = |found: Option<SegmentFoot>| found.map_or(within, |found| found.foot.distance);
+            let [of_all, of_ridges] = [&whole, wall.index().as_ref()].map(|index| index.project_segment(a, b, within));
+            let distance = |found: Option<SegmentProjection>| found.map_or(within, |found| found.projection.distance);
             assert!((distance(of_all) - distance(of_ridges)).abs() < 1e-12, "{of_all:?} {of_ridges:?}");
             inside += usize::from(of_all.is_some());
         }

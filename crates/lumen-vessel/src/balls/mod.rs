@@ -30,11 +30,11 @@ const FARTHEST: f32 = 1.9;
 /// A ball found from others is not smaller than this part of the one that was begun with.
 const SMALLER: f32 = 0.5;
 /// Nor does one begin with a ball whose radius is below this part of a mean edge.
-const LEAST: f32 = 0.05;
+const MIN_RADIUS: f32 = 0.05;
 /// Or below this part of the largest radius: a tenth of a millimetre or so in a tree with an aorta.
 const THINNEST: f32 = 0.01;
 /// Balls that are too many for any vessel tree.
-const MOST: usize = 200_000;
+const MAX_BALLS: usize = 200_000;
 /// From this many on, a sheet is told from vessels by how many others a ball is linked with: in vessels three to five,
 /// in a sheet nine or more.
 const MANY: usize = 16_384;
@@ -72,7 +72,7 @@ impl Balls {
         self.next_count = 2 * count.max(MANY / 2);
         self.links.sort_unstable();
         self.links.dedup();
-        self.is_sheet = count >= MOST || (count >= MANY && self.links.len() * 2 > SHEET * count);
+        self.is_sheet = count >= MAX_BALLS || (count >= MANY && self.links.len() * 2 > SHEET * count);
     }
 }
 
@@ -89,7 +89,7 @@ struct Filling {
     grid: Grid,
     wall: Wall,
     found: Balls,
-    feet: Vec<Nearest>,
+    projections: Vec<Nearest>,
     /// The first ball of each cell, and the next one in the same cell for each ball.
     first: Vec<u32>,
     next: Vec<u32>,
@@ -161,10 +161,10 @@ impl Filling {
         let grid = Grid::new(&mesh.bounds());
         let wall = Wall::new(&grid, &mesh.positions);
         let first = vec![NONE; grid.len()];
-        let least = LEAST * mean_edge(mesh);
-        let (feet, next, pending) = (Vec::new(), Vec::new(), Vec::new());
+        let least = MIN_RADIUS * mean_edge(mesh);
+        let (projections, next, pending) = (Vec::new(), Vec::new(), Vec::new());
         let found = Balls::default();
-        Self { normals, grid, wall, found, feet, first, next, pending, least, floor: 0.0 }
+        Self { normals, grid, wall, found, projections, first, next, pending, least, floor: 0.0 }
     }
 
     /// The next vertex to begin at, and its normal, from `first` on.
@@ -184,28 +184,28 @@ impl Filling {
 
     /// Begins in the middle behind a point of the wall, and goes on from there as far as it goes.
     fn begin(&mut self, on: Surface<'_>, p: Vec3, normal: Vec3) {
-        let Some((start, start_foot)) = on.space.behind_wall(p, normal) else { return };
+        let Some((start, start_projection)) = on.space.behind_wall(p, normal) else { return };
         // Not again from the places around, whatever came of this one.
         self.wall.explain(&self.grid, on.positions, p, 0.3 * start.radius);
         if start.radius < self.least {
             return;
         }
         let mut on_the_way = vec![start];
-        let (ball, foot) = on.space.ascend(start, start_foot, |next| on_the_way.push(next));
+        let (ball, projection) = on.space.ascend(start, start_projection, |next| on_the_way.push(next));
         let number = match self.like(&ball) {
             Some(number) => number,
             None if on.space.is_inside(ball.centre) => {
                 self.floor = (SMALLER * ball.radius).max(self.least);
-                self.add(on, ball, foot, false)
+                self.add(on, ball, projection, false)
             }
             None => return,
         };
-        self.join_at_waist(on, &on_the_way, start_foot, number);
+        self.join_at_waist(on, &on_the_way, start_projection, number);
     }
 
     /// Where a vessel is narrow only for a short way, the middle goes off to where it is wider, on either side of the
     /// waist: what lies between is kept as a way from one to the other.
-    fn join_at_waist(&mut self, on: Surface<'_>, on_the_way: &[Ball], foot: Nearest, to: u32) {
+    fn join_at_waist(&mut self, on: Surface<'_>, on_the_way: &[Ball], projection: Nearest, to: u32) {
         let start = on_the_way[0];
         let end = self.found.balls[to as usize];
         if start.centre.distance(end.centre) <= SAME * start.radius || self.like(&start).is_some() {
@@ -214,7 +214,7 @@ impl Filling {
         let own = self.found.balls.len() as u32;
         let mut last = None;
         for &ball in on_the_way {
-            let number = self.add(on, ball, foot, true);
+            let number = self.add(on, ball, projection, true);
             if let Some(last) = last {
                 self.link(last, number);
             }
@@ -244,13 +244,13 @@ impl Filling {
         }
     }
 
-    fn add(&mut self, on: Surface<'_>, ball: Ball, foot: Nearest, is_passing: bool) -> u32 {
+    fn add(&mut self, on: Surface<'_>, ball: Ball, projection: Nearest, is_passing: bool) -> u32 {
         let number = self.found.balls.len() as u32;
         let cell = self.grid.cell(self.grid.place(ball.centre));
         self.found.balls.push(ball);
         self.found.is_passing.push(is_passing);
         self.found.group.push(number);
-        self.feet.push(foot);
+        self.projections.push(projection);
         self.next.push(self.first[cell]);
         self.first[cell] = number;
         if !is_passing {
@@ -301,36 +301,36 @@ impl Filling {
                 self.link(from, other);
                 continue;
             }
-            let Some((start, foot)) = on.space.ball(p, Some(&self.feet[from as usize])) else { continue };
+            let Some((start, projection)) = on.space.ball(p, Some(&self.projections[from as usize])) else { continue };
             if start.radius < OPEN * ball.radius {
                 continue;
             }
             on_the_way.clear();
             on_the_way.push(start);
-            let (found, foot) = on.space.ascend(start, foot, |next| on_the_way.push(next));
+            let (found, projection) = on.space.ascend(start, projection, |next| on_the_way.push(next));
             if found.radius < self.floor {
                 continue;
             }
             match self.like(&found) {
                 Some(other) if other == from => {}
-                Some(other) => self.link_by(on, from, other, &on_the_way, foot),
+                Some(other) => self.link_by(on, from, other, &on_the_way, projection),
                 None => {
-                    let number = self.add(on, found, foot, false);
-                    self.link_by(on, from, number, &on_the_way, foot);
+                    let number = self.add(on, found, projection, false);
+                    self.link_by(on, from, number, &on_the_way, projection);
                 }
             }
         }
     }
 
     /// Links two balls, by those on the way between them if they do not overlap enough.
-    fn link_by(&mut self, on: Surface<'_>, from: u32, to: u32, on_the_way: &[Ball], foot: Nearest) {
+    fn link_by(&mut self, on: Surface<'_>, from: u32, to: u32, on_the_way: &[Ball], projection: Nearest) {
         let [a, b] = [from, to].map(|ball| self.found.balls[ball as usize]);
         if a.passage(&b) >= PASSAGE * a.radius.min(b.radius) {
             self.link(from, to);
         } else if root(&mut self.found.group, from) != root(&mut self.found.group, to) {
             let mut last = from;
             for &ball in on_the_way {
-                let passing = self.add(on, ball, foot, true);
+                let passing = self.add(on, ball, projection, true);
                 self.link(last, passing);
                 last = passing;
             }
@@ -424,8 +424,8 @@ mod tests {
         let mut filling = Filling::new(&mesh);
         // 3 mm apart what fits through is 4.8 mm wide; 9.5 mm apart it is 1.6 mm, less than half a radius; then nothing.
         for z in [15.0, 18.0, 27.5, 40.0] {
-            let (ball, foot) = space.ball(Vec3::Z * z, None).unwrap();
-            filling.add(on, ball, foot, false);
+            let (ball, projection) = space.ball(Vec3::Z * z, None).unwrap();
+            filling.add(on, ball, projection, false);
         }
         let found = filling.finished();
         assert_eq!(found.links, [[0, 1]]);

@@ -1,7 +1,7 @@
 //! What became of one branch: which of its stations count, its radii on all three surfaces, and the largest change.
 
 use super::stretch::stretches;
-use super::{BranchCalibre, Change, OnSurface, Spread, Standing, Verdict};
+use super::{BranchCalibre, Change, OnSurface, Spread, StationStatus, Verdict};
 use crate::calibre::{Calibre, circle};
 use crate::stations::Station;
 use crate::tree::Branch;
@@ -31,26 +31,26 @@ pub(super) fn branch_calibre(
     let standing = |i: usize| {
         let areas = calibres.map(|of| of[i].area_mm2);
         match (zones[i], areas) {
-            (Zone::End, _) => Standing::End,
-            (Zone::Fork, _) => Standing::Fork,
-            (Zone::Vessel, _) if is_ambiguous(i) => Standing::Ambiguous,
+            (Zone::End, _) => StationStatus::End,
+            (Zone::Fork, _) => StationStatus::Fork,
+            (Zone::Vessel, _) if is_ambiguous(i) => StationStatus::Ambiguous,
             (Zone::Vessel, [Some(opened), Some(_), Some(_)]) if 2.0 * circle(opened) >= EDGES * edge_mm => {
-                Standing::Counts
+                StationStatus::Counts
             }
-            (Zone::Vessel, [Some(_), Some(_), Some(_)]) => Standing::Thin,
-            (Zone::Vessel, _) => Standing::NotClosed,
+            (Zone::Vessel, [Some(_), Some(_), Some(_)]) => StationStatus::Thin,
+            (Zone::Vessel, _) => StationStatus::NotClosed,
         }
     };
-    let standings: Vec<Standing> = (0..stations.len()).map(standing).collect();
+    let standings: Vec<StationStatus> = (0..stations.len()).map(standing).collect();
     // Of a branch that is nowhere one vessel, all of it.
-    let is_vessel = |standing: &Standing| matches!(standing, Standing::Counts | Standing::Thin);
+    let is_vessel = |standing: &StationStatus| matches!(standing, StationStatus::Counts | StationStatus::Thin);
     let has_vessel = standings.iter().any(is_vessel);
     let shown: Vec<usize> = (0..stations.len()).filter(|&i| !has_vessel || is_vessel(&standings[i])).collect();
     let stretches = calibres.map(|of| stretches(stations, of, calibres[0], &standings, edge_mm));
     let radii = |surface: usize| stretches[surface].iter().map(|stretch| stretch.map(|stretch| stretch.radius));
     let of = |surface: usize| {
         let change = |i: usize| {
-            let is_counted = surface > 0 && standings[i] == Standing::Counts;
+            let is_counted = surface > 0 && standings[i] == StationStatus::Counts;
             let [before, after] = [0, surface].map(|surface| stretches[surface][i].filter(|_| is_counted));
             Some(100.0 * (after?.mean / before?.mean.max(f64::MIN_POSITIVE) - 1.0))
         };
@@ -98,7 +98,7 @@ pub(super) fn branch_calibre(
         tortuosity: (ends > 1e-6 * length_mm).then(|| length_mm / ends),
         verdict: verdict(&reduced),
         verdict_smoothed: verdict(&smoothed),
-        stations_counted: standings.iter().filter(|&&standing| standing == Standing::Counts).count(),
+        stations_counted: standings.iter().filter(|&&standing| standing == StationStatus::Counts).count(),
         abscissas_mm,
         at_mm,
         standings,

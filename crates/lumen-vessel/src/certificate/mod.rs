@@ -34,7 +34,7 @@ pub use unit::CalibreError;
 pub(super) use unit::checked;
 
 use super::BranchName;
-pub use super::on_surface::{Change, OnSurface, Spread, SpreadText, Standing};
+pub use super::on_surface::{Change, OnSurface, Spread, SpreadText, StationStatus};
 use super::variation::{Kind, Variation};
 use lumen_message::messages;
 
@@ -79,7 +79,7 @@ pub struct BranchCalibre {
     /// Each station, in mm.
     pub at_mm: Vec<[f32; 3]>,
     /// Whether each counts, and why not.
-    pub standings: Vec<Standing>,
+    pub standings: Vec<StationStatus>,
     /// As opened.
     pub opened: OnSurface,
     /// Smoothed.

@@ -1,13 +1,13 @@
 //! The radius of a stretch of a vessel as long as the vessel is wide, from the areas of its cross-sections.
 
-use super::Standing;
+use super::StationStatus;
 use crate::calibre::{Calibre, circle};
 use crate::stations::Station;
 
 /// Least half length of the stretch that a radius is of, in mean edges.
 const WINDOW_EDGES: f64 = 4.0;
 /// The least part of the mean over its stretch that an area can be.
-const LEAST_OF_MEAN: f64 = 0.25;
+const MIN_OF_MEAN: f64 = 0.25;
 
 /// What a vessel has over a stretch around a station.
 #[derive(Clone, Copy)]
@@ -24,10 +24,10 @@ pub(super) fn stretches(
     stations: &[Station],
     of: &[Calibre],
     opened: &[Calibre],
-    standings: &[Standing],
+    standings: &[StationStatus],
     edge_mm: f64,
 ) -> Vec<Option<Stretch>> {
-    let is_vessel = |i: usize| matches!(standings[i], Standing::Counts | Standing::Thin);
+    let is_vessel = |i: usize| matches!(standings[i], StationStatus::Counts | StationStatus::Thin);
     let one = |i: usize| {
         let own = of[i].area_mm2?;
         if !is_vessel(i) {
@@ -57,7 +57,7 @@ pub(super) fn stretches(
             }
         }
         // A line that comes down to nothing says nothing: then the mean does, on all surfaces alike.
-        let is_line = as_opened.at_origin() >= LEAST_OF_MEAN * as_opened.mean();
+        let is_line = as_opened.at_origin() >= MIN_OF_MEAN * as_opened.mean();
         let area = if is_line { line.at_origin().max(0.0) } else { line.mean() };
         Some(Stretch { radius: circle(area), mean: circle(line.mean()) })
     };

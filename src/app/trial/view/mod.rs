@@ -75,7 +75,7 @@ impl TrialView {
     }
 
     /// Gives back the memory of the device.
-    pub(in crate::app::trial) fn let_go(&mut self) {
+    pub(in crate::app::trial) fn release(&mut self) {
         (self.scene, self.failure, self.refused) = (None, None, None);
         (self.felt, self.picture) = (0, None);
         self.fluoroscopy.forget();
@@ -83,14 +83,14 @@ impl TrialView {
 
     /// Takes another device, on which nothing of the views stands yet.
     pub(in crate::app::trial) fn set_device(&mut self, device: Option<&egui_wgpu::RenderState>) {
-        self.let_go();
+        self.release();
         self.device = device.cloned();
     }
 
     /// Gives up what stands on the device, whose memory is full, until the views are shown anew or another surface is.
     pub(in crate::app::trial) fn refuse(&mut self) {
         if self.scene.is_some() {
-            self.let_go();
+            self.release();
             self.failure = Some(NO_MEMORY.say());
             self.refused = self.shown.take();
         }
@@ -274,7 +274,7 @@ impl TrialView {
             (None, Stage::Off(Some(_))) => return,
             (None, Stage::Off(_)) if trial.problem.is_some() => say!("trial-none-on-problem"),
             (None, Stage::Off(_)) => say!("trial-none-on"),
-            (None, Stage::On(_)) => return,
+            (None, Stage::Association(_)) => return,
         };
         plate(ui, rect.center(), Align2::CENTER_CENTER, &text, true);
     }

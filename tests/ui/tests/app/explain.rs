@@ -6,7 +6,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use lumen::app::{LumenApp, PlatformEvent};
-use lumen::pipeline::decimation::Fate;
+use lumen::pipeline::decimation::CollapseStatus;
 use lumen::pipeline::progressive::Level;
 use lumen::pipeline::settings::Target;
 use lumen_ui_tests::{DESKTOP, app, app_in_full, says, settle, tube};
@@ -142,7 +142,7 @@ fn a_vertex_that_is_clicked_says_where_it_may_go() {
     harness.drop_at(view.center());
     harness.run_steps(3);
     let ways = harness.state().collapses().ways().expect("a vertex was asked for").clone();
-    assert!(ways.to.iter().any(|(_, fate)| matches!(fate, Fate::Open | Fate::Eased)), "{ways:?}");
+    assert!(ways.to.iter().any(|(_, fate)| matches!(fate, CollapseStatus::Open | CollapseStatus::Eased)), "{ways:?}");
     let next = harness.state().collapses().next().unwrap();
     assert!(ways.to.iter().any(|(node, _)| *node == next.heir), "its neighbour takes over");
     let triangles = level(&harness).triangles.len();

@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 
 use super::layout::{Condition, Effect, Layout};
-use crate::force::{ForceDriver, ForceError, Reply, Request, Wish};
+use crate::force::{ForceCommand, ForceDriver, ForceError, Reply, Request};
 use crate::model::DeviceModel;
 use crate::usage::{Usage, pid};
 
@@ -17,7 +17,7 @@ pub const DURATION_MS: f64 = 100.0;
 /// How often it is started again, in ms.
 pub const RESTART_MS: f64 = 40.0;
 /// The least between two reports of the same parameters, in ms: 500 a second.
-const LEAST_MS: f64 = 2.0;
+const MIN_MS: f64 = 2.0;
 /// How long a device may make room for an effect, in requests.
 const TRIES: u32 = 5;
 /// Failures in a row after which the device counts as gone.
@@ -77,7 +77,7 @@ pub struct PidDriver {
     playing: Vec<Playing>,
     /// For each effect and axis: `2 * effect + axis`.
     parameters: Vec<Parameters>,
-    wish: Option<Wish>,
+    command: Option<ForceCommand>,
     must_stop: bool,
     under_way: Option<(UnderWay, f64)>,
     failures: u32,
@@ -103,7 +103,7 @@ impl PidDriver {
             steps: VecDeque::new(),
             playing: Vec::new(),
             parameters: Vec::new(),
-            wish: None,
+            command: None,
             must_stop: false,
             under_way: None,
             failures: 0,
@@ -153,10 +153,10 @@ impl PidDriver {
     }
 
     /// The parameters of an effect along feed, 0, or roll, 1, for what is wished.
-    fn parameters_for(&self, effect: usize, which: usize, wish: &Wish) -> Option<(u8, Vec<u8>)> {
+    fn parameters_for(&self, effect: usize, which: usize, command: &ForceCommand) -> Option<(u8, Vec<u8>)> {
         let Playing { part, index, .. } = &self.playing[effect];
         let place = self.layout.axes()[which]?;
-        let of = &wish[which];
+        let of = &command[which];
         let limit = of.limit.clamp(0.0, 1.0);
         if part.kind == pid::ET_CONSTANT_FORCE {
             let force = if of.force.is_nan() { 0.0 } else { of.force.clamp(-limit, limit) };
@@ -175,10 +175,10 @@ impl PidDriver {
     }
 
     fn refresh(&mut self) {
-        let Some(wish) = self.wish else { return };
+        let Some(command) = self.command else { return };
         self.parameters.resize_with(2 * self.playing.len(), Parameters::default);
         for slot in 0..self.parameters.len() {
-            self.parameters[slot].report = self.parameters_for(slot / 2, slot % 2, &wish);
+            self.parameters[slot].report = self.parameters_for(slot / 2, slot % 2, &command);
         }
     }
 
@@ -208,7 +208,7 @@ impl PidDriver {
         }
         let changed = (0..self.parameters.len()).filter(|&slot| {
             let of = &self.parameters[slot];
-            of.report.is_some() && of.report != of.told && (of.told.is_none() || now_ms - of.told_ms >= LEAST_MS)
+            of.report.is_some() && of.report != of.told && (of.told.is_none() || now_ms - of.told_ms >= MIN_MS)
         });
         let slot = changed.min_by(|&a, &b| {
             let age = |slot: usize| (self.parameters[slot].told.is_some(), self.parameters[slot].told_ms);
@@ -268,14 +268,14 @@ impl PidDriver {
 }
 
 impl ForceDriver for PidDriver {
-    fn wish(&mut self, wish: &Wish) {
-        self.wish = Some(*wish);
+    fn command(&mut self, command: &ForceCommand) {
+        self.command = Some(*command);
         self.must_stop = false;
         self.refresh();
     }
 
     fn stop(&mut self) {
-        let was_on = self.wish.take().is_some();
+        let was_on = self.command.take().is_some();
         self.must_stop |= was_on && self.is_begun;
         // What an effect did is no longer what it is to do when it starts again.
         self.parameters.iter_mut().for_each(|parameters| parameters.told = None);
@@ -294,7 +294,7 @@ impl ForceDriver for PidDriver {
         let due = if self.must_stop {
             self.end()
         } else {
-            self.wish?;
+            self.command?;
             if !self.is_begun {
                 self.begin();
             }

@@ -6,7 +6,7 @@ use super::layout::{Condition, Effect, Layout};
 use crate::descriptor::parse;
 use crate::feeder;
 use crate::fixtures::{chromium, descriptor};
-use crate::force::{AxisForce, Coupling, ForceDriver, ForceError, Reply, Request, Wish};
+use crate::force::{AxisForce, Coupling, ForceCommand, ForceDriver, ForceError, Reply, Request};
 use crate::usage::{Usage, desktop, pid};
 use crate::webhid::{self, CollectionInfo};
 
@@ -115,7 +115,7 @@ fn arrays_that_are_told_backwards_or_as_something_else_are_put_right() {
     }
 }
 
-fn wish(force: f64, limit: f64) -> Wish {
+fn command(force: f64, limit: f64) -> ForceCommand {
     let coupling = Some(Coupling { centre: 0.1, stiffness: 0.5, damping: 0.2 });
     [AxisForce { force, coupling, limit }; 2]
 }
@@ -153,7 +153,7 @@ fn ids(sent: &[(u32, Request)]) -> Vec<u8> {
 fn nothing_is_written_before_a_wish_and_all_is_said_before_it_starts() {
     let mut driver = PidDriver::new(&parse(&descriptor("openffboard-2")).unwrap(), BOTH).unwrap();
     assert!(driver.has_coupling() && talk(&mut driver, 0, 100).is_empty());
-    driver.wish(&wish(0.5, 0.5));
+    driver.command(&command(0.5, 0.5));
     let sent = talk(&mut driver, 100, 400);
     // Reset, on, gain; ask, get, describe for spring and damper; four conditions; two starts.
     assert_eq!(ids(&sent)[..15], [12, 12, 13, 0x11, 0x12, 1, 0x11, 0x12, 1, 3, 3, 3, 3, 10, 10]);
@@ -173,13 +173,13 @@ fn nothing_is_written_before_a_wish_and_all_is_said_before_it_starts() {
 #[test]
 fn a_stop_is_the_next_report_and_what_was_said_before_it_does_not_come_back() {
     let mut driver = PidDriver::new(&parse(&descriptor("openffboard-2")).unwrap(), BOTH).unwrap();
-    driver.wish(&wish(0.5, 0.5));
+    driver.command(&command(0.5, 0.5));
     talk(&mut driver, 0, 50);
-    driver.wish(&wish(0.6, 0.4));
+    driver.command(&command(0.6, 0.4));
     driver.stop();
     let sent = talk(&mut driver, 50, 60);
     assert_eq!(sent, [(50, Request::Send { id: 12, data: vec![4] })]);
-    driver.wish(&wish(0.1, 0.05));
+    driver.command(&command(0.1, 0.05));
     let sent = talk(&mut driver, 60, 70);
     assert_eq!(ids(&sent)[..6], [3, 3, 3, 3, 10, 10], "limits first, then starts");
     // A stop that failed is sent again.
@@ -193,7 +193,7 @@ fn a_stop_is_the_next_report_and_what_was_said_before_it_does_not_come_back() {
 fn constant_forces_have_an_effect_for_each_axis() {
     let model = parse(&descriptor("openffboard-2")).unwrap();
     let mut driver = PidDriver::new(&model, BOTH).unwrap().without_coupling();
-    driver.wish(&wish(-0.5, 0.4));
+    driver.command(&command(-0.5, 0.4));
     let sent = talk(&mut driver, 0, 30);
     assert_eq!(ids(&sent)[..13], [12, 12, 13, 0x11, 0x12, 1, 0x11, 0x12, 1, 5, 5, 10, 10]);
     let Request::Send { data, .. } = &sent[9].1 else { panic!() };
@@ -205,7 +205,7 @@ fn constant_forces_have_an_effect_for_each_axis() {
 fn a_device_without_room_or_that_is_silent_is_given_up() {
     let model = parse(&descriptor("openffboard-2")).unwrap();
     let mut full = PidDriver::new(&model, BOTH).unwrap();
-    full.wish(&wish(0.5, 0.5));
+    full.command(&command(0.5, 0.5));
     for now in 0..40 {
         let reply = match full.next(f64::from(now)) {
             Some(Request::GetFeature { .. }) => Reply::Feature(&[0, 2, 0, 0]),
@@ -215,11 +215,11 @@ fn a_device_without_room_or_that_is_silent_is_given_up() {
     }
     assert_eq!((full.error(), full.next(99.0)), (Some(ForceError::Full), None));
     let mut silent = PidDriver::new(&model, BOTH).unwrap();
-    silent.wish(&wish(0.5, 0.5));
+    silent.command(&command(0.5, 0.5));
     assert!(silent.next(0.0).is_some() && silent.next(400.0).is_none() && silent.error().is_none());
     assert_eq!((silent.next(600.0), silent.error()), (None, Some(ForceError::Silent)));
     let mut refused = PidDriver::new(&model, BOTH).unwrap();
-    refused.wish(&wish(0.5, 0.5));
+    refused.command(&command(0.5, 0.5));
     (0..10).for_each(|now| {
         refused.next(f64::from(now));
         refused.reply(f64::from(now), Reply::Failed);
@@ -232,10 +232,10 @@ fn a_device_without_room_or_that_is_silent_is_given_up() {
 #[test]
 fn a_wish_that_is_no_number_is_no_force() {
     let mut driver = PidDriver::new(&parse(&descriptor("openffboard-2")).unwrap(), BOTH).unwrap();
-    driver.wish(&wish(0.5, 0.5));
+    driver.command(&command(0.5, 0.5));
     talk(&mut driver, 0, 50);
     let coupling = Some(Coupling { centre: f64::NAN, stiffness: 0.5, damping: f64::INFINITY });
-    driver.wish(&[AxisForce { force: f64::NAN, coupling, limit: 0.5 }; 2]);
+    driver.command(&[AxisForce { force: f64::NAN, coupling, limit: 0.5 }; 2]);
     let sent = talk(&mut driver, 60, 70);
     for (_, request) in sent {
         if let Request::Send { id: 3, data } = request {

@@ -7,7 +7,7 @@ use jpeg_decoder::{Decoder, PixelFormat};
 
 use super::super::super::problem::DicomProblem;
 use super::super::error::ScanError;
-use super::super::numbers::MOST_UNFOLDED;
+use super::super::numbers::MAX_UNFOLDED;
 use super::file::{FORMAT, File, Packing};
 
 /// The pixels of frame `frame` of a file, in little-endian order.
@@ -18,7 +18,7 @@ pub(super) fn frame(file: &File, frame: usize) -> Result<Vec<u8>, ScanError> {
     match file.packing {
         Some(Packing::Rle | Packing::Jpeg) => {
             let packed = packed(file, frame).ok_or_else(short)?;
-            if bytes as u64 > MOST_UNFOLDED * packed.len() as u64 {
+            if bytes as u64 > MAX_UNFOLDED * packed.len() as u64 {
                 return Err(short());
             }
             if file.packing == Some(Packing::Rle) {

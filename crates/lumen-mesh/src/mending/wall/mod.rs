@@ -12,15 +12,15 @@
 //! Limits: a wall whose thickness varies by more than [`SPREAD`] times, or one of a vessel narrower than its wall, is not
 //! recognised. Windings must agree and face outwards.
 
-mod looks;
 mod parting;
 mod regions;
 mod search;
+mod visibility;
 
 use std::sync::Arc;
 
-use self::looks::Looks;
 pub use self::search::{SPREAD, Wall};
+use self::visibility::Visibility;
 use crate::parallel;
 use crate::task::{Yielder, at_once, blocks};
 use crate::{Blend, SurfaceIndex, TriMesh, components};
@@ -67,7 +67,7 @@ pub async fn find_in_slices(
 ) -> WallFound {
     let pieces = components(mesh.positions.len(), &mesh.triangles);
     let index = SurfaceIndex::known_or_built(index, mesh, &yielder.part(0.0..0.4)).await;
-    let looks = Looks { mesh, index: &index, pieces: &pieces };
+    let looks = Visibility { mesh, index: &index, pieces: &pieces };
     let found = looks.walls();
     yielder.rest(0.5).await;
     let wall = found.first().map(|found| found.wall);

@@ -1,8 +1,8 @@
 //! Takes the lumen out of walls that were found: tells the inner side of each from its outer side and its rims.
 
-use super::looks::{Looks, PARALLEL, Place};
 use super::regions::{Regions, across};
 use super::search::{FoundIn, PLACES};
+use super::visibility::{PARALLEL, Place, Visibility};
 use super::{CHUNK, Lumen};
 use crate::parallel;
 use crate::{Blend, Topology, compacted, used_vertices};
@@ -15,20 +15,20 @@ const OUTER: f64 = 0.4;
 /// A sheet ends where it bends by more than 60 degrees, as at a rim: the cosine.
 const SMOOTH: f64 = 0.5;
 /// Triangles of a sheet that are asked one by one, at most.
-const MOST_ASKED: usize = 200_000;
+const MAX_ASKED: usize = 200_000;
 /// A sheet has this part of its piece's triangles at least.
-const LEAST_SHEET: f64 = 0.01;
+const MIN_SHEET: f64 = 0.01;
 
 /// What becomes of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Fate {
+enum SideChange {
     Stays,
     /// It is of the inner side, and faces the lumen.
     Turns,
     Goes,
 }
 
-impl Looks<'_> {
+impl Visibility<'_> {
     /// Whether behind a triangle of a piece that is a wall by itself the other side is.
     pub(super) fn is_walled(&self, triangle: u32, found: &[FoundIn]) -> bool {
         let piece = self.piece(triangle);
@@ -42,24 +42,25 @@ impl Looks<'_> {
 
     /// The surface without the outer sides and the rims; `None` where the sides of a piece cannot be told apart.
     pub(super) fn lumen(&self, found: &[FoundIn], is_walled: &[bool]) -> Option<Lumen> {
-        let mut fate = vec![Fate::Stays; self.mesh.triangles.len()];
+        let mut change = vec![SideChange::Stays; self.mesh.triangles.len()];
         for &FoundIn { outer, wall } in found {
             if wall.is_two_pieces {
-                for (fate, &piece) in fate.iter_mut().zip(&self.pieces.of_triangle) {
+                for (change, &piece) in change.iter_mut().zip(&self.pieces.of_triangle) {
                     if piece == outer {
-                        *fate = Fate::Goes;
+                        *change = SideChange::Goes;
                     }
                 }
             } else {
-                self.part(outer, is_walled, &mut fate)?;
+                self.part(outer, is_walled, &mut change)?;
             }
         }
-        let kept: Vec<u32> = (0u32..).zip(&fate).filter(|(_, fate)| **fate != Fate::Goes).map(|(t, _)| t).collect();
+        let kept: Vec<u32> =
+            (0u32..).zip(&change).filter(|(_, change)| **change != SideChange::Goes).map(|(t, _)| t).collect();
         let triangles: Vec<[u32; 3]> = kept
             .iter()
             .map(|&t| {
                 let [a, b, c] = self.mesh.triangles[t as usize];
-                if fate[t as usize] == Fate::Turns { [a, c, b] } else { [a, b, c] }
+                if change[t as usize] == SideChange::Turns { [a, c, b] } else { [a, b, c] }
             })
             .collect();
         let used = used_vertices(self.mesh.positions.len(), &triangles);
@@ -80,12 +81,12 @@ impl Looks<'_> {
     }
 
     /// Parts the inner side of a piece from its outer side and its rims.
-    fn part(&self, piece: u32, is_walled: &[bool], fate: &mut [Fate]) -> Option<()> {
+    fn part(&self, piece: u32, is_walled: &[bool], change: &mut [SideChange]) -> Option<()> {
         let topology = Topology::new(self.mesh.positions.len(), &self.mesh.triangles);
         let of_piece: Vec<u32> =
             (0u32..).zip(&self.pieces.of_triangle).filter(|(_, p)| **p == piece).map(|(t, _)| t).collect();
         let sheets = Regions::of(self.mesh, &topology, &of_piece, Some(SMOOTH), |t| is_walled[t as usize]);
-        let least = (LEAST_SHEET * of_piece.len() as f64).max(1.0) as usize;
+        let least = (MIN_SHEET * of_piece.len() as f64).max(1.0) as usize;
         // Whether a triangle is of the inner side, where that is known.
         let mut sides: Vec<Option<bool>> = vec![None; self.mesh.triangles.len()];
         for list in sheets.lists.iter().filter(|list| list.len() >= least) {
@@ -95,7 +96,7 @@ impl Looks<'_> {
                 continue;
             }
             // Both sides hang together somewhere: each triangle is asked, and few that differ from those around are not heard.
-            if list.len() > MOST_ASKED {
+            if list.len() > MAX_ASKED {
                 return None;
             }
             let answers = parallel::map_ranges(list.len(), CHUNK, |range| {
@@ -132,7 +133,7 @@ impl Looks<'_> {
             let is_inner = side(t).unwrap_or_else(|| {
                 between.of_triangle[t as usize].is_some_and(|region| touches[region as usize] == [false, true])
             });
-            fate[t as usize] = if is_inner { Fate::Turns } else { Fate::Goes };
+            change[t as usize] = if is_inner { SideChange::Turns } else { SideChange::Goes };
         }
         Some(())
     }

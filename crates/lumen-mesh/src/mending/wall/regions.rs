@@ -1,6 +1,6 @@
 //! Groups of triangles that are joined by edges: each grows from a first triangle across its edges.
 
-use super::looks::Place;
+use super::visibility::Place;
 use crate::{Topology, TriMesh};
 
 /// Triangles that are joined by edges, in groups.

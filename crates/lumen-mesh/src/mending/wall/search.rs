@@ -3,21 +3,21 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::looks::{Looks, PARALLEL, Place};
+use super::visibility::{PARALLEL, Place, Visibility};
 use crate::triangle_area;
 
 /// The tenth largest thickness of ten is at most so many times the tenth smallest.
 pub const SPREAD: f64 = 4.0;
 /// Pieces that are looked at, the largest, and the least part of the area that they have.
 const PIECES: usize = 6;
-const LEAST_AREA: f64 = 0.05;
+const MIN_AREA: f64 = 0.05;
 /// Places on each.
 pub(super) const PLACES: usize = 256;
 /// Of a sheet's places, those that must see the other side, and of the other side's those that must see it.
-const MOST_SEE: f64 = 0.8;
+const MIN_SEEN: f64 = 0.8;
 const MANY_SEE: f64 = 0.6;
 /// The part of a piece that must line such a space.
-const LEAST_INNER: f64 = 0.15;
+const MIN_INNER: f64 = 0.15;
 
 /// A wall with two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,7 +40,7 @@ pub(super) struct FoundIn {
     pub(super) wall: Wall,
 }
 
-impl Looks<'_> {
+impl Visibility<'_> {
     /// Places on the pieces that are large enough, spread evenly over the area of each.
     fn places(&self) -> Vec<(u32, f64, Vec<Place>)> {
         let mut areas = vec![0.0; self.pieces.count()];
@@ -48,7 +48,7 @@ impl Looks<'_> {
             areas[piece as usize] += triangle_area(self.mesh.corners(t));
         }
         let whole: f64 = areas.iter().sum();
-        let mut large: Vec<u32> = (0..areas.len() as u32).filter(|&p| areas[p as usize] > LEAST_AREA * whole).collect();
+        let mut large: Vec<u32> = (0..areas.len() as u32).filter(|&p| areas[p as usize] > MIN_AREA * whole).collect();
         large.sort_by(|&a, &b| areas[b as usize].total_cmp(&areas[a as usize]).then(a.cmp(&b)));
         large.truncate(PIECES);
         let mut slots = vec![None; areas.len()];
@@ -100,7 +100,7 @@ impl Looks<'_> {
         };
         let ways: Vec<f64> = on_inner.iter().filter_map(|place| sees(place, place.normal, outer)).collect();
         let backs = on_outer.iter().filter(|place| sees(place, -place.normal, inner).is_some()).count();
-        if (ways.len() as f64) < MOST_SEE * on_inner.len() as f64 || (backs as f64) < MANY_SEE * on_outer.len() as f64 {
+        if (ways.len() as f64) < MIN_SEEN * on_inner.len() as f64 || (backs as f64) < MANY_SEE * on_outer.len() as f64 {
             return None;
         }
         let across: Vec<f64> = on_inner.iter().filter_map(|place| Some(self.met(place, -place.normal)?.0)).collect();
@@ -110,7 +110,7 @@ impl Looks<'_> {
     /// The wall that a piece is by itself.
     fn within(&self, places: &[Place]) -> Option<Wall> {
         let inner: Vec<&Place> = places.iter().filter(|place| self.lines_a_space(place)).collect();
-        if (inner.len() as f64) < LEAST_INNER * places.len() as f64 {
+        if (inner.len() as f64) < MIN_INNER * places.len() as f64 {
             return None;
         }
         let (mut ways, mut across) = (Vec::new(), Vec::new());
@@ -124,7 +124,7 @@ impl Looks<'_> {
                 across.push(width);
             }
         }
-        if (ways.len() as f64) < MOST_SEE * inner.len() as f64 {
+        if (ways.len() as f64) < MIN_SEEN * inner.len() as f64 {
             return None;
         }
         wall(ways, across, false)

@@ -12,8 +12,8 @@
 //!
 //! A collapse then asks the pairs of the leaf it happens in, and most have none near. Where boxes do overlap, triangles
 //! are tested one by one (`crossings.rs`). A surface may enter with crossings: then a collapse is allowed if it leaves no
-//! more triangles that cross than it found. None is allowed among more than [`MOST_NEAR`] triangles, or beside a vertex at
-//! which more than [`MOST_FAN`] meet.
+//! more triangles that cross than it found. None is allowed among more than [`MAX_NEAR`] triangles, or beside a vertex at
+//! which more than [`MAX_FAN`] meet.
 
 mod crossings;
 mod pairs;
@@ -28,17 +28,17 @@ use self::crossings::Crossings;
 use self::pairs::Pairs;
 use self::sheet::{FACING, Sheet, faces, turned};
 use self::tree::{Leaves, Patch, SLACK, Tree, angle};
+use super::one_ring::OneRing;
 use super::rings::{Rings, SIZE, neighbour};
-use super::star::Star;
 use lumen_mesh::TriMesh;
 use lumen_mesh::crossing::Face;
 
 /// Room for a leaf to grow, in mean edge lengths.
 const MARGIN: f32 = 1.5;
 /// Most leaves, and most triangles, that a collapse is tested against.
-const MOST_NEAR: usize = 1 << 15;
+const MAX_NEAR: usize = 1 << 15;
 /// A vertex beside one at which more triangles meet than this stays: each would have to be asked.
-const MOST_FAN: usize = 1 << 12;
+const MAX_FAN: usize = 1 << 12;
 /// Slots, and leaves, that are worked on in one piece when a guard starts.
 const SLOTS: usize = 1 << 12;
 const LEAVES: usize = 1 << 9;
@@ -89,9 +89,9 @@ pub(super) struct Planned<'a> {
     pub(super) to: usize,
     /// Where `u` will be, relative to the middle of the rings.
     pub(super) end: Vec3A,
-    pub(super) star: &'a Star,
+    pub(super) star: &'a OneRing,
     /// Of `u`, and where `v` stands in it: only if `u` moves.
-    pub(super) other: Option<(&'a Star, usize)>,
+    pub(super) other: Option<(&'a OneRing, usize)>,
 }
 
 impl Planned<'_> {
@@ -121,7 +121,7 @@ impl Guard {
     }
 
     /// Goes on to know the surface, for about a millisecond; whether it does.
-    pub(super) fn advance(&mut self, rings: &Rings, star: &mut Star) -> bool {
+    pub(super) fn advance(&mut self, rings: &Rings, star: &mut OneRing) -> bool {
         match self.stage {
             Stage::Leaves => {
                 if self.leaves.advance(rings, star, self.edge, SLOTS) {
@@ -181,11 +181,12 @@ impl Guard {
         let mut near = std::mem::take(&mut self.near);
         near.clear();
         if self.is_closed {
-            self.tree.leaves_near((patch.low, patch.high), &mut near, pairs::MOST, |_, other| patch.looks_as(other));
+            self.tree
+                .leaves_near((patch.low, patch.high), &mut near, pairs::MAX_PAIRS, |_, other| patch.looks_as(other));
         } else {
             self.sheet.spread(&self.tree, leaf, &patch);
             let sheet = &self.sheet;
-            self.tree.leaves_near((patch.low, patch.high), &mut near, pairs::MOST, |other, _| {
+            self.tree.leaves_near((patch.low, patch.high), &mut near, pairs::MAX_PAIRS, |other, _| {
                 other.is_some_and(|other| sheet.has_leaf(other))
             });
         }
@@ -243,8 +244,8 @@ impl Guard {
     /// Whether the collapse makes no crossing that was not there.
     pub(super) fn allows(&mut self, rings: &Rings, mesh: &TriMesh, planned: &Planned) -> bool {
         let Planned { v, u, star, .. } = *planned;
-        let is_wide = |&entry: &u32| rings.around(neighbour(entry)).len() > MOST_FAN;
-        if rings.widest() > MOST_FAN && star.entries().iter().any(is_wide) {
+        let is_wide = |&entry: &u32| rings.around(neighbour(entry)).len() > MAX_FAN;
+        if rings.widest() > MAX_FAN && star.entries().iter().any(is_wide) {
             return false;
         }
         let p = rings.at(v);
@@ -270,7 +271,7 @@ impl Guard {
         let reaches = &mut self.leaves.reaches[leaf as usize];
         *reaches = reaches.max(reach);
         let axis = (cosine > FACING).then_some(axis);
-        let is_known = near.len() <= MOST_NEAR;
+        let is_known = near.len() <= MAX_NEAR;
         near.retain(|&other| {
             let [least, most] = self.boxes[other as usize];
             (least.cmple(high) & most.cmpge(low)).all()
@@ -281,13 +282,13 @@ impl Guard {
         allowed
     }
 
-    /// The pairs of a leaf, at least those whose triangles may reach into a box; where there are more than [`MOST_NEAR`],
+    /// The pairs of a leaf, at least those whose triangles may reach into a box; where there are more than [`MAX_NEAR`],
     /// one more than these and not all.
     fn leaves_with(&mut self, leaf: u32, (low, high): (Vec3A, Vec3A)) -> Vec<u32> {
         let mut near = std::mem::take(&mut self.near);
         near.clear();
         if self.pairs.is_crowded(leaf) {
-            self.tree.leaves_near((low, high), &mut near, MOST_NEAR, |_, _| false);
+            self.tree.leaves_near((low, high), &mut near, MAX_NEAR, |_, _| false);
         } else {
             near.extend(self.pairs.of(leaf));
         }
@@ -315,7 +316,7 @@ impl Guard {
         if axis.is_some() {
             self.gather_beyond_folds(rings, planned);
         }
-        if self.found.len() > MOST_NEAR {
+        if self.found.len() > MAX_NEAR {
             return false;
         }
         let place = |s: u32| rings.place(s, mesh);
@@ -370,7 +371,7 @@ impl Guard {
     }
 
     /// Puts into `found` the triangles of the leaves in `near` that reach into the box of a collapse and do not go with
-    /// it, without those of its own sheet; far more than [`MOST_NEAR`] need not all be there.
+    /// it, without those of its own sheet; far more than [`MAX_NEAR`] need not all be there.
     fn gather(
         &mut self,
         rings: &Rings,
@@ -382,7 +383,7 @@ impl Guard {
         self.found.clear();
         self.alike.clear();
         for &leaf in near {
-            if self.found.len().max(self.alike.len()) > 4 * MOST_NEAR {
+            if self.found.len().max(self.alike.len()) > 4 * MAX_NEAR {
                 break;
             }
             for &s in self.leaves.slots(leaf).iter().filter(|&&s| !planned.is_centre(s)) {

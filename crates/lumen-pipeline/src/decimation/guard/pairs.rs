@@ -4,7 +4,7 @@
 //! the tree each time. So the lists of a surface have no more than some hundreds of bytes a slot, whatever it is.
 
 /// Most pairs of a leaf that is not crowded: of those found at first, and of those found later.
-pub(super) const MOST: usize = 256;
+pub(super) const MAX_PAIRS: usize = 256;
 
 /// End of a list.
 const NONE: u32 = u32::MAX;
@@ -29,9 +29,9 @@ impl Pairs {
         self.first.len()
     }
 
-    /// Adds the first pairs of the next leaf: all that there are, or more than [`MOST`].
+    /// Adds the first pairs of the next leaf: all that there are, or more than [`MAX_PAIRS`].
     pub(super) fn add_leaf(&mut self, others: &[u32]) {
-        let is_crowded = others.len() > MOST;
+        let is_crowded = others.len() > MAX_PAIRS;
         if self.offsets.is_empty() {
             self.offsets.push(0);
         }
@@ -50,7 +50,7 @@ impl Pairs {
         if self.crowded[i] {
             return;
         }
-        if usize::from(self.counts[i]) == MOST {
+        if usize::from(self.counts[i]) == MAX_PAIRS {
             self.crowded[i] = true;
             return;
         }
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn a_leaf_with_more_pairs_than_fit_has_no_list_and_takes_no_room() {
         let mut pairs = Pairs::default();
-        let many: Vec<u32> = (0..=MOST as u32).collect();
+        let many: Vec<u32> = (0..=MAX_PAIRS as u32).collect();
         pairs.add_leaf(&many);
         pairs.add_leaf(&many[1..]);
         pairs.add_leaf(&[]);
@@ -118,6 +118,6 @@ mod tests {
             many.iter().for_each(|&other| pairs.add(2, other));
         }
         assert!(pairs.is_crowded(2) && !pairs.is_crowded(1));
-        assert_eq!((pairs.others.len(), pairs.later.len()), (MOST, MOST));
+        assert_eq!((pairs.others.len(), pairs.later.len()), (MAX_PAIRS, MAX_PAIRS));
     }
 }

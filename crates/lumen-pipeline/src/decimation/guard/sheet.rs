@@ -12,7 +12,7 @@ pub(super) const FACING: f32 = 0.07;
 
 /// Triangles of a sheet that are followed around a collapse, and leaves beside a leaf; beyond them what looks the same
 /// way is tested.
-const MOST: usize = 64;
+const MAX_LEAVES: usize = 64;
 
 /// Walks over sheets.
 #[derive(Default)]
@@ -44,7 +44,7 @@ impl Sheet {
         for &slot in leaves.slots(leaf) {
             for &entry in rings.around(slot) {
                 let next = leaves.of(neighbour(entry));
-                if next != leaf && !self.beside[first..].contains(&next) && self.beside.len() < first + MOST {
+                if next != leaf && !self.beside[first..].contains(&next) && self.beside.len() < first + MAX_LEAVES {
                     self.beside.push(next);
                 }
             }
@@ -95,7 +95,7 @@ impl Sheet {
             }
         }
         let mut at = 0;
-        while at < self.triangles.len() && self.triangles.len() < MOST {
+        while at < self.triangles.len() && self.triangles.len() < MAX_LEAVES {
             let [a, b, c] = self.triangles[at];
             at += 1;
             for side in [[a, b], [b, c], [c, a]] {

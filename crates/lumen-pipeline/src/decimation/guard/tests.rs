@@ -16,7 +16,7 @@ fn rings_of(mesh: &TriMesh) -> Rings {
 }
 
 fn guard_of(rings: &Rings, is_closed: bool) -> Guard {
-    let (mut guard, mut star) = (Guard::default(), Star::new());
+    let (mut guard, mut star) = (Guard::default(), OneRing::new());
     guard.start(rings, is_closed);
     while !guard.advance(rings, &mut star) {}
     guard
@@ -24,7 +24,7 @@ fn guard_of(rings: &Rings, is_closed: bool) -> Guard {
 
 /// The guard's word on `v` going to its `to`-th neighbour.
 fn allows(guard: &mut Guard, rings: &Rings, mesh: &TriMesh, v: u32, to: usize) -> bool {
-    let mut star = Star::new();
+    let mut star = OneRing::new();
     star.load(rings, v);
     star.span();
     let u = neighbour(star.entries()[to]);

@@ -9,8 +9,8 @@ use std::f32::consts::{PI, SQRT_2};
 
 use glam::Vec3A;
 
+use super::super::one_ring::{MAX_AROUND, OneRing};
 use super::super::rings::{Rings, neighbour};
-use super::super::star::{MOST_AROUND, Star};
 
 /// Most slots of a leaf.
 const LEAF: usize = 8;
@@ -166,7 +166,7 @@ impl Leaves {
 
     /// Puts the next slots into leaves, about `count` of them; whether these were the last. `edge` is the mean length of
     /// an edge.
-    pub(super) fn advance(&mut self, rings: &Rings, star: &mut Star, edge: f32, count: usize) -> bool {
+    pub(super) fn advance(&mut self, rings: &Rings, star: &mut OneRing, edge: f32, count: usize) -> bool {
         let end = self.leaf_of.len().min(self.slots.len() + count);
         while self.slots.len() < end {
             while self.leaf_of[self.next as usize] != NONE {
@@ -178,7 +178,7 @@ impl Leaves {
     }
 
     /// Adds the leaf that begins at `next`.
-    fn add(&mut self, rings: &Rings, star: &mut Star, edge: f32) {
+    fn add(&mut self, rings: &Rings, star: &mut OneRing, edge: f32) {
         let first = self.next;
         let mut leaf = Growing { patch: Patch::NOTHING, sum: Vec3A::ZERO, is_loose: false, reach: 0.0 };
         let begin = self.slots.len();
@@ -218,13 +218,13 @@ impl Leaves {
     }
 
     /// Adds a slot to the leaf that is being made and begins with `first`, unless it is too far or turned too much.
-    fn take(&mut self, rings: &Rings, star: &mut Star, edge: f32, v: u32, first: u32, leaf: &mut Growing) -> bool {
+    fn take(&mut self, rings: &Rings, star: &mut OneRing, edge: f32, v: u32, first: u32, leaf: &mut Growing) -> bool {
         let p = rings.at(v);
         if v != first && p.distance(rings.at(first)) > LEAF_SIZE * edge {
             return false;
         }
         let Growing { patch, sum, is_loose, reach } = leaf;
-        if rings.is_gone(v) || rings.around(v).len() > MOST_AROUND {
+        if rings.is_gone(v) || rings.around(v).len() > MAX_AROUND {
             *is_loose |= !rings.is_gone(v);
             for &entry in rings.around(v) {
                 let q = rings.at(neighbour(entry));
@@ -254,7 +254,7 @@ impl Leaves {
 
 /// Whether another sheet may follow beyond a vertex: it lies on a boundary or a cut, or too much meets there.
 fn is_loose(rings: &Rings, v: u32) -> bool {
-    rings.is_open(v) || rings.stays(v) || rings.around(v).len() > MOST_AROUND
+    rings.is_open(v) || rings.stays(v) || rings.around(v).len() > MAX_AROUND
 }
 
 /// A tree over patches.

@@ -26,7 +26,7 @@ const REMEMBERED: f64 = 0.8;
 
 /// How the hand holds the wire along one direction; lengths in mm and forces in N, or in radians and N mm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Grip {
+pub struct CouplingGains {
     /// K: by how much the force grows with each mm or radian that the wire stays behind.
     pub stiffness: f64,
     /// B: by which force a speed of 1 is felt.
@@ -37,7 +37,7 @@ pub struct Grip {
     pub slew: f64,
 }
 
-impl Grip {
+impl CouplingGains {
     /// Along the wire.
     pub const FEED: Self = Self { stiffness: 0.1, drag: 0.001, most: 2.0, slew: 5.0 };
     /// About it.
@@ -47,7 +47,7 @@ impl Grip {
 /// One direction of what is held.
 #[derive(Clone, Copy, Debug)]
 struct Coupling {
-    grip: Grip,
+    grip: CouplingGains,
     /// How far the hand is ahead of the wire.
     ahead: f64,
     /// How far the hand went since the last row.
@@ -64,7 +64,7 @@ struct Coupling {
 }
 
 impl Coupling {
-    fn new(grip: Grip) -> Self {
+    fn new(grip: CouplingGains) -> Self {
         Self {
             grip,
             ahead: 0.0,
@@ -92,12 +92,12 @@ impl Coupling {
         let way = self.gone - gone;
         let shown = if way.abs() > 0.01 { ((self.reaction - reaction) / way).max(0.0) } else { 0.0 };
         self.wire = shown.max(REMEMBERED * self.wire);
-        let Grip { stiffness, drag, .. } = self.grip;
+        let CouplingGains { stiffness, drag, .. } = self.grip;
         (stiffness * (self.ahead + moved) - self.reaction) / (drag + (stiffness + self.wire) * ROW)
     }
 
     fn stepped(&mut self, went: f64, reaction: f64, is_balanced: bool) {
-        let Grip { stiffness, most, slew, .. } = self.grip;
+        let CouplingGains { stiffness, most, slew, .. } = self.grip;
         self.ahead -= went;
         self.went += went;
         if is_balanced {
@@ -111,20 +111,20 @@ impl Coupling {
 
 /// A hand on the wire.
 #[derive(Clone, Copy, Debug)]
-pub struct Hold {
+pub struct VirtualCoupling {
     feed: Coupling,
     roll: Coupling,
 }
 
-impl Default for Hold {
+impl Default for VirtualCoupling {
     fn default() -> Self {
-        Self::new(Grip::FEED, Grip::ROLL)
+        Self::new(CouplingGains::FEED, CouplingGains::ROLL)
     }
 }
 
-impl Hold {
+impl VirtualCoupling {
     /// A hand that has just taken hold, and feels nothing yet.
-    pub fn new(feed: Grip, roll: Grip) -> Self {
+    pub fn new(feed: CouplingGains, roll: CouplingGains) -> Self {
         Self { feed: Coupling::new(feed), roll: Coupling::new(roll) }
     }
 
@@ -163,7 +163,7 @@ mod tests {
 
     /// A wire that pushes back as a spring of so many N/mm beyond a wall, and its hand.
     struct Spring {
-        hold: Hold,
+        hold: VirtualCoupling,
         fed: f64,
         wall: f64,
         stiffness: f64,
@@ -173,7 +173,7 @@ mod tests {
 
     impl Spring {
         fn new(wall: f64, stiffness: f64) -> Self {
-            Self { hold: Hold::default(), fed: 0.0, wall, stiffness, steps: 0, input: Input::default() }
+            Self { hold: VirtualCoupling::default(), fed: 0.0, wall, stiffness, steps: 0, input: Input::default() }
         }
 
         fn step(&mut self, by: f64, kind: StepKind) -> f64 {
@@ -207,7 +207,7 @@ mod tests {
             (0..500).for_each(|_| _ = wire.step(10.0 * STEP, StepKind::Balanced));
             let felt = (0..3000).map(|_| wire.step(0.0, StepKind::Balanced)).last().unwrap();
             // Two springs in a row: 10 mm of the hand, 5 mm to the wall.
-            let expected = 5.0 / (1.0 / stiffness + 1.0 / Grip::FEED.stiffness);
+            let expected = 5.0 / (1.0 / stiffness + 1.0 / CouplingGains::FEED.stiffness);
             assert!((felt - expected).abs() < 1e-3, "{felt} N, not {expected} N, by {stiffness} N/mm");
         }
     }
@@ -227,7 +227,7 @@ mod tests {
                     before = place;
                 }
                 // In a cycle both springs take 10 mm in and give it back.
-                let stored = 0.5 * 100.0 / (1.0 / stiffness + 1.0 / Grip::FEED.stiffness);
+                let stored = 0.5 * 100.0 / (1.0 / stiffness + 1.0 / CouplingGains::FEED.stiffness);
                 assert!(work > -0.005 * 10.0 * stored, "{work} N mm in ten cycles of {hz} Hz by {stiffness} N/mm");
             }
         }
@@ -241,8 +241,8 @@ mod tests {
             assert_eq!((0..20).map(|_| wire.step(0.02, kind)).last(), Some(before));
         }
         let felt: Vec<f64> = (0..5000).map(|_| wire.step(0.1, StepKind::Balanced)).collect();
-        assert!(felt.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= Grip::FEED.slew * STEP + 1e-12));
-        assert!((felt[4999] - Grip::FEED.most).abs() < 0.01);
+        assert!(felt.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= CouplingGains::FEED.slew * STEP + 1e-12));
+        assert!((felt[4999] - CouplingGains::FEED.most).abs() < 0.01);
         // It does not first have to come back all the way that it slipped.
         let back = (0..200).map(|_| wire.step(-0.1, StepKind::Balanced)).last().unwrap();
         assert!(back < 1.0, "{back} N");

@@ -14,14 +14,14 @@ const PLACE: f32 = 1.0;
 
 /// Peak forces, place by place.
 #[derive(Clone, Debug, Default)]
-pub struct Felt {
+pub struct PeakForceMap {
     /// Each with its largest force so far.
     peaks: HashMap<[i32; 3], Touch>,
     /// What of that was not told yet.
     news: BTreeMap<[i32; 3], Touch>,
 }
 
-impl Felt {
+impl PeakForceMap {
     /// Takes what the wall feels in a step.
     pub fn take(&mut self, touches: impl Iterator<Item = Touch>) {
         for touch in touches {
@@ -60,7 +60,7 @@ mod tests {
 
     #[test]
     fn each_place_tells_its_largest_force_once() {
-        let mut felt = Felt::default();
+        let mut felt = PeakForceMap::default();
         assert!(felt.news().is_empty());
         // A peak between two frames, beside another place.
         for touches in [[touch(0.1, 0.01), touch(5.0, 0.2)], [touch(0.9, 0.04), touch(5.0, 0.1)], [touch(0.2, 0.0); 2]]

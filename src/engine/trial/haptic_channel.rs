@@ -1,7 +1,7 @@
 //! A haptic device's hand on the wire, beside keys, pads and gamepad: how far it moves comes in, what it feels goes out.
 //!
 //! The device is served by whoever has it, at its own pace: a thread on the desktop, the Worker's events in the browser. Both
-//! meet in an [`Exchange`]. What is not renewed on either side for [`STALE`] counts as nothing.
+//! meet in an [`HapticChannel`]. What is not renewed on either side for [`STALE`] counts as nothing.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -9,9 +9,9 @@ use std::time::Duration;
 use web_time::Instant;
 
 use crate::trial::STEP;
-use crate::trial::hold::Hold;
 use crate::trial::session::{ROW_STEPS, Trial};
 use crate::trial::setup::Input;
+use crate::trial::virtual_coupling::VirtualCoupling;
 
 /// For how long what a side has said holds.
 pub const STALE: Duration = Duration::from_millis(100);
@@ -27,7 +27,7 @@ pub struct HandFeels {
 
 /// Where a device and the trial meet; clones are the same.
 #[derive(Clone, Debug, Default)]
-pub struct Exchange(Arc<Mutex<Shared>>);
+pub struct HapticChannel(Arc<Mutex<Shared>>);
 
 #[derive(Debug, Default)]
 struct Shared {
@@ -41,7 +41,7 @@ fn is_fresh(since: Instant) -> bool {
     since.elapsed() <= STALE
 }
 
-impl Exchange {
+impl HapticChannel {
     fn lock(&self) -> MutexGuard<'_, Shared> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -76,8 +76,8 @@ impl Exchange {
 #[derive(Default)]
 pub(super) struct Grasp {
     /// Where it meets a device, which may take hold at any time; `None` where there can be none.
-    exchange: Option<Exchange>,
-    hold: Hold,
+    exchange: Option<HapticChannel>,
+    hold: VirtualCoupling,
     /// Whether a device is served.
     is_held: bool,
     /// What keys, pads and gamepad do: the hand holds the wire for them too.
@@ -86,12 +86,12 @@ pub(super) struct Grasp {
 
 impl Grasp {
     /// Of whoever is at the other side, if there may be somebody.
-    pub(super) fn new(exchange: Option<Exchange>) -> Self {
+    pub(super) fn new(exchange: Option<HapticChannel>) -> Self {
         Self { exchange, ..Self::default() }
     }
 
     /// Where it meets the device.
-    pub(super) fn exchange(&self) -> Option<Exchange> {
+    pub(super) fn exchange(&self) -> Option<HapticChannel> {
         self.exchange.clone()
     }
 
@@ -113,7 +113,7 @@ impl Grasp {
 
     /// Nothing moves: the hand feels nothing, and what it does meanwhile is not made up for. Says whether it moves.
     pub(super) fn rest(&mut self) -> bool {
-        self.hold = Hold::default();
+        self.hold = VirtualCoupling::default();
         self.tell(None);
         self.moved().is_some_and(|moved| moved != [0.0; 2])
     }
@@ -126,7 +126,7 @@ impl Grasp {
             if std::mem::take(&mut self.is_held) {
                 trial.drive(self.beside);
                 self.tell(None);
-                self.hold = Hold::default();
+                self.hold = VirtualCoupling::default();
             }
             trial.step();
             return;

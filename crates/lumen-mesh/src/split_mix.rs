@@ -5,9 +5,9 @@
 const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A stream of numbers.
-pub struct Chance(u64);
+pub struct SplitMix64(u64);
 
-impl Chance {
+impl SplitMix64 {
     /// Begins the sequence of `seed`.
     pub fn new(seed: u64) -> Self {
         Self(seed)
@@ -48,7 +48,7 @@ mod tests {
     #[test]
     fn the_numbers_are_those_of_splitmix64() {
         // Those that implementations are checked by: Rosetta Code, "Pseudo-random numbers/Splitmix64".
-        let mut chance = Chance::new(1_234_567);
+        let mut chance = SplitMix64::new(1_234_567);
         let expected = [
             6_457_827_717_110_365_317,
             3_203_168_211_198_807_973,
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn a_number_is_known_from_its_place() {
-        let mut chance = Chance::new(0);
+        let mut chance = SplitMix64::new(0);
         for n in 1..1000 {
             let next = chance.unit();
             assert!((0.0..1.0).contains(&next) && next == unit_at(n), "{n}: {next}");

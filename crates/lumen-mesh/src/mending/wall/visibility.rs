@@ -27,13 +27,13 @@ impl Place {
 }
 
 /// What is looked at.
-pub(super) struct Looks<'a> {
+pub(super) struct Visibility<'a> {
     pub(super) mesh: &'a TriMesh,
     pub(super) index: &'a SurfaceIndex,
     pub(super) pieces: &'a Components,
 }
 
-impl Looks<'_> {
+impl Visibility<'_> {
     pub(super) fn piece(&self, triangle: u32) -> u32 {
         self.pieces.of_triangle[triangle as usize]
     }

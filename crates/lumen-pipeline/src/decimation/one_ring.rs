@@ -7,14 +7,14 @@
 use glam::{Vec3, Vec3A, Vec4};
 
 use super::rings::{BORDER, Rings, neighbour};
-use lumen_mesh::foot_on_triangle;
+use lumen_mesh::closest_point_on_triangle;
 
 /// Triangles around a vertex above which it waits for its neighbours to go first, and nothing collapses onto it: what
 /// is asked of a star takes the square of its size, and the middle of a flat cap may have thousands.
-pub(super) const MOST_AROUND: usize = 128;
+pub(super) const MAX_AROUND: usize = 128;
 
 /// One neighbour more than that may stand at the end of a boundary, one is repeated, and the next four are read.
-const QUADS: usize = MOST_AROUND / 4 + 2;
+const QUADS: usize = MAX_AROUND / 4 + 2;
 
 /// x, y and z of four vectors.
 type Vectors = [Vec4; 3];
@@ -39,9 +39,9 @@ struct Quad {
 }
 
 /// A vertex and the triangles around it.
-pub(super) struct Star {
+pub(super) struct OneRing {
     /// Entries of the ring, `count` of them.
-    entries: [u32; MOST_AROUND + 4],
+    entries: [u32; MAX_AROUND + 4],
     count: usize,
     triangles: usize,
     quads: [Quad; QUADS],
@@ -77,7 +77,7 @@ fn sum(v: Vec4) -> f32 {
     (v.x + v.y) + (v.z + v.w)
 }
 
-impl Star {
+impl OneRing {
     pub(super) fn new() -> Self {
         let zero = [Vec4::ZERO; 3];
         let none = Quad {
@@ -89,10 +89,10 @@ impl Star {
             quality: Vec4::ZERO,
             none: Vec4::ZERO,
         };
-        Self { entries: [0; MOST_AROUND + 4], count: 0, triangles: 0, quads: [none; QUADS], area: 0.0, normals: zero }
+        Self { entries: [0; MAX_AROUND + 4], count: 0, triangles: 0, quads: [none; QUADS], area: 0.0, normals: zero }
     }
 
-    /// Loads the ring of `v`, which has at most [`MOST_AROUND`] neighbours; [`Self::span`] follows where triangles are
+    /// Loads the ring of `v`, which has at most [`MAX_AROUND`] neighbours; [`Self::span`] follows where triangles are
     /// asked for.
     pub(super) fn load(&mut self, rings: &Rings, v: u32) {
         let ring = rings.around(v);
@@ -266,7 +266,7 @@ impl Star {
 
     /// The values of the form `x.Ax + 2 b.x + c` at the neighbours, four at a time, into `values`; `a` is xx, xy, xz, yy,
     /// yz, zz.
-    pub(super) fn form(&self, a: &[f32; 6], b: Vec3A, c: f32, values: &mut [f32; MOST_AROUND + 4]) {
+    pub(super) fn form(&self, a: &[f32; 6], b: Vec3A, c: f32, values: &mut [f32; MAX_AROUND + 4]) {
         let [xx, xy, xz, yy, yz, zz] = a.map(Vec4::splat);
         let b = (b + b).to_array().map(Vec4::splat);
         let c = Vec4::splat(c);
@@ -288,7 +288,8 @@ impl Star {
         let before = if j > 0 { j - 1 } else { self.count - 1 };
         let there = (0..self.triangles).filter(|&i| i != j && i != before);
         let corner = |i: usize| Vec3::from(if i < self.count { self.edge(i) } else { self.edge(0) });
-        let squares = there.map(|i| foot_on_triangle(Vec3::ZERO, [Vec3::from(way), corner(i), corner(i + 1)]).squared);
+        let squares =
+            there.map(|i| closest_point_on_triangle(Vec3::ZERO, [Vec3::from(way), corner(i), corner(i + 1)]).squared);
         let least = squares.fold(f64::INFINITY, f64::min);
         // Where none is left, the vertex was an ear: the edge it stood on.
         if least.is_finite() { least.sqrt() as f32 } else { way.length() }
@@ -331,7 +332,7 @@ mod tests {
     use lumen_mesh::{Topology, TriMesh};
 
     /// A cone of `sides` triangles around vertex 0, the apex, which is `height` above the others' circle of radius 1.
-    fn cone(sides: u32, height: f32) -> Star {
+    fn cone(sides: u32, height: f32) -> OneRing {
         let at = |i: u32| libm::sincosf(i as f32 / sides as f32 * std::f32::consts::TAU);
         let rim = (0..sides).map(|i| Vec3::new(at(i).1, at(i).0, 0.0));
         let positions = std::iter::once(Vec3::Z * height).chain(rim).collect();
@@ -340,11 +341,11 @@ mod tests {
     }
 
     /// That of vertex 0.
-    fn star_of(mesh: &TriMesh) -> Star {
+    fn star_of(mesh: &TriMesh) -> OneRing {
         let mut rings = Rings::new(mesh);
         assert!(rings.link(mesh, &Topology::new(mesh.positions.len(), &mesh.triangles), mesh.positions.len()));
         let apex = (0..rings.len() as u32).find(|&v| rings.nodes[v as usize] == 0).unwrap();
-        let mut star = Star::new();
+        let mut star = OneRing::new();
         star.load(&rings, apex);
         star.span();
         star

@@ -17,14 +17,14 @@ const NONE: u32 = u32::MAX;
 
 /// The hubs of a surface.
 #[derive(Debug, Default)]
-pub(super) struct Hubs {
+pub(super) struct HighValenceVertices {
     /// Whether a vertex is one; empty where none is.
     is_hub: Vec<bool>,
     /// Of each lane of each node: a hub that all triangles below it have in common.
     of_lanes: Vec<[u32; 4]>,
 }
 
-impl Hubs {
+impl HighValenceVertices {
     /// Those of the surface that `index` was built from.
     pub(super) fn of(index: &SurfaceIndex, triangles: &[[u32; 3]]) -> Self {
         let count = triangles.iter().flatten().max().map_or(0, |&most| most as usize + 1);

@@ -15,12 +15,12 @@ const PART: u64 = 1024;
 
 /// The room for one file.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Room {
+pub(super) struct MemoryBudget {
     /// Bytes of the file.
     file: u64,
 }
 
-impl Room {
+impl MemoryBudget {
     /// For a file of so many bytes.
     pub(super) fn of(file: usize) -> Self {
         Self { file: file as u64 }
