@@ -53,7 +53,7 @@ pub use closest_point::distance_to_triangle;
 pub use components::{Components, components};
 pub use cut::{Outline, cut, cut_pieces};
 pub use glam::Vec3;
-pub use hausdorff::{Beyond, Reach, TOLERANCE};
+pub use hausdorff::{FarPoint, HausdorffBound, TOLERANCE};
 pub use index_build::IndexBuild;
 pub use inner_ball::{InnerBall, InnerRadii, inner_radii, inner_radii_in_slices, outward_normal};
 pub use inside::Sides;

@@ -3,7 +3,7 @@
 
 use glam::Vec3;
 
-use lumen_mesh::chance;
+use lumen_mesh::split_mix;
 use lumen_mesh::task::{Yielder, blocks};
 use lumen_mesh::{TriMesh, triangle_area};
 
