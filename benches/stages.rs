@@ -61,7 +61,8 @@ struct Bench {
 impl Bench {
     fn new(triangles: usize) -> Self {
         let opened = Arc::new(generate(Sample::Aorta, triangles).expect("the size is in range"));
-        let mut pipeline = Pipeline::new(opened.clone(), Settings::default());
+        let settings = Settings { target: Target::Reduction(900), ..Settings::default() };
+        let mut pipeline = Pipeline::new(opened.clone(), settings);
         run_to(&mut pipeline, Stage::Level);
         Self { opened, pipeline }
     }

@@ -71,7 +71,8 @@ pub use lumen_volume as volume;
 /// use lumen::prelude::*;
 ///
 /// let aorta = lumen::phantom::generate(Sample::Aorta, 5_000)?;
-/// let mut pipeline = Pipeline::new(Arc::new(aorta), Settings::default()).without_measures();
+/// let settings = Settings { target: Target::Reduction(900), ..Settings::default() };
+/// let mut pipeline = Pipeline::new(Arc::new(aorta), settings).without_measures();
 /// pipeline.finish()?;
 /// let entering = pipeline.smoothed().unwrap().mesh.triangles.len();
 /// let reduced = pipeline.reduced().unwrap().mesh.triangles.len();

@@ -30,41 +30,60 @@ pub(super) struct Setting<'a> {
     pub range: RangeInclusive<f64>,
     /// What it is by default.
     pub default: f64,
+    /// Whether it is set by itself, where it can be: that is then its default.
+    pub auto: Option<bool>,
     /// Digits after the point.
     pub decimals: usize,
     /// Whether the slider is logarithmic.
     pub logarithmic: bool,
 }
 
+/// What a user has done to a setting.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Change {
+    /// Nothing.
+    None,
+    /// Set a number, which then has as many digits as are shown.
+    Number,
+    /// Gone back to the default.
+    Reset,
+}
+
 impl Setting<'_> {
-    /// Shows the rows; says whether the user changed the value, which then has as many digits as are shown.
+    /// Shows the rows; says whether the user changed the value.
     pub(super) fn show(&self, ui: &mut Ui, value: &mut f64) -> bool {
-        self.show_with_mark(ui, value, None)
+        self.show_with_mark(ui, value, None) != Change::None
     }
 
-    /// The same, with a mark under the slider at a value of the linear scale.
-    pub(super) fn show_with_mark(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) -> bool {
+    /// Shows the rows with a mark under the slider at a value of the linear scale.
+    pub(super) fn show_with_mark(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) -> Change {
         // The controls work on what is shown: one that is left alone changes no digit that is not.
         let before = self.rounded(*value);
         let mut shown = before;
         // An identity of its own: rows that come and go above must not take the focus away.
-        ui.push_id(self.name, |ui| self.rows(ui, &mut shown, mark));
-        let changed = self.rounded(shown).to_bits() != before.to_bits();
-        if changed {
-            *value = self.rounded(shown);
+        if ui.push_id(self.name, |ui| self.rows(ui, &mut shown, mark)).inner {
+            *value = self.default;
+            return Change::Reset;
         }
-        changed
+        if self.rounded(shown).to_bits() == before.to_bits() {
+            return Change::None;
+        }
+        *value = self.rounded(shown);
+        Change::Number
     }
 
-    fn rows(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) {
+    /// Says whether the user goes back to the default.
+    fn rows(&self, ui: &mut Ui, value: &mut f64, mark: Option<f64>) -> bool {
         ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
         let way = Way::of(ui);
-        ui.horizontal(|ui| {
+        let head = ui.horizontal(|ui| {
             ui.label(self.name).on_hover_text(self.help.to_owned());
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                self.reset(ui, value);
+            let right_to_left = egui::Layout::right_to_left(egui::Align::Center);
+            ui.with_layout(right_to_left, |ui| {
+                let is_reset = self.reset(ui, *value);
                 self.typed(ui, value, way);
-            });
+                is_reset
+            })
         });
         ui.spacing_mut().slider_width = ui.available_width();
         let step = if self.logarithmic { 0.0 } else { libm::pow(10.0, -(self.decimals as f64)) };
@@ -82,6 +101,7 @@ impl Setting<'_> {
         if let Some(mark) = mark {
             self.draw_mark(ui, response.rect, mark);
         }
+        head.inner.inner
     }
 
     /// Page up and Page down go a tenth of the slider's way, Home and End to its ends.
@@ -132,13 +152,14 @@ impl Setting<'_> {
         describe(&response, Role::SpinButton, &say!("panel-value", name = self.name), *value);
     }
 
-    fn reset(&self, ui: &mut Ui, value: &mut f64) {
-        let is_default = (*value - self.default).abs() < 1e-9;
-        let help = say!("panel-back-to", value = self.default, unit = self.unit);
+    fn reset(&self, ui: &mut Ui, value: f64) -> bool {
+        let is_default = self.auto.unwrap_or((value - self.default).abs() < 1e-9);
+        let help = match self.auto {
+            Some(_) => say!("panel-back-to-auto"),
+            None => say!("panel-back-to", value = self.default, unit = self.unit),
+        };
         let label = say!("panel-reset", name = inner(self.name));
-        if icon::button(ui, Icon::Reset, !is_default, &label, &help).clicked() {
-            *value = self.default;
-        }
+        icon::button(ui, Icon::Reset, !is_default, &label, &help).clicked()
     }
 
     fn rounded(&self, value: f64) -> f64 {
@@ -197,6 +218,7 @@ pub(super) fn number<'a>(setting: &table::Setting, range: &table::Range, name: &
         unit: suffix(range),
         range: range.bounds.clone(),
         default,
+        auto: None,
         decimals: range.decimals,
         logarithmic: range.logarithmic,
     }

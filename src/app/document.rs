@@ -108,7 +108,7 @@ pub struct Document {
     /// How often a level was looked up.
     #[cfg(test)]
     pub lookups: u32,
-    /// The level of these levels, in steps, that the engine has found for a bound on the deviation.
+    /// The level of these levels, in steps, that the engine has found for a target which they alone do not say the level of.
     found: Option<(Target, u32)>,
     /// What the level that is shown was looked up for, as long as looking again would find the same.
     asked: Option<Target>,
@@ -202,7 +202,7 @@ impl Document {
     }
 
     /// Shows the level that `target` asks for. Takes a millisecond or so. Which one that is for a bound on the
-    /// deviation the engine has to find: until then what is shown stays, or is an estimate for new levels.
+    /// deviation and for auto the engine has to find: until then what is shown stays, or is an estimate for new levels.
     pub fn show(&mut self, target: Target) {
         if self.asked == Some(target) {
             return;
@@ -215,12 +215,12 @@ impl Document {
         }
         match self.found {
             Some((of, steps)) if of == target => self.set_shown(levels.level_after(steps)),
-            _ if target.deviation_mm().is_some() && self.shown.is_some() => {}
+            _ if target.is_searched() && self.shown.is_some() => {}
             _ => self.set_shown(levels.level(target)),
         }
     }
 
-    /// Shows the level that the engine has found for the newest bound on the deviation that it knows of.
+    /// Shows the level that the engine has found for the newest target that it has searched for.
     pub fn show_found(&mut self) {
         if let Some((target, _)) = self.found {
             self.show(target);
@@ -244,8 +244,9 @@ impl Document {
         safe: Option<Box<Safe>>,
         deviation: Option<Vec<f32>>,
     ) {
-        if let Some(bound) = report.bound {
-            self.found = Some((report.settings.target, bound.steps));
+        let steps = report.bound.map(|bound| bound.steps).or(report.auto.map(|auto| auto.steps));
+        if let Some(steps) = steps {
+            self.found = Some((report.settings.target, steps));
             self.asked = None;
         }
         let before = self.measured.take().map(|measured| measured.deviation);

@@ -228,8 +228,8 @@ impl Recovery {
         }
     }
 
-    /// Hears that a surface was opened.
-    pub(super) fn opened(&mut self, state: &mut State, platform: &mut dyn Storage) {
+    /// Hears that a surface was opened and has its levels; the views `look` at it anew, or do not.
+    pub(super) fn opened(&mut self, state: &mut State, look: bool, platform: &mut dyn Storage) {
         self.is_forgotten = false;
         self.keep_surface(state, platform);
         if let Some(document) = state.document.as_mut().filter(|document| !document.states_axes)
@@ -242,12 +242,12 @@ impl Recovery {
         match (&returning.surface, &open) {
             (Surface::File { name, .. }, Surface::File { name: opened, .. }) if name == opened => {
                 state.tell(&say!("app-file-back", name = name));
-                self.eye = Some(returning.eye);
+                self.eye = look.then_some(returning.eye);
                 returning.settle(state);
             }
             (kept, open) if kept == open => {
                 state.tell(&say!("app-settings-back"));
-                self.eye = Some(returning.eye);
+                self.eye = look.then_some(returning.eye);
                 returning.settle(state);
             }
             // A sample stands in for the file.
@@ -332,7 +332,9 @@ impl Recovery {
     pub(super) fn follow(&mut self, now: Now<'_>, platform: &mut dyn Storage, ctx: &Context) {
         let Some(store) = platform.store() else { return };
         let (key, state) = (self.key(now), now.state);
-        if self.is_forgotten || state.document.is_none() || self.written.as_ref() == Some(&key) {
+        // A surface that has no level yet may be the end of the program.
+        if self.is_forgotten || state.document.is_none() || state.awaits_levels() || self.written.as_ref() == Some(&key)
+        {
             return;
         }
         let now_s = ctx.input(|input| input.time);

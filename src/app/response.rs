@@ -118,6 +118,7 @@ fn wave(ui: &mut Ui, filter: &Filter, response: &SmoothingResponse, scale: Scale
             unit: " mm",
             range: 2.0 * edge..=longest,
             default: (10.0 * half).round() / 10.0,
+            auto: None,
             decimals: 1,
             logarithmic: true,
         };
@@ -182,6 +183,7 @@ fn terms(ui: &mut Ui, filter: &Filter, iterations: u32, last_term: &mut Option<u
         unit: "",
         range: 0.0..=f64::from(iterations),
         default: f64::from(iterations),
+        auto: None,
         decimals: 0,
         logarithmic: false,
     };

@@ -41,6 +41,16 @@ pub(super) struct Picture {
     pub slices: Vec<u64>,
 }
 
+/// What is shown beside the level or in its place.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Before {
+    /// All of a document, which has no levels yet: the number of that and where its surface lies. Its pieces are no reason to
+    /// upload it again.
+    Whole(u64, usize),
+    /// The pieces that are kept: the revisions that they are of.
+    Kept(u64, u64, u64, Keep),
+}
+
 /// GPU memory and what stands in it.
 pub(super) struct Scene {
     device: wgpu::Device,
@@ -55,7 +65,7 @@ pub(super) struct Scene {
     /// What the scalars of the level mean, and whether it has any.
     scalars_of: Colours,
     has_scalars: bool,
-    before_of: Option<(u64, u64, u64, Keep)>,
+    before_of: Option<Before>,
     left_out_of: Option<(u64, u64, Keep)>,
     normals: Vec<Vec3>,
     views: [WindowTarget<(Picture, Revision, Keep)>; VIEWS],
@@ -98,8 +108,8 @@ impl Scene {
         let Some((_, levels)) = &document.levels else {
             if is_other {
                 self.level.set_positions(&self.device, &self.queue, &[])?;
-                self.revision = new;
             }
+            self.revision = new;
             return Ok(());
         };
         let Some(shown) = &document.shown else { return Ok(()) };
@@ -150,9 +160,18 @@ impl Scene {
     /// Uploads the surface as it was opened, or what is shown in its place: the pieces that are kept.
     fn follow_before(&mut self, document: &Document, keep: Keep) -> Result<(), SurfaceError> {
         let Revision { document: open, opened, averaged, .. } = document.revision;
-        let of = (open, opened, averaged, keep);
-        if self.before_of != Some(of) && !document.pieces.labels.is_empty() {
-            upload(&self.device, &self.queue, &mut self.before, &document.before(keep))?;
+        let is_whole = document.levels.is_none();
+        let of = if is_whole {
+            Before::Whole(open, Arc::as_ptr(&document.opened).addr())
+        } else {
+            Before::Kept(open, opened, averaged, keep)
+        };
+        if self.before_of != Some(of) && (is_whole || !document.pieces.labels.is_empty()) {
+            if is_whole {
+                upload_in_haste(&self.device, &self.queue, &mut self.before, &document.opened)?;
+            } else {
+                upload(&self.device, &self.queue, &mut self.before, &document.before(keep))?;
+            }
             self.before_of = Some(of);
         }
         Ok(())
@@ -265,6 +284,21 @@ pub(super) fn colour_map(document: &Document, colours: Colours) -> Option<Colour
 fn faint(style: &Style) -> Colour {
     let (a, b) = (style.background_bottom.0, style.line.0);
     Colour(std::array::from_fn(|i| ((u16::from(a[i]) * 5 + u16::from(b[i]) * 3) / 8) as u8))
+}
+
+/// Uploads a surface in the frame in which it arrives, however large it is: without normals, so that each triangle is drawn with
+/// its own, and with the sides of triangles that go to a larger vertex, each of which is an edge that no neighbour has as well
+/// where windings agree. Of open ends half of the edges are left out.
+fn upload_in_haste(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    surface: &mut GpuSurface,
+    mesh: &TriMesh,
+) -> Result<(), SurfaceError> {
+    surface.set_positions(device, queue, &mesh.positions)?;
+    let sides = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let edges: Vec<[u32; 2]> = sides.filter(|[from, to]| from < to).collect();
+    surface.set_level(device, queue, &mesh.triangles, &edges, &vec![Vec3::ZERO; mesh.positions.len()])
 }
 
 /// Uploads a surface with all of its triangles.

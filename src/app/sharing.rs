@@ -79,6 +79,11 @@ impl Sharing {
             Ok(followed) => followed,
             Err(error) => return state.warn(&error.to_string()),
         };
+        if surface(state) == Some(followed.surface) && state.awaits_levels() {
+            // Its pieces are not known yet.
+            self.followed = Some(followed);
+            return;
+        }
         if surface(state) == Some(followed.surface) {
             apply(followed.shared.clone(), state);
             let is_read_again = take_unit(followed.shared.unit, state, link);

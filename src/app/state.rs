@@ -17,8 +17,9 @@ use super::history::History;
 use crate::engine::{Calibre, Command, Link, Source, Work};
 use crate::io::{Axes, Unit};
 use crate::pipeline::paper;
+use crate::pipeline::report::AutoReport;
 use crate::pipeline::safe::Safe;
-use crate::pipeline::settings::{Boundary, Keep, Settings};
+use crate::pipeline::settings::{Boundary, Keep, Settings, Target};
 use crate::sharing::measures::Measure;
 
 /// A sentence for the user.
@@ -62,9 +63,10 @@ pub struct State {
     pub shows_averaged: bool,
     /// The number of the newest request for it, and what that was for.
     averaging: Option<(u64, AveragedOf)>,
-    /// Surfaces that are on their way in, the newest last; the one that is open stays until one of them has something
-    /// to show.
+    /// Surfaces that are being read, the newest last; the one that is open stays until one of them is.
     opening: Vec<Opening>,
+    /// What was open before the surface that is, as long as that has no level: a cancel goes back to it.
+    before: Option<Box<Before>>,
     /// What the engine is doing, and the part that is done, 0 to 1.
     pub work: Option<(Work, f32)>,
     /// The last thing that the user should know.
@@ -118,21 +120,29 @@ struct AveragedOf {
     passes: u32,
 }
 
-/// A surface on its way in.
+/// A surface that is being read.
 struct Opening {
     id: u64,
     source: Source,
     /// The settings it begins with.
     settings: Settings,
-    /// What is known of it, once it is read.
+}
+
+/// What was open before, and what belongs to it.
+struct Before {
     document: Option<Document>,
+    keep: Keep,
+    measures: Arc<Vec<Measure>>,
+    history: History<Step>,
 }
 
 /// What has to happen outside the state.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
-    /// A new surface is shown: the camera should find it.
+    /// Another surface is shown, as it was opened: the camera should find it.
     Opened,
+    /// It has its pieces and its levels.
+    Reduced,
     /// A file is ready to be given to the user.
     Offer {
         /// Its name.
@@ -156,6 +166,7 @@ impl Default for State {
             shows_averaged: false,
             averaging: None,
             opening: Vec::new(),
+            before: None,
             work: None,
             notice: None,
             next_unit: None,
@@ -193,6 +204,11 @@ impl State {
         matches!(self.engine, Engine::Loaded | Engine::Loading) && !self.is_stopped
     }
 
+    /// Whether the surface that is open is shown as it was opened, because it has no level yet.
+    pub fn awaits_levels(&self) -> bool {
+        self.before.is_some()
+    }
+
     /// Whether the level that is shown is that of the settings.
     pub fn has_level(&self) -> bool {
         let measured = self.document.as_ref().and_then(|document| document.measured.as_ref());
@@ -217,6 +233,20 @@ impl State {
         let is_same_tolerance = report.settings.tolerance_percent == self.settings.tolerance_percent;
         let is_same = Settings { target: self.settings.target, ..report.settings.clone() }.gives_same(&self.settings);
         measured.safe.as_deref().filter(|_| is_same_tolerance && is_same)
+    }
+
+    /// What the target auto has come to under the present settings, as far as that is known.
+    pub fn auto(&self) -> Option<&AutoReport> {
+        let report = &self.document.as_ref()?.measured.as_ref()?.report;
+        // Under another tolerance the level stays until it is known what is safe then.
+        let settings = Settings { tolerance_percent: self.settings.tolerance_percent, ..report.settings.clone() };
+        report.auto.as_ref().filter(|_| settings.gives_same(&self.settings))
+    }
+
+    /// Whether it is not known yet how far is safe, and the level is to go by it.
+    pub fn is_deciding(&self) -> bool {
+        let is_decided = self.auto().is_some_and(|found| found.is_decided) && self.has_level();
+        self.settings.target == Target::Auto && self.is_measuring() && !is_decided
     }
 
     /// Notes what stands now as a step to undo, if it is another than before.

@@ -164,7 +164,12 @@ impl Optimise {
             format!("{} triangles in {} of {} components", kept.triangles, kept.components, report.opened.components),
         );
         row("output", format!("{} triangles, {} vertices", output.triangles, output.vertices));
-        row("reduction", format!("{:.2} %", report.reduction_percent));
+        let auto = match report.auto {
+            None => "",
+            Some(found) if found.is_at_most() => " (auto)",
+            Some(_) => " (auto: as far as is safe)",
+        };
+        row("reduction", format!("{:.2} %{auto}", report.reduction_percent));
         if let Some(SafeReport { percent: Some(percent), tolerance_percent, stopped_by, .. }) = &report.safe {
             let stop = stopped_by.as_ref().map_or(String::new(), |why| format!(": {why}"));
             row("safe to", format!("{percent:.1} %, at a tolerance of {tolerance_percent} %{stop}"));

@@ -27,7 +27,8 @@ impl Given {
         }
         match self.reduction {
             Some(Reduction::Percent(percent)) => settings.target = rate(percent),
-            Some(Reduction::Safe) => settings.target = Target::default(),
+            // For it the pipeline finds how far is safe.
+            Some(Reduction::Auto | Reduction::Safe) => settings.target = Target::Auto,
             None => {}
         }
     }
@@ -170,10 +171,16 @@ pub(super) enum Reduction {
     Percent(f64),
     /// As far as every vessel keeps its calibre.
     Safe,
+    /// By 90 % or as far as that, whichever is less.
+    Auto,
 }
 
 fn reduction(text: &str) -> Result<Reduction, String> {
-    if text.trim().eq_ignore_ascii_case("safe") { Ok(Reduction::Safe) } else { percent(text).map(Reduction::Percent) }
+    match text.trim().to_lowercase().as_str() {
+        "safe" => Ok(Reduction::Safe),
+        "auto" => Ok(Reduction::Auto),
+        _ => percent(text).map(Reduction::Percent),
+    }
 }
 
 /// A reduction rate in percent.
@@ -242,6 +249,9 @@ mod tests {
             Kind::Switch { .. } => vec!["yes".to_owned(), "no".to_owned()],
             Kind::Choice { names, .. } => names.iter().map(|name| name.to_lowercase()).collect(),
             Kind::Pieces { .. } => ["largest", "all", "3"].map(str::to_owned).to_vec(),
+            Kind::Target { named: Some((name, _)), range, .. } => {
+                vec![name.to_lowercase(), range.bounds.end().to_string()]
+            }
             _ => vec![setting.range().unwrap().bounds.end().to_string()],
         }
     }
@@ -281,6 +291,9 @@ mod tests {
         ] {
             assert!(given(options, &Settings::default()).is_err(), "{options}");
         }
+        let settings = Settings { target: Target::Triangles(5), ..Settings::default() };
+        assert_eq!(given("--reduction=Auto", &settings).unwrap().target, Target::Auto);
+        assert_eq!(given("", &settings).unwrap().target, Target::Triangles(5), "those of the settings file stay");
         assert_eq!(given("--window=NUTTALL --keep=ALL", &Settings::default()).unwrap().keep, Keep::All);
     }
 

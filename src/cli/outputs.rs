@@ -62,9 +62,7 @@ impl Outputs<'_> {
         if self.written.takes_arrays() {
             pipeline = pipeline.with_arrays(imported.arrays);
         }
-        if asked.wants_safe {
-            pipeline = pipeline.with_safe();
-        } else if self.prints_branches || self.report.is_some() || self.branches_csv.is_some() {
+        if asked.wants_safe || self.prints_branches || self.report.is_some() || self.branches_csv.is_some() {
             pipeline = pipeline.with_certificate();
         }
         run_through(&mut pipeline, asked.wants_safe, advance)?;

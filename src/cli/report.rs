@@ -53,8 +53,8 @@ impl WriteReport {
         let (imported, digest) = source::read_known(&self.file, asked.unit, &self.scan)?;
         let import = imported.report.clone();
         let settings = asked.shared.settings.clone();
-        let mut pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
-        pipeline = if asked.wants_safe { pipeline.with_safe() } else { pipeline.with_certificate() };
+        let pipeline = Pipeline::new(Arc::new(imported.mesh), settings).with_samples(REPORT_SAMPLES);
+        let mut pipeline = pipeline.with_certificate();
         run_through(&mut pipeline, asked.wants_safe, advance)?;
         let mut report = Report::new(&self.file, &pipeline).context("the pipeline ended without a result")?;
         report.axes = import.axes;

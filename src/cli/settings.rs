@@ -40,8 +40,7 @@ pub(super) struct Asked {
     pub(super) shared: SharedSettings,
     /// The unit as it was asked for.
     pub(super) unit: Option<UnitOption>,
-    /// Whether the rate is to be the highest at which every vessel keeps its calibre; the target is the default until it
-    /// is known.
+    /// Whether the rate is to be the highest at which every vessel keeps its calibre; the target is auto until it is known.
     pub(super) wants_safe: bool,
 }
 

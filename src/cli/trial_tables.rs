@@ -42,7 +42,7 @@ fn table(number: &'static str, file: &str, unit: Option<Unit>, notes: &mut Vec<S
         if number == "III" { (&[10, 50, 75, 90, 99], &TABLE_III) } else { (&[0, 90, 95, 99], &TABLE_IV) };
     let (opened, sample) = surface(file, None, unit)?;
     let mut setup = Setup { proposes_wire: true, ..Setup::default() };
-    let mut pipeline = Pipeline::new(opened, settings(SMOOTHING, Target::default())).without_measures();
+    let mut pipeline = Pipeline::new(opened, settings(SMOOTHING, Target::Reduction(rates[0] * 10))).without_measures();
     let mut items = Vec::new();
     for &rate in rates {
         pipeline.set(settings(SMOOTHING, Target::Reduction(rate * 10)))?;

@@ -78,14 +78,15 @@ impl Comparing {
         if self.running.is_none() {
             let last = self.last.take().filter(|last| shared(last, settings) > shared(main, settings));
             // What is compared is the surface: its arrays stay behind.
-            let mut pipeline = last.unwrap_or_else(|| main.fork().with_arrays(Vec::new()));
+            let mut pipeline = last.unwrap_or_else(|| main.fork().with_arrays(Vec::new()).with_measures());
             pipeline.set(settings.clone())?;
             self.running = Some(pipeline);
         }
-        // Shape and lumen are not shown.
+        // Shape and lumen are not shown, nor are the vessels, but where a level goes by them.
         let is_shown =
             |stage: Stage| !stage.is_background() && !matches!(stage, Stage::SmoothedMeasures | Stage::Measures);
-        let running = self.running.as_mut().filter(|pipeline| pipeline.next_stage().is_none_or(is_shown));
+        let is_needed = |pipeline: &Pipeline| pipeline.is_deciding() || pipeline.next_stage().is_none_or(is_shown);
+        let running = self.running.as_mut().filter(|pipeline| is_needed(pipeline));
         running.map_or(Ok(Advance::Idle), |pipeline| pipeline.advance(budget))
     }
 
@@ -93,7 +94,9 @@ impl Comparing {
         // The stages of one, each taken to be as long as the others.
         const STAGES: [Stage; 5] =
             [Stage::Connectivity, Stage::Smoothing, Stage::Decimation, Stage::Level, Stage::Deviation];
-        let before = STAGES.iter().filter(|&&other| other < stage).count() as f32;
+        // How far is safe is found, where a level goes by it, before that is taken.
+        let place = if stage > Stage::Deviation { Stage::Level } else { stage };
+        let before = STAGES.iter().filter(|&&other| other < place).count() as f32;
         let done = (self.total - self.waiting.len()) as f32 + (before + fraction) / STAGES.len() as f32;
         tell_progress(Work::Comparing, done / self.total as f32, events);
     }

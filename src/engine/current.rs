@@ -73,9 +73,11 @@ impl Current {
         self.pipeline.has_arrays() && is_coming && !self.is_stopped
     }
 
-    /// Whether nothing is left but what nobody waits for: the faults of the file, the vessels' calibre, and how far is safe.
+    /// Whether nothing is left but what nobody waits for: the faults of the file, the vessels' calibre, and how far is safe
+    /// where the level does not go by it.
     pub(super) fn is_in_background(&self) -> bool {
-        self.waiting.is_none() && self.pipeline.next_stage().is_some_and(Stage::is_background)
+        let is_awaited = self.waiting.is_some() || self.pipeline.is_deciding();
+        !is_awaited && self.pipeline.next_stage().is_some_and(Stage::is_background)
     }
 
     /// One step; whether there is more to do.

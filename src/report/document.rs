@@ -7,7 +7,7 @@ use super::plot::{Plot, radius, response};
 use super::words::{others, said};
 use crate::io::{Axes, ImportReport};
 use crate::language::{decimal, exact, grouped, inner, signed, tell};
-use crate::pipeline::report::Report;
+use crate::pipeline::report::{AutoReport, Report};
 use crate::pipeline::settings::{Keep, Preset, Settings, Target};
 use crate::pipeline::verdict::{FindingKind, Verdict};
 use crate::say;
@@ -101,7 +101,7 @@ impl Document {
             title: title.map_or_else(|| say!("report-title"), str::to_owned),
             line: format!("Lumen {}. {}", report.lumen, say!("report-not-clinical")),
             file: file(subject),
-            settings: settings(&report.settings),
+            settings: settings(report),
             numbers: numbers(report),
             head: tell(&verdict.head),
             is_safe: verdict.is_safe,
@@ -192,7 +192,19 @@ fn method(settings: &Settings) -> String {
     parts.chain(others("decimation", &KNOWN, settings)).collect::<Vec<_>>().join(", ")
 }
 
-fn settings(settings: &Settings) -> Vec<Row> {
+/// What the target auto has come to.
+fn auto(found: Option<&AutoReport>) -> String {
+    let Some(found) = found else { return say!("compare-auto") };
+    let percent = decimal(found.percent, 1);
+    if found.is_at_most() {
+        say!("report-target-auto", percent = percent)
+    } else {
+        say!("report-target-auto-safe", percent = percent)
+    }
+}
+
+fn settings(report: &Report) -> Vec<Row> {
+    let settings = &report.settings;
     let keep = match settings.keep {
         Keep::Largest => say!("report-keep-largest"),
         Keep::Component(number) => say!("report-keep-piece", number = number.to_string()),
@@ -200,6 +212,7 @@ fn settings(settings: &Settings) -> Vec<Row> {
     };
     let target = settings.target;
     let target = match target {
+        Target::Auto => auto(report.auto.as_ref()),
         Target::Reduction(_) => say!("report-target-reduction", percent = decimal(target.percent(1), 1)),
         Target::Triangles(count) => say!("report-target-triangles", count = count),
         Target::Deviation(_) => say!("report-target-deviation", most = exact(target.deviation_mm().unwrap_or(0.0))),

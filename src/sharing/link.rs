@@ -199,8 +199,8 @@ mod tests {
 
     use super::super::Digest;
     use super::*;
-    use crate::pipeline::settings::Keep;
     use crate::pipeline::settings::table::Kind;
+    use crate::pipeline::settings::{Keep, Target};
 
     fn example() -> Link {
         Link { surface: SharedSurface::File(Digest::of(b"abc").short()), shared: SharedSettings::default() }
@@ -225,10 +225,16 @@ mod tests {
                     .prop_map(|keep| Some(Value::Pieces(keep).to_string()))
                     .boxed()
             }
-            Kind::Target { steps, range, .. } => {
+            Kind::Target { steps, named, range, .. } => {
                 let [least, most] =
                     [range.bounds.start(), range.bounds.end()].map(|end| (end * f64::from(*steps)).round() as u32);
-                (least..=most).prop_map(|count| Some((f64::from(count) / f64::from(*steps)).to_string())).boxed()
+                let name = named.map(|(name, _)| name.to_lowercase());
+                (prop::option::of(Just(())), least..=most)
+                    .prop_map(move |(is_named, count)| {
+                        let number = (f64::from(count) / f64::from(*steps)).to_string();
+                        Some(name.clone().filter(|_| is_named.is_some()).unwrap_or(number))
+                    })
+                    .boxed()
             }
         }
     }
@@ -288,9 +294,20 @@ mod tests {
         assert_eq!(
             example().fragment(),
             "v=1&file=ba7816bf8f01cfea&keep=largest&window=hamming&pass-band=0.01&iterations=100&boundary=loop&\
-             preserve-volume=no&adapt=yes&guard=yes&method=schroeder&feature-angle=60&spare-thin=no&reduction=90&\
+             preserve-volume=no&adapt=yes&guard=yes&method=schroeder&feature-angle=60&spare-thin=no&reduction=auto&\
              tolerance=2"
         );
+    }
+
+    #[test]
+    fn a_link_with_a_number_means_that_number() {
+        for (written, target) in
+            [("90", Target::Reduction(900)), ("67.1", Target::Reduction(671)), ("auto", Target::Auto)]
+        {
+            let fragment = example().fragment().replace("reduction=auto", &format!("reduction={written}"));
+            let link = Link::parse(&fragment).unwrap();
+            assert_eq!((link.shared.settings.target, link.fragment()), (target, fragment));
+        }
     }
 
     #[test]
@@ -316,11 +333,11 @@ mod tests {
         );
         assert_eq!(said(&whole.replace("v=1", "v=0")), "The link cannot be read: \"0\" is no value for \"v\".");
         assert_eq!(
-            said(&whole.replace("reduction=90", "reduction=90.04")),
+            said(&whole.replace("reduction=auto", "reduction=90.04")),
             "The link cannot be read: \"90.04\" is no value for \"reduction\"."
         );
         for rate in ["-1", "100", "1e300", "NaN"] {
-            let error = Link::parse(&whole.replace("reduction=90", &format!("reduction={rate}"))).unwrap_err();
+            let error = Link::parse(&whole.replace("reduction=auto", &format!("reduction={rate}"))).unwrap_err();
             assert!(matches!(error, LinkError::Range(_)), "{rate}: {error}");
         }
     }

@@ -5,9 +5,12 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use lumen::mesh::{TriMesh, Vec3};
+use lumen::pipeline::report::Report;
 use lumen::pipeline::run::Pipeline;
 use lumen::pipeline::safe::{NoSafeRate, Safe};
 use lumen::pipeline::settings::{Method, Settings, Smoothing, Target};
+use lumen::pipeline::stage::Stage;
+use lumen::pipeline::task::Budget;
 
 use crate::smoothing::{tube, turned};
 
@@ -83,6 +86,36 @@ fn the_marked_rate_keeps_the_calibre_and_the_next_does_not() {
         assert!(next > tolerance - 0.2, "{method:?}: only {next} % at the next, {safe:?}");
         assert!(safe.stopped_by.is_some());
     }
+}
+
+#[test]
+fn auto_goes_as_far_as_is_safe_and_no_farther_than_ninety_percent() {
+    let narrow = |z: f64| if (25.0..35.0).contains(&z) { 1.6 } else { 4.0 };
+    let mesh = Arc::new(turned(36, 60.0, 0.7, 0.05, narrow));
+    let auto = |pipeline: &Pipeline| pipeline.reduced().unwrap().mesh.clone();
+    let mut followed = Pipeline::new(mesh.clone(), Settings::default()).with_samples(200).with_safe();
+    let rates = [20.0, 0.5, 2.0].map(|tolerance| {
+        let settings = Settings { tolerance_percent: tolerance, ..Settings::default() };
+        let (mut shown, safe) = found(&mesh, &settings, tolerance);
+        let rate = safe.percent.unwrap().min(90.0);
+        let found = auto(&shown);
+        let told = Report::new("tube", &shown).unwrap().auto.unwrap();
+        assert!(told.is_decided && (told.percent - rate).abs() < 1e-9, "{told:?}");
+        // Who sees no level before has the same, and so has who goes on from another tolerance, after a cancel on the way.
+        let mut alone = Pipeline::new(mesh.clone(), settings.clone()).without_measures();
+        alone.finish().unwrap();
+        assert_eq!(auto(&alone), found);
+        followed.set(settings).unwrap();
+        while followed.next_stage() != Some(Stage::Level) && followed.next_stage().is_some() {
+            followed.advance(Budget::UNLIMITED).unwrap();
+        }
+        followed.cancel();
+        followed.finish().unwrap();
+        assert_eq!(auto(&followed), found);
+        assert_eq!(level(&mut shown, (rate * 10.0).round() as u32), *found, "as the number gives it");
+        rate
+    });
+    assert!(rates[0] == 90.0 && rates[1] < rates[2] && rates[2] < 90.0, "{rates:?}");
 }
 
 #[test]

@@ -18,6 +18,30 @@ pub struct Component {
     pub bounds: Bounds,
 }
 
+/// The least part of the surface, by area, that the largest piece has where the others are left out without a word: three
+/// quarters. The noisiest vessel known here, an MR angiogram cut at a threshold (`vmtk_aorta_mra_iso800`), has 75.5 % of its area
+/// in the aorta and the rest in 300 specks of 2.3 % at most. Of two arteries, or a heart in its chambers, no piece has as much.
+const KEPT_PART: f64 = 0.75;
+
+/// What the largest piece leaves out, where that is much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftOut {
+    /// The part of the surface in percent, by area.
+    pub percent: f64,
+    /// In so many pieces.
+    pub pieces: usize,
+}
+
+impl LeftOut {
+    /// Of a surface of these pieces. Where somebody has chosen what is kept, they know what is left out.
+    pub fn of(pieces: &[Component], keep: Keep) -> Option<Self> {
+        let kept = pieces.iter().reduce(|most, next| if next.triangles > most.triangles { next } else { most })?;
+        let whole: f64 = pieces.iter().map(|piece| piece.area_mm2).sum();
+        let is_much = keep == Keep::Largest && kept.area_mm2 < KEPT_PART * whole;
+        is_much.then(|| Self { percent: 100.0 * (1.0 - kept.area_mm2 / whole), pieces: pieces.len() - 1 })
+    }
+}
+
 /// The rows of a surface that are kept, ascending.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeptRows {
@@ -129,6 +153,20 @@ mod tests {
         assert!(found.kept(&mesh, Keep::Component(2)).is_err());
         let nothing = Arc::new(TriMesh::default());
         assert_eq!(Connectivity::of(&nothing).kept(&nothing, Keep::Largest).unwrap(), nothing);
+    }
+
+    #[test]
+    fn what_is_left_out_is_told_where_it_is_more_than_a_quarter_and_nobody_has_chosen_it() {
+        let piece = |triangles, area_mm2| Component { triangles, area_mm2, bounds: Bounds::EMPTY };
+        // The largest by triangles, as it is kept: of two that have as many the first.
+        let heart = [piece(10, 40.0), piece(50, 24.0), piece(50, 30.0), piece(3, 6.0)];
+        let found = LeftOut::of(&heart, Keep::Largest).unwrap();
+        assert!((found.percent - 76.0).abs() < 1e-9 && found.pieces == 3, "{found:?}");
+        assert_eq!([Keep::All, Keep::Component(1)].map(|keep| LeftOut::of(&heart, keep)), [None; 2]);
+        let beside = |area_mm2| LeftOut::of(&[piece(10, 75.0), piece(5, area_mm2)], Keep::Largest);
+        assert!(beside(24.9).is_none() && beside(25.1).is_some());
+        assert_eq!(LeftOut::of(&[piece(10, 80.0)], Keep::Largest), None);
+        assert_eq!(LeftOut::of(&[], Keep::Largest), None);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::response::SmoothingResponse;
 use super::results::{Adapted, StageTimes, Weakened};
 use super::run::Pipeline;
 use super::safe::{BranchSafe, NoSafeRate, Safe, Stop};
-use super::settings::{Settings, reduction_percent};
+use super::settings::{Settings, Target, reduction_percent};
 use super::shape::Shape;
 use super::verdict::VerdictReport;
 use lumen_io::{Axes, Unit};
@@ -62,6 +62,24 @@ pub struct BoundReport {
     /// A distance that was found between the next coarser level and the smoothed surface: more than the bound, or less
     /// by no more than a thousandth part; null where there is no coarser level.
     pub next_coarser_mm: Option<f64>,
+}
+
+/// What the target auto has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AutoReport {
+    /// The rate in percent: 90, or the highest that is safe where that is less.
+    pub percent: f64,
+    /// Steps from the smoothed surface to the output.
+    pub steps: u32,
+    /// Whether it is known how far is safe; before it is, the rate is 90 or that of the settings before.
+    pub is_decided: bool,
+}
+
+impl AutoReport {
+    /// Whether it goes as far as it may; else as far as is safe.
+    pub fn is_at_most(&self) -> bool {
+        self.percent >= f64::from(Target::AUTO_PER_MILLE) / 10.0
+    }
 }
 
 /// Where the filter was weakened, in numbers.
@@ -127,6 +145,9 @@ pub struct Report {
     /// What the bound on the deviation led to; null for another target.
     #[serde(default)]
     pub bound: Option<BoundReport>,
+    /// What auto came to; null for another target.
+    #[serde(default)]
+    pub auto: Option<AutoReport>,
     /// With so few iterations the filter either misses its pass band by more than 1e-3 or lets everything through.
     pub pass_band_missed: bool,
     /// Where the filter cuts, and which waves on this surface that means; null where smoothing was skipped.
@@ -267,6 +288,14 @@ impl Report {
                 steps: found.steps,
                 next_coarser_mm: found.next_coarser_mm,
             }),
+            auto: match (pipeline.settings().target, reduced.target) {
+                (Target::Auto, Target::Reduction(per_mille)) => Some(AutoReport {
+                    percent: f64::from(per_mille) / 10.0,
+                    steps: reduced.level.steps,
+                    is_decided: !pipeline.is_deciding(),
+                }),
+                _ => None,
+            },
             pass_band_missed: smoothed.filter.as_ref().is_some_and(|filter| !filter.keeps_promise(pass_band)),
             smoothing_response: smoothed.response,
             volume_held: smoothed.volume_held,

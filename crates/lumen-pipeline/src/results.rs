@@ -14,7 +14,7 @@ use super::pinch::Pinch;
 use super::progressive::{Level, ProgressiveMesh};
 use super::response::SmoothingResponse;
 use super::safe::Safe;
-use super::settings::Settings;
+use super::settings::{Settings, Target};
 use super::shape::Shape;
 pub use super::times::StageTimes;
 use super::times::Times;
@@ -58,6 +58,15 @@ pub(super) struct Results {
     pub(super) safe: Option<Arc<Safe>>,
     pub(super) indices: Indices,
     pub(super) times: Times,
+}
+
+impl Results {
+    /// How far the level goes: the settings' target, where it is auto with the rate that it has come to so far.
+    pub(super) fn target(&self) -> Target {
+        let Target::Auto = self.settings.target else { return self.settings.target };
+        let pinch = self.smoothed_measures.as_ref().and_then(|found| found.pinch);
+        Target::Reduction(self.safe.as_ref().map_or(Target::AUTO_PER_MILLE, |safe| safe.auto(pinch)))
+    }
 }
 
 /// What decimation leaves.
@@ -174,6 +183,8 @@ pub struct Weakened {
 /// A level as a surface of its own.
 #[derive(Debug)]
 pub struct Reduced {
+    /// What it was taken for; a rate where the settings leave it to the pipeline.
+    pub target: Target,
     /// The level over the nodes of the progressive mesh.
     pub level: Level,
     /// The level over its own vertices.

@@ -4,7 +4,8 @@
 //! opened --mending--> entering --connectivity--> kept --smoothing--> smoothed --decimation--> progressive --level--> Level --> Deviations
 //! ```
 //!
-//! Where the target is a bound on the deviation, the level that meets it is found before it is taken. Last come the
+//! Where the target is a bound on the deviation, the level that meets it is found before it is taken; where it is auto, it is
+//! taken anew once it is known how far is safe. Last come the
 //! numbers that are no stage of the method (`stages/measures.rs`).
 //!
 //! [`Pipeline::set`] drops what a change of settings makes stale; [`Pipeline::advance`] works on the first stage that is
@@ -24,7 +25,7 @@ use super::results::{
     Surface,
 };
 use super::safe::Safe;
-use super::settings::{Keep, Settings, SettingsError};
+use super::settings::{Keep, Settings, SettingsError, Target};
 use super::smoothing::{KeptTerms, Preparation};
 use super::stage::{PerStage, Stage, Wanted, stale};
 use super::stages::Run;
@@ -96,6 +97,13 @@ impl Pipeline {
         self
     }
 
+    /// Measures deviation, shape and lumen, and nothing that nobody has asked for.
+    #[must_use]
+    pub fn with_measures(mut self) -> Self {
+        self.wanted = Wanted::Measures;
+        self
+    }
+
     /// Also measures what became of the calibre of each vessel.
     #[must_use]
     pub fn with_certificate(mut self) -> Self {
@@ -103,7 +111,8 @@ impl Pipeline {
         self
     }
 
-    /// As [`Self::with_certificate`], and finds how far a reduction is safe.
+    /// As [`Self::with_certificate`], and finds how far a reduction is safe: for who looks at the level meanwhile. Where the
+    /// target is auto they see 90 % first; for others how far is safe is found before the level is taken.
     #[must_use]
     pub fn with_safe(mut self) -> Self {
         self.wanted = Wanted::Safe;
@@ -199,10 +208,26 @@ impl Pipeline {
                 done?;
             }
         }
-        if stage == Stage::Level {
-            self.last = None;
+        match stage {
+            Stage::Level => self.last = None,
+            Stage::Safe => self.step_back(),
+            _ => {}
         }
         Ok(Advance::Finished(stage))
+    }
+
+    /// Drops a level of auto that goes another way than it is known by now to be safe.
+    fn step_back(&mut self) {
+        let now = &self.store.now;
+        if now.reduced.as_ref().is_none_or(|reduced| reduced.target == now.target()) {
+            return;
+        }
+        // Who cancels before the next level is there has this one, and that it is not known.
+        self.last = Some(Results { safe: None, ..now.clone() });
+        for stage in Stage::ALL.into_iter().filter(|stage| stage.rests_on(Stage::Level)) {
+            (stage.row().clear)(&mut self.store.now);
+            self.running[stage] = None;
+        }
     }
 
     fn work(&mut self, stage: Stage, budget: Budget) -> Progress<Result<(), SettingsError>> {
@@ -231,9 +256,16 @@ impl Pipeline {
     /// The first stage that is wanted and has no result.
     pub fn next_stage(&self) -> Option<Stage> {
         let now = &self.store.now;
-        Stage::ALL
-            .into_iter()
-            .find(|&stage| (stage.row().is_wanted)(&now.settings, self.wanted) && !(stage.row().has)(now))
+        let is_missing = |stage: &Stage| (stage.row().is_wanted)(&now.settings, self.wanted) && !(stage.row().has)(now);
+        // Nobody looks at a level that another may follow.
+        let decides_first = self.is_deciding() && self.wanted < Wanted::Safe;
+        let first = |stage: &Stage| is_missing(stage) && (!decides_first || Stage::Safe.rests_on(*stage));
+        Stage::ALL.into_iter().find(first)
+    }
+
+    /// Whether the target is auto, and it is not known yet how far is safe.
+    pub fn is_deciding(&self) -> bool {
+        self.settings().target == Target::Auto && self.store.now.safe.is_none()
     }
 
     /// The surface as it was opened.
@@ -337,7 +369,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::settings::{Keep, Smoothing, Target};
+    use crate::settings::{Keep, Smoothing};
     use lumen_vessel::phantom::{Sample, generate};
 
     fn finished() -> Pipeline {

@@ -110,6 +110,19 @@ pub struct BranchSafe {
 }
 
 impl Safe {
+    /// The rate of [`Target::Auto`] in tenths of a percent: 90 %, or the highest that is safe where that is less. Where no
+    /// vessel can be measured there is no such rate, and the first `pinch` alone stops it.
+    pub fn auto(&self, pinch: Option<Pinch>) -> u32 {
+        let in_tenths = |percent: f64| (10.0 * percent).round() as u32;
+        let stop = match (self.percent, &self.stopped_by) {
+            (Some(percent), Some(_)) => Some(in_tenths(percent)),
+            // The surface goes no further, or nothing stops it.
+            (Some(_), None) => None,
+            (None, _) => pinch.map(|pinch| in_tenths(pinch.from_percent).saturating_sub(1)),
+        };
+        stop.map_or(Target::AUTO_PER_MILLE, |stop| stop.min(Target::AUTO_PER_MILLE))
+    }
+
     /// No rate, for this reason.
     pub fn refused(tolerance_percent: f64, why: NoSafeRate) -> Self {
         let refused = Some(why);
@@ -292,6 +305,31 @@ fn is_lost(first: &BranchCalibre, now: &BranchCalibre) -> bool {
 mod tests {
     use super::*;
     use lumen_vessel::summary::fixtures::branch;
+
+    #[test]
+    fn auto_is_ninety_percent_or_as_far_as_is_safe_whichever_is_less() {
+        let pinch = |from_percent: f64| Pinch {
+            from_percent,
+            triangles: 100,
+            at_mm: [0.0; 3],
+            diameter_before_mm: 2.0,
+            diameter_after_mm: 0.0,
+        };
+        let stopped = |percent: f64| {
+            let refused = Safe::refused(2.0, NoSafeRate::NoneMeasured);
+            let stopped_by = Some(Stop::Pinched(pinch(percent + 0.1).message()));
+            Safe { percent: Some(percent), stopped_by, refused: None, ..refused }
+        };
+        for (percent, auto) in [(97.5, 900), (90.0, 900), (89.9, 899), (67.1, 671), (0.0, 0)] {
+            assert_eq!(stopped(percent).auto(Some(pinch(percent + 0.1))), auto, "{percent}");
+        }
+        // A surface that goes no further than 67.1 % has nothing against 90.
+        assert_eq!(Safe { stopped_by: None, ..stopped(67.1) }.auto(None), 900);
+        // No vessel is measured: a pinch is known all the same.
+        let refused = Safe::refused(2.0, NoSafeRate::NoneMeasured);
+        let pinched = [None, Some(50.0), Some(95.0), Some(0.0)].map(|from| refused.auto(from.map(pinch)));
+        assert_eq!(pinched, [900, 499, 900, 0]);
+    }
 
     #[test]
     fn what_can_no_longer_be_measured_is_lost_but_for_places_without_a_saying() {

@@ -68,6 +68,11 @@ impl Stage {
         self.row().is_background
     }
 
+    /// Whether its result is made from that of `other`, or is that itself.
+    pub(super) fn rests_on(self, other: Self) -> bool {
+        self == other || self.row().needs.iter().any(|below| below.rests_on(other))
+    }
+
     pub(super) fn row(self) -> &'static Row {
         row(self)
     }

@@ -21,6 +21,7 @@ fn parts(settings: &Settings) -> [String; PARTS] {
     let one = |key: &str| said(&[key]).concat();
     let band = if smoothing.iterations == 0 { say!("compare-not-smoothed") } else { one("pass-band") };
     let target = match settings.target {
+        Target::Auto => say!("compare-auto"),
         Target::Reduction(0) => say!("compare-not-reduced"),
         Target::Reduction(per_mille) => say!("compare-reduction", percent = f64::from(per_mille) / 10.0),
         Target::Triangles(count) => say!("compare-triangles-wanted", count = count),

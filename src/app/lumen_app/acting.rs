@@ -10,6 +10,7 @@ use crate::app::sharing::Sharing;
 use crate::app::sheets::{self, Sheet};
 use crate::app::views::Spot;
 use crate::app::{lesson, record, shortcuts, theme};
+use crate::pipeline::settings::Keep;
 use crate::say;
 
 impl LumenApp {
@@ -134,7 +135,10 @@ impl LumenApp {
             Action::Set(settings) => state.settings = *settings,
             Action::Undo => state.undo(),
             Action::Redo => state.redo(),
-            Action::Cancel => state.cancel(self.platform.link()),
+            Action::Cancel => {
+                let effect = state.cancel(self.platform.link());
+                self.take_effect(effect, ctx);
+            }
             Action::Fit => {
                 (self.views.spot, self.views.options.fault) = (None, None);
                 self.views.fit(state.document.as_ref(), keep);
@@ -149,6 +153,10 @@ impl LumenApp {
             }
             Action::Unmark => self.views.spot = None,
             Action::Show(options) => self.views.options = options,
+            Action::ChoosePiece => {
+                self.views.options.left_out = true;
+                self.views.fit(state.document.as_ref(), Keep::All);
+            }
             Action::Reveal => self.views.toggle_reveal(state.document.as_ref()),
             Action::Average(is_shown) => {
                 state.shows_averaged = is_shown;

@@ -60,20 +60,12 @@ impl LumenApp {
             }
         }
         while let Some(event) = self.platform.link().poll() {
-            match self.state.receive(event) {
-                Some(Effect::Opened) => {
-                    self.look_next = true;
-                    self.leave_surface(ctx);
-                    self.recovery.opened(&mut self.state, &mut *self.platform);
-                    self.sharing.opened(&mut self.state, self.platform.link());
-                    self.views.options.leave_surface();
-                }
-                Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
-                None => {}
-            }
+            let effect = self.state.receive(event);
+            self.take_effect(effect, ctx);
         }
         if let Some(reason) = self.platform.link().failure() {
-            self.state.engine_failed(&reason, self.platform.link());
+            let effect = self.state.engine_failed(&reason, self.platform.link());
+            self.take_effect(effect, ctx);
         }
         while let Some(event) = self.platform.trial().poll() {
             if let Some(log) = self.panels.trial.trial.receive(event, self.platform.trial()) {
@@ -85,6 +77,25 @@ impl LumenApp {
             self.state.warn(&sentence);
         }
         self.listen_to_scans();
+    }
+
+    /// Lets what is outside the state follow it.
+    pub(super) fn take_effect(&mut self, effect: Option<Effect>, ctx: &egui::Context) {
+        match effect {
+            Some(Effect::Opened) => {
+                self.look_next = true;
+                self.leave_surface(ctx);
+                self.views.options.leave_surface();
+            }
+            Some(Effect::Reduced) => {
+                // Once more, at what is kept of it; unless the camera was moved meanwhile.
+                self.look_next |= self.views.is_fitted();
+                self.recovery.opened(&mut self.state, self.look_next, &mut *self.platform);
+                self.sharing.opened(&mut self.state, self.platform.link());
+            }
+            Some(Effect::Offer { name, bytes }) => self.platform.offer_file(&name, bytes, ctx),
+            None => {}
+        }
     }
 
     /// Follows a link: to settings, to a lesson, or to both.

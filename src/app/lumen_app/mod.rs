@@ -274,7 +274,8 @@ impl eframe::App for LumenApp {
         let has_space = self.mode() != Mode::Trial && ctx.memory(|memory| memory.focused().is_none());
         let by_key =
             keys == Keys::Views && ctx.input(|input| input.key_down(Key::B) || has_space && input.key_down(Key::Space));
-        self.views.show_before = by_key || self.views.before_is_held || self.views.options.before;
+        let is_asked = by_key || self.views.before_is_held || self.views.options.before;
+        self.views.show_before = is_asked || self.state.awaits_levels();
         self.is_narrow = ui.available_width() < NARROW;
         self.has_links = self.platform.address().is_some();
         self.controls(ui);

@@ -108,6 +108,7 @@ fn clip_plane(
         unit: " mm",
         range: low..=high,
         default: f64::midpoint(low, high),
+        auto: None,
         decimals: 1,
         logarithmic: false,
     };

@@ -5,13 +5,14 @@ use egui::{ComboBox, Role, Ui};
 use super::{measured, set};
 use crate::app::action::Action;
 use crate::app::assist::name;
-use crate::app::control::{self, Setting, reads_comma};
+use crate::app::control::{self, Change, Setting, reads_comma};
 use crate::app::error_plot;
 use crate::app::row::{number, remark, row, step};
 use crate::app::state::State;
 use crate::app::swipe::Way;
 use crate::app::views::Views;
 use crate::language::{decimal, tell, text};
+use crate::pipeline::report::AutoReport;
 use crate::pipeline::safe::Safe;
 use crate::pipeline::settings::table::{self, Kind};
 use crate::pipeline::settings::{Settings, Target, reduction_percent};
@@ -102,15 +103,19 @@ fn target_row(
     key: &str,
     value: f64,
     target: &mut Target,
-    show: impl FnOnce(Setting<'_>, &mut Ui, &mut f64) -> bool,
+    show: impl FnOnce(Setting<'_>, &mut Ui, &mut f64) -> Change,
 ) {
     let Some(setting) = table::find(key) else { return };
-    let Kind::Target { steps, make, ref range, .. } = setting.kind else { return };
+    let Kind::Target { steps, make, named, ref range, .. } = setting.kind else { return };
     let (words, help) = (text(setting.messages.label), text(setting.messages.help));
     let mut value = value;
-    if show(control::number(setting, range, &words, &help), ui, &mut value) {
-        *target = make((value * f64::from(steps)).round() as u32);
-    }
+    let shown =
+        Setting { auto: named.map(|(_, auto)| auto == *target), ..control::number(setting, range, &words, &help) };
+    *target = match (show(shown, ui, &mut value), named) {
+        (Change::None, _) => return,
+        (Change::Reset, Some((_, auto))) => auto,
+        _ => make((value * f64::from(steps)).round() as u32),
+    };
 }
 
 /// The slider of the largest deviation.
@@ -118,7 +123,7 @@ fn bound(ui: &mut Ui, target: &mut Target) {
     let largest = f64::from(LARGEST_BOUND) / 1000.0;
     let default = DEFAULT_BOUND.deviation_mm().unwrap_or_default();
     target_row(ui, "max-deviation", target.deviation_mm().unwrap_or_default(), target, |row, ui, bound| {
-        Setting { range: *row.range.start()..=largest, default, ..row }.show(ui, bound)
+        Setting { range: *row.range.start()..=largest, default, ..row }.show_with_mark(ui, bound, None)
     });
 }
 
@@ -173,21 +178,46 @@ fn entering(state: &State) -> Option<usize> {
 
 /// The slider of the rate.
 fn rate(ui: &mut Ui, state: &State, target: &mut Target) {
-    let percent = target.percent(entering(state).unwrap_or(0));
+    let is_auto = *target == Target::Auto;
+    let found = state.auto().filter(|_| is_auto);
+    let percent = found.map_or_else(|| target.percent(entering(state).unwrap_or(0)), |found| found.percent);
     let safe = state.safe().and_then(|safe| safe.percent);
-    target_row(ui, "reduction", percent, target, |row, ui, percent| row.show_with_mark(ui, percent, safe));
+    let unit = format!(" % ({})", say!("panel-auto-short"));
+    target_row(ui, "reduction", percent, target, |row, ui, percent| {
+        Setting { unit: if is_auto { &unit } else { row.unit }, ..row }.show_with_mark(ui, percent, safe)
+    });
+}
+
+/// Whether the rate is set by itself, and what it then goes by.
+fn auto_row(ui: &mut Ui, state: &State, target: &mut Target) {
+    let was_auto = *target == Target::Auto;
+    let percent = |found: &AutoReport| decimal(found.percent, 1);
+    let text = match state.auto().filter(|_| was_auto) {
+        _ if !was_auto => say!("panel-auto"),
+        Some(found) if !found.is_at_most() => say!("panel-auto-safe", percent = percent(found)),
+        Some(found) if found.is_decided => say!("panel-auto-most", percent = percent(found)),
+        _ => say!("panel-auto-deciding"),
+    };
+    let mut is_auto = was_auto;
+    ui.checkbox(&mut is_auto, text)
+        .on_hover_text(say!("panel-auto-help", tolerance = state.settings.tolerance_percent));
+    if is_auto != was_auto {
+        *target = if is_auto { Target::Auto } else { rate_shown(state) };
+    }
 }
 
 fn rate_or_count(ui: &mut Ui, state: &State, settings: &mut Settings) {
     let safe = state.safe();
     let target = &mut settings.target;
     rate(ui, state, target);
+    auto_row(ui, state, target);
     safe_row(ui, safe, settings.tolerance_percent, target);
     if let Some(entering) = entering(state) {
         row(ui, &say!("panel-wanted"), &say!("panel-wanted-help"), |ui| {
             // The field shows what can be typed into it: left alone, it sets nothing.
             let most = entering.max(1);
-            let wanted = target.triangles(entering).clamp(1, most);
+            let found = state.auto().filter(|_| *target == Target::Auto);
+            let wanted = found.map_or(*target, |found| verdict::rate(found.percent)).triangles(entering).clamp(1, most);
             let mut typed = wanted;
             let field = egui::DragValue::new(&mut typed).range(1..=most).speed(entering as f64 / 500.0);
             let response = ui.add(reads_comma(field, true).update_while_editing(false));

@@ -16,9 +16,11 @@ use crate::say;
 /// Shows what came of it, in numbers.
 pub(in crate::app) fn result(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) {
     let Some(document) = &state.document else { return };
-    let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else { return };
     ui.separator();
     heading(ui, &say!("panel-result"));
+    let (Some((_, levels)), Some(shown)) = (&document.levels, &document.shown) else {
+        return remark(ui, &say!("panel-result-follows"));
+    };
     let (before, after) = (levels.triangles.len(), shown.level.triangles.len());
     let counts = say!("panel-of", count = after, all = before);
     number(ui, &say!("panel-triangles"), &counts, &say!("panel-of-help"));

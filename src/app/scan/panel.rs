@@ -67,6 +67,7 @@ fn threshold(ui: &mut Ui, scan: &OpenScan, asked: &mut Vec<Action>) {
         unit: scan.unit(),
         range: low..=high,
         default: PRESETS[1].value.clamp(low, high),
+        auto: None,
         decimals,
         logarithmic: false,
     };

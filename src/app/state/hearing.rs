@@ -1,8 +1,9 @@
 //! What the engine says, and what it changes.
 
 use super::{Effect, Engine, State, Step};
-use crate::app::document::Document;
 use crate::engine::{Event, Work};
+use crate::language::decimal;
+use crate::pipeline::report::Report;
 use crate::pipeline::settings::Settings;
 use crate::say;
 
@@ -10,7 +11,7 @@ impl State {
     /// Hears what the engine has to say. Events that belong to a surface which was given up are passed over.
     pub fn receive(&mut self, event: Event) -> Option<Effect> {
         match event {
-            Event::Opened(opened) => self.receive_opened(*opened),
+            Event::Opened(opened) => return self.receive_opened(*opened),
             Event::OpenFailed { id, name, message } => {
                 let at = self.opening.iter().position(|opening| opening.id == id);
                 let is_shown = matches!(self.engine, Engine::Loaded | Engine::Loading) && id == self.generation;
@@ -35,17 +36,17 @@ impl State {
                 }
             }
             Event::Mended { mesh } => {
-                if let Some(document) = self.worked_on() {
+                if let Some(document) = &mut self.document {
                     document.set_mended(mesh);
                 }
             }
             Event::Faults(found) => {
-                if let Some(document) = self.worked_on() {
+                if let Some(document) = &mut self.document {
                     document.faults = Some(found);
                 }
             }
             Event::Pieces { labels, components } => {
-                if let Some(document) = self.worked_on() {
+                if let Some(document) = &mut self.document {
                     document.set_pieces(labels, components);
                 }
             }
@@ -72,11 +73,10 @@ impl State {
             }
             Event::Reduced(reduced) => {
                 let target = self.settings.target;
-                let arrived = self.arrive();
                 if let Some(document) = &mut self.document {
                     document.set_levels(*reduced, target);
                 }
-                return arrived;
+                return self.before.take().map(|_| Effect::Reduced);
             }
             Event::Measured { generation, complete, report, safe, deviation } => {
                 if complete {
@@ -87,12 +87,18 @@ impl State {
                         self.rest();
                     }
                 }
+                let went_back = self.has_gone_back(&report);
                 if let Some(document) = &mut self.document {
                     document.set_measured(generation, *report, safe, deviation);
                     // Of an older bound too: the view follows the slider as fast as levels are found.
-                    if self.settings.target.deviation_mm().is_some() {
+                    if self.settings.target.is_searched() {
                         document.show_found();
                     }
+                }
+                if let Some(percent) = went_back
+                    && self.notice.as_ref().is_none_or(|notice| !notice.is_error)
+                {
+                    self.tell(&say!("app-gone-back", percent = decimal(percent, 1)));
                 }
             }
             Event::Deviated(deviated) => {
@@ -132,10 +138,10 @@ impl State {
         None
     }
 
-    /// The surface that the engine works on.
-    fn worked_on(&mut self) -> Option<&mut Document> {
-        let incoming = self.opening.iter_mut().filter_map(|opening| opening.document.as_mut()).next_back();
-        incoming.or(self.document.as_mut())
+    /// The rate in percent that auto has come to by `report`, where a level of a higher one was shown until now.
+    fn has_gone_back(&self, report: &Report) -> Option<f64> {
+        let (before, now) = (self.auto()?, report.auto.filter(|now| now.is_decided)?);
+        (now.percent < before.percent).then_some(now.percent)
     }
 
     fn receive_cancelled(&mut self, generation: u64, settings: Settings) {

@@ -1,9 +1,10 @@
-//! What is opened, and how it takes the place of what was open: only once it has something to show.
+//! What is opened, and how it takes the place of what was open: as soon as it is read. What was open before is kept until the
+//! new surface has a level, so that a cancel can go back to it.
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{Effect, Engine, Notice, Opening, State};
+use super::{Before, Effect, Engine, Notice, Opening, State};
 use crate::app::document::Document;
 use crate::engine::{Command, Link, Opened, Source, Work};
 use crate::io::{ImportOptions, Unit};
@@ -12,7 +13,7 @@ use crate::phantom::{MIN_TRIANGLES, Sample};
 use crate::pipeline::settings::{Keep, Settings};
 
 impl State {
-    /// Opens the file `name`. What is open stays until the new surface is there.
+    /// Opens the file `name`. What is open stays until that is read.
     pub fn open_file(&mut self, name: String, bytes: Vec<u8>, link: &mut dyn Link) {
         let options = ImportOptions { unit: self.next_unit.take() };
         self.open(Source::File { name, bytes: Arc::new(bytes), options }, link);
@@ -33,7 +34,7 @@ impl State {
         let id = self.number;
         let settings = Settings { keep: Keep::Largest, ..self.settings.clone() };
         link.send(Command::Open { id, source: source.clone(), settings: settings.clone() });
-        self.opening.push(Opening { id, source, settings, document: None });
+        self.opening.push(Opening { id, source, settings });
         self.work = Some((Work::Reading, 0.0));
         self.notice = None;
     }
@@ -48,33 +49,39 @@ impl State {
         }
     }
 
-    /// The name of the surface that is on its way in.
+    /// The name of the surface that is being read.
     pub fn opening(&self) -> Option<Cow<'_, str>> {
         self.opening.last().map(|opening| opening.source.label())
     }
 
-    pub(super) fn receive_opened(&mut self, opened: Opened) {
+    pub(super) fn receive_opened(&mut self, opened: Opened) -> Option<Effect> {
         self.engine = Engine::Loaded;
-        // Others were read again by a new engine, and are shown already.
         if let Some(at) = self.opening.iter().position(|opening| opening.id == opened.id) {
             // The engine gives up what it was asked for before.
-            self.opening.drain(..at);
-            let opening = &mut self.opening[0];
-            opening.document = Some(Document::new(opening.source.clone(), opened));
-        } else if let Some(document) = &mut self.document
+            let Opening { source, settings, .. } = self.opening.drain(..=at).next_back()?;
+            self.arrive(Document::new(source, opened), settings);
+            return Some(Effect::Opened);
+        }
+        // Others were read again by a new engine, and are shown already.
+        if let Some(document) = &mut self.document
             && document.digest == opened.digest
             && document.opened != opened.mesh
         {
             // What was mended before the engine stopped is mended again.
             document.set_mended(opened.mesh);
         }
+        None
     }
 
-    /// The surface that was on its way in takes the place of the one that is open.
-    pub(super) fn arrive(&mut self) -> Option<Effect> {
-        let at = self.opening.iter().rposition(|opening| opening.document.is_some())?;
-        let Opening { id, settings, document, .. } = self.opening.drain(..=at).next_back()?;
-        let document = document?;
+    /// A surface that is read takes the place of the one that is open.
+    fn arrive(&mut self, document: Document, settings: Settings) {
+        let keep = self.settings.keep;
+        let before = self.document.take();
+        // Of two that follow each other the one that had a level can be gone back to.
+        if self.before.is_none() {
+            let (measures, history) = (self.measures.clone(), self.history.clone());
+            self.before = Some(Box::new(Before { document: before, keep, measures, history }));
+        }
         // Pieces are numbered in one surface only.
         self.settings.keep = Keep::Largest;
         // What was measured belongs to the surface that is closed.
@@ -83,7 +90,7 @@ impl State {
             step.settings.keep = Keep::Largest;
             step.measures = Arc::default();
         });
-        self.generation = id;
+        self.generation = document.revision.document;
         self.is_stopped = false;
         // What was moved meanwhile follows.
         self.sent = settings;
@@ -95,6 +102,12 @@ impl State {
         }
         self.shows_averaged = false;
         self.document = Some(document);
+    }
+
+    /// Gives up the surface that has no level yet: what was open before it is again. Says what to tell the others.
+    pub(super) fn go_back(&mut self) -> Option<Effect> {
+        let Before { document, keep, measures, history } = *self.before.take()?;
+        (self.document, self.settings.keep, self.measures, self.history) = (document, keep, measures, history);
         Some(Effect::Opened)
     }
 }

@@ -1,6 +1,6 @@
 //! Engines that are started again: where an opening was cancelled, and where one has stopped by itself.
 
-use super::{Engine, State};
+use super::{Effect, Engine, State};
 use crate::engine::{Command, Link};
 use crate::say;
 
@@ -8,9 +8,11 @@ use crate::say;
 const PATIENCE: u32 = 2;
 
 impl State {
-    /// Stops what the engine does and goes back to the last result.
-    pub fn cancel(&mut self, link: &mut dyn Link) {
-        if self.opening.is_empty() {
+    /// Stops what the engine does and goes back to the last result; to the surface before where the one that is open has none.
+    pub fn cancel(&mut self, link: &mut dyn Link) -> Option<Effect> {
+        let is_opening = !self.opening.is_empty() || self.awaits_levels();
+        let effect = self.go_back();
+        if !is_opening {
             self.comparison.stop(&say!("app-cancelled"));
             // Whoever has nothing open has nothing to answer.
             if self.engine == Engine::Loaded {
@@ -28,6 +30,7 @@ impl State {
             self.tell(&format!("{text}{lost}"));
         }
         self.work = None;
+        effect
     }
 
     /// Sees to it that there is an engine.
@@ -62,17 +65,21 @@ impl State {
         }
     }
 
-    /// Hears that the engine has stopped by itself.
-    pub fn engine_failed(&mut self, reason: &str, link: &mut dyn Link) {
+    /// Hears that the engine has stopped by itself: a surface that has no level yet is given up.
+    pub fn engine_failed(&mut self, reason: &str, link: &mut dyn Link) -> Option<Effect> {
         self.failures += 1;
         self.work = None;
         // On the surface that is shown another would end at the same place.
-        let is_too_large = link.is_out_of_memory() && self.opening.is_empty();
+        let is_too_large = link.is_out_of_memory() && self.opening.is_empty() && !self.awaits_levels();
         self.is_cancelling = false;
         self.comparison.stop(&say!("app-computation-stopped"));
         // It may have been that which it stopped at.
         self.hide_averaged();
-        let opening = std::mem::take(&mut self.opening).pop();
+        let opening = std::mem::take(&mut self.opening).pop().map(|opening| opening.source.label().into_owned());
+        let given_up =
+            self.document.as_ref().filter(|_| self.awaits_levels()).map(|given_up| given_up.title().into_owned());
+        let opening = opening.or(given_up);
+        let effect = self.go_back();
         if self.failures > PATIENCE || is_too_large {
             self.engine = Engine::Stopped;
             if self.settings != self.sent {
@@ -92,12 +99,12 @@ impl State {
                 text = format!("{text} {}", say!("app-engine-memory"));
             }
             self.warn(&text);
-            return;
+            return effect;
         }
         let lost = self.reopen(link);
         let text = match opening {
-            Some(opening) => {
-                let text = say!("app-engine-stopped-opening", name = opening.source.label(), reason = reason);
+            Some(name) => {
+                let text = say!("app-engine-stopped-opening", name = name, reason = reason);
                 format!("{text}{lost}")
             }
             None => {
@@ -106,5 +113,6 @@ impl State {
             }
         };
         self.warn(&text);
+        effect
     }
 }

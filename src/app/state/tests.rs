@@ -120,6 +120,65 @@ fn numbers_are_current_after_a_second_file() {
     agrees(&state);
 }
 
+/// Goes on until the surface `name` is shown.
+fn until_opened(state: &mut State, line: &mut Line, name: &str) {
+    while state.document.as_ref().is_none_or(|document| document.name != name) {
+        assert!(line.slice());
+        hear(state, line);
+    }
+}
+
+#[test]
+fn a_surface_is_shown_as_soon_as_it_is_read_and_nothing_of_the_one_before_with_it() {
+    let (mut state, mut line) = start();
+    state.open_file("b.stl".into(), stl(60_000), &mut line);
+    until_opened(&mut state, &mut line, "b.stl");
+    let document = state.document.as_ref().unwrap();
+    assert_eq!(document.opened.triangles.len(), phantom::generate(Sample::Aorta, 60_000).unwrap().triangles.len());
+    assert!(document.levels.is_none() && document.shown.is_none() && document.measured.is_none());
+    assert!(state.awaits_levels() && state.is_busy() && !state.has_level());
+    assert!(state.calibre().is_none() && state.safe().is_none());
+    let verdict = crate::app::verdict::verdict(&state, document);
+    assert_eq!((verdict.head, verdict.is_safe), (crate::pipeline::verdict::Head::Coming, None));
+    // What is moved meanwhile is followed at once.
+    state.settings.smoothing.iterations = 20;
+    state.follow(false, &mut line);
+    assert!(line.sent.iter().any(|command| matches!(command, Command::Set { .. })));
+    settle(&mut state, &mut line);
+    agrees(&state);
+    assert!(!state.awaits_levels() && state.history.can_undo());
+    assert_eq!(state.settings.smoothing.iterations, 20);
+}
+
+#[test]
+fn a_surface_that_is_given_up_before_it_has_a_level_gives_way_to_the_one_before() {
+    for ends in [true, false] {
+        let (mut state, mut line) = start();
+        state.settings.keep = Keep::Component(1);
+        state.follow(false, &mut line);
+        settle(&mut state, &mut line);
+        let before = shown(&state);
+        // Of two that follow each other neither is gone back to.
+        for name in ["b.stl", "c.stl"] {
+            state.open_file(name.into(), stl(60_000), &mut line);
+            until_opened(&mut state, &mut line, name);
+            assert_eq!(state.settings.keep, Keep::Largest);
+            state.follow(false, &mut line);
+        }
+        let effect = if ends { state.cancel(&mut line) } else { state.engine_failed("x", &mut line) };
+        assert_eq!(effect, Some(Effect::Opened));
+        let notice = &state.notice.as_ref().unwrap().text;
+        assert!(notice.contains(if ends { "cancelled" } else { "c.stl" }), "{notice}");
+        assert_eq!((state.document.as_ref().unwrap().name.as_str(), shown(&state)), ("z.stl", before));
+        assert_eq!(state.settings.keep, Keep::Component(1));
+        assert!(state.history.can_undo(), "its steps are there again");
+        state.settings.smoothing.iterations = 20;
+        state.follow(false, &mut line);
+        settle(&mut state, &mut line);
+        agrees(&state);
+    }
+}
+
 #[test]
 fn settings_moved_while_a_file_is_read_are_not_lost() {
     let (mut state, mut line) = start();

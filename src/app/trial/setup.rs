@@ -91,7 +91,7 @@ fn setting<'a>(
     decimals: usize,
     logarithmic: bool,
 ) -> Setting<'a> {
-    Setting { name, help, unit, range, default, decimals, logarithmic }
+    Setting { name, help, unit, range, default, auto: None, decimals, logarithmic }
 }
 
 /// Where it enters and should go, of the places in `ready`, and the seed; `pick` is what the next click on the vessel

@@ -5,6 +5,7 @@ use crate::app::document::Document;
 use crate::app::state::State;
 use crate::engine::Source;
 use crate::language::tell;
+use crate::pipeline::connectivity::LeftOut;
 use crate::pipeline::verdict::{Finding, Known, Remedied, Remedy, Rest, Verdict, rate};
 
 /// Height of what is seen around a place, in widths of the vessel there.
@@ -13,7 +14,7 @@ const SEEN: f64 = 8.0;
 /// The verdict on what is shown of `document`, the surface of `state`.
 pub(in crate::app) fn verdict(state: &State, document: &Document) -> Verdict {
     let measured = document.measured.as_ref().filter(|measured| measured.generation == state.generation());
-    Verdict::new(&Known {
+    let known = Known {
         settings: &state.settings,
         import: &document.import,
         // Samples and scans are in mm.
@@ -28,9 +29,16 @@ pub(in crate::app) fn verdict(state: &State, document: &Document) -> Verdict {
         pinch: document.pinch(),
         calibre: state.calibre().map(|calibre| &calibre.found),
         safe_percent: safe_percent(state, document),
+        left_out: LeftOut::of(&document.pieces.list, state.settings.keep),
         faults: document.faults.as_ref().map(|found| (&found.counts, &found.places[..])),
         rest: if state.is_measuring() { Rest::Coming } else { Rest::Stopped },
-    })
+    };
+    let verdict = Verdict::new(&known);
+    if verdict.is_safe == Some(false) && state.is_deciding() {
+        // What is wrong with a level that a finer one may follow is not said.
+        return Verdict::new(&Known { report: None, shortfall: None, pinch: None, calibre: None, ..known });
+    }
+    verdict
 }
 
 /// The highest rate that is safe, where more is taken away.

@@ -11,7 +11,7 @@ use crate::app::state::State;
 use crate::app::theme;
 use crate::app::vessels;
 use crate::language::tell;
-use crate::pipeline::verdict::{Finding, Verdict};
+use crate::pipeline::verdict::{Finding, FindingKind, Verdict};
 use crate::say;
 
 /// Height of a line where a mouse points, in points.
@@ -30,6 +30,7 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, is_narrow: bool, asked: &
     let text = match (first, &verdict.calibre) {
         (Some(finding), _) => tell(&finding.what),
         (None, Some(calibre)) => tell(calibre),
+        (None, None) if state.is_deciding() && state.has_level() => say!("verdict-auto-follows"),
         (None, None) if state.is_measuring() => say!("verdict-follows"),
         (None, None) => say!("verdict-stopped"),
     };
@@ -91,6 +92,11 @@ fn act(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
         if ui.button(tell(&remedy.label)).on_hover_text(say!("verdict-remedy-help")).clicked() {
             asked.push(take(remedy));
         }
+    }
+    if let FindingKind::LeftOut { .. } = finding.what
+        && ui.button(say!("verdict-choose-piece")).on_hover_text(say!("verdict-choose-piece-help")).clicked()
+    {
+        asked.push(Action::ChoosePiece);
     }
 }
 

@@ -126,7 +126,8 @@ impl Views {
             look,
             style,
             before: self.show_before,
-            left_out: self.options.left_out,
+            // Before there are levels all of it is shown.
+            left_out: self.options.left_out && document.is_some_and(|document| document.levels.is_some()),
             slices: self.slices.iter().map(|slice| slice.serial).collect(),
         }
     }

@@ -214,6 +214,8 @@ app-open-failed-kept = { $name }: { $why } Was geöffnet war, ist es noch.
 app-not-opened-again = Die Oberfläche konnte nicht wieder geöffnet werden.
 app-opening-cancelled = Das Öffnen wurde abgebrochen.
 app-opening-cancelled-kept = Das Öffnen wurde abgebrochen; was geöffnet war, ist es noch.
+# $percent: less than 90.
+app-gone-back = Um { $percent } % reduziert: mehr wäre nicht sicher.
 app-scan-cancelled = Abgebrochen; der Scan wurde nicht geöffnet.
 
 ## Work that ends before it is done

@@ -85,6 +85,7 @@ compare-feature-angle = Kantenwinkel { $value }°
 compare-thin-spared = dünne Gefäße geschont
 compare-labels-kept = Labelgrenzen gehalten
 compare-not-reduced = nicht reduziert
+compare-auto = automatische Reduktion
 compare-reduction = Reduktion { $percent } %
 compare-triangles-wanted = { $count ->
     [one] 1 Dreieck gewünscht

@@ -11,6 +11,8 @@ verdict-to-look-at = { $count ->
    *[other] { $count } Punkte zu prüfen
 }
 verdict-follows = Kaliber und Form folgen.
+# Beside "Being measured..." while a level is shown that a finer one may follow.
+verdict-auto-follows = Es wird bestimmt, wie weit es sicher ist: die Reduktion geht vielleicht noch zurück.
 verdict-stopped = Es wurde abgebrochen, oder die Berechnung ist abgestürzt: zum Fortfahren eine Einstellung ändern.
 verdict-what-to-do = Abhilfe
 verdict-more = { $count ->
@@ -32,6 +34,10 @@ verdict-show-place-help = Geht dorthin, wo es ist
 verdict-reduce-to = Auf { $percent } % reduzieren
 verdict-read-in = In { $unit } lesen
 verdict-take-lumen = Lumen nehmen
+verdict-all-pieces = Alle Stücke
+# Shows the pieces that are left out, one of which can be chosen in the view.
+verdict-choose-piece = Stück wählen
+verdict-choose-piece-help = Zeigt, was weggelassen ist; ein Klick auf ein Stück behält dieses
 verdict-fill = Füllen
 verdict-split = Trennen
 verdict-no-crossings = Ohne Schnitte
@@ -46,6 +52,11 @@ verdict-holes = { $count ->
 verdict-crowded = { $count ->
     [one] An { $count } Kante oder Punkt treffen sich Oberflächen, die getrennt sein sollten.
    *[other] An { $count } Kanten und Punkten treffen sich Oberflächen, die getrennt sein sollten.
+}
+# $percent of the area, in so many other pieces.
+verdict-left-out = { $pieces ->
+    [one] { $percent } % der Oberfläche sind weggelassen: ein anderes Stück.
+   *[other] { $percent } % der Oberfläche sind weggelassen: { $pieces } andere Stücke.
 }
 
 ## Befunde zu eingeschnürten Gefäßen

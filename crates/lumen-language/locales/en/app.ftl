@@ -225,6 +225,8 @@ app-open-failed-kept = { $name }: { $why } What was open still is.
 app-not-opened-again = The surface could not be opened again.
 app-opening-cancelled = Opening was cancelled.
 app-opening-cancelled-kept = Opening was cancelled; what was open still is.
+# $percent: less than 90.
+app-gone-back = Reduced by { $percent } %: more would not be safe.
 app-scan-cancelled = Cancelled; the scan was not opened.
 
 ## Work that ends before it is done

@@ -88,6 +88,7 @@ compare-feature-angle = feature angle { $value }°
 compare-thin-spared = thin vessels spared
 compare-labels-kept = label borders kept
 compare-not-reduced = not reduced
+compare-auto = automatic reduction
 compare-reduction = reduction { $percent } %
 compare-triangles-wanted = { $count } triangles wanted
 compare-deviation-up-to = deviation up to { $most } mm

@@ -214,6 +214,8 @@ app-open-failed-kept = { $name } : { $why } Ce qui était ouvert l'est toujours
 app-not-opened-again = La surface n'a pas pu être rouverte.
 app-opening-cancelled = L'ouverture a été annulée.
 app-opening-cancelled-kept = L'ouverture a été annulée ; ce qui était ouvert l'est toujours.
+# $percent: less than 90.
+app-gone-back = Réduit de { $percent } % : davantage ne serait pas sûr.
 app-scan-cancelled = Annulé ; le scan n'a pas été ouvert.
 
 ## Work that ends before it is done

@@ -85,6 +85,7 @@ compare-feature-angle = angle d'arête { $value }°
 compare-thin-spared = vaisseaux fins ménagés
 compare-labels-kept = limites des étiquettes gardées
 compare-not-reduced = non réduit
+compare-auto = réduction automatique
 compare-reduction = réduction { $percent } %
 compare-triangles-wanted = { $count ->
     [one] { $count } triangle voulu

@@ -11,6 +11,8 @@ verdict-to-look-at = { $count ->
    *[other] { $count } points à vérifier
 }
 verdict-follows = Le calibre et la forme suivent.
+# Beside "Being measured..." while a level is shown that a finer one may follow.
+verdict-auto-follows = Recherche du taux sûr : la réduction peut encore reculer.
 verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : modifier un réglage pour continuer.
 verdict-what-to-do = Que faire
 verdict-more = { $count ->
@@ -32,6 +34,10 @@ verdict-show-place-help = Va à l'endroit en question
 verdict-reduce-to = Réduire à { $percent } %
 verdict-read-in = Lire en { $unit }
 verdict-take-lumen = Prendre la lumière
+verdict-all-pieces = Tous les morceaux
+# Shows the pieces that are left out, one of which can be chosen in the view.
+verdict-choose-piece = Choisir un morceau
+verdict-choose-piece-help = Montre ce qui est omis ; un clic sur un morceau garde celui-là
 verdict-fill = Combler
 verdict-split = Séparer
 verdict-no-crossings = Sans croisement
@@ -46,6 +52,11 @@ verdict-holes = { $count ->
 verdict-crowded = { $count ->
     [one] En { $count } arête ou point se rejoignent des surfaces qui devraient être séparées.
    *[other] En { $count } arêtes et points se rejoignent des surfaces qui devraient être séparées.
+}
+# $percent of the area, in so many other pieces.
+verdict-left-out = { $pieces ->
+    [one] { $percent } % de la surface sont omis : un autre morceau.
+   *[other] { $percent } % de la surface sont omis : { $pieces } autres morceaux.
 }
 
 ## Constats sur les vaisseaux pincés

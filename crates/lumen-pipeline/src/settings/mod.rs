@@ -33,9 +33,10 @@ pub struct Settings {
     /// How the reduction is made.
     pub decimation: Decimation,
     /// How far it goes.
+    #[serde(default)]
     pub target: Target,
-    /// The change of its calibre in percent that a vessel is allowed, 0 to 100. It changes no surface: it is what they are
-    /// judged by.
+    /// The change of its calibre in percent that a vessel is allowed, 0 to 100. Surfaces are judged by it; it changes none but
+    /// that of [`Target::Auto`].
     #[serde(default = "default_tolerance")]
     pub tolerance_percent: f64,
 }
@@ -175,6 +176,8 @@ impl Settings {
         self.mending == other.mending
             && self.keep == other.keep
             && self.target == other.target
+            // By that it is decided what is safe.
+            && (self.target != Target::Auto || self.tolerance_percent == other.tolerance_percent)
             && self.smoothing.gives_same(&other.smoothing)
             && self.decimation.gives_same(&other.decimation)
     }
@@ -211,6 +214,17 @@ mod tests {
         let spared = Decimation { spare_thin: true, method: Method::Quadric, ..Decimation::default() };
         assert!(!spared.gives_same(&Decimation { spare_thin: false, ..spared }));
         assert!(spared.gives_same(&Decimation { feature_angle: 10.0, ..spared }));
+    }
+
+    #[test]
+    fn settings_without_a_target_go_as_far_as_is_safe_and_those_with_a_number_as_far_as_it_says() {
+        let mut told = serde_json::to_value(Settings::default()).unwrap();
+        assert_eq!(told["target"], "Auto");
+        let target = |told: &serde_json::Value| serde_json::from_value::<Settings>(told.clone()).unwrap().target;
+        told["target"] = serde_json::json!({ "Reduction": 900 });
+        assert_eq!(target(&told), Target::Reduction(900));
+        told.as_object_mut().unwrap().remove("target");
+        assert_eq!(target(&told), Target::Auto);
     }
 
     #[test]

@@ -104,6 +104,8 @@ pub enum Kind {
         get: fn(Target) -> Option<u32>,
         /// The target of so many steps.
         make: fn(u32) -> Target,
+        /// The one that has a name in place of a number, and that name.
+        named: Option<(&'static str, Target)>,
         /// What it can be, in the unit.
         range: Range,
     },
@@ -194,6 +196,7 @@ impl Setting {
             Kind::Limit { at, .. } => Value::Number((*at(settings))?),
             Kind::Choice { names, index, .. } => Value::Name(names[index(settings)]),
             Kind::Pieces { at } => Value::Pieces(*at(settings)),
+            Kind::Target { named: Some((name, target)), .. } if target == settings.target => Value::Name(name),
             Kind::Target { steps, get, .. } => Value::Number(f64::from(get(settings.target)?) / f64::from(steps)),
         })
     }
@@ -230,7 +233,13 @@ impl Setting {
                     number => Keep::Component(number.parse().map_err(|_| NoValue)?),
                 }
             }
-            Kind::Target { steps, make, .. } => settings.target = make(in_steps(text, steps)?),
+            Kind::Target { steps, make, named, .. } => {
+                let named = named.filter(|(name, _)| name.to_lowercase() == text);
+                settings.target = match named {
+                    Some((_, target)) => target,
+                    None => make(in_steps(text, steps)?),
+                };
+            }
         }
         Ok(())
     }

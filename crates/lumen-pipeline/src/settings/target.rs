@@ -6,8 +6,12 @@ use super::OutOfRange;
 use super::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
 
 /// How many triangles are wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Target {
+    /// 90 %, or as far as is safe, whichever is less: how far that is the pipeline finds
+    /// ([`Safe::auto`](crate::safe::Safe::auto)).
+    #[default]
+    Auto,
     /// The part removed of the triangles that enter the stage, in tenths of a percent: 900 is 90 %.
     Reduction(u32),
     /// A number of triangles.
@@ -16,15 +20,12 @@ pub enum Target {
     Deviation(u32),
 }
 
-impl Default for Target {
-    fn default() -> Self {
-        Self::Reduction(900)
-    }
-}
-
 impl Target {
     /// The largest reduction rate that can be asked for: 99.9 %.
     pub const MAX_PER_MILLE: u32 = 999;
+
+    /// The rate of [`Self::Auto`] where nothing is known to stop it, in tenths of a percent: 90 %, the paper's.
+    pub const AUTO_PER_MILLE: u32 = 900;
 
     /// The bounds on the deviation that can be asked for, in thousandths of a mm.
     pub const DEVIATION: std::ops::RangeInclusive<u32> = 1..=1_000_000;
@@ -33,14 +34,20 @@ impl Target {
     pub fn deviation_mm(self) -> Option<f64> {
         match self {
             Self::Deviation(micrometres) => Some(f64::from(micrometres) / 1000.0),
-            Self::Reduction(_) | Self::Triangles(_) => None,
+            Self::Auto | Self::Reduction(_) | Self::Triangles(_) => None,
         }
     }
 
-    /// The number of triangles wanted of `n`: `n (1000 - r) / 1000` in integers. All of them for a bound on the
-    /// deviation, which says nothing on their number.
+    /// Whether the levels alone do not say which of them it means: the pipeline has to find it.
+    pub fn is_searched(self) -> bool {
+        matches!(self, Self::Auto | Self::Deviation(_))
+    }
+
+    /// The number of triangles wanted of `n`: `n (1000 - r) / 1000` in integers. For [`Self::Auto`] those of 90 %, the fewest
+    /// that it can come to; all of them for a bound on the deviation, which says nothing on their number.
     pub fn triangles(self, n: usize) -> usize {
         match self {
+            Self::Auto => Self::Reduction(Self::AUTO_PER_MILLE).triangles(n),
             // In u64: five million triangles times a thousand are more than wasm's usize holds.
             Self::Reduction(per_mille) => (n as u64 * u64::from(1000 - per_mille.min(1000)) / 1000) as usize,
             Self::Triangles(count) => n.min(count as usize),
@@ -51,6 +58,7 @@ impl Target {
     /// The reduction rate in percent, of `n` triangles.
     pub fn percent(self, n: usize) -> f64 {
         match self {
+            Self::Auto => f64::from(Self::AUTO_PER_MILLE) / 10.0,
             Self::Reduction(per_mille) => f64::from(per_mille) / 10.0,
             Self::Triangles(_) | Self::Deviation(_) => reduction_percent(n, self.triangles(n)),
         }
@@ -71,9 +79,10 @@ pub(super) static ROWS: [Setting; 3] = [
             steps: 10,
             get: |target| match target {
                 Target::Reduction(per_mille) => Some(per_mille),
-                Target::Triangles(_) | Target::Deviation(_) => None,
+                Target::Auto | Target::Triangles(_) | Target::Deviation(_) => None,
             },
             make: Target::Reduction,
+            named: Some(("Auto", Target::Auto)),
             range: Range {
                 bounds: 0.0..=Target::MAX_PER_MILLE as f64 / 10.0,
                 unit: "%",
@@ -86,7 +95,7 @@ pub(super) static ROWS: [Setting; 3] = [
         option: CommandOption {
             value: "PERCENT",
             help: "The part of the triangles to remove, in percent, 0 to 99.9 (90 or 90%); or safe: as many as leave every \
-                   vessel its calibre to --tolerance [default: 90]",
+                   vessel its calibre to --tolerance; or auto: 90 or safe, whichever is less [default: auto]",
         },
         messages: Messages {
             label: "panel-reduction",
@@ -102,9 +111,10 @@ pub(super) static ROWS: [Setting; 3] = [
             steps: 1,
             get: |target| match target {
                 Target::Triangles(count) => Some(count),
-                Target::Reduction(_) | Target::Deviation(_) => None,
+                Target::Auto | Target::Reduction(_) | Target::Deviation(_) => None,
             },
             make: Target::Triangles,
+            named: None,
             range: Range { bounds: 0.0..=u32::MAX as f64, unit: "", decimals: 0, logarithmic: false },
         },
         in_link: InLink::Always,
@@ -119,9 +129,10 @@ pub(super) static ROWS: [Setting; 3] = [
             steps: 1000,
             get: |target| match target {
                 Target::Deviation(micrometres) => Some(micrometres),
-                Target::Reduction(_) | Target::Triangles(_) => None,
+                Target::Auto | Target::Reduction(_) | Target::Triangles(_) => None,
             },
             make: Target::Deviation,
+            named: None,
             range: Range {
                 bounds: *Target::DEVIATION.start() as f64 / 1000.0..=*Target::DEVIATION.end() as f64 / 1000.0,
                 unit: "mm",

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::{Row, Run};
 use crate::results::{Certified, NOT_MEASURED};
+use crate::settings::Target;
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
 use crate::task::{Yielder, blocks};
@@ -20,7 +21,7 @@ const BESIDE: f64 = 2.0;
 pub(super) const VESSELS: Row = Row {
     needs: &[Stage::Smoothing],
     is_decided_anew: |_, _| false,
-    is_wanted: |_, wanted| wanted >= Wanted::Certificate,
+    is_wanted: |settings, wanted| wanted >= Wanted::Certificate || settings.target == Target::Auto,
     is_background: true,
     has: |now| now.vessels.is_some(),
     clear: |now| {
@@ -47,7 +48,10 @@ fn start_vessels(store: &Store) -> Option<Run> {
 pub(super) const CERTIFICATE: Row = Row {
     needs: &[Stage::Level, Stage::Vessels],
     is_decided_anew: |old, new| old.tolerance_percent != new.tolerance_percent,
-    is_wanted: |_, wanted| wanted >= Wanted::Certificate,
+    // Where the vessels are found for the rate they are measured as well: that is one level of the many that were looked at.
+    is_wanted: |settings, wanted| {
+        wanted >= Wanted::Certificate || wanted >= Wanted::Measures && settings.target == Target::Auto
+    },
     is_background: true,
     has: |now| now.certified.is_some(),
     clear: |now| {

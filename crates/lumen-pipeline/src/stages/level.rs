@@ -26,7 +26,7 @@ pub(super) const ROW: Row = Row {
 /// One piece.
 fn start(store: &Store) -> Option<Run> {
     let Levels { progressive, .. } = store.now.levels.clone()?;
-    let (bound, target) = (store.now.bound, store.now.settings.target);
+    let (bound, target) = (store.now.bound, store.now.target());
     Some(Run::new(move |_, outbox| async move {
         let level = match bound {
             Some(bound) => progressive.level_after(bound.steps),
@@ -41,7 +41,7 @@ fn start(store: &Store) -> Option<Run> {
         let measures = measures(&mesh, &topology);
         let fingerprint = fingerprint(&mesh);
         outbox.tell_apart(Part::LevelAreas, begun);
-        let reduced = Reduced { level, mesh, topology, normals, measures, fingerprint };
+        let reduced = Reduced { target, level, mesh, topology, normals, measures, fingerprint };
         outbox.leave(|store| store.now.reduced = Some(Arc::new(reduced)));
     }))
 }

@@ -9,6 +9,7 @@ use super::{Row, Run};
 use crate::lumen::{Sample, narrowing, samples_in_slices};
 use crate::pinch::first_pinch_of;
 use crate::results::{LevelMeasures, SmoothedMeasures};
+use crate::settings::Target;
 use crate::shape::{Known, shape_in_slices};
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
@@ -19,7 +20,7 @@ const SMOOTHED: f32 = 0.9;
 pub(super) const OF_SMOOTHED: Row = Row {
     needs: &[Stage::Decimation],
     is_decided_anew: |_, _| false,
-    is_wanted: |_, wanted| wanted >= Wanted::Measures,
+    is_wanted: |settings, wanted| wanted >= Wanted::Measures || settings.target == Target::Auto,
     is_background: false,
     has: |now| now.smoothed_measures.is_some(),
     clear: |now| now.smoothed_measures = None,

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use super::{Row, Run};
 use crate::safe::{NoSafeRate, Safe, safe_in_slices};
+use crate::settings::Target;
 use crate::stage::{Stage, Wanted};
 use crate::store::Store;
 
 pub(super) const ROW: Row = Row {
     needs: &[Stage::SmoothedMeasures, Stage::Vessels],
     is_decided_anew: |old, new| old.tolerance_percent != new.tolerance_percent,
-    is_wanted: |_, wanted| wanted >= Wanted::Safe,
+    is_wanted: |settings, wanted| wanted >= Wanted::Safe || settings.target == Target::Auto,
     is_background: true,
     has: |now| now.safe.is_some(),
     clear: |now| now.safe = None,

@@ -36,6 +36,18 @@ messages! {
             /// At how many edges and points.
             count: usize,
         } => { format!("At {} edges and points surfaces meet that should be apart.", grouped(count)) },
+        /// Much of the surface is left out.
+        "verdict-left-out" LeftOut {
+            /// The part of its area, in percent.
+            percent: f64 [0],
+            /// In how many pieces.
+            pieces: usize,
+        } => {
+            match pieces {
+                1 => format!("{percent:.0} % of the surface is left out: another piece."),
+                _ => format!("{percent:.0} % of the surface is left out: {} other pieces.", grouped(pieces)),
+            }
+        },
         /// A vessel is pinched at a rate that was reached.
         "verdict-pinched-first" PinchedFirst {
             /// Its diameter, in mm.
@@ -148,6 +160,8 @@ messages! {
         } => "Read in {unit}",
         /// Of a wall the lumen.
         "verdict-take-lumen" TakeLumen => "Take the lumen",
+        /// Nothing is left out.
+        "verdict-all-pieces" AllPieces => "All pieces",
         /// Holes are filled.
         "verdict-fill" Fill => "Fill",
         /// Surfaces that meet are split.

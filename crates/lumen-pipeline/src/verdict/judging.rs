@@ -1,5 +1,6 @@
 //! What of a result is to be said, and how much it weighs.
 
+use super::super::connectivity::LeftOut;
 use super::super::pinch::Pinch;
 use super::super::progressive::Shortfall;
 use super::super::report::Report;
@@ -42,6 +43,8 @@ pub struct Known<'a> {
     pub calibre: Option<&'a Result<Certificate, CalibreError>>,
     /// The highest rate that is safe, in percent, where more is taken away.
     pub safe_percent: Option<f64>,
+    /// What is left out of the surface, where that is much.
+    pub left_out: Option<LeftOut>,
     /// What is wrong with the file, and where, if that is known.
     pub faults: Option<(&'a FaultCounts, &'a [FaultPlace])>,
     /// What becomes of that which is not known.
@@ -58,6 +61,7 @@ impl Verdict {
         findings.extend(of_vessels.map(|found| size(known, found)));
         // What is measured of a wall says nothing of vessels.
         findings.extend(faults(known));
+        findings.extend(left_out(known));
         findings.extend(pinch(known));
         if let Some(report) = known.report {
             findings.extend(of_report(known, report));
@@ -103,6 +107,7 @@ impl Verdict {
             pinch,
             calibre: found.as_ref(),
             safe_percent: report.safe.as_ref().and_then(|safe| safe.percent).filter(takes_more),
+            left_out: pipeline.connectivity().and_then(|found| LeftOut::of(&found.components, report.settings.keep)),
             faults: None,
             rest: Rest::NotAsked,
         })
@@ -184,6 +189,12 @@ fn faults(known: &Known<'_>) -> Vec<Finding> {
         });
     }
     findings
+}
+
+fn left_out(known: &Known<'_>) -> Option<Finding> {
+    let LeftOut { percent, pieces } = known.left_out?;
+    let all = remedy(known, RemedyLabel::AllPieces, |settings| settings.keep = Keep::All);
+    Some(Finding::grave(FindingKind::LeftOut { percent, pieces }).helped_by(all))
 }
 
 fn pinch(known: &Known<'_>) -> Option<Finding> {

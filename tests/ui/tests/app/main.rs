@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test compares within bounds")]
 
+mod auto;
 mod compare;
 mod controls;
 mod deviation;

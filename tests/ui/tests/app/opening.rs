@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::pipeline::settings::{Keep, Target};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, offered, settle};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, offered, says, settle};
 
 use crate::controls::{open, press_at, shown};
 
@@ -155,13 +155,18 @@ fn a_surface_that_is_cancelled_on_its_way_in_leaves_the_one_that_is_open() {
     harness.get_by_label_contains("oronary").click();
     harness.run_steps(20);
     assert!(harness.query_by_label_contains("Smoothing").is_some(), "it is read, and on its way");
-    assert_eq!(shown(&harness), before);
+    let document = harness.state().state().document.as_ref().unwrap();
+    assert!(document.name != "Abdominal aorta" && document.shown.is_none());
+    // It is shown as it was opened, and nothing is told of it that was of the one before.
+    assert!(says(&harness, "As opened") && says(&harness, "Being measured...") && says(&harness, "Being computed..."));
+    assert!(!says(&harness, "Safe to simulate on"));
     harness.get_by_role_and_label(Role::Button, "Cancel").click();
     harness.run_steps(5);
     let state = harness.state().state();
     assert!(state.opening().is_none());
     assert!(state.notice.as_ref().is_some_and(|notice| notice.text.contains("cancelled")));
     assert_eq!(state.document.as_ref().unwrap().name, "Abdominal aorta");
+    assert_eq!(shown(&harness), before);
     memory.borrow_mut().slice = std::time::Duration::from_millis(50);
     press_at(&mut harness, "Iterations", 0.1);
     settle(&mut harness);

@@ -8,7 +8,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
-use lumen::pipeline::settings::{Settings, Smoothing, Target};
+use lumen::pipeline::settings::{Keep, Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
 use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube};
 
@@ -161,4 +161,57 @@ fn nothing_moves_with_what_the_verdict_says() {
     harness.run_steps(3);
     settle_wholly(&mut harness);
     assert_eq!(top(&harness), before);
+}
+
+/// Tubes side by side, which touch nowhere.
+fn tubes(count: usize) -> Vec<u8> {
+    let one = String::from_utf8(tube(3.0, 30.0, 0.8)).unwrap();
+    let vertices = one.lines().filter(|line| line.starts_with('v')).count();
+    let shifted = |i: usize| {
+        let number = |text: &str| text.parse::<f64>().unwrap();
+        let line = move |line: &str| {
+            let words: Vec<&str> = line.split(' ').collect();
+            match words[..] {
+                ["v", x, y, z] => format!("v {} {y} {z}\n", number(x) + 20.0 * i as f64),
+                ["f", ..] => {
+                    let corners = words[1..].iter().map(|v| (number(v) as usize + i * vertices).to_string());
+                    format!("f {}\n", corners.collect::<Vec<_>>().join(" "))
+                }
+                _ => String::new(),
+            }
+        };
+        one.lines().map(line).collect::<String>()
+    };
+    (0..count).map(shifted).collect::<String>().into_bytes()
+}
+
+#[test]
+fn much_that_is_left_out_is_told_and_all_of_it_or_another_piece_is_a_click_away() {
+    let (mut harness, memory) = app(DESKTOP);
+    settle_wholly(&mut harness);
+    open(&mut harness, &memory, "four.obj", tubes(4));
+    assert!(says(&harness, "75 % of the surface is left out: 3 other pieces."));
+    assert!(!says(&harness, "Safe to simulate on"));
+    let near = harness.state().camera().distance;
+    click(&mut harness, "Choose a piece");
+    assert!(harness.state().camera().distance > near, "all of them are in view");
+    let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
+    let keep = |harness: &Harness<'_, LumenApp>| harness.state().state().settings.keep;
+    // Somewhere in the row of them a click hits one that is not kept.
+    let hit = (1..40).find(|i| {
+        let at = egui::pos2(view.left() + view.width() * *i as f32 / 40.0, view.center().y);
+        harness.drag_at(at);
+        harness.drop_at(at);
+        harness.run_steps(2);
+        keep(&harness) != Keep::Largest
+    });
+    assert!(hit.is_some() && matches!(keep(&harness), Keep::Component(_)), "{:?}", keep(&harness));
+    settle_wholly(&mut harness);
+    assert!(!says(&harness, "is left out"), "who has chosen knows");
+    click(&mut harness, "Undo");
+    settle_wholly(&mut harness);
+    click(&mut harness, "All pieces");
+    settle_wholly(&mut harness);
+    assert_eq!(keep(&harness), Keep::All);
+    assert!(!says(&harness, "is left out"));
 }
