@@ -59,7 +59,7 @@ pub enum Action {
     /// Show other things in the views.
     Show(ViewOptions),
     /// Show the pieces that are left out as well, all of them in view: a click keeps one.
-    ChoosePiece,
+    ChoosePieces,
     /// Show the surface as it was opened beside the level in one picture, or no longer.
     Reveal,
     /// Show what as many passes of plain Laplacian smoothing make of the surface, in place of it as it was opened, or no longer.

@@ -28,23 +28,45 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// The piece that `keep` names; `None` for all of them.
-    pub fn kept(&self, keep: Keep) -> Option<u32> {
+    /// Whether `piece` is one of those that `keep` names.
+    pub fn is_kept(&self, keep: Keep, piece: u32) -> bool {
         match keep {
-            Keep::All => None,
-            Keep::Largest => self.by_size.first().copied(),
-            Keep::Component(piece) => Some(piece),
+            Keep::All => true,
+            Keep::Largest => self.by_size.first() == Some(&piece),
+            Keep::Component(_) | Keep::Pieces(_) => keep.numbers().contains(&piece),
         }
+    }
+
+    /// The pieces that `keep` names.
+    pub fn kept(&self, keep: Keep) -> impl Iterator<Item = &Component> {
+        (0..).zip(&self.list).filter(move |(piece, _)| self.is_kept(keep, *piece)).map(|(_, found)| found)
     }
 
     /// Whether triangle `t` of the opened surface is of what `keep` names: each is, until the pieces are known.
     pub fn keeps(&self, keep: Keep, t: usize) -> bool {
-        self.kept(keep).zip(self.labels.get(t)).is_none_or(|(piece, of)| *of == piece)
+        self.labels.get(t).is_none_or(|&piece| self.is_kept(keep, piece))
     }
 
     /// Whether what `keep` names is there.
     pub fn has(&self, keep: Keep) -> bool {
-        !matches!(keep, Keep::Component(piece) if !self.by_size.contains(&piece))
+        keep.numbers().iter().all(|&piece| (piece as usize) < self.list.len())
+    }
+
+    /// What keeps this piece and no other.
+    pub fn only(&self, piece: u32) -> Keep {
+        if self.by_size.first() == Some(&piece) { Keep::Largest } else { Keep::Component(piece) }
+    }
+
+    /// What keeps this piece besides those that `keep` names, or no longer; `keep` where none would be left, or more would be
+    /// than can be named.
+    pub fn toggled(&self, keep: Keep, piece: u32) -> Keep {
+        let will_be = |of: &u32| self.is_kept(keep, *of) != (*of == piece);
+        let numbers: Vec<u32> = (0..self.list.len() as u32).filter(will_be).collect();
+        match numbers[..] {
+            [one] => self.only(one),
+            _ if numbers.len() == self.list.len() => Keep::All,
+            _ => Keep::pieces(&numbers).unwrap_or(keep),
+        }
     }
 }
 
@@ -361,10 +383,8 @@ impl Document {
 
     /// The box around the pieces that `keep` names.
     pub fn bounds(&self, keep: Keep) -> Bounds {
-        match self.pieces.kept(keep).and_then(|piece| self.pieces.list.get(piece as usize)) {
-            Some(piece) => piece.bounds,
-            None => self.opened.bounds(),
-        }
+        let kept = self.pieces.kept(keep).map(|piece| piece.bounds).reduce(|all, next| all.joined(&next));
+        kept.filter(|_| keep != Keep::All).unwrap_or_else(|| self.opened.bounds())
     }
 
     /// For each node of the level that is shown, the mean deviation around it in mm, if it is known.

@@ -51,7 +51,7 @@ fn is_faulty(counts: &FaultCounts) -> bool {
 
 /// Other settings; a piece that is kept by its number may be another one then, so the largest is.
 fn set(mut settings: Settings) -> Action {
-    if matches!(settings.keep, Keep::Component(_)) {
+    if !settings.keep.numbers().is_empty() {
         settings.keep = Keep::Largest;
     }
     Action::Set(Box::new(settings))

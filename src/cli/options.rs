@@ -248,7 +248,7 @@ mod tests {
         match &setting.kind {
             Kind::Switch { .. } => vec!["yes".to_owned(), "no".to_owned()],
             Kind::Choice { names, .. } => names.iter().map(|name| name.to_lowercase()).collect(),
-            Kind::Pieces { .. } => ["largest", "all", "3"].map(str::to_owned).to_vec(),
+            Kind::Pieces { .. } => ["largest", "all", "3", "0,3"].map(str::to_owned).to_vec(),
             Kind::Target { named: Some((name, _)), range, .. } => {
                 vec![name.to_lowercase(), range.bounds.end().to_string()]
             }

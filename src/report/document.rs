@@ -207,6 +207,7 @@ fn settings(report: &Report) -> Vec<Row> {
     let settings = &report.settings;
     let keep = match settings.keep {
         Keep::Largest => say!("report-keep-largest"),
+        Keep::Pieces(_) => say!("report-keep-pieces", numbers = settings.keep.to_string().replace(',', ", ")),
         Keep::Component(number) => say!("report-keep-piece", number = number.to_string()),
         Keep::All => say!("report-keep-all"),
     };

@@ -178,7 +178,8 @@ fn any_settings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
 
 /// A bound that is asked for is kept by samples of both surfaces, and the next coarser level is said to break it.
 fn any_bound(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
-    let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_samples(1);
+    let mut pipeline =
+        Pipeline::new(mesh.clone(), Settings { target: Target::Reduction(900), ..Settings::default() }).with_samples(1);
     let bounds = [5, 40, 220, 1_700, 9_000];
     for (method, micrometres) in Method::ALL.into_iter().flat_map(|method| bounds.map(|bound| (method, bound))) {
         let target = Target::Deviation(micrometres);
@@ -205,7 +206,8 @@ fn any_bound(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
 
 /// At the paper's rates no more faces cross others than did on the smoothed surface.
 fn no_crossings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
-    let mut pipeline = Pipeline::new(mesh.clone(), Settings::default()).with_samples(1);
+    let mut pipeline =
+        Pipeline::new(mesh.clone(), Settings { target: Target::Reduction(900), ..Settings::default() }).with_samples(1);
     let mut failures = Vec::new();
     let rates = if is_long() { &RATES[..] } else { &[900, 990] };
     for (method, &rate) in Method::ALL.into_iter().flat_map(|method| rates.iter().map(move |rate| (method, rate))) {
@@ -227,7 +229,7 @@ fn no_crossings(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
 /// With all pieces kept and nothing smoothed, no level has faces that cross.
 fn nothing_crosses(mesh: &Arc<TriMesh>) -> Result<(), Failed> {
     let smoothing = Smoothing { iterations: 0, ..Smoothing::default() };
-    let settings = Settings { keep: Keep::All, smoothing, ..Settings::default() };
+    let settings = Settings { keep: Keep::All, smoothing, target: Target::Reduction(900), ..Settings::default() };
     let mut pipeline = Pipeline::new(mesh.clone(), settings.clone()).without_measures();
     let mut failures = Vec::new();
     if crossing_faces(mesh) > 0 {

@@ -52,7 +52,8 @@ fn check(path: &Path, ends: [usize; 2], length: [f64; 2], wire: f64) -> Result<(
     check_level(&mesh, ends, length, wire)?;
     // Of vessels that are a few triangles around, smoothing leaves little.
     let smoothing = Smoothing { iterations: 0, ..Smoothing::default() };
-    let mut pipeline = Pipeline::new(Arc::new(mesh), Settings { smoothing, ..Settings::default() });
+    let mut pipeline =
+        Pipeline::new(Arc::new(mesh), Settings { smoothing, target: Target::Reduction(900), ..Settings::default() });
     while pipeline.progressive().is_none() {
         pipeline.advance(Budget::UNLIMITED)?;
     }

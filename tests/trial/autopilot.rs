@@ -26,7 +26,7 @@ use lumen_test_support::is_long;
 fn levels(sample: Sample, triangles: usize, rates: &[u32]) -> Vec<Arc<TriMesh>> {
     let mesh = import_mesh(generate(sample, triangles).unwrap(), "sample").mesh;
     let smoothing = Smoothing { pass_band: 0.1, iterations: 30, ..Smoothing::default() };
-    let settings = Settings { smoothing, ..Settings::default() };
+    let settings = Settings { smoothing, target: Target::Reduction(900), ..Settings::default() };
     let mut pipeline = Pipeline::new(Arc::new(mesh), settings).without_measures();
     let level = |&rate: &u32| {
         let settings = Settings { target: Target::Reduction(rate), ..pipeline.settings().clone() };

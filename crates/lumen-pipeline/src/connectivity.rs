@@ -102,7 +102,7 @@ impl Connectivity {
     /// When there is no such component.
     pub fn kept(&self, mesh: &Arc<TriMesh>, keep: Keep) -> Result<Arc<TriMesh>, SettingsError> {
         Ok(match self.chosen(keep)? {
-            Some(c) => Arc::new(mesh.filtered(|t| self.labels.of_triangle[t] == c)),
+            Some(is_kept) => Arc::new(mesh.filtered(|t| is_kept[self.labels.of_triangle[t] as usize])),
             None => mesh.clone(),
         })
     }
@@ -112,27 +112,34 @@ impl Connectivity {
     /// # Errors
     /// When there is no such component.
     pub fn kept_rows(&self, mesh: &TriMesh, keep: Keep) -> Result<Option<KeptRows>, SettingsError> {
-        Ok(self.chosen(keep)?.map(|piece| {
+        Ok(self.chosen(keep)?.map(|is_kept| {
             let of_triangle = &self.labels.of_triangle;
-            let rows: Vec<u32> = (0..of_triangle.len() as u32).filter(|&t| of_triangle[t as usize] == piece).collect();
+            let is_in = |&t: &u32| is_kept[of_triangle[t as usize] as usize];
+            let rows: Vec<u32> = (0..of_triangle.len() as u32).filter(is_in).collect();
             let triangles: Vec<[u32; 3]> = rows.iter().map(|&t| mesh.triangles[t as usize]).collect();
             KeptRows { vertices: used_vertices(mesh.positions.len(), &triangles), triangles: rows }
         }))
     }
 
-    /// The piece that `keep` names; `None` where that is the whole surface.
+    /// Whether each piece is of those that `keep` names; `None` where they are the whole surface.
+    fn chosen(&self, keep: Keep) -> Result<Option<Vec<bool>>, SettingsError> {
+        self.check(keep)?;
+        let largest = self.labels.largest().filter(|_| keep == Keep::Largest);
+        let mut is_kept = vec![keep == Keep::All; self.labels.count()];
+        for &piece in keep.numbers().iter().chain(&largest) {
+            is_kept[piece as usize] = true;
+        }
+        Ok(is_kept.contains(&false).then_some(is_kept))
+    }
+
+    /// Whether the pieces that `keep` names are there.
     ///
     /// # Errors
-    /// When there is no such component.
-    pub fn chosen(&self, keep: Keep) -> Result<Option<u32>, SettingsError> {
+    /// The first that is not.
+    pub fn check(&self, keep: Keep) -> Result<(), SettingsError> {
         let count = self.labels.count();
-        let chosen = match keep {
-            Keep::All => None,
-            Keep::Largest => self.labels.largest(),
-            Keep::Component(c) if (c as usize) < count => Some(c),
-            Keep::Component(wanted) => return Err(SettingsError::Component { wanted, count }),
-        };
-        Ok(chosen.filter(|_| count > 1))
+        let missing = keep.numbers().iter().find(|&&wanted| wanted as usize >= count);
+        missing.map_or(Ok(()), |&wanted| Err(SettingsError::Component { wanted, count }))
     }
 }
 
@@ -140,16 +147,27 @@ impl Connectivity {
 mod tests {
     use super::*;
 
+    /// Vertices of a parabola.
+    fn row(count: u8) -> TriMesh {
+        let at = |i: u8| Vec3::new(f32::from(i), f32::from(i) * f32::from(i), 0.0);
+        TriMesh { positions: (0..count).map(at).collect(), triangles: Vec::new() }
+    }
+
     #[test]
     fn the_largest_piece_is_kept_and_the_others_can_be() {
-        let positions: Vec<Vec3> = (0..7).map(|i| Vec3::new(i as f32, (i * i) as f32, 0.0)).collect();
-        let mesh = Arc::new(TriMesh { positions, triangles: vec![[4, 5, 6], [0, 1, 2], [1, 3, 2]] });
+        let mesh = Arc::new(TriMesh { triangles: vec![[4, 5, 6], [0, 1, 2], [1, 3, 2]], ..row(7) });
         let found = Connectivity::of(&mesh);
         assert_eq!(found.components.iter().map(|c| c.triangles).collect::<Vec<_>>(), [1, 2]);
         assert_eq!(found.kept(&mesh, Keep::Largest).unwrap().triangles, [[0, 1, 2], [1, 3, 2]]);
         let small = found.kept(&mesh, Keep::Component(0)).unwrap();
         assert_eq!((small.positions.len(), &small.triangles[..]), (3, &[[0, 1, 2]][..]));
         assert_eq!(found.kept(&mesh, Keep::All).unwrap(), mesh);
+        let both = Keep::pieces(&[1, 0]).unwrap();
+        assert_eq!((found.kept(&mesh, both).unwrap(), found.kept_rows(&mesh, both)), (mesh.clone(), Ok(None)));
+        assert!(found.kept(&mesh, Keep::pieces(&[0, 2]).unwrap()).is_err());
+        let three = Arc::new(TriMesh { triangles: vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]], ..row(9) });
+        let some = Connectivity::of(&three).kept(&three, Keep::pieces(&[0, 2]).unwrap()).unwrap();
+        assert_eq!((some.positions.len(), &some.triangles[..]), (6, &[[0, 1, 2], [3, 4, 5]][..]));
         assert!(found.kept(&mesh, Keep::Component(2)).is_err());
         let nothing = Arc::new(TriMesh::default());
         assert_eq!(Connectivity::of(&nothing).kept(&nothing, Keep::Largest).unwrap(), nothing);

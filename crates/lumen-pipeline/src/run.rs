@@ -25,7 +25,7 @@ use super::results::{
     Surface,
 };
 use super::safe::Safe;
-use super::settings::{Keep, Settings, SettingsError, Target};
+use super::settings::{Settings, SettingsError, Target};
 use super::smoothing::{KeptTerms, Preparation};
 use super::stage::{PerStage, Stage, Wanted, stale};
 use super::stages::Run;
@@ -133,10 +133,8 @@ impl Pipeline {
     pub fn set(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
         let known = self.store.now.connectivity.as_ref().filter(|_| settings.mending == self.settings().mending);
-        if let (Keep::Component(wanted), Some(found)) = (settings.keep, known)
-            && wanted as usize >= found.components.len()
-        {
-            return Err(SettingsError::Component { wanted, count: found.components.len() });
+        if let Some(found) = known {
+            found.check(settings.keep)?;
         }
         if self.store.now.reduced.is_some() {
             self.last = Some(self.store.now.clone());

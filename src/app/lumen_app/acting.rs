@@ -153,7 +153,7 @@ impl LumenApp {
             }
             Action::Unmark => self.views.spot = None,
             Action::Show(options) => self.views.options = options,
-            Action::ChoosePiece => {
+            Action::ChoosePieces => {
                 self.views.options.left_out = true;
                 self.views.fit(state.document.as_ref(), Keep::All);
             }

@@ -9,7 +9,7 @@ use crate::app::mode::{Beside, Mode, Now, Place};
 use crate::app::state::State;
 use crate::app::views::{Clicked, Over, Subject};
 use crate::app::{bar, collapses, panel, row, theme, verdict};
-use crate::pipeline::settings::{Keep, Settings};
+use crate::pipeline::settings::Settings;
 
 impl LumenApp {
     /// Shows the bars and the panel, and does what is asked for there.
@@ -233,8 +233,9 @@ impl LumenApp {
             Clicked::Vertex(node) => return Some(Action::Collapses(collapses::Action::Why(node))),
             Clicked::Piece(piece) => piece,
         };
-        let is_largest = document.and_then(|document| document.pieces.by_size.first()) == Some(&piece);
-        let keep = if is_largest { Keep::Largest } else { Keep::Component(piece) };
+        let pieces = &document?.pieces;
+        let adds = ui.input(|input| input.modifiers.shift || input.modifiers.command);
+        let keep = if adds { pieces.toggled(keep, piece) } else { pieces.only(piece) };
         Some(Action::Set(Box::new(Settings { keep, ..settings.clone() })))
     }
 }

@@ -29,17 +29,15 @@ pub(super) fn show(ui: &mut Ui, state: &State, views: &Views, asked: &mut Vec<Ac
     axes::list(ui, document, asked);
     let in_file = grouped(document.import.triangles);
     number(ui, &say!("panel-in-file"), &in_file, &say!("panel-in-file-help"));
-    let Some(kept) = pieces.kept(state.settings.keep).or(pieces.by_size.first().copied()) else {
+    if pieces.list.is_empty() {
         return;
-    };
-    let kept_count = match state.settings.keep {
-        Keep::All => document.opened.triangles.len(),
-        _ => pieces.list.get(kept as usize).map_or(0, |piece| piece.triangles as usize),
-    };
+    }
+    let keep = state.settings.keep;
+    let kept_count: usize = pieces.kept(keep).map(|piece| piece.triangles as usize).sum();
     number(ui, &say!("panel-kept"), &say!("panel-triangle-count", count = kept_count), "");
     let left_out = document.opened.triangles.len() - kept_count;
-    let others = pieces.list.len().saturating_sub(1);
-    if others > 0 && state.settings.keep != Keep::All {
+    let others = pieces.list.len() - pieces.kept(keep).count();
+    if others > 0 {
         let text = say!("panel-left-out-count", count = left_out, pieces = others);
         number(ui, &say!("panel-left-out"), &text, &say!("panel-left-out-help"));
     }
@@ -89,23 +87,36 @@ fn piece_label(document: &Document, piece: u32) -> String {
 
 fn piece_list(ui: &mut Ui, document: &Document, keep: &mut Keep) {
     let pieces = &document.pieces;
-    let selected = match *keep {
-        Keep::All => say!("panel-all-pieces"),
-        keep => pieces.kept(keep).map(|piece| piece_label(document, piece)).unwrap_or_default(),
+    let selected = match (*keep, pieces.by_size.iter().find(|piece| pieces.is_kept(*keep, **piece))) {
+        (Keep::All, _) => say!("panel-all-pieces"),
+        (Keep::Pieces(set), _) => say!("panel-pieces", count = set.numbers().len()),
+        (_, piece) => piece.map(|&piece| piece_label(document, piece)).unwrap_or_default(),
     };
     let list = ComboBox::from_id_salt("pieces").width(ui.available_width() - 16.0).selected_text(selected);
+    // It stays open for one box after the other.
+    let list = list.close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
     let response = list.show_ui(ui, |ui| {
-        ui.selectable_value(keep, Keep::All, say!("panel-all-pieces"));
+        if ui.selectable_value(keep, Keep::All, say!("panel-all-pieces")).clicked() {
+            ui.close();
+        }
         let row = ui.spacing().interact_size.y;
         ScrollArea::vertical().max_height(240.0).show_rows(ui, row, pieces.by_size.len(), |ui, rows| {
             for i in rows {
                 let piece = pieces.by_size[i];
-                let value = if i == 0 { Keep::Largest } else { Keep::Component(piece) };
-                let is_kept = *keep != Keep::All && pieces.kept(*keep) == Some(piece);
-                if ui.selectable_label(is_kept, piece_label(document, piece)).clicked() {
-                    *keep = value;
-                    ui.close();
-                }
+                let mut is_kept = pieces.is_kept(*keep, piece);
+                let label = piece_label(document, piece);
+                ui.horizontal(|ui| {
+                    let ticked = ui.checkbox(&mut is_kept, "").on_hover_text(say!("panel-piece-add"));
+                    name(&ticked, Role::CheckBox, &say!("panel-piece-keep", piece = label.as_str()));
+                    if ticked.clicked() {
+                        *keep = pieces.toggled(*keep, piece);
+                    }
+                    let is_alone = pieces.only(piece) == *keep;
+                    if ui.selectable_label(is_alone, label).clicked() {
+                        *keep = pieces.only(piece);
+                        ui.close();
+                    }
+                });
             }
         });
     });

@@ -94,9 +94,9 @@ fn act(ui: &mut Ui, finding: &Finding, asked: &mut Vec<Action>) {
         }
     }
     if let FindingKind::LeftOut { .. } = finding.what
-        && ui.button(say!("verdict-choose-piece")).on_hover_text(say!("verdict-choose-piece-help")).clicked()
+        && ui.button(say!("verdict-choose-pieces")).on_hover_text(say!("verdict-choose-pieces-help")).clicked()
     {
-        asked.push(Action::ChoosePiece);
+        asked.push(Action::ChoosePieces);
     }
 }
 

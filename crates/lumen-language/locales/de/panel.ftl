@@ -37,12 +37,17 @@ panel-left-out-count = { $pieces ->
    *[other] { $count } in { $pieces } Stücken
 }
 panel-show-left-out = Weggelassenes zeigen
-panel-show-left-out-help = Ein Klick auf ein Stück in der Ansicht behält dieses
+panel-show-left-out-help = Ein Klick auf ein Stück in der Ansicht behält dieses; mit Umschalt oder Strg kommt es dazu oder fällt weg
 panel-unit = Einheit der Datei
 panel-unit-help = Was eine Länge von 1 in der Datei bedeutet
 # For assistive tools: the list of units.
 panel-unit-list = Einheit
 panel-all-pieces = Alle Stücke
+# In place of a list of them: from 2 to 16.
+panel-pieces = { $count } Stücke
+panel-piece-add = Behält auch dieses Stück oder nicht mehr
+# For assistive tools: $piece is "1,234 triangles, 56.7 mm".
+panel-piece-keep = Das Stück von { $piece } behalten
 # A piece in a list.
 panel-piece = { $count ->
     [one] { $count } Dreieck, { $size } mm

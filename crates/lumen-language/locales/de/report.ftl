@@ -33,6 +33,7 @@ report-axes-unknown = unbekannt
 report-keep = Behalten
 report-keep-largest = das größte Stück
 report-keep-piece = Stück { $number }
+report-keep-pieces = Stücke { $numbers }
 report-keep-all = alle Stücke
 report-mending = Reparatur
 report-no-mending = keine

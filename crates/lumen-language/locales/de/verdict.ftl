@@ -35,9 +35,9 @@ verdict-reduce-to = Auf { $percent } % reduzieren
 verdict-read-in = In { $unit } lesen
 verdict-take-lumen = Lumen nehmen
 verdict-all-pieces = Alle Stücke
-# Shows the pieces that are left out, one of which can be chosen in the view.
-verdict-choose-piece = Stück wählen
-verdict-choose-piece-help = Zeigt, was weggelassen ist; ein Klick auf ein Stück behält dieses
+# Shows the pieces that are left out, which can be chosen in the view.
+verdict-choose-pieces = Stücke wählen
+verdict-choose-pieces-help = Zeigt, was weggelassen ist; ein Klick auf ein Stück behält dieses, mit Umschalt oder Strg neben den anderen
 verdict-fill = Füllen
 verdict-split = Trennen
 verdict-no-crossings = Ohne Schnitte

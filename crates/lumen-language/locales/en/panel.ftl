@@ -31,12 +31,17 @@ panel-left-out-help = Pieces that share no vertex with the one that is kept
 # $count triangles.
 panel-left-out-count = { $count } in { $pieces } pieces
 panel-show-left-out = Show what is left out
-panel-show-left-out-help = Click a piece in the view to keep that one
+panel-show-left-out-help = Click a piece in the view to keep that one; with Shift or Ctrl to add it or take it away
 panel-unit = Unit of the file
 panel-unit-help = What a length of 1 in the file means
 # For assistive tools: the list of units.
 panel-unit-list = Unit
 panel-all-pieces = All pieces
+# In place of a list of them: from 2 to 16.
+panel-pieces = { $count } pieces
+panel-piece-add = Keeps this piece as well, or no longer
+# For assistive tools: $piece is "1,234 triangles, 56.7 mm".
+panel-piece-keep = Keep the piece of { $piece }
 # A piece in a list.
 panel-piece = { $count } triangles, { $size } mm
 # For assistive tools: the list of pieces.

@@ -35,6 +35,7 @@ report-axes-unknown = unknown
 report-keep = Kept
 report-keep-largest = the largest piece
 report-keep-piece = piece { $number }
+report-keep-pieces = pieces { $numbers }
 report-keep-all = all pieces
 report-mending = Mending
 report-no-mending = none

@@ -10,9 +10,9 @@ verdict-auto-follows = How far is safe is being found: the reduction may still g
 verdict-stopped = It was cancelled, or the computation has stopped: change a setting to go on.
 # Buttons: keep them short. This one opens a list of findings with what helps.
 verdict-what-to-do = What to do
-# Shows the pieces that are left out, one of which can be chosen in the view.
-verdict-choose-piece = Choose a piece
-verdict-choose-piece-help = Shows what is left out; a click on a piece keeps that one
+# Shows the pieces that are left out, which can be chosen in the view.
+verdict-choose-pieces = Choose pieces
+verdict-choose-pieces-help = Shows what is left out; a click on a piece keeps that one, with Shift or Ctrl besides the others
 # Opens the list of the other findings; $count is 1 at least.
 verdict-more = { $count } more
 verdict-notes = { $count ->

@@ -37,12 +37,17 @@ panel-left-out-count = { $pieces ->
    *[other] { $count } en { $pieces } morceaux
 }
 panel-show-left-out = Montrer ce qui est omis
-panel-show-left-out-help = Cliquer sur un morceau dans la vue pour garder celui-là
+panel-show-left-out-help = Cliquer sur un morceau dans la vue pour garder celui-là ; avec Maj ou Ctrl pour l'ajouter ou l'enlever
 panel-unit = Unité du fichier
 panel-unit-help = Ce que signifie une longueur de 1 dans le fichier
 # For assistive tools: the list of units.
 panel-unit-list = Unité
 panel-all-pieces = Tous les morceaux
+# In place of a list of them: from 2 to 16.
+panel-pieces = { $count } morceaux
+panel-piece-add = Garde aussi ce morceau, ou plus
+# For assistive tools: $piece is "1,234 triangles, 56.7 mm".
+panel-piece-keep = Garder le morceau de { $piece }
 # A piece in a list.
 panel-piece = { $count ->
     [one] { $count } triangle, { $size } mm

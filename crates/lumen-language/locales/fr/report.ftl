@@ -33,6 +33,7 @@ report-axes-unknown = inconnus
 report-keep = Gardé
 report-keep-largest = le plus grand morceau
 report-keep-piece = morceau { $number }
+report-keep-pieces = morceaux { $numbers }
 report-keep-all = tous les morceaux
 report-mending = Réparation
 report-no-mending = aucune

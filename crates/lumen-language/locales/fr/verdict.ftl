@@ -35,9 +35,9 @@ verdict-reduce-to = Réduire à { $percent } %
 verdict-read-in = Lire en { $unit }
 verdict-take-lumen = Prendre la lumière
 verdict-all-pieces = Tous les morceaux
-# Shows the pieces that are left out, one of which can be chosen in the view.
-verdict-choose-piece = Choisir un morceau
-verdict-choose-piece-help = Montre ce qui est omis ; un clic sur un morceau garde celui-là
+# Shows the pieces that are left out, which can be chosen in the view.
+verdict-choose-pieces = Choisir des morceaux
+verdict-choose-pieces-help = Montre ce qui est omis ; un clic sur un morceau garde celui-là, avec Maj ou Ctrl en plus des autres
 verdict-fill = Combler
 verdict-split = Séparer
 verdict-no-crossings = Sans croisement

@@ -4,6 +4,7 @@
 //! from.
 
 mod decimation;
+mod keep;
 mod mending;
 mod smoothing;
 pub mod table;
@@ -12,6 +13,7 @@ mod target;
 use serde::{Deserialize, Serialize};
 
 pub use self::decimation::{Decimation, Method};
+pub use self::keep::{Keep, PieceSet};
 pub use self::smoothing::{Boundary, Preset, Smoothing, Window};
 use self::table::{CommandOption, InLink, Kind, Messages, Range, Setting};
 pub use self::target::{Target, reduction_percent};
@@ -57,32 +59,6 @@ impl Default for Settings {
 fn default_tolerance() -> f64 {
     TOLERANCE_PERCENT
 }
-
-/// Which connected pieces of the surface are kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Keep {
-    /// The piece with the most triangles.
-    #[default]
-    Largest,
-    /// The piece with this number (pieces are numbered by their first triangle).
-    Component(u32),
-    /// Every piece.
-    All,
-}
-
-/// The row of [`Settings::keep`].
-static KEEP: [Setting; 1] = [Setting {
-    key: "keep",
-    field: "keep",
-    kind: Kind::Pieces { at: |settings| &mut settings.keep },
-    in_link: InLink::Always,
-    matters: |_| true,
-    option: CommandOption {
-        value: "PIECES",
-        help: "The connected pieces to keep: largest, all, or the number of one, from 0 [default: largest]",
-    },
-    messages: Messages { label: "", help: "", said: "", refused: None },
-}];
 
 /// The row of [`Settings::tolerance_percent`].
 static TOLERANCE: [Setting; 1] = [Setting {

@@ -9,12 +9,12 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::{KEEP, TOLERANCE, decimation, mending, smoothing, target};
 use super::{Keep, OutOfRange, Settings, Target};
+use super::{TOLERANCE, decimation, keep, mending, smoothing, target};
 
 /// The rows, a group each, in the order of the method.
 static GROUPS: [&[Setting]; 6] =
-    [&mending::ROWS, &KEEP, &smoothing::ROWS, &decimation::ROWS, &target::ROWS, &TOLERANCE];
+    [&mending::ROWS, &keep::ROWS, &smoothing::ROWS, &decimation::ROWS, &target::ROWS, &TOLERANCE];
 
 /// All settings, in the order of the method.
 pub fn all() -> impl Iterator<Item = &'static Setting> {
@@ -91,7 +91,7 @@ pub enum Kind {
         /// Sets the one at a place in `names`.
         choose: fn(&mut Settings, usize),
     },
-    /// Connected pieces: `largest`, `all`, or the number of one.
+    /// Connected pieces: `largest`, `all`, or the numbers of some.
     Pieces {
         /// Where it stands.
         at: At<Keep>,
@@ -173,9 +173,7 @@ impl fmt::Display for Value {
             Self::Switch(is_on) => f.write_str(if *is_on { "yes" } else { "no" }),
             Self::Number(number) => number.fmt(f),
             Self::Name(name) => f.write_str(&name.to_lowercase()),
-            Self::Pieces(Keep::Largest) => f.write_str("largest"),
-            Self::Pieces(Keep::All) => f.write_str("all"),
-            Self::Pieces(Keep::Component(number)) => number.fmt(f),
+            Self::Pieces(keep) => keep.fmt(f),
         }
     }
 }
@@ -226,13 +224,7 @@ impl Setting {
                 let place = names.iter().position(|name| name.to_lowercase() == text);
                 choose(settings, place.ok_or(NoValue)?);
             }
-            Kind::Pieces { at } => {
-                *at(settings) = match text {
-                    "largest" => Keep::Largest,
-                    "all" => Keep::All,
-                    number => Keep::Component(number.parse().map_err(|_| NoValue)?),
-                }
-            }
+            Kind::Pieces { at } => *at(settings) = text.parse()?,
             Kind::Target { steps, make, named, .. } => {
                 let named = named.filter(|(name, _)| name.to_lowercase() == text);
                 settings.target = match named {

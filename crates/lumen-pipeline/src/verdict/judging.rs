@@ -161,7 +161,7 @@ fn faults(known: &Known<'_>) -> Vec<Finding> {
         remedy(known, label, |settings| {
             settings.mending = mending;
             // A piece that is kept by its number may be another one then.
-            if matches!(settings.keep, Keep::Component(_)) {
+            if !settings.keep.numbers().is_empty() {
                 settings.keep = Keep::Largest;
             }
         })

@@ -193,7 +193,7 @@ fn much_that_is_left_out_is_told_and_all_of_it_or_another_piece_is_a_click_away(
     assert!(says(&harness, "75 % of the surface is left out: 3 other pieces."));
     assert!(!says(&harness, "Safe to simulate on"));
     let near = harness.state().camera().distance;
-    click(&mut harness, "Choose a piece");
+    click(&mut harness, "Choose pieces");
     assert!(harness.state().camera().distance > near, "all of them are in view");
     let view = harness.get_by_role_and_label(Role::Image, "Shaded view").rect();
     let keep = |harness: &Harness<'_, LumenApp>| harness.state().state().settings.keep;
