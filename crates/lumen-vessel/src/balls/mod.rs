@@ -447,7 +447,7 @@ mod tests {
         let links: Vec<[u32; 2]> = steps(0).chain(steps(12)).chain([[0, 12]]).collect();
         let (is_passing, group) = (vec![false; balls.len()], vec![0; balls.len()]);
         let graph = Graph::new(Balls { balls, is_passing, links, group, ..Balls::default() });
-        let paths = graph.tree(0, |_| false);
+        let paths = graph.tree(0, |_| false).paths;
         assert_eq!(paths.len(), 1, "{paths:?}");
     }
 }
