@@ -98,6 +98,8 @@ impl Basis {
             stations: self.stations.clone(),
             calibres: self.calibres[0].clone(),
             zones: self.zones.clone(),
+            bumps: self.tree.bumps,
+            openings_without_branch: self.tree.openings_without_branch(),
         }
     }
 
