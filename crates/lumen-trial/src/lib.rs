@@ -15,9 +15,9 @@
 //! - The wire: [`wire`], [`setup`], [`placement`].
 //! - A step: [`rod`], [`contact`], `descent` (which contacts press), [`body`] (rod and contacts through a step),
 //!   [`simulation`] (the guide that feeds and rolls), [`report`] (what a step tells of itself).
-//! - A trial: [`session`], [`autopilot`], [`hold`] (what a hand feels), `press` (what presses the wire to the wall), `missed`
+//! - A trial: [`session`], [`autopilot`], [`virtual_coupling`] (what a hand feels), `press` (what presses the wire to the wall), `missed`
 //!   (the fork that a failure names).
-//! - What comes of it: [`meter`], [`stopwatch`], [`felt`], [`log`], [`frame`], [`summary`], [`compare`].
+//! - What comes of it: [`meter`], [`stopwatch`], [`peak_force_map`], [`log`], [`frame`], [`summary`], [`compare`].
 //! - [`audit`] checks walls and openness, and shares no code with the solver.
 //!
 //! # Words
