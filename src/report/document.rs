@@ -13,7 +13,7 @@ use crate::pipeline::verdict::{FindingKind, Verdict};
 use crate::say;
 use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
-use crate::vessel::certificate::{BranchCalibre, OnSurface, Verdict as Calibre, measured_percent};
+use crate::vessel::certificate::{BranchCalibre, OnSurface, Verdict as Calibre};
 
 /// Vessels whose radius is drawn: those that are narrower or wider somewhere, or change most.
 const DRAWN: usize = 3;
@@ -103,7 +103,7 @@ impl Document {
             file: file(subject),
             settings: settings(&report.settings),
             numbers: numbers(report),
-            head: tell(&verdict.head),
+            head: tell(&verdict.head_text()),
             is_safe: verdict.is_safe,
             findings: calibre.into_iter().chain(findings).collect(),
             vessels: vessels(branches),
@@ -237,8 +237,8 @@ fn numbers(report: &Report) -> Vec<Row> {
     add(say!("report-crossing"), shape.map(|shape| grouped(shape.self_intersecting_faces)));
     let lumen = shape.and_then(|shape| shape.smallest_lumen);
     add(say!("report-smallest-lumen"), lumen.map(|lumen| format!("{} mm", decimal(lumen.diameter_mm, 2))));
-    let measured = measured_percent(report.branches.as_deref().unwrap_or_default());
-    add(say!("report-measured"), measured.map(|part| say!("report-measured-part", percent = decimal(part, 0))));
+    let coverage = report.calibre.as_ref().and_then(|calibre| calibre.coverage);
+    add(say!("report-measured"), coverage.map(|coverage| tell(&coverage.text())));
     add(say!("report-output-fingerprint"), Some(report.output_fingerprint.clone()));
     rows
 }
@@ -251,6 +251,7 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
         vec![
             tell(&branch.label()),
             tell(&branch.verdict),
+            format!("{} %", decimal(branch.coverage().percent().floor(), 0)),
             change(&branch.smoothed),
             change(&branch.reduced),
             branch.opened.radius_mm.map_or_else(none, |radius| tell(&radius.text())),
@@ -261,6 +262,7 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
     let heads = vec![
         say!("vessels-column-vessel"),
         say!("report-calibre"),
+        say!("vessels-column-measured"),
         say!("vessels-column-smoothed"),
         say!("vessels-column-reduced"),
         say!("report-radius"),

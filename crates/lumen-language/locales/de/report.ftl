@@ -69,7 +69,6 @@ report-half-gain = Halbe Verstärkung
 report-crossing = Selbstschnitte
 report-smallest-lumen = Engstes Lumen
 report-measured = Gefäße gemessen
-report-measured-part = { $percent } % ihrer Länge
 report-output-fingerprint = Oberflächen-Prüfsumme
 
 ## Spalten und Zellen

@@ -70,7 +70,6 @@ report-half-gain = Half gain of smoothing
 report-crossing = Triangles that cross
 report-smallest-lumen = Smallest lumen
 report-measured = Vessels measured
-report-measured-part = { $percent } % of their length
 report-output-fingerprint = Surface's fingerprint
 
 ## Heads of columns, and cells

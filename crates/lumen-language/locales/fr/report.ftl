@@ -69,7 +69,6 @@ report-half-gain = Demi-gain du lissage
 report-crossing = Auto-intersections
 report-smallest-lumen = Lumière minimale
 report-measured = Vaisseaux mesurés
-report-measured-part = { $percent } % de leur longueur
 report-output-fingerprint = Empreinte de surface
 
 ## Colonnes et cellules

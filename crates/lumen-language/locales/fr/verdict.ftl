@@ -3,7 +3,10 @@
 ## Le bandeau au-dessus des vues
 
 verdict-safe = Apte à la simulation
-verdict-nothing-wrong = Aucun défaut trouvé
+verdict-kept = Gardé là où mesuré
+verdict-none-measured = Aucun vaisseau mesuré
+# Un titre, et la part mesurée : « 82 % de la longueur, 28 sur 33 vaisseaux ».
+verdict-covered = { $head } : { $coverage }
 verdict-not-measured = Non mesuré
 verdict-coming = Mesure en cours...
 verdict-to-look-at = { $count ->
@@ -23,6 +26,8 @@ verdict-notes = { $count ->
 }
 verdict-show-vessels = Voir vaisseaux
 verdict-show-vessels-help = Ce que chacun est devenu, et où (V)
+verdict-show-unmeasured = Non mesuré
+verdict-show-unmeasured-help = Ouvre les vaisseaux et va là où rien n'est mesuré ; la surface y est grise
 verdict-remedy-help = Aiderait ; peut être annulé
 verdict-show-place = Voir
 verdict-show-place-help = Va à l'endroit en question
@@ -97,6 +102,7 @@ verdict-safe-none-kept = le lissage lui-même change chaque vaisseau mesurable
 verdict-safe-none-measured = aucun vaisseau n'est mesurable
 verdict-safe-changed = À { $rate } %, la { $name } change de { $by } %, en ({ $x } ; { $y } ; { $z })
 verdict-safe-unmeasured = À { $rate } %, la { $name } n'est plus mesurable
+verdict-safe-uncovered = À { $rate } %, { $percent } % seulement de la longueur des vaisseaux sont mesurables
 
 ## Le filtre
 

@@ -22,6 +22,7 @@
 
 mod basis;
 mod branch;
+mod coverage;
 mod stretch;
 mod unit;
 
@@ -30,6 +31,7 @@ use std::fmt::Write as _;
 use serde::{Deserialize, Serialize};
 
 pub use basis::Basis;
+pub use coverage::{Coverage, ENOUGH_PERCENT};
 pub use unit::CalibreError;
 pub(super) use unit::checked;
 
@@ -98,6 +100,8 @@ pub struct Certificate {
     pub tolerance_percent: f64,
     /// Changed where one branch is; kept where the others are.
     pub verdict: Verdict,
+    /// How much of them that is said of.
+    pub coverage: Coverage,
     /// The branches, a parent before its branches.
     pub branches: Vec<BranchCalibre>,
 }
@@ -113,7 +117,7 @@ impl Certificate {
         } else {
             Verdict::NotMeasured
         };
-        Self { tolerance_percent, verdict, branches }
+        Self { tolerance_percent, verdict, coverage: Coverage::of(&branches), branches }
     }
 
     /// A row a station, in the order of the branches. A field is empty where a cross-section does not close.
@@ -161,11 +165,4 @@ impl BranchCalibre {
         let found = self.variations.iter().find(|found| (found.from_mm..=found.to_mm).contains(&abscissa_mm))?;
         Some(if found.kind == Kind::Narrower { -found.degree_percent } else { found.degree_percent })
     }
-}
-
-/// The part of these vessels that is measured, by stations, in percent; `None` without a station.
-pub fn measured_percent(branches: &[BranchCalibre]) -> Option<f64> {
-    let counted: usize = branches.iter().map(|branch| branch.stations_counted).sum();
-    let all: usize = branches.iter().map(|branch| branch.standings.len()).sum();
-    (all > 0).then(|| 100.0 * counted as f64 / all as f64)
 }
