@@ -64,6 +64,6 @@ fn of(branch: &BranchCalibre) -> [String; HEADS.len()] {
         format!("{:.0}", branch.coverage().percent().floor()),
         branch.verdict.to_string(),
         branch.reduced.largest_change.map_or_else(String::new, place),
-        branch.most_uneven().map_or_else(String::new, |found| found.text().to_string()),
+        branch.uneven_text().map_or_else(String::new, |found| found.to_string()),
     ]
 }

@@ -14,6 +14,7 @@ use crate::say;
 use crate::sharing::Digest;
 use crate::sharing::measures::Measure;
 use crate::vessel::certificate::{BranchCalibre, OnSurface, Verdict as Calibre};
+use crate::vessel::variation::{Kind as VariationKind, Variation};
 
 /// Vessels whose radius is drawn: those that are narrower or wider somewhere, or change most.
 const DRAWN: usize = 3;
@@ -273,8 +274,10 @@ fn vessels(branches: &[BranchCalibre]) -> Table {
 }
 
 fn stretches(branches: &[BranchCalibre]) -> Table {
-    let each = branches.iter().flat_map(|branch| branch.variations.iter().map(move |found| (branch, found)));
-    let row = |(branch, found): (&BranchCalibre, &crate::vessel::variation::Variation)| {
+    let mut each: Vec<(&BranchCalibre, &Variation)> =
+        branches.iter().flat_map(|branch| branch.variations.iter().map(move |found| (branch, found))).collect();
+    each.sort_by_key(|(_, found)| found.kind != VariationKind::Narrower);
+    let row = |(branch, found): (&BranchCalibre, &Variation)| {
         let [diameter, reference] = [found.diameter_mm, found.reference_mm].map(|mm| decimal(mm, 2));
         vec![
             tell(&branch.label()),
@@ -282,6 +285,7 @@ fn stretches(branches: &[BranchCalibre]) -> Table {
             format!("{} %", decimal(found.area_percent, 0)),
             found.reduced_degree_percent.map_or("–".to_owned(), |degree| format!("{} %", decimal(degree, 0))),
             say!("report-diameter-of", diameter = diameter, reference = reference),
+            found.sides.iter().flatten().map(|side| decimal(side.abscissa_mm, 1)).collect::<Vec<_>>().join("; "),
             decimal(found.length_mm, 1),
             format!("{} {}", decimal(found.abscissa_mm, 1), point(found.at_mm.map(f64::from))),
         ]
@@ -292,10 +296,11 @@ fn stretches(branches: &[BranchCalibre]) -> Table {
         say!("report-by-area"),
         say!("vessels-column-reduced"),
         say!("report-diameter-mm"),
+        say!("report-reference-at"),
         say!("vessels-column-length"),
         say!("report-at-mm"),
     ];
-    Table { heads, rows: each.map(row).collect() }
+    Table { heads, rows: each.into_iter().map(row).collect() }
 }
 
 fn measures(measures: &[Measure]) -> Table {

@@ -95,5 +95,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     summary::PlaceText::MESSAGES,
     summary::Unmeasured::MESSAGES,
     summary::UnmeasuredParts::MESSAGES,
+    variation::ReferenceText::MESSAGES,
+    variation::UnevenText::MESSAGES,
     variation::VariationText::MESSAGES,
 ];

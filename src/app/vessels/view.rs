@@ -150,6 +150,10 @@ fn table(
 }
 
 fn radius(ui: &mut Ui, branch: &BranchCalibre, found: &Certificate, asked: &mut Vec<Action>) {
+    for stretch in branch.uneven().into_iter().flatten() {
+        let told = say!("vessels-uneven", stretch = tell(&stretch.text()), reference = tell(&stretch.reference()));
+        ui.add(egui::Label::new(RichText::new(told).small()).wrap());
+    }
     let Some(i) = plot::show(ui, branch, found.tolerance_percent) else { return };
     asked.extend(go_to_station(branch, i));
 }

@@ -58,7 +58,7 @@ pub(super) fn cells(branch: &BranchCalibre, safe: Option<&Safe>) -> [String; COL
             _ => none(),
         },
         radius.map_or_else(none, |radius| tell(&radius.text())),
-        branch.most_uneven().map_or_else(none, |found| tell(&found.text())),
+        branch.uneven_text().map_or_else(none, |found| tell(&found)),
         decimal(branch.length_mm, 1),
         branch.tortuosity.map_or_else(none, |tortuosity| decimal(tortuosity, 2)),
     ]

@@ -78,6 +78,8 @@ report-radius = Radius wie geöffnet, mm
 report-diameter = Durchmesser
 report-by-area = Fläche
 report-diameter-mm = Durchmesser, mm
+# Wo entlang des Gefäßes die Referenz gemessen ist.
+report-reference-at = Referenz bei, mm
 report-at-mm = Bei, mm
 report-diameter-of = { $diameter } von { $reference }
 report-measure = Messung

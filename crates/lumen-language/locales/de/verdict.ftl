@@ -82,6 +82,7 @@ verdict-crossing-before = { $count ->
     [one] { $count } Dreieck schneidet andere; vor der Reduktion waren es { $before }.
    *[other] { $count } Dreiecke schneiden andere; vor der Reduktion waren es { $before }.
 }
+verdict-narrower = Wie geöffnet ist { $name } über { $length } mm um { $percent } % enger als zu beiden Seiten: { $reference }.
 verdict-few-iterations = Zu wenige Iterationen für dieses Durchlassband: Zum Glätten braucht es mehr.
 verdict-shortfall-topology = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde ein offenes Ende schließen oder ein Gefäß einschnüren
 verdict-shortfall-geometry = Weiter als auf { $reached } Dreiecke lässt sich diese Oberfläche nicht reduzieren (gewünscht waren { $wanted }): Weiteres Entfernen würde die Oberfläche auf sich selbst falten
@@ -92,6 +93,7 @@ verdict-shortfall-complex = Weiter als auf { $reached } Dreiecke lässt sich die
 verdict-place-hole = Loch
 verdict-place-here = Hier
 verdict-place-narrowed = Eingeschnürt
+verdict-place-narrower = { $percent } % enger
 verdict-place-pinched = eingeschnürt
 verdict-place-lost = verloren
 verdict-place-shut = Zugezogen

@@ -56,6 +56,11 @@ vessels-narrower = { $percent } % enger
 vessels-wider = { $percent } % weiter
 vessels-narrower-over = { $percent } % enger über { $length } mm, bei { $at } mm
 vessels-wider-over = { $percent } % weiter über { $length } mm, bei { $at } mm
+vessels-uneven-both = { $narrower }; { $wider }
+# Der Durchmesser, die Referenz, und an welchen Stellen entlang des Gefäßes sie gemessen ist.
+vessels-reference-between = { $diameter } von { $reference } mm, nach den Durchmessern bei { $from } und { $to } mm
+vessels-reference-at = { $diameter } von { $reference } mm, nach dem Durchmesser bei { $at } mm
+vessels-reference = { $diameter } von { $reference } mm
 vessels-table = { $name }, zulässige Änderung { $tolerance } %
 # Folgt darauf nach einem Komma.
 vessels-table-measured = gemessen über { $coverage }
@@ -71,6 +76,8 @@ vessels-at-ends = Es ist zu kurz: Es liegt ganz an Enden oder Gabelungen.
 ## Der Radius entlang eines Gefäßes
 
 vessels-radius-head = Radius entlang von { $name }:
+# Darüber: ein Abschnitt, der enger oder weiter ist als zu beiden Seiten, und womit er verglichen ist.
+vessels-uneven = { $stretch }: { $reference }
 vessels-radius-along = Radius entlang von { $name }
 vessels-as-opened = wie geöffnet
 vessels-smoothed = geglättet

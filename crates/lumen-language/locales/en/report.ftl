@@ -79,6 +79,8 @@ report-radius = Radius as opened, mm
 report-diameter = Diameter
 report-by-area = By area
 report-diameter-mm = Diameter, mm
+# Where along the vessel the reference is measured.
+report-reference-at = Reference at, mm
 report-at-mm = At, mm
 # The least or largest diameter of a stretch, and the reference.
 report-diameter-of = { $diameter } of { $reference }

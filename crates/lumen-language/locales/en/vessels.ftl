@@ -63,6 +63,8 @@ vessels-at-ends = It is too short: all of it lies at ends or forks.
 ## The radius along a vessel
 
 vessels-radius-head = Radius along { $name }:
+# Above it: a stretch that is narrower or wider than on either side, and what it is compared with.
+vessels-uneven = { $stretch }: { $reference }
 vessels-radius-along = Radius along { $name }
 # The three surfaces, in a legend.
 vessels-as-opened = as opened

@@ -82,6 +82,7 @@ verdict-crossing-before = { $count ->
     [one] { $count } triangle en croise d'autres ; { $before } avant la réduction.
    *[other] { $count } triangles en croisent d'autres ; { $before } avant la réduction.
 }
+verdict-narrower = À l'ouverture, la { $name } est plus étroite de { $percent } % que de part et d'autre, sur { $length } mm : { $reference }.
 verdict-few-iterations = Trop peu d'itérations pour cette bande passante : il en faut davantage pour lisser.
 verdict-shortfall-topology = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage fermerait une extrémité ouverte ou pincerait un vaisseau
 verdict-shortfall-geometry = Cette surface ne descend pas au-dessous de { $reached } triangles ({ $wanted } étaient demandés) : en retirer davantage replierait la surface sur elle-même
@@ -92,6 +93,7 @@ verdict-shortfall-complex = Cette surface ne descend pas au-dessous de { $reache
 verdict-place-hole = Trou
 verdict-place-here = Ici
 verdict-place-narrowed = Pincé
+verdict-place-narrower = { $percent } % plus étroit
 verdict-place-pinched = pincé
 verdict-place-lost = perdu
 verdict-place-shut = Fermé

@@ -56,6 +56,11 @@ vessels-narrower = { $percent } % plus étroit
 vessels-wider = { $percent } % plus large
 vessels-narrower-over = { $percent } % plus étroit sur { $length } mm, à { $at } mm
 vessels-wider-over = { $percent } % plus large sur { $length } mm, à { $at } mm
+vessels-uneven-both = { $narrower } ; { $wider }
+# Le diamètre, la référence, et les endroits le long du vaisseau où elle est mesurée.
+vessels-reference-between = { $diameter } sur { $reference } mm, d'après les diamètres à { $from } et { $to } mm
+vessels-reference-at = { $diameter } sur { $reference } mm, d'après le diamètre à { $at } mm
+vessels-reference = { $diameter } sur { $reference } mm
 vessels-table = { $name }, tolérance { $tolerance } %
 # Le suit après une virgule.
 vessels-table-measured = mesuré sur { $coverage }
@@ -71,6 +76,8 @@ vessels-at-ends = Il est trop court : tout entier à des extrémités ou à des
 ## Le rayon le long d'un vaisseau
 
 vessels-radius-head = Rayon le long de la { $name } :
+# Au-dessus : une portion plus étroite ou plus large que de part et d'autre, et ce à quoi elle est comparée.
+vessels-uneven = { $stretch } : { $reference }
 vessels-radius-along = Rayon le long de la { $name }
 vessels-as-opened = à l'ouverture
 vessels-smoothed = lissé

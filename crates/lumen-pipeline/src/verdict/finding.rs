@@ -9,7 +9,9 @@ use super::super::warnings::{DrawnShut, Pinches, VolumeNotHeld, VolumeWarning};
 use lumen_io::{Unit, UnusualSize, Warning};
 use lumen_mesh::mending::MendWarning;
 use lumen_vessel::certificate::Coverage;
+use lumen_vessel::BranchName;
 use lumen_vessel::summary::{CalibreSummary, CoverageText, PlaceText};
+use lumen_vessel::variation::ReferenceText;
 
 messages! {
     /// What there is to say of a result, in one or two sentences.
@@ -63,6 +65,17 @@ messages! {
             /// How many did.
             before: usize,
         } => { format!("{} triangles run into others; {} did before the reduction.", grouped(count), grouped(before)) },
+        /// A vessel is narrower than on either side.
+        "verdict-narrower" Narrower {
+            /// Which.
+            name: BranchName,
+            /// By how much of its diameter, in percent.
+            percent: f64 [0],
+            /// Over which length, in mm.
+            length: f64 [1],
+            /// What is left, and of what.
+            reference: ReferenceText,
+        } => "As opened, {name} is {percent:.0} % narrower over {length:.1} mm than on either side: {reference}.",
         /// The filter misses its pass band.
         "verdict-few-iterations" FewIterations =>
             "Too few iterations for this pass band: more are needed to smooth.",
@@ -110,6 +123,11 @@ messages! {
         "verdict-place-here" Here => "Here",
         /// A vessel is narrower than it was.
         "verdict-place-narrowed" Narrowed => "Pinched",
+        /// A vessel is narrower than on either side.
+        "verdict-place-narrower" Narrower {
+            /// By how much of its diameter, in percent.
+            percent: f64 [0],
+        } => "{percent:.0} % narrower",
         /// A vessel is pinched.
         "verdict-place-pinched" Pinched => "pinched",
         /// A vessel is lost.

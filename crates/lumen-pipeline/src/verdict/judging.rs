@@ -63,6 +63,7 @@ impl Verdict {
             findings.extend(of_report(known, report));
         }
         findings.extend(calibre(known));
+        findings.extend(narrower(known));
         let of_file = known.import.warnings.iter().filter(|warning| !matches!(warning, Warning::Size(_)));
         findings.extend(
             of_file
@@ -253,6 +254,17 @@ fn calibre(known: &Known<'_>) -> Option<Finding> {
         None => finding,
     };
     Some(finding.helped_by(help.or_else(|| less(known))))
+}
+
+/// The stretch that is most narrower than on either side, as opened.
+fn narrower(known: &Known<'_>) -> Option<Finding> {
+    let certificate = known.calibre?.as_ref().ok()?;
+    let each = certificate.branches.iter().filter_map(|branch| Some((branch, branch.uneven()[0]?)));
+    let most = each.reduce(|most, next| if next.1.degree_percent > most.1.degree_percent { next } else { most });
+    let (branch, found) = most?;
+    let (percent, length) = (found.degree_percent, found.length_mm);
+    let what = FindingKind::Narrower { name: branch.label(), percent, length, reference: found.reference() };
+    Some(Finding::note(what).at(found.at_mm, found.diameter_mm, PlaceLabel::Narrower { percent }))
 }
 
 /// How wide a branch is at a place, in mm.

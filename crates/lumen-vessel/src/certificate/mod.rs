@@ -37,7 +37,7 @@ pub(super) use unit::checked;
 
 use super::BranchName;
 pub use super::on_surface::{Change, OnSurface, Spread, SpreadText, StationStatus};
-use super::variation::{Kind, Variation};
+use super::variation::{Kind, UnevenText, Variation, greatest};
 use lumen_message::messages;
 
 /// The change in percent that a vessel is allowed, unless it is said otherwise.
@@ -155,9 +155,18 @@ impl BranchCalibre {
         BranchName::Numbered { number: self.number }
     }
 
-    /// The stretch that is most narrower or wider than on either side.
-    pub fn most_uneven(&self) -> Option<&Variation> {
-        self.variations.iter().max_by(|a, b| a.degree_percent.total_cmp(&b.degree_percent))
+    /// The stretches that are most narrower and most wider than on either side: a narrowing first, for it is measured by what is
+    /// left, and a widening, whose degree has no upper end, would hide it.
+    pub fn uneven(&self) -> [Option<&Variation>; 2] {
+        [Kind::Narrower, Kind::Wider].map(|kind| greatest(&self.variations, kind))
+    }
+
+    /// These in words; `None` where there is neither.
+    pub fn uneven_text(&self) -> Option<UnevenText> {
+        match self.uneven().map(|found| found.map(Variation::text)) {
+            [Some(narrower), Some(wider)] => Some(UnevenText::Both { narrower, wider }),
+            [one, other] => one.or(other).map(UnevenText::One),
+        }
     }
 
     /// The degree in percent, below 0 where it is narrower, of the stretch at this arc length; `None` outside of any.
