@@ -96,7 +96,8 @@ fn plot(ui: &mut Ui, state: &State) -> Option<Target> {
             let stroke = Stroke::new(2.0, if is_own { accent } else { weak });
             plot.line(Line::new(kept.method.name(), points.collect::<PlotPoints<'_>>()).stroke(stroke));
         }
-        let (safe, is_covered) = (state.safe().and_then(|safe| safe.triangles), state.safe().is_some_and(Safe::is_covered));
+        let (safe, is_covered) =
+            (state.safe().and_then(|safe| safe.triangles), state.safe().is_some_and(Safe::is_covered));
         let safe_name = if is_covered { say!("panel-error-safe") } else { say!("panel-error-kept") };
         for (triangles, name, style, height) in [
             (Some(now), say!("panel-error-now"), LineStyle::dashed_dense(), 0.98),

@@ -138,7 +138,8 @@ fn the_numbers_of_a_run_repeat_the_verdict_with_its_remedies() {
     assert_eq!(verdict["is_safe"], true);
     // Of 60 mm 3 are left out at each open end.
     let head = verdict["head"].as_str().unwrap();
-    let percent = head.strip_prefix("Safe to simulate on: ").and_then(|rest| rest.split_once(" % of the length, 1 of 1 vessel"));
+    let percent =
+        head.strip_prefix("Safe to simulate on: ").and_then(|rest| rest.split_once(" % of the length, 1 of 1 vessel"));
     assert!(percent.is_some_and(|(percent, _)| (87..=93).contains(&percent.parse().unwrap_or(0))), "{head}");
     let measured = json(&numbers)["calibre"]["measured_percent"].as_f64().unwrap();
     assert!((measured - 90.0).abs() <= 3.0, "{measured}");
@@ -174,7 +175,11 @@ fn every_text_says_how_much_the_verdict_rests_on() {
     for page in ["a.html", "b.pdf"].map(|name| folder.file(name)) {
         let told = succeed(&["report", &file, "-o", &page, "--no-pictures", "--reduction", "60"]);
         assert!(told.contains("Kept where measured: ") && !told.contains("Safe"), "{told}");
-        let text = if page.ends_with("pdf") { flat(&text_of(&page).join(" ")) } else { std::fs::read_to_string(&page).unwrap() };
+        let text = if page.ends_with("pdf") {
+            flat(&text_of(&page).join(" "))
+        } else {
+            std::fs::read_to_string(&page).unwrap()
+        };
         assert!(text.contains("Kept where measured: ") && !text.contains("Safe"), "{text}");
     }
 }

@@ -233,7 +233,9 @@ fn what_has_no_number_has_the_walls_colour_or_its_own() {
     let mut surface = stage().surface(&mesh);
     surface.set_scalars(&stage().device, &stage().queue, Some(&[1e30; 4])).unwrap();
     let mapped = Style { map: Some(ColourMap { range: (0.0, 1.0) }), ..plain(WHITE) };
-    for (style, expected) in [(mapped, mapped.surface), (Style { unknown: Some(Style::UNKNOWN), ..mapped }, Style::UNKNOWN)] {
+    for (style, expected) in
+        [(mapped, mapped.surface), (Style { unknown: Some(Style::UNKNOWN), ..mapped }, Style::UNKNOWN)]
+    {
         let picture = stage().picture([101, 101], &camera, &[shown(&surface, Look::Shaded)], &style);
         let found = picture.pixel(50, 50).unwrap();
         assert!(is_near(found, expected, 2), "{found:?}, not {expected:?}");

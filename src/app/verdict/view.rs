@@ -27,13 +27,7 @@ pub(in crate::app) fn height(ctx: &Context, is_narrow: bool) -> f32 {
 }
 
 /// Shows the verdict on what is shown, and says what is asked for there.
-pub(in crate::app) fn show(
-    ui: &mut Ui,
-    state: &State,
-    options: ViewOptions,
-    is_narrow: bool,
-    asked: &mut Vec<Action>,
-) {
+pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_narrow: bool, asked: &mut Vec<Action>) {
     let Some(document) = &state.document else { return };
     let verdict = verdict(state, document);
     let first = verdict.findings.first().filter(|finding| finding.is_grave);

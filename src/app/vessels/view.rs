@@ -25,12 +25,7 @@ const PLOT: f32 = 0.42;
 
 /// Shows the vessels, with the branch of that number, whose row is brought into sight where that is asked for; on a phone the
 /// plot stands below the table.
-pub(super) fn show(
-    ui: &mut Ui,
-    (selected, scrolls): (Option<u32>, bool),
-    now: Now<'_>,
-    asked: &mut Vec<Action>,
-) {
+pub(super) fn show(ui: &mut Ui, (selected, scrolls): (Option<u32>, bool), now: Now<'_>, asked: &mut Vec<Action>) {
     let Now { state, options, is_narrow, .. } = now;
     ui.spacing_mut().item_spacing.y = 4.0;
     head(ui, state, options, is_narrow, asked);

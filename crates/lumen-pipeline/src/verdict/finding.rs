@@ -8,8 +8,8 @@ use super::super::settings::{Preset, Settings};
 use super::super::warnings::{DrawnShut, Pinches, VolumeNotHeld, VolumeWarning};
 use lumen_io::{Unit, UnusualSize, Warning};
 use lumen_mesh::mending::MendWarning;
-use lumen_vessel::certificate::Coverage;
 use lumen_vessel::BranchName;
+use lumen_vessel::certificate::Coverage;
 use lumen_vessel::summary::{CalibreSummary, CoverageText, PlaceText};
 use lumen_vessel::variation::ReferenceText;
 

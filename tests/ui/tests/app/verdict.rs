@@ -73,7 +73,8 @@ fn on_a_phone_how_much_is_measured_stands_first() {
     settle(&mut harness);
     open(&mut harness, &memory, "tube.obj", short());
     assert!(harness.query_by_label("Kept where measured").is_some());
-    let sentence = harness.get_by_label_contains(" % of the length, 1 of 1 vessel. The vessel keeps its calibre").rect();
+    let sentence =
+        harness.get_by_label_contains(" % of the length, 1 of 1 vessel. The vessel keeps its calibre").rect();
     assert!(sentence.left() >= 0.0 && sentence.right() <= lumen_ui_tests::PHONE[0]);
     fits_a_finger(&harness, "what is measured little");
     click(&mut harness, "Show unmeasured");

@@ -127,7 +127,10 @@ fn what_is_not_measured_has_a_colour_of_its_own_that_the_legend_names() {
     harness.key_press(Key::V);
     harness.run_steps(3);
     let coloured = count(&mut harness);
-    assert!(plain.1 > 10_000 && coloured.1 * 20 < plain.1, "{plain:?} {coloured:?}: nothing keeps the wall's own colour");
+    assert!(
+        plain.1 > 10_000 && coloured.1 * 20 < plain.1,
+        "{plain:?} {coloured:?}: nothing keeps the wall's own colour"
+    );
     assert!(coloured.0 > plain.0 + 5_000, "{plain:?} {coloured:?}: half of it is grey");
 }
 
