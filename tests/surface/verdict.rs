@@ -67,7 +67,7 @@ fn without_the_calibre_nothing_is_said_of_it() {
 #[test]
 fn a_rate_at_which_too_little_can_be_measured_is_not_safe() {
     // At any rate that is called safe, the verdict is that it is.
-    for (length, is_safe) in [(60.0, true), (34.0, true), (14.0, false)] {
+    for (length, is_safe) in [(60.0, true), (45.0, true), (14.0, false)] {
         let mesh = tube(3.0, length, 0.7, 0.05);
         let (report, _) = verdict(&mesh, true);
         let safe = report.safe.unwrap();
