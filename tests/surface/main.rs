@@ -11,4 +11,5 @@ mod lumen_width;
 mod safe;
 mod smoothing;
 mod spare_thin;
+mod verdict;
 mod voxel_tubes;

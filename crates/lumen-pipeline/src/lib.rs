@@ -56,6 +56,7 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     stage::Stage::MESSAGES,
     verdict::FindingKind::MESSAGES,
     verdict::Head::MESSAGES,
+    verdict::HeadText::MESSAGES,
     verdict::PlaceLabel::MESSAGES,
     verdict::RemedyLabel::MESSAGES,
     warnings::DrawnShut::MESSAGES,

@@ -91,6 +91,11 @@ pub const MESSAGES: &[&[lumen_message::Signature]] = &[
     phantom::SampleName::MESSAGES,
     summary::CalibreFinding::MESSAGES,
     summary::CalibreSummary::MESSAGES,
+    summary::CoverageText::MESSAGES,
     summary::PlaceText::MESSAGES,
+    summary::Unmeasured::MESSAGES,
+    summary::UnmeasuredParts::MESSAGES,
+    variation::ReferenceText::MESSAGES,
+    variation::UnevenText::MESSAGES,
     variation::VariationText::MESSAGES,
 ];

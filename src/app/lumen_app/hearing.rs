@@ -8,6 +8,7 @@ use crate::app::sharing::{self, Sharing};
 use crate::app::state::{Effect, State};
 use crate::app::{keys, large, lesson, recovery, verdict};
 use crate::language::tell;
+use crate::pipeline::verdict::Verdict;
 use crate::say;
 
 impl LumenApp {
@@ -104,7 +105,7 @@ impl LumenApp {
     /// Says that a file was saved, and what of the result is to be looked at.
     pub(super) fn tell_saved(&mut self, message: &str) {
         let verdict = self.state.document.as_ref().map(|document| verdict::verdict(&self.state, document));
-        match verdict.filter(|verdict| verdict.is_safe == Some(false)) {
+        match verdict.filter(Verdict::has_reservations) {
             Some(verdict) => self.state.saved(&format!("{message} {}", verdict.in_short(tell))),
             None => self.state.saved(message),
         }

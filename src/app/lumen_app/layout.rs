@@ -63,7 +63,7 @@ impl LumenApp {
         if mode == Mode::Method && takes_panel.is_none() {
             let strip = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(12, 4));
             Panel::top("verdict").frame(strip).exact_size(verdict::height(ui.ctx(), is_narrow) + 8.0).show(ui, |ui| {
-                verdict::show(ui, &self.state, is_narrow, &mut asked);
+                verdict::show(ui, &self.state, self.views.options, is_narrow, &mut asked);
             });
         }
         if mode == Mode::Method {

@@ -150,9 +150,17 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
         help += " ";
         help += &say!("panel-safe-changed", count = changed);
     }
+    let coverage = safe.and_then(|safe| safe.coverage);
+    let is_covered = safe.is_none_or(|safe| safe.coverage.is_none() || safe.is_covered());
+    let coverage = coverage.map(|coverage| tell(&coverage.text()));
+    if let Some(coverage) = &coverage {
+        help += " ";
+        help += &say!("panel-safe-rests", coverage = coverage);
+    }
     let percent = safe.and_then(|safe| safe.percent);
     let wanted = percent.map(verdict::rate);
-    row(ui, &say!("panel-safe"), &help, |ui| {
+    let label = if is_covered { say!("panel-safe") } else { say!("panel-kept-to") };
+    row(ui, &label, &help, |ui| {
         let go =
             ui.add_enabled(wanted.is_some_and(|wanted| wanted != *target), egui::Button::new(say!("panel-go-there")));
         if let Some(wanted) = wanted.filter(|_| go.on_hover_text(say!("panel-safe-go-help")).clicked()) {
@@ -164,6 +172,7 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
             (None, _) => "...".to_owned(),
         });
     });
+    remark(ui, coverage.as_deref().unwrap_or("..."));
 }
 
 /// How many triangles enter the reduction.

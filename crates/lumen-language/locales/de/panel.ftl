@@ -268,6 +268,8 @@ panel-safe = Sicher bis
 panel-safe-help = Bis hier behält jedes messbare Gefäß sein Kaliber auf { $tolerance } % genau, keines wird eingeschnürt, und keine Dreiecke schneiden sich, die es nicht schon taten.
 # $why is a part of a sentence.
 panel-safe-refused = Hier gibt es keine solche Rate: { $why }.
+panel-kept-to = Erhalten bis
+panel-safe-rests = Gemessen über { $coverage }.
 panel-safe-changed = Äste, die schon die Glättung stärker ändert, zählen nicht: { $count }.
 panel-safe-go-help = Setzt die Reduktion auf die Marke unter dem Regler
 panel-wanted = Anzahl Dreiecke
@@ -289,6 +291,7 @@ panel-error-mm = Fehler, mm
 # Beside lines of the picture.
 panel-error-now = jetzt
 panel-error-safe = sicher
+panel-error-kept = erhalten
 panel-error-is = Fehler über Dreiecken: { $error } mm bei { $count } Dreiecken
 panel-error-schroeder = Fehler: der des Verfahrens, der seine Schritte ordnet. Quadratisches Mittel des Abstands von den Ebenen, für die ein Eckpunkt stand; an Kanten und offenen Enden mindestens der Abstand von deren Linie. Keine Schranke: Die Punkte sind gemessen.
 panel-error-quadric = Fehler: der des Verfahrens, der seine Schritte ordnet. Quadratisches Mittel des Abstands des neuen Eckpunkts von den Ebenen, für die er steht. Keine Schranke: Die Punkte sind gemessen.

@@ -69,7 +69,6 @@ report-half-gain = Halbe Verstärkung
 report-crossing = Selbstschnitte
 report-smallest-lumen = Engstes Lumen
 report-measured = Gefäße gemessen
-report-measured-part = { $percent } % ihrer Länge
 report-output-fingerprint = Oberflächen-Prüfsumme
 
 ## Spalten und Zellen
@@ -79,6 +78,8 @@ report-radius = Radius wie geöffnet, mm
 report-diameter = Durchmesser
 report-by-area = Fläche
 report-diameter-mm = Durchmesser, mm
+# Wo entlang des Gefäßes die Referenz gemessen ist.
+report-reference-at = Referenz bei, mm
 report-at-mm = Bei, mm
 report-diameter-of = { $diameter } von { $reference }
 report-measure = Messung

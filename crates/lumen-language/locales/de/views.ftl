@@ -25,7 +25,7 @@ views-axes-unknown = Achsen unbekannt
 ## Die Legende
 
 views-calibre = Kaliberänderung
-views-calibre-note = Ohne Farbe: nicht gemessen
+views-calibre-note = nicht gemessen
 views-peak-force = Größte Kraft
 views-legend-more = { $value } und mehr
 views-legend-less = { $value } und weniger
@@ -108,7 +108,7 @@ views-news = { $count ->
 
 views-reduced = Geglättet und reduziert
 views-triangles = Ihre Dreiecke
-views-calibre-meaning = Kaliberänderung, { $from } % (dunkel) bis { $to } % (hell)
+views-calibre-meaning = Kaliberänderung, { $from } % (dunkel) bis { $to } % (hell); grau: nicht gemessen
 views-deviation-meaning = Abweichung, { $from } mm (dunkel) bis { $to } mm (hell)
 
 ## Klassen der Eckpunkte nach Schroeder

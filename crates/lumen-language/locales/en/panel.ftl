@@ -247,6 +247,10 @@ panel-safe = Safe to
 panel-safe-help = Up to here every vessel that can be measured keeps its calibre to { $tolerance } %, none is pinched, and no triangles cross that did not.
 # $why is a part of a sentence.
 panel-safe-refused = There is no such rate here: { $why }.
+# In place of "Safe to" where too little is measured to call the surface safe.
+panel-kept-to = Kept to
+# What the rate rests on: $coverage is "52 % of the length, 4 of 17 vessels".
+panel-safe-rests = Measured over { $coverage }.
 panel-safe-changed = Branches that smoothing itself changes by more do not count: { $count }.
 panel-safe-go-help = Sets the reduction to the mark under the slider
 panel-wanted = Triangles wanted
@@ -268,6 +272,7 @@ panel-error-mm = Error, mm
 # Beside lines of the picture.
 panel-error-now = now
 panel-error-safe = safe
+panel-error-kept = kept
 panel-error-is = Error against triangles: { $error } mm at { $count } triangles
 panel-error-schroeder = Error: the method's own, which orders its steps. Root mean square distance from the planes that a vertex stood for; on edges and open ends at least that from their line. No bound: the points are measured.
 panel-error-quadric = Error: the method's own, which orders its steps. Root mean square distance of the new vertex from the planes that it stands for. No bound: the points are measured.

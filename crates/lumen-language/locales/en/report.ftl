@@ -70,7 +70,6 @@ report-half-gain = Half gain of smoothing
 report-crossing = Triangles that cross
 report-smallest-lumen = Smallest lumen
 report-measured = Vessels measured
-report-measured-part = { $percent } % of their length
 report-output-fingerprint = Surface's fingerprint
 
 ## Heads of columns, and cells
@@ -80,6 +79,8 @@ report-radius = Radius as opened, mm
 report-diameter = Diameter
 report-by-area = By area
 report-diameter-mm = Diameter, mm
+# Where along the vessel the reference is measured.
+report-reference-at = Reference at, mm
 report-at-mm = At, mm
 # The least or largest diameter of a stretch, and the reference.
 report-diameter-of = { $diameter } of { $reference }

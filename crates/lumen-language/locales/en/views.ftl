@@ -33,7 +33,8 @@ views-axes-unknown = Axes unknown
 ## The legend of colours: titles and notes stand right-aligned above and below a narrow bar
 
 views-calibre = Change of calibre
-views-calibre-note = No colour: not measured
+# Beside a patch of grey.
+views-calibre-note = not measured
 # In the trial, of the wall.
 views-peak-force = Peak force
 # $value is a number with its unit: the colour at this end stands for all beyond it as well.
@@ -109,7 +110,7 @@ views-news = { $name }, { $count } triangles. { $verdict }
 
 views-reduced = Smoothed and reduced
 views-triangles = Its triangles
-views-calibre-meaning = Change of calibre, { $from } % (dark) to { $to } % (bright)
+views-calibre-meaning = Change of calibre, { $from } % (dark) to { $to } % (bright); grey: not measured
 views-deviation-meaning = Deviation, { $from } mm (dark) to { $to } mm (bright)
 
 ## The collapses, one by one

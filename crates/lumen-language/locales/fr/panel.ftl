@@ -268,6 +268,8 @@ panel-safe = Sûr jusqu'à
 panel-safe-help = Jusqu'ici, chaque vaisseau mesurable garde son calibre à { $tolerance } % près, aucun n'est pincé, et aucun triangle n'en croise d'autres sans l'avoir déjà fait.
 # $why is a part of a sentence.
 panel-safe-refused = Il n'y a pas de tel taux ici : { $why }.
+panel-kept-to = Gardé jusqu'à
+panel-safe-rests = Mesuré sur { $coverage }.
 panel-safe-changed = Les branches que le lissage lui-même change davantage ne comptent pas : { $count }.
 panel-safe-go-help = Place la réduction à la marque sous le curseur
 panel-wanted = Triangles voulus
@@ -289,6 +291,7 @@ panel-error-mm = Erreur, mm
 # Beside lines of the picture.
 panel-error-now = ici
 panel-error-safe = sûr
+panel-error-kept = gardé
 panel-error-is = Erreur selon les triangles : { $error } mm à { $count } triangles
 panel-error-schroeder = Erreur : celle de la méthode, qui ordonne ses pas. Moyenne quadratique de la distance aux plans que représentait un sommet ; sur les arêtes et extrémités ouvertes, au moins celle à leur ligne. Ce n'est pas une borne : les points sont mesurés.
 panel-error-quadric = Erreur : celle de la méthode, qui ordonne ses pas. Moyenne quadratique de la distance du nouveau sommet aux plans qu'il représente. Ce n'est pas une borne : les points sont mesurés.

@@ -69,7 +69,6 @@ report-half-gain = Demi-gain du lissage
 report-crossing = Auto-intersections
 report-smallest-lumen = Lumière minimale
 report-measured = Vaisseaux mesurés
-report-measured-part = { $percent } % de leur longueur
 report-output-fingerprint = Empreinte de surface
 
 ## Colonnes et cellules
@@ -79,6 +78,8 @@ report-radius = Rayon à l'ouverture, mm
 report-diameter = Diamètre
 report-by-area = En aire
 report-diameter-mm = Diamètre, mm
+# Où, le long du vaisseau, la référence est mesurée.
+report-reference-at = Référence à, mm
 report-at-mm = À, mm
 report-diameter-of = { $diameter } sur { $reference }
 report-measure = Mesure

@@ -25,7 +25,7 @@ views-axes-unknown = Axes inconnus
 ## La légende
 
 views-calibre = Variation de calibre
-views-calibre-note = Sans couleur : non mesuré
+views-calibre-note = non mesuré
 views-peak-force = Force maximale
 views-legend-more = { $value } et plus
 views-legend-less = { $value } et moins
@@ -108,7 +108,7 @@ views-news = { $count ->
 
 views-reduced = Lissée et réduite
 views-triangles = Ses triangles
-views-calibre-meaning = Variation de calibre, de { $from } % (sombre) à { $to } % (clair)
+views-calibre-meaning = Variation de calibre, de { $from } % (sombre) à { $to } % (clair) ; gris : non mesuré
 views-deviation-meaning = Écart, de { $from } mm (sombre) à { $to } mm (clair)
 
 ## Classes de sommets, d'après Schroeder
