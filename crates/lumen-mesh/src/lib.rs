@@ -1,7 +1,4 @@
-//! The surface: a list of triangles over shared vertices, in millimetres, and what can be asked of it.
-//!
-//! [`TriMesh`] holds data and knows no algorithm; each algorithm is a file beside it.
-
+#![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test compares within bounds"))]
 
 mod angles;
