@@ -80,7 +80,8 @@ fn every_crate_is_described_where_others_would_look() {
 /// How many files and folders of those that a line names are there, and the others. A name may go on from the folder that
 /// one before it in the line is, or is in.
 fn named(line: &str, folder: &Path) -> (usize, Vec<String>) {
-    let mut places = vec![root().to_path_buf(), root().join("src"), root().join("docs"), folder.to_path_buf()];
+    let [src, docs] = ["src", "docs"].map(|name| root().join(name));
+    let mut places = vec![root().to_path_buf(), src, docs, folder.to_path_buf(), folder.join("src")];
     let (mut found, mut missing) = (0, Vec::new());
     let is_here = |name: &String| !ELSEWHERE.iter().any(|folder| name.starts_with(folder));
     for (name, is_path) in names(line).into_iter().filter(|(name, _)| is_here(name)) {
