@@ -12,8 +12,6 @@ pub mod filter;
 pub mod histogram;
 pub mod laplacian;
 mod lines;
-pub mod lumen;
-pub mod narrowest;
 pub mod normals;
 pub mod one_collapse;
 pub mod paper;
@@ -33,7 +31,6 @@ mod store;
 mod times;
 pub mod verdict;
 pub mod warnings;
-mod widths;
 
 pub use lumen_mesh::task;
 

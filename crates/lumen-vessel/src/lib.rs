@@ -25,6 +25,7 @@ mod tree;
 pub mod variation;
 #[cfg(test)]
 mod variation_tests;
+pub mod width;
 mod zones;
 
 pub use zones::Zone;
@@ -38,8 +39,8 @@ pub use centreline::{arcs, centreline, direction};
 pub use centrelines::{CentrelineFormat, Centrelines};
 pub use locating::Located;
 pub use locating::power;
+pub use lumen_mesh::Ball;
 pub use paths::NONE;
-pub use space::Ball;
 pub use stations::{Station, Stations};
 pub use tree::{Branch, BranchName, End, Tree};
 
