@@ -18,12 +18,12 @@ use super::settings::{Asked, SettingsOptions};
 use super::written::WrittenOptions;
 use super::{batch, branches, interrupt, places, source};
 use crate::io::Unit;
-use crate::pipeline::narrowest::Narrowest;
 use crate::pipeline::report::{DISCLAIMER, Report, SafeReport};
 use crate::pipeline::results::Adapted;
 use crate::pipeline::verdict::Verdict;
 use crate::sharing::{SharedSettings, write_settings};
 use crate::task::milliseconds;
+use crate::vessel::width::Narrowest;
 
 /// Keeps the largest piece, smooths it, reduces it, and writes the result.
 #[derive(Debug, Args)]

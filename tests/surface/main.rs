@@ -7,6 +7,8 @@ mod bad_input;
 mod calibre;
 mod decimation;
 mod fuzz;
+#[cfg(feature = "gui")]
+mod lessons;
 mod lumen_width;
 mod safe;
 mod smoothing;

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::deviation::Deviation;
-use super::lumen::Narrowing;
 use super::pinch::Pinch;
 use super::progressive::Shortfall;
 use super::response::SmoothingResponse;
@@ -20,6 +19,7 @@ use lumen_mesh::arrays::infos;
 use lumen_mesh::mending::{FaultCounts, MendReport};
 use lumen_mesh::{ArrayInfo, Measures, TriMesh, components};
 use lumen_vessel::certificate::{BranchCalibre, CalibreError, Coverage, Verdict};
+use lumen_vessel::width::Narrowing;
 
 /// What stands in every report.
 pub const DISCLAIMER: &str = "Not for clinical decisions.";

@@ -10,11 +10,12 @@ use std::fmt::{Display, Write as _};
 
 use serde::{Deserialize, Serialize};
 
-use super::calibre::{Calibre, Subject, circle, measure};
+use super::calibre::{Calibre, Subject, measure};
 use super::certificate::{CalibreError, checked};
 use super::recentring::recentre;
 use super::stations::{Station, Stations};
 use super::tree::{Branch, Tree};
+use super::width::circle;
 use super::zones::{Zone, zones};
 use lumen_mesh::SurfaceIndex;
 use lumen_mesh::task::{Yielder, at_once};

@@ -11,7 +11,7 @@ use std::collections::BinaryHeap;
 use glam::Vec3;
 
 use super::balls::Balls;
-use super::space::Ball;
+use lumen_mesh::Ball;
 
 /// No ball.
 pub const NONE: u32 = u32::MAX;

@@ -10,9 +10,9 @@ use super::balls::fill;
 use super::centreline::{Place, arcs, centreline};
 use super::locating::{Located, Segments};
 use super::paths::{Graph, Path, Skeleton};
-use super::space::{Ball, Space};
+use super::space::Space;
 use lumen_mesh::task::{Yielder, at_once};
-use lumen_mesh::{SurfaceIndex, Topology, TriMesh, volume};
+use lumen_mesh::{Ball, SurfaceIndex, Topology, TriMesh, volume};
 use lumen_message::messages;
 
 /// A group of balls with less than this part of the largest group's volume is a speck, and has no branches.

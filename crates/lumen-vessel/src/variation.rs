@@ -18,8 +18,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::calibre::circle;
 use super::on_surface::{OnSurface, StationStatus};
+use super::width::circle;
 use lumen_message::messages;
 
 /// The least degree by diameter of a stretch: below that a narrowing is called minimal (CAD-RADS 2.0, 2022).

@@ -7,15 +7,15 @@ use glam::DVec3;
 use super::branch::branch_calibre;
 use super::unit::{CalibreError, checked};
 use super::{BranchCalibre, Certificate};
-use crate::balls::mean_edge;
-use crate::calibre::{Calibre, Known, Subject, circle, measure};
+use crate::calibre::{Calibre, Known, Subject, measure};
 use crate::centrelines::{Centrelines, settled};
 use crate::locating::Located;
 use crate::stations::{Station, Stations};
 use crate::tree::{Branch, Tree};
+use crate::width::circle;
 use crate::zones::Zone;
-use lumen_mesh::SurfaceIndex;
 use lumen_mesh::task::Yielder;
+use lumen_mesh::{SurfaceIndex, mean_edge};
 
 /// What more reduced surfaces are judged by: where the opened surface is measured, and what it and the smoothed one have
 /// there.
