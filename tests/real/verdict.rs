@@ -42,8 +42,7 @@ fn check(path: &Path, [least, most]: [f64; 2]) -> Result<(), Failed> {
     let report = Report::new("a.stl", &pipeline).ok_or("no result")?;
     let verdict = Verdict::of_run(&pipeline, &report, &imported.report, true);
     let branches = report.branches.as_deref().ok_or("no vessels")?;
-    let (all, measured) =
-        branches.iter().map(lengths).fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
+    let (all, measured) = branches.iter().map(lengths).fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
     let found = verdict.coverage.ok_or("no coverage")?;
     println!("{}: {}", path.display(), verdict.in_short(|message| message.to_string()));
     if !(least..=most).contains(&found.length_mm) {
