@@ -149,14 +149,13 @@ fn the_numbers_of_a_run_repeat_the_verdict_with_its_remedies() {
 fn every_text_says_how_much_the_verdict_rests_on() {
     let folder = Folder::new("report-coverage");
     let (file, out, numbers) = (folder.file("a.obj"), folder.file("a.stl"), folder.file("a.json"));
-    // As wide as half of its length: of 12 mm 6 are measured, between open ends.
-    let short: String = tube(1.0, 1.0)
-        .lines()
-        .map(|line| match line.strip_prefix("v ").and_then(|place| place.split_once(' ')) {
-            Some((x, rest)) => format!("v {} {rest}\n", x.parse::<f64>().unwrap() / 5.0),
-            None => format!("{line}\n"),
-        })
-        .collect();
+    // As wide as half of its length: of 24 mm 12 are measured, between open ends.
+    let scaled = |place: &str| {
+        let at: Vec<f64> = place.split(' ').map(|number| number.parse().unwrap()).collect();
+        format!("v {} {} {}\n", 0.4 * at[0], 2.0 * at[1], 2.0 * at[2])
+    };
+    let line = |line: &str| line.strip_prefix("v ").map_or_else(|| format!("{line}\n"), scaled);
+    let short: String = tube(1.0, 1.0).lines().map(line).collect();
     std::fs::write(&file, short).unwrap();
     let run = |more: &[&str]| succeed(&[&["optimise", &file, "-o", &out, "--reduction", "60"], more].concat());
     let verdict = |told: &str| told.lines().find(|line| line.starts_with("verdict")).unwrap().to_owned();
@@ -169,7 +168,7 @@ fn every_text_says_how_much_the_verdict_rests_on() {
     assert_eq!((&found["verdict"]["is_safe"], &found["calibre"]["verdict"]), (&Value::Null, &"kept".into()));
     let (all, measured) = (&found["calibre"]["coverage"]["length_mm"], &found["calibre"]["coverage"]["measured_mm"]);
     let (all, measured) = (all.as_f64().unwrap(), measured.as_f64().unwrap());
-    assert!((all - 12.0).abs() < 0.1 && (measured - 6.0).abs() <= 2.0, "{measured} of {all} mm");
+    assert!((all - 24.0).abs() < 0.1 && (measured - 12.0).abs() <= 2.0, "{measured} of {all} mm");
     let told = succeed(&["optimise", &file, "-o", &out, "--reduction", "safe"]);
     assert!(told.contains("kept where measured, to") && !told.contains("safe to"), "{told}");
     for page in ["a.html", "b.pdf"].map(|name| folder.file(name)) {

@@ -55,7 +55,8 @@ fn check(path: &Path, [least, most]: [f64; 2]) -> Result<(), Failed> {
     if (parts - all).abs() > 1e-3 || found.vessels != branches.len() {
         return Err(format!("the parts are not the whole: {found:?}").into());
     }
-    let is_enough = 100.0 * measured / all >= 80.0;
+    let vessels = branches.iter().filter(|branch| branch.stations_counted > 0).count();
+    let is_enough = measured >= 0.75 * (all - found.forks_mm) && 2 * vessels >= branches.len();
     match verdict.head {
         Head::Safe if is_enough && verdict.is_safe == Some(true) => Ok(()),
         Head::KeptWhereMeasured if !is_enough && verdict.is_safe.is_none() => Ok(()),

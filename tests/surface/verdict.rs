@@ -27,7 +27,7 @@ fn verdict(mesh: &TriMesh, has_calibre: bool) -> (Report, Verdict) {
 }
 
 #[test]
-fn a_surface_is_safe_where_four_fifths_of_its_length_are_measured() {
+fn a_surface_is_safe_where_three_quarters_of_its_length_are_measured() {
     // 54 of 60 mm.
     let (report, found) = verdict(&tube(3.0, 60.0, 0.7, 0.05), true);
     assert_eq!((found.head, found.is_safe), (Head::Safe, Some(true)), "{found:?}");
@@ -43,8 +43,8 @@ fn a_surface_is_safe_where_four_fifths_of_its_length_are_measured() {
 
 #[test]
 fn of_a_surface_that_is_measured_less_nothing_is_said_as_a_whole() {
-    // 6 of 12 mm.
-    let (report, found) = verdict(&tube(3.0, 12.0, 0.5, 0.02), true);
+    // 12 of 24 mm.
+    let (report, found) = verdict(&tube(6.0, 24.0, 1.0, 0.02), true);
     assert_eq!((found.head, found.is_safe), (Head::KeptWhereMeasured, None), "{found:?}");
     let percent = found.coverage.unwrap().percent();
     assert!((percent - 50.0).abs() < 12.0, "{percent}");
@@ -93,5 +93,6 @@ fn a_narrowing_is_a_note_with_its_degree_its_length_and_its_reference() {
     assert!((percent - 60.0).abs() < 2.0 && (length - expected).abs() < 1.8, "{percent} % over {length} mm");
     assert!(!finding.is_grave && (finding.place.as_ref().unwrap().at_mm[2] - 30.0).abs() < 1.0, "{finding:?}");
     let text = finding.what.to_string();
-    assert!(text.contains("branch 1 is 60 % narrower") && text.contains(" of 6.0"), "{text}");
+    let told = format!("branch 1 is {percent:.0} % narrower over {length:.1} mm");
+    assert!(text.contains(&told) && text.contains(" mm, by the diameters at "), "{text}");
 }

@@ -8,11 +8,13 @@ use serde::{Deserialize, Serialize};
 
 use super::{BranchCalibre, Certificate, StationStatus, Verdict};
 
-/// The least part of the length, in percent, that has to be measured for a verdict to speak for the whole surface. Below
-/// it the vessels are kept where they are measured, and of the surface nothing is said.
+/// The least part of the length away from forks, in percent, that has to be measured for a verdict to speak for the whole
+/// surface. So has half of the vessels to be, by number. Below that the vessels are kept where they are measured, and of the
+/// surface nothing is said.
 ///
-/// Four fifths: of the vessels that the samples are made of, so much is one vessel by itself, away from ends and forks.
-pub const ENOUGH_PERCENT: f64 = 80.0;
+/// Forks are left out of this part and of no other number: no cross-section there is that of one vessel, whatever the surface,
+/// and a tree of short branches is mostly forks.
+pub const ENOUGH_PERCENT: f64 = 75.0;
 
 /// How much of some branches is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -72,7 +74,10 @@ impl Coverage {
 
     /// Whether so much is measured that a verdict speaks for the whole surface.
     pub fn is_enough(&self) -> bool {
-        self.percent() >= ENOUGH_PERCENT
+        let away_from_forks = self.length_mm - self.forks_mm;
+        self.measured_mm > 0.0
+            && self.measured_mm >= ENOUGH_PERCENT / 100.0 * away_from_forks
+            && 2 * self.vessels_measured >= self.vessels
     }
 }
 
@@ -154,13 +159,18 @@ mod tests {
     }
 
     #[test]
-    fn four_fifths_are_enough() {
-        use StationStatus::{Counts, Fork};
-        let measured = |to: f32| with(1, &[(0.0, Counts), (to, Counts), (100.0, Fork)]).coverage();
-        let [enough, less] = [60.0, 59.0].map(measured);
-        assert_eq!((enough.percent(), enough.is_enough()), (80.0, true));
-        assert_eq!((less.percent(), less.is_enough()), (79.5, false));
-        assert_eq!(less.text().to_string(), "79 % of the length, 1 of 1 vessel", "never more than it is");
+    fn three_quarters_away_from_forks_of_half_of_the_vessels_are_enough() {
+        use StationStatus::{Counts, Fork, Thin};
+        let measured = |to: f32, rest| with(1, &[(0.0, Counts), (to, Counts), (100.0, rest)]);
+        let [enough, less] = [50.0, 49.0].map(|to| measured(to, Thin).coverage());
+        assert_eq!((enough.percent(), enough.is_enough()), (75.0, true));
+        assert_eq!((less.percent(), less.is_enough()), (74.5, false));
+        assert_eq!(less.text().to_string(), "74 % of the length, 1 of 1 vessel", "never more than it is");
+        assert!(measured(10.0, Fork).coverage().is_enough(), "forks are left out");
+        // Of vessels that are nowhere measured no more than there are others, however short they are.
+        let short = || with(2, &[(0.0, Fork), (1.0, Fork)]);
+        assert!(Coverage::of(&[measured(90.0, Thin), short()]).is_enough());
+        assert!(!Coverage::of(&[measured(90.0, Thin), short(), short()]).is_enough());
         // What has no length is measured nowhere.
         let place = with(1, &[(0.0, Counts)]).coverage();
         assert_eq!((place.percent(), place.is_enough(), Coverage::default().is_enough()), (0.0, false, false));

@@ -32,9 +32,9 @@ fn what_is_safe_is_told_above_everything_and_leads_to_the_vessels() {
     assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_some());
 }
 
-/// A tube of 6 mm and 12 mm between open ends, of which 6 mm can be measured.
+/// A tube of 12 mm and 24 mm between open ends, of which 12 mm can be measured.
 fn short() -> Vec<u8> {
-    tube(3.0, 12.0, 0.5)
+    tube(6.0, 25.0, 1.0)
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn of_what_is_measured_little_it_is_said_how_little_and_a_click_leads_to_the_res
         assert_eq!(colours, Some(Toggled::True), "{way}");
         // Within a radius of an end.
         let z = harness.state().camera().target.z;
-        assert!(!(4.0..=8.0).contains(&z), "{way} goes to {z}");
+        assert!(!(8.0..=16.0).contains(&z), "{way} goes to {z}");
         harness.key_press(Key::V);
         harness.run_steps(3);
         assert!(harness.query_by_role_and_label(Role::SpinButton, "Allowed change").is_none(), "{way}");
