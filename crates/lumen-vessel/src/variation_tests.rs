@@ -123,5 +123,5 @@ fn a_coarctation_is_told_by_its_narrowing_first() {
     let (first, second) = text.split_once("; ").unwrap();
     assert!(first.contains("% narrower over") && second.contains("% wider over"), "{text}");
     let reference = narrower.reference().to_string();
-    assert!(reference.starts_with("11.") && reference.contains(" of 20.0"), "{reference}");
+    assert!(reference.starts_with("11.2") && reference.contains(" of 19.99 mm"), "{reference}");
 }
