@@ -50,7 +50,10 @@ messages! {
             all: usize,
             /// The change that is allowed, in percent.
             tolerance: f64,
-        } => { format!("{} of {} vessels change by more than {tolerance} %.", grouped(changed), grouped(all)) },
+        } => {
+            let verb = if *changed == 1 { "changes" } else { "change" };
+            format!("{} of {} vessels {verb} by more than {tolerance} %.", grouped(changed), grouped(all))
+        },
         /// Some change.
         "vessels-changed-most" ChangedMost {
             /// How many change.

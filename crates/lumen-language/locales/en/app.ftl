@@ -125,6 +125,18 @@ app-panel-half = Panel height: half
 app-panel-full = Panel height: full
 app-panel-help = Drag it up or down; a tap or an arrow key goes to the next height
 
+## Over the sample, until a file is opened
+
+# Followed by a button with the next message; they read as one sentence.
+app-invite-drop = Drop a vessel here, or
+app-invite-open = open one
+# On the button where a finger points, which drops nothing.
+app-invite-open-alone = Open a vessel
+app-invite-open-help = Choose a file: nothing leaves this machine
+# For assistive tools, and its tooltip.
+app-invite-close = Close the invitation
+app-invite-close-help = The sample stays open
+
 ## The sheet of keys: what is pressed, and what it does
 
 app-keys = Keys and gestures
@@ -308,9 +320,18 @@ app-measured-opened = As opened
 app-measured-opened-vessel = As opened, { $vessel }
 app-measured-opened-fork = As opened, { $vessel }, at a fork
 # On a level of so many triangles.
-app-measured-level = On { $count } triangles
-app-measured-level-vessel = On { $count } triangles, { $vessel }
-app-measured-level-fork = On { $count } triangles, { $vessel }, at a fork
+app-measured-level = { $count ->
+    [one] On { $count } triangle
+   *[other] On { $count } triangles
+}
+app-measured-level-vessel = { $count ->
+    [one] On { $count } triangle, { $vessel }
+   *[other] On { $count } triangles, { $vessel }
+}
+app-measured-level-fork = { $count ->
+    [one] On { $count } triangle, { $vessel }, at a fork
+   *[other] On { $count } triangles, { $vessel }, at a fork
+}
 
 ## What comes back at the next start
 
