@@ -17,8 +17,9 @@ use crate::pipeline::settings::Settings;
 use crate::pipeline::settings::table::{self, Kind, Value};
 use crate::say;
 
-/// Height of a row where a mouse points, in points.
+/// Height of a slider where a mouse points, and that of the row above it, in points.
 const ROW: f32 = 20.0;
+const NAME_ROW: f32 = 24.0;
 
 /// Width of a field beside its slider, in points.
 const FIELD: f32 = 64.0;
@@ -73,10 +74,11 @@ impl Setting<'_> {
     }
 
     fn rows(&self, ui: &mut Ui, value: &mut f64, form: Form, mark: Option<f64>) {
-        ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
         let way = Way::of(ui);
         match form {
             Form::Tall => {
+                // As high as the field: name, field and button stand on one line.
+                ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), NAME_ROW);
                 ui.horizontal(|ui| {
                     ui.label(self.name).on_hover_text(self.help.to_owned());
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -84,6 +86,7 @@ impl Setting<'_> {
                         self.typed(ui, value, way);
                     });
                 });
+                ui.spacing_mut().interact_size.y = theme::row(ui.ctx(), ROW);
                 self.slider(ui, value, way, mark);
             }
             Form::Low => {

@@ -10,11 +10,11 @@ use crate::say;
 /// Its height at the highest stop, as a part of the room for panel and views.
 const FULL: f32 = 0.75;
 /// Room below what it shows, in points.
-const BELOW: f32 = 8.0;
+const BELOW: f32 = 16.0;
 /// The height of a head before one was shown, in points.
 const HEAD: f32 = 240.0;
 /// Room below a head for what scrolls: where there is less, the head scrolls with it, in points.
-const LEAST: f32 = 120.0;
+const LEAST: f32 = 72.0;
 /// What the second height shows below what is seen at the lowest, at least, in points.
 const MORE: f32 = 96.0;
 
@@ -196,7 +196,7 @@ mod tests {
         for (room, half, peek) in [(730.0, 0.45, 240.0), (530.0, 0.35, 240.0), (912.0, 0.45, 150.0), (730.0, 0.45, 8.0)]
         {
             let Stops([low, half, full]) = Stops::new(room, half, peek);
-            assert!(low + 32.0 <= half && half + 32.0 <= full && full < room, "{low} {half} {full} of {room}");
+            assert!(low + 32.0 <= half && half + 16.0 <= full && full < room, "{low} {half} {full} of {room}");
         }
     }
 }

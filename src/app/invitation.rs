@@ -1,17 +1,21 @@
 //! The first ten seconds: over the sample stands an invitation to open a vessel of one's own, until a file is opened or it is
 //! dismissed. It lies in the picture, so that what is dragged over its words turns the view.
 
-use egui::{Align, Button, FontSelection, Layout, Rect, RichText, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, vec2};
+use egui::{Align, FontSelection, Layout, Rect, Stroke, StrokeKind, TextStyle, Ui, UiBuilder, pos2, vec2};
 
 use super::action::Action;
 use super::icon::{self, Icon};
+use super::reveal::grip;
 use super::theme;
 use crate::say;
 
 /// Room around the words, in points.
 const MARGIN: f32 = 8.0;
-/// Room below it for scale and axes of the view, in points.
-const BELOW: f32 = 52.0;
+/// Room below it for the scale of the view, and above it for the title, in points.
+const BELOW: f32 = 44.0;
+const ABOVE: f32 = 56.0;
+/// Room for the handle of the line between as opened and now, in points.
+const HANDLE: f32 = 20.0;
 
 /// Shows it in a view. A finger drops nothing.
 pub(super) fn show(ui: &mut Ui, view: Rect, asked: &mut Vec<Action>) {
@@ -32,9 +36,12 @@ pub(super) fn show(ui: &mut Ui, view: Rect, asked: &mut Vec<Action>) {
     let icon = theme::row(ui.ctx(), 20.0);
     let before = if words.is_empty() { 0.0 } else { width(&words) + spacing };
     let size = vec2(before + button + spacing + icon, height) + vec2(2.0 * MARGIN, MARGIN);
-    let middle = view.center_bottom() - vec2(0.0, BELOW + size.y / 2.0);
-    let card = Rect::from_center_size(middle, size);
-    if card.width() > view.width() || card.top() < view.top() {
+    // Below the handle, or above it where there is no room for that.
+    let handle = grip(view, view.center().x).y;
+    let lowest = view.bottom() - BELOW;
+    let bottom = if lowest - size.y >= handle + HANDLE { lowest } else { lowest.min(handle - HANDLE) };
+    let card = Rect::from_center_size(pos2(view.center().x, bottom - size.y / 2.0), size);
+    if card.width() > view.width() || card.top() < view.top() + ABOVE {
         return;
     }
     let visuals = ui.visuals();
@@ -45,8 +52,7 @@ pub(super) fn show(ui: &mut Ui, view: Rect, asked: &mut Vec<Action>) {
         if !words.is_empty() {
             ui.label(words);
         }
-        let accent = RichText::new(open).color(ui.visuals().hyperlink_color);
-        if ui.add(Button::new(accent)).on_hover_text(say!("app-invite-open-help")).clicked() {
+        if ui.button(open).on_hover_text(say!("app-invite-open-help")).clicked() {
             asked.push(Action::Open);
         }
         let close = icon::button(ui, Icon::Close, true, &say!("app-invite-close"), &say!("app-invite-close-help"));

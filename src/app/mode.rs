@@ -102,8 +102,6 @@ pub(super) struct Now<'a> {
     pub(super) camera: &'a Camera,
     /// Whether the window is that of a phone.
     pub(super) is_narrow: bool,
-    /// Whether the panel stands below the views.
-    pub(super) is_stacked: bool,
     /// Whether links can be made here.
     pub(super) has_links: bool,
 }

@@ -69,7 +69,7 @@ impl Fold<'_> {
         name(&response, Role::DisclosureTriangle, self.title);
         ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(state.is_open()));
         let indent = ui.spacing().indent;
-        let icon = Rect::from_center_size(rect.left_center() + vec2(indent / 2.0, 0.0), Vec2::splat(12.0));
+        let icon = Rect::from_center_size(rect.left_center() + vec2(indent / 2.0, 0.0), Vec2::splat(10.0));
         paint_default_icon(ui, state.openness(ui.ctx()), &response.clone().with_new_rect(icon));
         let inside = UiBuilder::new().max_rect(rect.with_min_x(rect.left() + indent));
         ui.scope_builder(inside.layout(Layout::left_to_right(Align::Center)), |ui| {

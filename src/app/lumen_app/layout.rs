@@ -229,7 +229,6 @@ impl LumenApp {
             options: self.views.options,
             camera: &self.views.camera,
             is_narrow: self.is_narrow,
-            is_stacked: self.is_stacked,
             has_links: self.has_links,
         };
         (&mut self.panels, now)

@@ -32,7 +32,10 @@ pub(in crate::app) fn dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) 
                 columns.iter_mut().for_each(|column| column.spacing_mut().item_spacing.x = theme::GRID);
                 smoothing(&mut columns[0], "pass-band", &mut settings, Form::Tall);
                 smoothing(&mut columns[1], "iterations", &mut settings, Form::Tall);
-                counts(&mut columns[1], state);
+                // As high as the row beside it.
+                row(&mut columns[1], &say!("panel-triangles"), &say!("panel-of-help"), |ui| {
+                    ui.label(counts(state));
+                });
                 reduction(&mut columns[2], state, &mut settings, Form::Tall);
                 limit(&mut columns[2], state, &mut settings);
             });
@@ -43,7 +46,7 @@ pub(in crate::app) fn dock(ui: &mut Ui, state: &State, asked: &mut Vec<Action>) 
         smoothing(ui, "iterations", &mut settings, form);
         reduction(ui, state, &mut settings, form);
         limit(ui, state, &mut settings);
-        counts(ui, state);
+        number(ui, &say!("panel-triangles"), &counts(state), &say!("panel-of-help"));
     }
     set(settings, state, asked);
 }
@@ -144,12 +147,11 @@ fn safe_row(ui: &mut Ui, safe: Option<&Safe>, tolerance: f64, target: &mut Targe
 }
 
 /// How many triangles the level has, and how many there were before the reduction.
-fn counts(ui: &mut Ui, state: &State) {
+fn counts(state: &State) -> String {
     let document = state.document.as_ref();
     let counts = document.and_then(|document| Some((&document.levels.as_ref()?.1, document.shown.as_ref()?)));
-    let words = counts.map_or_else(
+    counts.map_or_else(
         || "–".to_owned(),
         |(levels, shown)| say!("panel-of", count = shown.level.triangles.len(), all = levels.triangles.len()),
-    );
-    number(ui, &say!("panel-triangles"), &words, &say!("panel-of-help"));
+    )
 }

@@ -80,7 +80,7 @@ app-colour-classes-help = Wofür die Dezimierung jeden Eckpunkt hält: einfach, 
 app-feature-lines = Formkanten, offene Enden
 app-feature-lines-help = Kanten, die schärfer sind als der Kantenwinkel, wie die Dezimierung sie fand, und der Rand
 app-present = Präsentieren
-app-present-help = Für einen Beamer: größere Schrift, gedrückte Tasten werden gezeigt, die Seitenleiste ist verborgen (P)
+app-present-help = Für einen Beamer: größere Schrift, gedrückte Tasten werden gezeigt, von der Seitenleiste bleiben die Regler (P)
 app-language = Sprache
 app-language-system = Wie das System
 
@@ -257,7 +257,7 @@ app-pair-not-written = Nichts wurde gespeichert: { $name } konnte nicht geschrie
 
 ## Presenting
 
-app-presenting = Präsentation: größere Schrift, Tasten werden gezeigt, die Seitenleiste ist verborgen. P oder Esc beendet sie.
+app-presenting = Präsentation: größere Schrift, Tasten werden gezeigt, von der Seitenleiste bleiben die Regler. P oder Esc beendet sie.
 
 ## Settings for others
 

@@ -88,7 +88,7 @@ app-colour-classes-help = What decimation takes each vertex for: simple, complex
 app-feature-lines = Feature edges and open ends
 app-feature-lines-help = Edges sharper than the feature angle, as decimation found them, and the boundary
 app-present = Present
-app-present-help = For a projector: larger letters, keys are shown as they are pressed, the panel is hidden (P)
+app-present-help = For a projector: larger letters, keys are shown as they are pressed, of the panel only what is dragged (P)
 app-language = Language
 # Beside the languages: the one that the system or the browser is set to.
 app-language-system = As the system
@@ -273,7 +273,7 @@ app-pair-not-written = Nothing was saved: { $name } could not be written: { $err
 
 ## Presenting
 
-app-presenting = Presenting: larger letters, keys are shown, the panel is hidden. P or Esc ends it.
+app-presenting = Presenting: larger letters, keys are shown, of the panel only what is dragged. P or Esc ends it.
 
 ## Settings for others: as a file and in a link
 

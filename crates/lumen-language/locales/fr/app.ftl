@@ -257,7 +257,7 @@ app-pair-not-written = Rien n'a été enregistré : { $name } n'a pas pu être 
 
 ## Presenting
 
-app-presenting = Présentation : texte plus grand, touches affichées, panneau masqué. P ou Échap y met fin.
+app-presenting = Présentation : texte plus grand, touches affichées, du panneau seuls les curseurs. P ou Échap y met fin.
 
 ## Settings for others
 
