@@ -21,7 +21,6 @@ mod record;
 mod recovery;
 mod reveal;
 mod scans;
-mod screens;
 mod sharing;
 mod sight;
 mod spoken;
