@@ -155,7 +155,10 @@ messages! {
             all: usize,
             /// The change that is allowed, in percent.
             tolerance: f64,
-        } => { format!("{} of {} measured vessels change by more than {tolerance} %.", grouped(changed), grouped(all)) },
+        } => {
+            let verb = if *changed == 1 { "changes" } else { "change" };
+            format!("{} of {} measured vessels {verb} by more than {tolerance} %.", grouped(changed), grouped(all))
+        },
         /// Some change.
         "vessels-changed-most" ChangedMost {
             /// How many change.

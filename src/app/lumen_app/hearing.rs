@@ -40,7 +40,11 @@ impl LumenApp {
                         self.state.tell(&warning);
                     }
                 }
-                PlatformEvent::Linked { fragment } => self.follow_link(&fragment, ctx),
+                PlatformEvent::Linked { fragment } => {
+                    // Who follows a link has something to look at.
+                    self.invites = false;
+                    self.follow_link(&fragment, ctx);
+                }
                 PlatformEvent::Restored(file) => {
                     self.recovery.restored(file, &mut self.state, &mut *self.platform);
                 }
@@ -64,6 +68,7 @@ impl LumenApp {
             match self.state.receive(event) {
                 Some(Effect::Opened) => {
                     self.look_next = true;
+                    self.invites &= self.state.shows_sample();
                     self.leave_surface(ctx);
                     self.recovery.opened(&mut self.state, &mut *self.platform);
                     self.sharing.opened(&mut self.state, self.platform.link());

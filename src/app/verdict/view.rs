@@ -8,6 +8,7 @@ use crate::app::action::Action;
 use crate::app::assist::name;
 use crate::app::menus::menu;
 use crate::app::options::{Colours, ViewOptions};
+use crate::app::row::remark;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::app::vessels;
@@ -41,6 +42,7 @@ pub(in crate::app) fn show(ui: &mut Ui, state: &State, options: ViewOptions, is_
         (None, None) if state.is_measuring() => say!("verdict-follows"),
         (None, None) => say!("verdict-stopped"),
     };
+    let text = if state.shows_sample() { say!("verdict-sample", text = text) } else { text };
     ui.spacing_mut().item_spacing.y = 0.0;
     let line = theme::row(ui.ctx(), LINE);
     ui.spacing_mut().interact_size.y = line;
@@ -86,7 +88,7 @@ fn buttons(ui: &mut Ui, verdict: &Verdict, first: Option<&Finding>, is_narrow: b
                 if i > 0 {
                     ui.separator();
                 }
-                ui.add(egui::Label::new(RichText::new(tell(&finding.what)).small()).wrap());
+                remark(ui, &tell(&finding.what));
                 ui.horizontal(|ui| act(ui, finding, asked));
             }
         });

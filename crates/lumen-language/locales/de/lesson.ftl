@@ -91,7 +91,7 @@ lesson-pass-band-text =
     look: die Filterantwort in Schritt 2 der Seitenleiste, eine gerade Linie bei 100 %.
 
     step: Nur was lang ist
-    text: Bei 0,1 gehen die kürzesten Wellen verloren. Der Satz unter Fenster sagt, bis zu welcher Länge in Millimetern
+    text: Bei 0,1 gehen die kürzesten Wellen verloren. Der Satz unter Stärke sagt, bis zu welcher Länge in Millimetern
       von einer Welle die Hälfte übrig ist.
     settings: pass-band=0.1 reduction=0 adapt=no guard=no
     view: anterior
@@ -147,7 +147,7 @@ lesson-windows-text =
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
     show: split
-    look: die Kurve, während Sie in Schritt 2 ein Fenster nach dem anderen wählen.
+    look: die Kurve, während Sie in Schritt 2 unter Erweitert ein Fenster nach dem anderen wählen.
     ask: Welches der vier hat beim selben Grad den steilsten Abfall?
     answer: Hamming, dann Hanning. Blackman und Nuttall sind weniger wellig und fallen weniger steil.
 

@@ -19,7 +19,10 @@ report-no-fingerprint = keine: nicht aus einer Datei
 report-format = Format
 report-format-in = { $format }, in { $unit }
 report-opened = Geöffnet
-report-counts = { $triangles } Dreiecke in { $pieces ->
+report-counts = { $triangles ->
+    [one] { $triangles } Dreieck
+   *[other] { $triangles } Dreiecke
+} in { $pieces ->
     [one] einem Stück
    *[other] { $pieces } Stücken
 }
@@ -51,7 +54,10 @@ report-no-crossings = ohne Schnitte
 report-volume-held = Volumen erhalten
 report-reduction = Reduktion
 report-target-reduction = { $percent } % der Dreiecke
-report-target-triangles = auf { $count } Dreiecke
+report-target-triangles = { $count ->
+    [one] auf { $count } Dreieck
+   *[other] auf { $count } Dreiecke
+}
 report-target-deviation = innerhalb von { $most } mm
 report-method = Verfahren
 report-allowed = Zulässige Kaliberänderung

@@ -15,6 +15,8 @@ verdict-to-look-at = { $count ->
 }
 verdict-follows = Kaliber und Form folgen.
 verdict-stopped = Es wurde abgebrochen, oder die Berechnung ist abgestürzt: zum Fortfahren eine Einstellung ändern.
+# $text is what is said of the surface, a sentence: that it is a sample.
+verdict-sample = Beispiel: { $text }
 verdict-what-to-do = Abhilfe
 verdict-more = { $count ->
     [one] { $count } weiterer

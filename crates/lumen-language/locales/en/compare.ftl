@@ -89,7 +89,10 @@ compare-thin-spared = thin vessels spared
 compare-labels-kept = label borders kept
 compare-not-reduced = not reduced
 compare-reduction = reduction { $percent } %
-compare-triangles-wanted = { $count } triangles wanted
+compare-triangles-wanted = { $count ->
+    [one] { $count } triangle wanted
+   *[other] { $count } triangles wanted
+}
 compare-deviation-up-to = deviation up to { $most } mm
 
 ## The numbers of a cell: short, a column is some 110 points wide

@@ -90,7 +90,7 @@ lesson-pass-band-text =
     look: Response in step 2 of the panel: a straight line at 100 %.
 
     step: Only what is long
-    text: At 0.1 the shortest waves go. The sentence below Window says up to which length in millimetres half of a wave is left.
+    text: At 0.1 the shortest waves go. The sentence below Strength says up to which length in millimetres half of a wave is left.
     settings: pass-band=0.1 reduction=0 adapt=no guard=no
     view: anterior
     show: split
@@ -144,7 +144,7 @@ lesson-windows-text =
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
     show: split
-    look: the curve while you choose one window after the other in step 2.
+    look: the curve while you choose one Window after the other, under Advanced in step 2.
     ask: Which of the four has the steepest fall at the same degree?
     answer: Hamming, then Hanning. Blackman and Nuttall ripple less and fall less steeply.
 

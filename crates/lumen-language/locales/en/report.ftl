@@ -20,7 +20,10 @@ report-format = Format
 # A format and the unit of lengths: STL, in mm.
 report-format-in = { $format }, in { $unit }
 report-opened = Opened
-report-counts = { $triangles } triangles in { $pieces ->
+report-counts = { $triangles ->
+    [one] { $triangles } triangle
+   *[other] { $triangles } triangles
+} in { $pieces ->
     [one] one piece
    *[other] { $pieces } pieces
 }
@@ -45,14 +48,20 @@ report-split = sheets split
 report-filled = holes up to { $value } mm filled
 report-smoothing = Smoothing
 report-no-smoothing = none
-report-filter = pass band { $band }, { $count } iterations, { $window }
+report-filter = pass band { $band }, { $count ->
+    [one] { $count } iteration
+   *[other] { $count } iterations
+}, { $window }
 # A preset, and what it stands for.
 report-preset = { $preset }: { $filter }
 report-no-crossings = no crossings
 report-volume-held = volume held
 report-reduction = Reduction
 report-target-reduction = { $percent } % of the triangles
-report-target-triangles = to { $count } triangles
+report-target-triangles = { $count ->
+    [one] to { $count } triangle
+   *[other] to { $count } triangles
+}
 report-target-deviation = within { $most } mm
 report-method = Method
 report-allowed = Allowed change of calibre

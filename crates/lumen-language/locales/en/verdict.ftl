@@ -6,6 +6,8 @@
 verdict-follows = Calibre and shape follow.
 # Beside "Not measured".
 verdict-stopped = It was cancelled, or the computation has stopped: change a setting to go on.
+# $text is what is said of the surface, a sentence: that it is a sample.
+verdict-sample = Sample: { $text }
 # Buttons: keep them short. This one opens a list of findings with what helps.
 verdict-what-to-do = What to do
 # Opens the list of the other findings; $count is 1 at least.

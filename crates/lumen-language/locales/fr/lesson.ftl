@@ -91,7 +91,7 @@ lesson-pass-band-text =
     look: la réponse à l'étape 2 du panneau, une droite à 100 %.
 
     step: Seulement ce qui est long
-    text: À 0,1 les ondes les plus courtes disparaissent. La phrase sous Fenêtre dit jusqu'à quelle longueur en millimètres il reste la
+    text: À 0,1 les ondes les plus courtes disparaissent. La phrase sous Intensité dit jusqu'à quelle longueur en millimètres il reste la
       moitié d'une onde.
     settings: pass-band=0.1 reduction=0 adapt=no guard=no
     view: anterior
@@ -146,7 +146,7 @@ lesson-windows-text =
     settings: pass-band=0.1 iterations=30 window=nuttall reduction=0 adapt=no guard=no
     view: anterior
     show: split
-    look: la courbe pendant que vous choisissez une fenêtre après l'autre à l'étape 2.
+    look: la courbe pendant que vous choisissez une fenêtre après l'autre, sous Avancé à l'étape 2.
     ask: Laquelle des quatre a la chute la plus raide au même degré ?
     answer: Hamming, puis Hanning. Blackman et Nuttall ondulent moins et tombent moins vite.
 

@@ -19,7 +19,10 @@ report-no-fingerprint = aucune : ne vient pas d'un fichier
 report-format = Format
 report-format-in = { $format }, en { $unit }
 report-opened = Ouvert
-report-counts = { $triangles } triangles en { $pieces ->
+report-counts = { $triangles ->
+    [one] { $triangles } triangle
+   *[other] { $triangles } triangles
+} en { $pieces ->
     [one] { $pieces } morceau
    *[other] { $pieces } morceaux
 }
@@ -51,7 +54,10 @@ report-no-crossings = sans croisement
 report-volume-held = volume préservé
 report-reduction = Réduction
 report-target-reduction = { $percent } % des triangles
-report-target-triangles = à { $count } triangles
+report-target-triangles = { $count ->
+    [one] à { $count } triangle
+   *[other] à { $count } triangles
+}
 report-target-deviation = à { $most } mm près
 report-method = Méthode
 report-allowed = Tolérance du calibre

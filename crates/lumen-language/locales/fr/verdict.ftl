@@ -15,6 +15,8 @@ verdict-to-look-at = { $count ->
 }
 verdict-follows = Le calibre et la forme suivent.
 verdict-stopped = La mesure a été annulée, ou le calcul s'est arrêté : modifier un réglage pour continuer.
+# $text is what is said of the surface, a sentence: that it is a sample.
+verdict-sample = Exemple : { $text }
 verdict-what-to-do = Que faire
 verdict-more = { $count ->
     [one] { $count } autre

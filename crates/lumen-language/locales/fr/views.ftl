@@ -131,8 +131,14 @@ views-follow = Aller à chacune
 views-follow-help = La caméra va là où se trouve la suivante
 views-close = Fermer
 views-close-help = Plus de contractions (Échap)
-views-next-vertex = Ensuite, { $number } sur { $all } : un sommet de la classe « { $class } » rejoint un voisin ; { $before } triangles deviennent { $after }.
-views-next-edge = Ensuite, { $number } sur { $all } : une arête devient un sommet à sa propre place ; { $before } triangles deviennent { $after }.
+views-next-vertex = { $before ->
+    [one] Ensuite, { $number } sur { $all } : un sommet de la classe « { $class } » rejoint un voisin ; { $before } triangle devient { $after }.
+   *[other] Ensuite, { $number } sur { $all } : un sommet de la classe « { $class } » rejoint un voisin ; { $before } triangles deviennent { $after }.
+}
+views-next-edge = { $before ->
+    [one] Ensuite, { $number } sur { $all } : une arête devient un sommet à sa propre place ; { $before } triangle devient { $after }.
+   *[other] Ensuite, { $number } sur { $all } : une arête devient un sommet à sa propre place ; { $before } triangles deviennent { $after }.
+}
 views-next-error = Son erreur est de { $cost } mm : la moyenne quadratique des distances aux plans qu'il représente. La plus grande jusqu'ici est de { $largest } mm.
 views-next-error-line = Son erreur est de { $cost } mm : la moyenne quadratique des distances aux plans qu'il représente, ou sa distance à sa ligne si elle est plus grande. La plus grande jusqu'ici est de { $largest } mm.
 views-last-level = C'est le dernier niveau : aucun sommet ne peut plus disparaître.

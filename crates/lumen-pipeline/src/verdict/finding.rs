@@ -38,7 +38,12 @@ messages! {
         "verdict-crowded" Crowded {
             /// At how many edges and points.
             count: usize,
-        } => { format!("At {} edges and points surfaces meet that should be apart.", grouped(count)) },
+        } => {
+            match count {
+                1 => "At 1 edge or point surfaces meet that should be apart.".to_owned(),
+                _ => format!("At {} edges and points surfaces meet that should be apart.", grouped(count)),
+            }
+        },
         /// A vessel is pinched at a rate that was reached.
         "verdict-pinched-first" PinchedFirst {
             /// Its diameter, in mm.
@@ -57,14 +62,25 @@ messages! {
         "verdict-crossing" Crossing {
             /// How many.
             count: usize,
-        } => { format!("{} triangles run into others.", grouped(count)) },
+        } => {
+            match count {
+                1 => "1 triangle runs into others.".to_owned(),
+                _ => format!("{} triangles run into others.", grouped(count)),
+            }
+        },
         /// Triangles cross, and some did before the reduction.
         "verdict-crossing-before" CrossingBefore {
             /// How many do now.
             count: usize,
             /// How many did.
             before: usize,
-        } => { format!("{} triangles run into others; {} did before the reduction.", grouped(count), grouped(before)) },
+        } => {
+            let (now, did) = (grouped(count), grouped(before));
+            match count {
+                1 => format!("{now} triangle runs into others; {did} did before the reduction."),
+                _ => format!("{now} triangles run into others; {did} did before the reduction."),
+            }
+        },
         /// A vessel is narrower than on either side.
         "verdict-narrower" Narrower {
             /// Which.

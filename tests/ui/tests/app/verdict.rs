@@ -10,7 +10,7 @@ use lumen::app::{LumenApp, PlatformEvent};
 use lumen::io::Unit;
 use lumen::pipeline::settings::{Settings, Smoothing, Target};
 use lumen::sharing::{SharedSettings, write_settings};
-use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube};
+use lumen_ui_tests::{DESKTOP, app, app_in_full, open, phone, says, settle, settle_wholly, tube, unfold};
 
 use crate::targets::fits_a_finger;
 
@@ -180,6 +180,7 @@ fn what_was_cancelled_is_not_said_to_be_measured() {
     harness.run_steps(4);
     assert!(says(&harness, "Not measured") && !says(&harness, "Being measured..."));
     memory.borrow_mut().slice = Duration::from_millis(50);
+    unfold(&mut harness, "Advanced: Reduce");
     harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").scroll_to_me();
     harness.run_steps(30);
     harness.get_by_role_and_label(Role::CheckBox, "Spare thin vessels").click();
