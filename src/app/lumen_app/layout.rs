@@ -169,9 +169,7 @@ impl LumenApp {
         }
         if !is_low && !self.drawer.docks(ui.available_height()) {
             return row::scrolled(ui, |ui| {
-                let top = ui.cursor().top();
-                self.head(ui, mode, instead, asked);
-                let height = ui.cursor().top() - top;
+                let height = ui.scope(|ui| self.head(ui, mode, instead, asked)).response.rect.height();
                 self.drawer.take_head(ui, height);
                 self.below_head(ui, mode, instead, asked);
             });

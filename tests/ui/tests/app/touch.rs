@@ -47,8 +47,9 @@ fn unfold_angle(harness: &mut App) {
 
 #[test]
 fn a_finger_that_goes_up_over_a_slider_scrolls_and_one_that_goes_aside_moves_it() {
-    let (mut harness, _) = app(PHONE);
+    let (mut harness, _) = phone();
     settle(&mut harness);
+    draw_up(&mut harness);
     unfold_angle(&mut harness);
     let place = |harness: &App, role| harness.get_by_role_and_label(role, "Feature angle").rect();
     let before = harness.state().state().settings.clone();
@@ -289,21 +290,22 @@ fn so_is_every_target_of_a_scan() {
     fits_a_finger(&harness, "a scan");
 }
 
-/// Scrolls to the slider of the feature angle and flicks a finger up over the place that `from` finds there.
+/// Scrolls to the slider of the feature angle and flicks a finger down over the place that `from` finds there: most of what
+/// scrolls lies above it.
 fn flick(harness: &mut App, from: fn(&App) -> Pos2) {
     harness.get_by_role_and_label(Role::Slider, "Feature angle").scroll_to_me();
     harness.run_steps(12);
     let from = from(harness);
-    swipe(harness, from, vec2(0.0, -240.0));
+    swipe(harness, from, vec2(0.0, 150.0));
 }
 
-/// How far the panel goes up in each of so many times 0.2 s.
+/// How far the panel goes down in each of so many times 0.2 s.
 fn goes_on(harness: &mut App, times: usize) -> Vec<f32> {
     let top = |harness: &App| harness.get_by_role_and_label(Role::Slider, "Feature angle").rect().top();
     let mut way = || {
         let before = top(harness);
         harness.run_steps(12);
-        before - top(harness)
+        top(harness) - before
     };
     (0..times).map(|_| way()).collect()
 }
@@ -337,7 +339,7 @@ fn a_flick_scrolls_on_and_slows_down_over_a_slider_as_elsewhere_and_a_finger_sto
         assert_eq!(ways[24], 0.0, "it comes to rest: {ways:?}");
 
         flick(&mut harness, place);
-        let held = harness.get_by_label_contains("Panel height").rect().center_bottom() + vec2(0.0, 60.0);
+        let held = egui::pos2(PHONE[0] / 2.0, PHONE[1] - 110.0);
         finger(&harness, TouchPhase::Start, held);
         harness.hover_at(held);
         harness.drag_at(held);
