@@ -73,7 +73,10 @@ compare-no-device = There is no graphics device to draw with.
 
 compare-not-smoothed = not smoothed
 compare-pass-band = pass band { $value }
-compare-iterations = { $value } iterations
+compare-iterations = { $value ->
+    [one] 1 iteration
+   *[other] { $value } iterations
+}
 # The name of a window function: Hamming window.
 compare-window = { $value } window
 # $value is the name of the rule.

@@ -41,9 +41,6 @@ fn kept(window: &LastingWindow) -> LastingApp {
 fn another_device_shows_what_stood_on_the_one_that_was_lost() {
     let mut window = LastingWindow::new(DESKTOP, None);
     window.settle();
-    // Its letters are laid out anew, and rounded anew.
-    window.harness.get_by_role_and_label(Role::Button, "Close the invitation").click();
-    window.harness.run_steps(2);
     move_reduction(&mut window, 0.4);
     window.harness.key_press(egui::Key::L);
     window.harness.run_steps(3);
@@ -68,7 +65,8 @@ fn another_device_shows_what_stood_on_the_one_that_was_lost() {
     assert!(notice.is_some(), "the user is told");
     assert_eq!(window.harness.state().look(|app| app.state().settings.clone()), settings);
     let after = views(&mut window);
-    let differing = before.chunks_exact(4).zip(after.chunks_exact(4)).filter(|(a, b)| a != b).count();
+    // By more than a rounding: letters lie elsewhere in the texture that they are drawn from.
+    let differing = before.iter().zip(&after).filter(|(a, b)| a.abs_diff(**b) > 1).count();
     assert_eq!((before.len(), differing), (after.len(), 0), "the same picture");
     assert_eq!(*window.end.borrow(), None);
 

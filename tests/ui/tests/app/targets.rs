@@ -80,7 +80,7 @@ pub(crate) fn overlapping(harness: &Harness<'_, LumenApp>) -> Vec<String> {
             let stands_in = line.iter().find(|id| other_line.contains(id));
             if stands_in.is_some_and(|id| !bar[2..].contains(id))
                 && opener == other_opener
-                && !dock.is_some_and(|dock| line.contains(&dock) != other_line.contains(&dock))
+                && dock.is_none_or(|dock| line.contains(&dock) == other_line.contains(&dock))
             {
                 found.push(format!("{} and {}", words(node), words(other)));
             }
